@@ -1,0 +1,22 @@
+"""Neural Shadow Ray Queries (Spanhoff 2026) as a reproducible pipeline; see README.md."""
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: "config/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/scenes.smk"
+include: "workflow/rules/rays.smk"
+include: "workflow/rules/networks.smk"
+include: "workflow/rules/evaluation.smk"
+include: "workflow/rules/reports.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        LAYOUT.all_reports(),

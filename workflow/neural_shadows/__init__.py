@@ -1,0 +1,1 @@
+"""Neural Shadow Ray Queries: the stages of the experiment pipeline."""

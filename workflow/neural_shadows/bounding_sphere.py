@@ -1,0 +1,87 @@
+"""The minimal enclosing sphere of a set of points."""
+
+from itertools import combinations
+
+import numpy as np
+
+# A sphere that leaves no point further out than this, relative to its radius, is the
+# answer. Rounding moves a distance by about 4e-16 of itself, so this is far above noise.
+_SLACK = 1e-13
+
+
+def minimal_bounding_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
+    """Exact minimal enclosing sphere, which defines normalised space [3.3.1].
+
+    Gärtner's pivot rule ("Fast and robust smallest enclosing balls", ESA 1999): grow the
+    sphere of a support set of at most four points by the point that is furthest outside,
+    until none is. The sphere of a support set is a lower bound for the radius, so what is
+    returned is minimal to about 1e-13 of the radius, or to the rounding of the coordinates
+    where that is larger. Coplanar, collinear and repeated points are legal.
+
+    Args:
+        points: (n, 3) coordinates in any unit, n >= 1.
+
+    Returns:
+        Centre (3,) and radius in the unit of `points`. No point is further from the centre
+        than the radius, as computed in float64 from the returned centre.
+
+    Raises:
+        ValueError: not (n, 3), no points, or a coordinate that is not finite.
+    """
+    points = np.asarray(points, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] != 3 or len(points) == 0:
+        raise ValueError(f"points must be (n >= 1, 3), not {points.shape}")
+    if not np.isfinite(points).all():
+        raise ValueError("points must be finite")
+
+    # About the origin and of size 1: an offset of 1e6 would cost six digits of every
+    # squared distance, and the squares of very large or small units leave float64's range.
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = low / 2 + high / 2
+    scale = float((high / 2 - low / 2).max())
+    if scale == 0:
+        return points[0].copy(), 0.0
+    local = (points - middle) / scale
+
+    support = local[[np.argmax(np.linalg.norm(local, axis=1))]]
+    center, radius = support[0], 0.0
+    while True:
+        distances = np.linalg.norm(local - center, axis=1)
+        furthest = np.argmax(distances)
+        if distances[furthest] <= radius * (1 + _SLACK):
+            break
+        grown = _sphere_of_few(np.vstack([support, local[furthest]]))
+        # Each step enlarges the sphere, unless rounding has the last word.
+        if grown[1] <= radius:
+            break
+        center, radius, support = grown
+
+    center = middle + scale * center
+    return center, float(np.linalg.norm((points - center) / scale, axis=1).max() * scale)
+
+
+def _sphere_of_few(points: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
+    """Minimal enclosing sphere of at most five points, and the points that define it.
+
+    Its centre is the circumcentre of some one to four of the points, and it is the centre
+    whose largest distance is least: so try them all, which needs no tolerance.
+    """
+    best = (points[0], np.inf, points)
+    for size in range(1, min(len(points), 4) + 1):
+        for chosen in combinations(points, size):
+            subset = np.array(chosen)
+            center = _circumcenter(subset)
+            radius = float(np.linalg.norm(points - center, axis=1).max())
+            if radius < best[1]:
+                best = (center, radius, subset)
+    return best
+
+
+def _circumcenter(points: np.ndarray) -> np.ndarray:
+    """Point in the affine hull of one to four points that is equally far from each.
+
+    Where the points are affinely dependent it is a least-squares compromise.
+    """
+    edges = points[1:] - points[0]
+    offset, *_ = np.linalg.lstsq(edges, (edges**2).sum(axis=1) / 2)
+    return points[0] + offset

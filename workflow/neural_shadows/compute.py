@@ -1,0 +1,35 @@
+"""Which device and number format the networks compute in."""
+
+import torch
+
+from neural_shadows.errors import InputError
+
+
+def choose_device(device: str) -> torch.device:
+    """The torch device for `auto`, `cpu` or `cuda`; `auto` takes a GPU where there is one.
+
+    Raises:
+        InputError: `cuda` was asked for and there is none.
+    """
+    if device == "auto":
+        device = "cuda" if torch.cuda.is_available() else "cpu"
+    if device == "cuda" and not torch.cuda.is_available():
+        raise InputError("device: cuda, but torch finds no CUDA GPU; set device: auto or cpu")
+    return torch.device(device)
+
+
+def choose_dtype(precision: str, device: torch.device) -> torch.dtype:
+    """The number format of matrix products for `auto`, `float32` or `bfloat16`.
+
+    `auto` takes bfloat16 where the processor multiplies it natively (AMX or AVX-512 BF16,
+    4 times as fast as float32, or a GPU that has it) and float32 elsewhere, where bfloat16
+    would be emulated and slower.
+    """
+    if precision == "auto":
+        if device.type == "cuda":
+            native = torch.cuda.is_bf16_supported(including_emulation=False)
+        else:
+            capabilities = torch.cpu.get_capabilities()
+            native = capabilities.get("amx_bf16", False) or capabilities.get("avx512_bf16", False)
+        precision = "bfloat16" if native else "float32"
+    return {"float32": torch.float32, "bfloat16": torch.bfloat16}[precision]

@@ -1,0 +1,484 @@
+"""The typed configuration: what every key means, its unit and its range.
+
+`python -m neural_shadows.config` prints the JSON schema made from it
+(workflow/schemas/config.schema.json).
+"""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationError,
+    model_validator,
+)
+
+from neural_shadows.errors import InputError
+
+Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
+
+SHADOW_MAP_PREFIX = "shadow_map_"
+
+
+class Model(BaseModel):
+    """Base of all sections: unknown keys are refused, values are not converted silently."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+
+def _check_power_of_two(value: int, key: str) -> None:
+    if value & (value - 1):
+        raise ValueError(f"{key} = {value}: must be a power of two")
+
+
+class GeneratedMesh(Model):
+    """A mesh that the pipeline makes."""
+
+    generate: Literal["wyrm"] = Field(
+        description="which procedural mesh: `wyrm`, the stand-in dragon"
+    )
+    cells: int = Field(
+        220, ge=48, le=1024, description="marching-cubes cells along the longest axis"
+    )
+
+
+class DownloadedMesh(Model):
+    """A mesh that the pipeline fetches."""
+
+    download: Literal["stanford_dragon"] = Field(
+        description="`stanford_dragon`: dragon_vrip_res2.ply of the Stanford 3D Scanning Repository"
+    )
+
+
+class MeshFile(Model):
+    """A mesh file of the user."""
+
+    path: str = Field(
+        min_length=1,
+        description="a .ply, .obj, .stl or .glb file, also .gz; relative to the working directory",
+    )
+
+
+class SphereLight(Model):
+    """Light from any direction of a cap of the sphere around the zenith."""
+
+    domain: Literal["sphere"] = Field(description="`sphere`: uniform over the cap's area")
+    min_elevation_deg: float = Field(
+        20, ge=1, lt=90, description="lowest light above the horizon, in degrees"
+    )
+
+
+class SingleAxisLight(Model):
+    """Light on an arc: the sun's path about one horizontal axis [4.1.1]."""
+
+    domain: Literal["single_axis"] = Field(description="`single_axis`: uniform in the angle")
+    axis: Literal["x", "y", "z"] = Field(description="horizontal axis that the light turns about")
+    min_elevation_deg: float = Field(
+        20, ge=1, lt=90, description="lowest light above the horizon, in degrees"
+    )
+
+
+MESH_KINDS = {"generate": GeneratedMesh, "download": DownloadedMesh, "path": MeshFile}
+
+
+def _mesh_kind(value: Any) -> str | None:
+    kinds = [kind for kind in MESH_KINDS if isinstance(value, dict) and kind in value]
+    return kinds[0] if len(kinds) == 1 else None
+
+
+Mesh = Annotated[
+    Annotated[GeneratedMesh, Tag("generate")]
+    | Annotated[DownloadedMesh, Tag("download")]
+    | Annotated[MeshFile, Tag("path")],
+    Discriminator(
+        _mesh_kind,
+        custom_error_type="mesh_kind",
+        custom_error_message=(
+            "should be one of {generate: wyrm}, {download: stanford_dragon}, {path: FILE} "
+            "(an overlay drops a key of the default by setting it to null)"
+        ),
+    ),
+]
+
+
+class Scene(Model):
+    """A mesh, how it stands and how it is lit [4.1.1]."""
+
+    mesh: Mesh = Field(
+        description="one of {generate: wyrm}, {download: stanford_dragon}, {path: FILE}"
+    )
+    up: Literal["x", "y", "z"] = Field("y", description="the mesh's axis that points up")
+    ground: bool = Field(True, description="whether it stands on a plane that receives its shadow")
+    light: Annotated[SphereLight | SingleAxisLight, Field(discriminator="domain")] = Field(
+        SphereLight(domain="sphere"), description="directions that viewpoints draw their light from"
+    )
+    seed: int | None = Field(
+        None, ge=0, lt=2**32, description="seed of this scene alone; without it the config's `seed`"
+    )
+
+
+class Sampling(Model):
+    """How training rays are drawn [3.4]."""
+
+    sampler: Literal["poisson_quadtree", "uniform_quadtree", "uniform"] = Field(
+        description="the sampling methods of table 4.1"
+    )
+    directions: int = Field(ge=1, le=1_000_000, description="view directions")
+    points_per_direction: int = Field(
+        ge=1, le=10_000_000, description="m, rays per view direction [3.4.2]"
+    )
+    silhouette_resolution: int = Field(
+        128, ge=8, le=4096, description="texels along a silhouette's side, a power of two"
+    )
+    min_quad: int = Field(
+        1, ge=1, le=4096, description="side of the smallest quad in texels, a power of two"
+    )
+    shards: int = Field(2, ge=1, le=10_000, description="files (and jobs) the rays are split into")
+
+    @model_validator(mode="after")
+    def _check(self):
+        _check_power_of_two(self.silhouette_resolution, "silhouette_resolution")
+        _check_power_of_two(self.min_quad, "min_quad")
+        if self.min_quad > self.silhouette_resolution:
+            raise ValueError(
+                f"min_quad = {self.min_quad}: must not exceed silhouette_resolution "
+                f"({self.silhouette_resolution})"
+            )
+        if self.shards > self.directions:
+            raise ValueError(
+                f"shards = {self.shards}: must not exceed directions ({self.directions})"
+            )
+        return self
+
+
+class Network(Model):
+    """The thesis's fully connected network [3.3, 4.1]."""
+
+    frequencies: int = Field(ge=0, le=30, description="L of the frequency encoding; 0 is identity")
+    width: int = Field(ge=8, le=4096, description="neurons per layer")
+    hidden_layers: int = Field(ge=1, le=64, description="width × width layers")
+
+
+class Training(Model):
+    """Adam on the dead-zone loss [3.5, 4.1]."""
+
+    steps: int = Field(ge=1, description="optimiser steps")
+    # From 16: in a batch of a few rays, equal predictions do not yet mean a dead network.
+    batch_size: int = Field(ge=16, le=1 << 24, description="samples per step")
+    learning_rate: float = Field(gt=0, le=1, description="Adam's learning rate (at its start)")
+    schedule: Literal["constant", "cosine"] = Field(
+        "constant", description="learning rate over the run: constant (thesis) or cosine to zero"
+    )
+
+
+class Experiment(Model):
+    """One trained network: scene + sampling + network + training, by name."""
+
+    scene: Name = Field(description="a name in `scenes`")
+    sampling: Name = Field(description="a name in `samplings`")
+    network: Name = Field(description="a name in `networks`")
+    training: Name = Field(description="a name in `trainings`")
+
+
+class Evaluation(Model):
+    """Methods compared with the reference on the viewpoints of one scene [4.1]."""
+
+    scene: Name = Field(description="a name in `scenes`")
+    networks: list[Name] = Field(
+        min_length=1, description="experiments whose networks are rendered"
+    )
+    shadow_maps: list[Annotated[int, Field(ge=2, le=32768)]] = Field(
+        [2048, 1024, 512, 256, 128], description="resolutions of the shadow maps"
+    )
+    view_sets: list[Literal["shadow", "surface", "centre"]] = Field(
+        ["shadow", "surface"],
+        min_length=1,
+        description="`shadow`: aimed at the cast shadow; `surface`: at the object; `centre`",
+    )
+    depth_bias: float = Field(
+        0.0, ge=0, le=1, description="added to t_pred in the query, in sphere radii (thesis: 0)"
+    )
+
+    @model_validator(mode="after")
+    def _check(self):
+        for key in ("networks", "shadow_maps", "view_sets"):
+            values = getattr(self, key)
+            if len(set(values)) < len(values):
+                raise ValueError(f"{key} = {values}: must name each only once")
+        return self
+
+
+class Rendering(Model):
+    """Frames and viewpoints of all evaluations [4.1]."""
+
+    width: int = Field(ge=64, le=8192, description="pixels")
+    height: int = Field(ge=64, le=8192, description="pixels")
+    views_per_set: int = Field(ge=1, le=1_000_000, description="viewpoints in each view set")
+    batch: int = Field(ge=1, description="viewpoints of a set that one job renders")
+    reference: Literal["exact", "shadow_map"] = Field(
+        "exact", description="a shadow ray per pixel, or the thesis's 32768² shadow map"
+    )
+
+
+class LpipsTrunk(Model):
+    """The pretrained network inside LPIPS."""
+
+    net: Literal["alex", "squeeze", "vgg"] = Field("alex", description="LPIPS's network")
+    trunk: str | None = Field(
+        None, description="local weights file of that network; without it torchvision's is fetched"
+    )
+
+
+class Metrics(Model):
+    """Image metrics."""
+
+    lpips: LpipsTrunk = Field(LpipsTrunk(), description="the learned perceptual metric")
+
+
+class Row(Model):
+    """A row of a comparison table."""
+
+    method: str = Field(
+        description="`shadow_map_N`, or the name of an experiment of the table's evaluation"
+    )
+    label: str = Field(min_length=1, description="the row's name in the table")
+    published: str | None = Field(
+        None, description="the row's key in published.csv; without it the method's name"
+    )
+
+
+class Table(Model):
+    """A table of the thesis: rows of one evaluation beside the printed values."""
+
+    title: str = Field(min_length=1, description="heading of the table")
+    evaluation: Name = Field(description="a name in `evaluations`")
+    published: str = Field(pattern=r"^4\.[1-7]$", description="the thesis's number of this table")
+    rows: list[Row] = Field(min_length=1, description="methods, in the table's order")
+
+
+class Compute(Model):
+    """What the networks run on."""
+
+    device: Literal["auto", "cpu", "cuda"] = Field(
+        "auto", description="`auto`: a GPU if there is one"
+    )
+    precision: Literal["auto", "float32", "bfloat16"] = Field(
+        "auto", description="of matrix products; `auto`: bfloat16 where the hardware has it"
+    )
+    threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")
+
+
+class Config(Model):
+    """The whole configuration."""
+
+    scale: Name = Field(description="name of this configuration; overlays write below it")
+    seed: int = Field(ge=0, lt=2**32, description="seed of everything that is drawn")
+    dragon: str | None = Field(
+        None,
+        min_length=1,
+        description="short for scenes.dragon.mesh: `wyrm`, `stanford`, or a mesh file",
+    )
+    compute: Compute = Field(Compute(), description="what the networks run on")
+    scenes: dict[Name, Scene] = Field(description="meshes, how they stand and are lit, by name")
+    samplings: dict[Name, Sampling] = Field(description="ways to draw training rays, by name")
+    networks: dict[Name, Network] = Field(description="network shapes, by name")
+    trainings: dict[Name, Training] = Field(description="optimiser settings, by name")
+    experiments: dict[Name, Experiment] = Field(description="networks to train, by name")
+    evaluations: dict[Name, Evaluation] = Field(description="comparisons to render, by name")
+    rendering: Rendering = Field(description="frames and viewpoints of all evaluations")
+    metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
+    tables: dict[Annotated[str, Field(pattern=r"^table_[a-z0-9_]+$")], Table] = Field(
+        description="tables to write, by name: `table_` and the thesis's number"
+    )
+
+    @model_validator(mode="after")
+    def _check_names(self):
+        def known(section: str, name: str, key: str) -> None:
+            if name not in getattr(self, section):
+                raise ValueError(
+                    f"{key}: no such name in `{section}`: {name!r}; "
+                    f"allowed: {', '.join(sorted(getattr(self, section)))}"
+                )
+
+        for name, experiment in self.experiments.items():
+            if name == "reference" or name.startswith(SHADOW_MAP_PREFIX):
+                raise ValueError(
+                    f"experiments.{name}: tables and pictures have a method of this name; "
+                    f"allowed: any other than 'reference' and '{SHADOW_MAP_PREFIX}…'"
+                )
+            for key in ("scene", "sampling", "network", "training"):
+                known(f"{key}s", getattr(experiment, key), f"experiments.{name}.{key}")
+        for name, evaluation in self.evaluations.items():
+            known("scenes", evaluation.scene, f"evaluations.{name}.scene")
+            for network in evaluation.networks:
+                known("experiments", network, f"evaluations.{name}.networks")
+                scene = self.experiments[network].scene
+                if scene != evaluation.scene:
+                    raise ValueError(
+                        f"evaluations.{name}.networks: {network!r} belongs to the scene {scene!r}, "
+                        f"not to {evaluation.scene!r}"
+                    )
+            if not self.scenes[evaluation.scene].ground and "shadow" in evaluation.view_sets:
+                raise ValueError(
+                    f"evaluations.{name}.view_sets: 'shadow' needs a scene with ground: true; "
+                    "allowed here: 'surface', 'centre'"
+                )
+        for name, table in self.tables.items():
+            known("evaluations", table.evaluation, f"tables.{name}.evaluation")
+            methods = self.methods(table.evaluation)
+            for row in table.rows:
+                if row.method not in methods:
+                    raise ValueError(
+                        f"tables.{name}.rows: no such method in the evaluation "
+                        f"{table.evaluation!r}: {row.method!r}; allowed: {', '.join(methods)}"
+                    )
+        for name, scene in self.scenes.items():
+            if isinstance(scene.light, SingleAxisLight) and scene.light.axis == scene.up:
+                raise ValueError(
+                    f"scenes.{name}.light.axis = {scene.light.axis!r}: must be horizontal, not `up`; "
+                    f"allowed: {', '.join(sorted({'x', 'y', 'z'} - {scene.up}))}"
+                )
+        return self
+
+    def methods(self, evaluation: str) -> list[str]:
+        """Keys of the methods of an evaluation: its shadow maps, then its networks."""
+        settings = self.evaluations[evaluation]
+        maps = [f"{SHADOW_MAP_PREFIX}{resolution}" for resolution in settings.shadow_maps]
+        return maps + settings.networks
+
+    def scene_seed(self, scene: str) -> int:
+        """The seed of everything drawn for a scene."""
+        own = self.scenes[scene].seed
+        return self.seed if own is None else own
+
+    def mesh_name(self, scene: str) -> str:
+        """What a scene's mesh is called in tables: what it is, not what it stands for."""
+        mesh = self.scenes[scene].mesh
+        match mesh:
+            case GeneratedMesh():
+                return mesh.generate
+            case DownloadedMesh():
+                return mesh.download
+            case MeshFile():
+                return Path(mesh.path).name.split(".")[0]
+
+
+def _without_nulls(mesh: Any) -> Any:
+    """A mesh section without the keys that an overlay set to null to drop them."""
+    if not isinstance(mesh, dict):
+        return mesh
+    return {key: value for key, value in mesh.items() if value is not None}
+
+
+def _mesh_of_shorthand(value: str) -> dict[str, str]:
+    match value:
+        case "wyrm":
+            return {"generate": "wyrm"}
+        case "stanford":
+            return {"download": "stanford_dragon"}
+        case path:
+            return {"path": path}
+
+
+def _describe(error: ValidationError) -> str:
+    """One line for the first problem: key, value, and what is allowed."""
+    problem = error.errors()[0]
+    key, allowed = _locate(problem["loc"])
+    message = problem["msg"].removeprefix("Value error, ")
+    if problem["type"] == "extra_forbidden":
+        message = f"unknown key; allowed: {', '.join(allowed)}"
+    elif problem["type"] == "missing":
+        message = "this key is missing"
+    elif problem["type"] in ("dict_type", "model_type", "model_attributes_type"):
+        message = f"should be a section of keys, not {problem['input']!r}"
+    elif problem["type"] != "value_error":  # our own checks name key and value themselves
+        key = f"{key} = {problem['input']!r}"
+    more = error.error_count() - 1
+    return f"{key + ': ' if key else ''}{message}" + (f" (and {more} more)" if more else "")
+
+
+def _locate(location: tuple[str | int, ...]) -> tuple[str, list[str]]:
+    """The config key of an error's location, and the keys allowed in its section.
+
+    pydantic's location also holds the tags of unions (`sphere`, `generate`), which are no
+    keys: the schema tells the two apart. `[key]` at its end means the key itself.
+    """
+    schema = Config.model_json_schema()
+
+    def resolve(node: dict) -> dict:
+        return schema["$defs"][node["$ref"].rsplit("/", 1)[1]] if "$ref" in node else node
+
+    node: dict = schema
+    keys, allowed = [], []
+    for part in location:
+        if part == "[key]":
+            break
+        node = resolve(node)
+        if "oneOf" in node:
+            kinds = [resolve(kind) for kind in node["oneOf"]]
+            tagged = [
+                kind
+                for kind in kinds
+                if part in kind["properties"]
+                or kind["properties"].get("domain", {}).get("const") == part
+            ]
+            node = tagged[0] if tagged else {}
+            continue
+        keys.append(str(part))
+        allowed = list(node.get("properties", {}))
+        if part in allowed:
+            node = node["properties"][part]
+        elif isinstance(part, int):
+            node = node.get("items", {})
+        else:
+            values = list(node.get("patternProperties", {}).values())
+            node = values[0] if values else {}
+    return ".".join(keys), allowed
+
+
+def read_config(values: dict[str, Any]) -> Config:
+    """Check a configuration as Snakemake merged it.
+
+    Args:
+        values: the merged config files and `--config` values.
+
+    Raises:
+        InputError: a key is unknown or missing, a value has the wrong type or range, or a
+            name refers to nothing; one line that names key, value and what is allowed.
+    """
+    values = dict(values)
+    scenes = values.get("scenes")
+    if isinstance(scenes, dict):
+        values["scenes"] = scenes = {
+            name: scene | {"mesh": _without_nulls(scene["mesh"])}
+            if isinstance(scene, dict) and "mesh" in scene
+            else scene
+            for name, scene in scenes.items()
+        }
+    shorthand = values.get("dragon")
+    if isinstance(shorthand, str) and shorthand:
+        if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):
+            raise InputError("config: dragon: there is no scene named `dragon` in `scenes`")
+        mesh = _mesh_of_shorthand(shorthand)
+        old = scenes["dragon"].get("mesh")
+        # `--config dragon=wyrm` over a scene that is a wyrm already keeps its resolution.
+        if not (isinstance(old, dict) and mesh.items() <= old.items()):
+            scenes["dragon"] = scenes["dragon"] | {"mesh": mesh}
+    try:
+        return Config.model_validate(values)
+    except ValidationError as error:
+        raise InputError(f"config: {_describe(error)}") from error
+
+
+def json_schema() -> str:
+    """The JSON schema of the configuration, as checked in under workflow/schemas."""
+    return json.dumps(Config.model_json_schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+if __name__ == "__main__":
+    print(json_schema(), end="")

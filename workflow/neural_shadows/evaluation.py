@@ -1,0 +1,200 @@
+"""Methods against the reference on a batch of viewpoints, in one process [4.1]."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import torch
+
+from neural_shadows.compute import choose_device, choose_dtype
+from neural_shadows.files import read_json, whole_file, write_text
+from neural_shadows.frames import (
+    ShadingPoints,
+    ground_height,
+    primary_hits,
+    reference_visibility,
+    shade,
+    visibility,
+)
+from neural_shadows.light import axis_vector
+from neural_shadows.mesh import PreparedMesh, read_prepared
+from neural_shadows.metrics import Lpips, flip, psnr, shadow_error, ssim
+from neural_shadows.network_file import load_network
+from neural_shadows.progress import progress_bar
+from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
+from neural_shadows.shadow_query import network_lit
+from neural_shadows.tracing import Tracer
+from neural_shadows.viewpoints import draw_viewpoints
+
+REFERENCE_MAP_RESOLUTION = 32768  # the thesis's reference [4.1]
+
+# Lit (m,) bool of a frame's facing points, by method.
+Visibilities = Callable[[ShadingPoints], dict[str, np.ndarray]]
+
+
+def reference_of(
+    mesh: PreparedMesh, tracer: Tracer, kind: str
+) -> Callable[[ShadingPoints], np.ndarray]:
+    """The reference's lit (m,): `exact`, or the thesis's 32768² `shadow_map`."""
+    if kind == "exact":
+        return lambda points: reference_visibility(tracer, points)
+    return lambda points: map_visibilities(mesh, tracer, [REFERENCE_MAP_RESOLUTION])(points)[
+        f"shadow_map_{REFERENCE_MAP_RESOLUTION}"
+    ]
+
+
+def map_visibilities(
+    mesh: PreparedMesh, tracer: Tracer, resolutions: Sequence[int]
+) -> Visibilities:
+    """Shadow maps by key `shadow_map_N`; a frame's points are projected once for all of them."""
+
+    def visibilities(points: ShadingPoints) -> dict[str, np.ndarray]:
+        receivers = receivers_of(shadow_map_frame(mesh.vertices, points.light), points)
+        return {
+            f"shadow_map_{resolution}": shadow_map_lit(tracer, receivers, resolution)
+            for resolution in resolutions
+        }
+
+    return visibilities
+
+
+def network_visibilities(
+    weights: Mapping[str, Path], *, device: str, precision: str, depth_bias: float
+) -> Visibilities:
+    """Trained networks by the name of their experiment."""
+    chosen = choose_device(device)
+    dtype = choose_dtype(precision, chosen)
+    networks = {name: load_network(path)[0].to(chosen) for name, path in weights.items()}
+
+    def visibilities(points: ShadingPoints) -> dict[str, np.ndarray]:
+        return {
+            name: network_lit(network, points.p, points.light, dtype=dtype, depth_bias=depth_bias)
+            for name, network in networks.items()
+        }
+
+    return visibilities
+
+
+def frame_metrics(
+    image: np.ndarray, reference: np.ndarray, lpips: Lpips | None, reference_features: Any
+) -> dict[str, float]:
+    """Image metrics of a frame (H, W); without `lpips` its value is left out."""
+    values = {
+        "psnr": psnr(image, reference),
+        "ssim": ssim(image, reference),
+        "flip": flip(image, reference),
+    }
+    if lpips is not None:
+        values["lpips"] = lpips.distance(image, reference_features)
+    return values
+
+
+def evaluate(
+    mesh_ply: Path,
+    lpips_json: Path,
+    weights: Mapping[str, Path],
+    metrics_csv: Path,
+    pictures_npz: Path,
+    *,
+    shadow_maps: Sequence[int],
+    view_set: str,
+    first: int,
+    last: int,
+    up: str,
+    ground: bool,
+    light: dict[str, Any],
+    width: int,
+    height: int,
+    reference: str,
+    depth_bias: float,
+    seed: int,
+    device: str = "auto",
+    precision: str = "auto",
+    threads: int = 1,
+) -> None:
+    """Render viewpoints `first` to `last` (exclusive) of a set with every method; measure them.
+
+    Frames, references and their LPIPS features are made once and shared by all methods. Writes
+    tidy metrics (a row per view, method and metric) and, for people to look at, the batch's
+    first frame by every method (8-bit grey arrays by method, and `reference`).
+
+    Args:
+        lpips_json: what `lpips_stage` wrote.
+        weights: weight files by the name of their experiment.
+        light: the scene's light domain.
+        reference: `exact` or `shadow_map`.
+        depth_bias: of the network query, in sphere radii.
+
+    Raises:
+        InputError: an input file is not whole, or a setting does not fit the scene.
+    """
+    torch.set_num_threads(threads)
+    mesh = read_prepared(mesh_ply)
+    tracer = Tracer(mesh.vertices, mesh.faces)
+    up_vector = axis_vector(up, "up")
+    ground_at = ground_height(mesh, up_vector) if ground else None
+    reference_lit = reference_of(mesh, tracer, reference)
+    methods = [
+        map_visibilities(mesh, tracer, shadow_maps),
+        network_visibilities(weights, device=device, precision=precision, depth_bias=depth_bias),
+    ]
+    found = read_json(lpips_json)
+    lpips = None
+    if found["available"]:
+        trunk = Path(found["trunk"]) if found["trunk"] else None
+        lpips = Lpips(found["net"], trunk, device=choose_device(device).type)
+
+    rows: list[dict[str, Any]] = []
+    pictures: dict[str, np.ndarray] = {}
+    viewpoints = draw_viewpoints(
+        mesh,
+        tracer,
+        up=up_vector,
+        ground=ground,
+        light_domain=light,
+        view_sets=[view_set],
+        indices=range(first, last),
+        width=width,
+        height=height,
+        seed=seed,
+    )
+    with progress_bar(len(viewpoints), "views", f"{view_set} {first}–{last - 1}") as bar:
+        for view in viewpoints:
+            points = primary_hits(mesh, tracer, view, width, height, ground_at)
+            lit = reference_lit(points)
+            truth = shade(points, lit)
+            features = lpips.features(truth) if lpips else None
+            truth_visible = visibility(points, lit)
+            everything = np.ones(len(points.pixel), bool)
+            images = {"reference": truth}
+            for method, lit in (item for part in methods for item in part(points).items()):
+                images[method] = shade(points, lit)
+                values = frame_metrics(images[method], truth, lpips, features)
+                error = shadow_error(visibility(points, lit), truth_visible, everything)
+                values |= {
+                    "shadow_error": error.total,
+                    "false_shadow": error.false_shadow,
+                    "light_leak": error.light_leak,
+                }
+                rows += [
+                    {
+                        "view": view.index,
+                        "view_set": view.view_set,
+                        "method": method,
+                        "metric": metric,
+                        "value": value,
+                    }
+                    for metric, value in values.items()
+                ]
+            if not pictures:
+                pictures = {
+                    method: np.round(255 * image).astype(np.uint8)
+                    for method, image in images.items()
+                }
+            bar.update()
+
+    with whole_file(pictures_npz) as part:
+        np.savez_compressed(part, **pictures)
+    write_text(metrics_csv, pd.DataFrame(rows).to_csv(index=False, lineterminator="\n"))

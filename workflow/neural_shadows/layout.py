@@ -1,0 +1,143 @@
+"""Where each result lies, and which part of the work each job does: all that rules look up."""
+
+from typing import Any
+
+from pydantic import BaseModel
+
+from neural_shadows.config import Config, GeneratedMesh, MeshFile
+
+# A file name of each stage, in Snakemake's notation of wildcards.
+SCENE = "scenes/{scene}"
+RAYS = "rays/{scene}/{sampling}"
+NETWORK = "networks/{experiment}"
+EVALUATION = "evaluations/{evaluation}"
+
+
+def part_range(total: int, parts: int, part: int) -> tuple[int, int]:
+    """First and last (exclusive) of the `part`-th of `parts` nearly equal ranges of `total`."""
+    return total * part // parts, total * (part + 1) // parts
+
+
+def numbers(count: int) -> list[str]:
+    """Names of numbered parts: 000, 001, …"""
+    return [f"{part:03d}" for part in range(count)]
+
+
+def plain(value: Any) -> Any:
+    """A config value as plain data, which Snakemake can compare between runs."""
+    return value.model_dump() if isinstance(value, BaseModel) else value
+
+
+class Layout:
+    """Paths, parts and leaf parameters of one configuration, by the names in it.
+
+    The default (`desk`) writes to results/ and reports/, overlays to a folder of their name
+    in each.
+    """
+
+    def __init__(self, config: Config):
+        self.config = config
+        below = "" if config.scale == "desk" else f"/{config.scale}"
+        self.results = f"results{below}"
+        self.reports = f"reports{below}"
+
+    def mesh_source(self, scene: str) -> str:
+        """The file that a scene's mesh is read from: the user's own, or one that a rule makes."""
+        mesh = self.config.scenes[scene].mesh
+        if isinstance(mesh, MeshFile):
+            return mesh.path
+        made = "generated" if isinstance(mesh, GeneratedMesh) else "downloaded"
+        return f"{self.results}/{SCENE.format(scene=scene)}/{made}.ply"
+
+    def mesh(self, scene: str, ending: str) -> str:
+        """The prepared mesh (`ply`) of a scene, or its description (`json`)."""
+        return f"{self.results}/{SCENE.format(scene=scene)}/mesh.{ending}"
+
+    def scene_param(self, scene: str, key: str) -> Any:
+        """A value of a scene."""
+        return plain(getattr(self.config.scenes[scene], key))
+
+    def ray_folder(self, scene: str, sampling: str) -> str:
+        """The folder of a ray set."""
+        return f"{self.results}/{RAYS.format(scene=scene, sampling=sampling)}"
+
+    def ray_shards(self, scene: str, sampling: str, kind: str) -> list[str]:
+        """The shards of a ray set: `origins` or `bounds`."""
+        shards = numbers(self.config.samplings[sampling].shards)
+        return [f"{self.ray_folder(scene, sampling)}/{kind}.{shard}.npy" for shard in shards]
+
+    def shard_range(self, sampling: str, shard: str) -> tuple[int, int]:
+        """First and last (exclusive) view direction of a shard."""
+        settings = self.config.samplings[sampling]
+        return part_range(settings.directions, settings.shards, int(shard))
+
+    def training_rays(self, experiment: str) -> dict[str, Any]:
+        """The ray set that an experiment trains on: `description`, `directions`, shards."""
+        settings = self.config.experiments[experiment]
+        names = settings.scene, settings.sampling
+        return {
+            "description": f"{self.ray_folder(*names)}/rays.json",
+            "directions": f"{self.ray_folder(*names)}/directions.npy",
+            "origins": self.ray_shards(*names, "origins"),
+            "bounds": self.ray_shards(*names, "bounds"),
+        }
+
+    def network_param(self, experiment: str, key: str) -> Any:
+        """A value of an experiment's network."""
+        return getattr(self.config.networks[self.config.experiments[experiment].network], key)
+
+    def training_param(self, experiment: str, key: str) -> Any:
+        """A value of an experiment's training."""
+        return getattr(self.config.trainings[self.config.experiments[experiment].training], key)
+
+    def experiment_seed(self, experiment: str) -> int:
+        """Seed of an experiment: its scene's."""
+        return self.config.scene_seed(self.config.experiments[experiment].scene)
+
+    def networks(self, evaluation: str, file: str) -> list[str]:
+        """A file (`weights.safetensors`, `training.json`) of each network of an evaluation."""
+        names = self.config.evaluations[evaluation].networks
+        return [f"{self.results}/{NETWORK.format(experiment=name)}/{file}" for name in names]
+
+    def batches(self, evaluation: str, ending: str) -> list[str]:
+        """Files of all batches: shadow.000, shadow.001, …, surface.000, …"""
+        rendering = self.config.rendering
+        count = -(-rendering.views_per_set // rendering.batch)
+        return [
+            f"{self.results}/{EVALUATION.format(evaluation=evaluation)}/{view_set}.{part}.{ending}"
+            for view_set in self.config.evaluations[evaluation].view_sets
+            for part in numbers(count)
+        ]
+
+    def first_batches(self, evaluation: str, ending: str) -> list[str]:
+        """Files of the first batch of each view set; its first frame is the one shown."""
+        return [path for path in self.batches(evaluation, ending) if path.endswith(f".000.{ending}")]
+
+    def view_range(self, batch: str) -> tuple[int, int]:
+        """First and last (exclusive) viewpoint of a batch."""
+        rendering = self.config.rendering
+        first = int(batch) * rendering.batch
+        return first, min(first + rendering.batch, rendering.views_per_set)
+
+    def evaluation_scene(self, evaluation: str) -> str:
+        """The scene that an evaluation renders."""
+        return self.config.evaluations[evaluation].scene
+
+    def table_evaluation(self, table: str) -> str:
+        """The evaluation that a table shows."""
+        return self.config.tables[table].evaluation
+
+    def table_scene(self, table: str) -> str:
+        """The scene that a table is about."""
+        return self.evaluation_scene(self.table_evaluation(table))
+
+    def table_rows(self, table: str) -> list[dict[str, Any]]:
+        """The rows of a table as plain data."""
+        return [plain(row) for row in self.config.tables[table].rows]
+
+    def all_reports(self) -> list[str]:
+        """Everything that `rule all` makes."""
+        endings = (".csv", ".md", "_pictures.png", "_pictures.svg")
+        return [
+            f"{self.reports}/{table}{ending}" for table in self.config.tables for ending in endings
+        ] + [f"{self.reports}/scenes/{scene}.png" for scene in self.config.scenes]

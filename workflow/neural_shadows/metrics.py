@@ -1,0 +1,174 @@
+"""Image metrics of a frame against its reference [4.1].
+
+All images are grey display (sRGB) values: float32 arrays of shape (H, W) in [0, 1].
+"""
+
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import flip_evaluator
+import numpy as np
+from skimage.metrics import structural_similarity
+
+from neural_shadows.lpips_trunk import Net, find_trunk
+
+if TYPE_CHECKING:
+    import torch
+
+    Features = list[torch.Tensor]
+
+
+def psnr(image: np.ndarray, reference: np.ndarray) -> float:
+    """Peak signal-to-noise ratio in dB for peak 1, at most 100 (identical frames).
+
+    Raises:
+        ValueError: the images are no pair of grey images in [0, 1].
+    """
+    _check(image, reference)
+    mean_square = np.mean(np.square(image - reference, dtype=np.float64))
+    return float(-10 * np.log10(max(mean_square, 1e-10)))  # 1e-10 is 100 dB
+
+
+def ssim(image: np.ndarray, reference: np.ndarray) -> float:
+    """Mean structural similarity (Wang et al. 2004: Gaussian window of sigma 1.5, range 1).
+
+    Raises:
+        ValueError: the images are no pair of grey images in [0, 1], or have a side
+            shorter than the window's 11 pixels.
+    """
+    _check(image, reference)
+    return float(
+        structural_similarity(
+            image,
+            reference,
+            gaussian_weights=True,
+            sigma=1.5,
+            use_sample_covariance=False,
+            data_range=1.0,
+        )
+    )
+
+
+def flip(image: np.ndarray, reference: np.ndarray) -> float:
+    """Mean of `flip_map`, in [0, 1]; 0 for identical frames.
+
+    The package's own mean adds up in float32, which is off by 1e-5 on a thesis frame.
+
+    Raises:
+        ValueError: the images are no pair of grey images in [0, 1].
+    """
+    return float(flip_map(image, reference).mean(dtype=np.float64))
+
+
+def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """LDR-FLIP error of each pixel (Andersson et al. 2020): float32 (H, W) in [0, 1].
+
+    Seen at the package's default of 67 pixels per degree: a 3840-pixel, 0.7 m wide
+    display from 0.7 m.
+
+    Raises:
+        ValueError: the images are no pair of grey images in [0, 1].
+    """
+    _check(image, reference)
+    error, _, _ = flip_evaluator.evaluate(
+        _rgb(reference), _rgb(image), "LDR", applyMagma=False, computeMeanError=False
+    )
+    return error[..., 0]
+
+
+class ShadowError(NamedTuple):
+    """Shares, in [0, 1], of the object and receiver pixels whose visibility is wrong."""
+
+    false_shadow: float
+    """Dark where the reference is lit."""
+    light_leak: float
+    """Lit where the reference is dark."""
+    total: float
+
+
+def shadow_error(
+    lit: np.ndarray, reference_lit: np.ndarray, shaded_mask: np.ndarray
+) -> ShadowError:
+    """Share of wrong visibility among the pixels that show object or receiver.
+
+    `lit`, `reference_lit` and `shaded_mask` are bool arrays of one shape (H, W); the
+    mask is true where object or receiver is seen.
+
+    Raises:
+        ValueError: the mask is empty.
+    """
+    shaded = np.count_nonzero(shaded_mask)
+    if shaded == 0:
+        raise ValueError("shadow_error: no pixel shows object or receiver")
+    wrong = shaded_mask & (lit != reference_lit)
+    total = np.count_nonzero(wrong)
+    false_shadow = np.count_nonzero(wrong & reference_lit)
+    return ShadowError(false_shadow / shaded, (total - false_shadow) / shaded, total / shaded)
+
+
+class Lpips:
+    """LPIPS 0.1 (Zhang et al. 2018), with the reference's features computed only once.
+
+    `distance(image, features(reference))` is what `lpips.LPIPS(net=net)` gives for the
+    pair; a view's `features(reference)` serve every method that is compared with it.
+    """
+
+    def __init__(self, net: Net, trunk: Path | None, device: str = "cpu") -> None:
+        """Load the trunk from the file `trunk`, or as torchvision's file from torch's cache.
+
+        That cache is `$TORCH_HOME/hub/checkpoints`, by default in `~/.cache/torch`; what is
+        not in it is downloaded. The linear heads come with the package `lpips`.
+
+        Raises:
+            InputError: the trunk cannot be read or downloaded, or it is not `net`'s.
+        """
+        import lpips
+        import torch
+
+        weights = find_trunk(net, trunk, Path(torch.hub.get_dir()) / "checkpoints")
+        with warnings.catch_warnings():
+            # lpips 0.1.4 names torchvision's models in the manner of torchvision 0.12.
+            warnings.filterwarnings("ignore", category=UserWarning, module="torchvision")
+            model = lpips.LPIPS(net=net, version="0.1", pnet_rand=True, verbose=False)
+        # lpips cuts the trunk in slices but keeps the layers' numbers: slice2.3.weight.
+        model.net.load_state_dict(
+            {key: weights[key.partition(".")[2]] for key in model.net.state_dict()}
+        )
+        self._model = model.eval().to(device)
+        self._device = device
+
+    def features(self, image: np.ndarray) -> "Features":
+        """The image's unit-length features of each layer: tensors (1, C, h, w)."""
+        import lpips
+        import torch
+
+        _check(image, image)
+        with torch.inference_mode():
+            grey = 2 * torch.tensor(image, dtype=torch.float32, device=self._device) - 1
+            rgb = grey.expand(1, 3, *grey.shape)
+            layers = self._model.net(self._model.scaling_layer(rgb))
+            return [lpips.normalize_tensor(layer) for layer in layers]
+
+    def distance(self, image: np.ndarray, reference_features: "Features") -> float:
+        """LPIPS distance (0 for identical frames) to the reference of these `features`."""
+        import torch
+
+        with torch.inference_mode():
+            pairs = zip(self.features(image), reference_features, self._model.lins, strict=True)
+            return float(sum(head((a - b) ** 2).mean() for a, b, head in pairs))
+
+
+def _check(image: np.ndarray, reference: np.ndarray) -> None:
+    """Refuse what would give a plausible number: NaN, 0 to 255, shapes that broadcast."""
+    if image.ndim != 2 or image.shape != reference.shape:
+        raise ValueError(f"no pair of grey images: shapes {image.shape}, {reference.shape}")
+    for values in (image, reference):
+        low, high = values.min(), values.max()
+        # Shading in float32 may pass 1 by its rounding.
+        if not (low >= -1e-5 and high <= 1 + 1e-5):
+            raise ValueError(f"image values must lie in [0, 1]; they span [{low}, {high}]")
+
+
+def _rgb(grey: np.ndarray) -> np.ndarray:
+    return np.repeat(np.asarray(grey, np.float32)[..., None], 3, axis=2)

@@ -1,0 +1,70 @@
+"""Trained networks on disk: safetensors with the whole model configuration in the header."""
+
+import json
+from pathlib import Path
+
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save
+
+from neural_shadows.errors import InputError
+from neural_shadows.files import whole_file
+from neural_shadows.network import ShadowNetwork
+
+
+def save_tensors(path: Path, tensors: dict[str, torch.Tensor], header: dict) -> None:
+    """Write tensors and a JSON header as safetensors, whole or not at all.
+
+    Raises:
+        OSError: the folder cannot be written, or the disk is full.
+    """
+    with whole_file(path) as part:
+        content = save(
+            {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()},
+            metadata={"header": json.dumps(header, sort_keys=True)},
+        )
+        # Not by safetensors' own writer, whose error on a full disk is no OSError.
+        part.write_bytes(content)
+
+
+def load_tensors(path: Path) -> tuple[dict[str, torch.Tensor], dict]:
+    """Read what `save_tensors` wrote.
+
+    Raises:
+        InputError: the file is missing, truncated, or not of this pipeline.
+    """
+    if not Path(path).is_file():
+        raise InputError(f"{path}: no such file; run the stage that makes it")
+    try:
+        with safe_open(path, framework="pt") as file:
+            header = json.loads((file.metadata() or {})["header"])
+            return {name: file.get_tensor(name) for name in file.keys()}, header
+    except (OSError, SafetensorError, KeyError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(
+            f"{path}: not a whole file of this pipeline ({reason}); delete it and run again"
+        ) from error
+
+
+def save_network(path: Path, network: ShadowNetwork, header: dict) -> None:
+    """Write a network; `header["network"]` must hold the arguments of its class."""
+    save_tensors(path, network.state_dict(), header)
+
+
+def load_network(path: Path) -> tuple[ShadowNetwork, dict]:
+    """Read a network and the header it was saved with.
+
+    Raises:
+        InputError: the file is missing, truncated, not of this pipeline, or its weights do
+            not fit the configuration in its header.
+    """
+    tensors, header = load_tensors(path)
+    try:
+        network = ShadowNetwork(**header["network"])
+        network.load_state_dict(tensors)
+    except (KeyError, TypeError, RuntimeError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(
+            f"{path}: weights do not fit the header ({reason}); delete it and train again"
+        ) from error
+    return network, header

@@ -1,0 +1,124 @@
+"""Quadtrees over silhouettes: small quads along the silhouette's border [3.4.2]."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+# Quads and points keep to a disk this little inside the unit disk, so that no ray is a
+# tangent: o·d <= -1e-3, and a chord has a length of 2e-3 at least.
+DISK_RADIUS = math.sqrt(1 - 1e-6)
+
+
+def build_quadtree(silhouette: np.ndarray, min_quad: int) -> np.ndarray:
+    """Leaves of the quadtree over a silhouette [3.4.2].
+
+    The one square that covers the disk is split, and so is every quad of more than `min_quad`
+    texels that is neither wholly inside nor wholly outside the silhouette. Quads wholly
+    outside the disk (of `DISK_RADIUS`) are dropped.
+
+    Args:
+        silhouette: (resolution, resolution) bool; the resolution is a power of two.
+        min_quad: side of the smallest quads in texels, a power of two.
+
+    Returns:
+        (q, 3) int32, each (row, column, size) in texels, in the Z-order of the quads. It
+        covers [2·column/resolution − 1, 2·(column + size)/resolution − 1] of a, and of b as
+        much by its row.
+
+    Raises:
+        ValueError: the resolution or `min_quad` is not a power of two, or `min_quad` is the
+            larger one.
+    """
+    rows, columns = silhouette.shape
+    if rows != columns or not _is_power_of_two(rows):
+        raise ValueError(f"a silhouette of {rows} x {columns} texels: the side is no power of two")
+    if not _is_power_of_two(min_quad) or min_quad > rows:
+        raise ValueError(f"min_quad {min_quad}: is no power of two up to the side of {rows} texels")
+    return _leaves(silhouette, min_quad)
+
+
+@njit(cache=True, nogil=True)
+def disk_area(left, bottom, right, top):
+    """Area that a rectangle of the plane shares with the disk of `DISK_RADIUS` at the origin."""
+    return (
+        _corner_area(right, top)
+        - _corner_area(left, top)
+        - _corner_area(right, bottom)
+        + _corner_area(left, bottom)
+    )
+
+
+@njit(cache=True, nogil=True)
+def _corner_area(x, y):
+    """Signed area of the disk between the axes and the lines through (x, y); odd in x and in y."""
+    radius = DISK_RADIUS
+    sign = 1.0 if (x < 0) == (y < 0) else -1.0
+    x, y = min(abs(x), radius), min(abs(y), radius)
+    if x * x + y * y <= radius * radius:
+        return sign * x * y
+    # Under the line up to where it leaves the disk, under the circle from there on.
+    leaves = math.sqrt(radius * radius - y * y)
+    return sign * (leaves * y + _under_circle(x) - _under_circle(leaves))
+
+
+@njit(cache=True, nogil=True)
+def _under_circle(x):
+    """Integral of √(radius² − s²) over s from 0 to x."""
+    radius = DISK_RADIUS
+    height = math.sqrt(max(0.0, radius * radius - x * x))
+    return (x * height + radius * radius * math.asin(min(1.0, x / radius))) / 2
+
+
+def _is_power_of_two(n: int) -> bool:
+    return n >= 1 and n & (n - 1) == 0
+
+
+@njit(cache=True, nogil=True)
+def _leaves(silhouette, min_quad):
+    resolution = len(silhouette)
+    # sums[i, j]: covered texels above row i and left of column j, for the count in any quad.
+    sums = np.zeros((resolution + 1, resolution + 1), np.int32)
+    for i in range(resolution):
+        in_row = 0
+        for j in range(resolution):
+            in_row += silhouette[i, j]
+            sums[i + 1, j + 1] = sums[i, j + 1] + in_row
+
+    leaves = np.empty(((resolution // min_quad) ** 2, 3), np.int32)
+    count = 0
+    # Depth first, three waiting siblings a level at most: 2^32 texels a side fit.
+    stack = np.empty((100, 3), np.int64)
+    stack[0] = 0, 0, resolution
+    waiting = 1
+    while waiting > 0:
+        waiting -= 1
+        row, column, size = stack[waiting]
+        if not _meets_disk(row, column, size, resolution):
+            continue
+        covered = (
+            sums[row + size, column + size]
+            - sums[row, column + size]
+            - sums[row + size, column]
+            + sums[row, column]
+        )
+        if size == min_quad or covered == 0 or covered == size * size:
+            leaves[count] = row, column, size
+            count += 1
+            continue
+        half = size // 2
+        stack[waiting] = row + half, column + half, half
+        stack[waiting + 1] = row + half, column, half
+        stack[waiting + 2] = row, column + half, half
+        stack[waiting + 3] = row, column, half
+        waiting += 4
+    return leaves[:count].copy()
+
+
+@njit(cache=True, nogil=True)
+def _meets_disk(row, column, size, resolution):
+    """Whether the quad's nearest point to the origin is inside the disk."""
+    # In half texels from the center, where all corners are whole numbers.
+    near_a = max(2 * column - resolution, resolution - 2 * (column + size), 0)
+    near_b = max(2 * row - resolution, resolution - 2 * (row + size), 0)
+    return near_a**2 + near_b**2 < (DISK_RADIUS * resolution) ** 2

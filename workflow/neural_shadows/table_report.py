@@ -1,0 +1,149 @@
+"""The stages that turn per-view metrics and frames into a table and its pictures."""
+
+import datetime
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from neural_shadows.files import read_json
+from neural_shadows.published import read_published
+from neural_shadows.strips import picture_strip, write_strip
+from neural_shadows.tables import comparison_table, read_metrics, write_table
+
+CAPTIONS = {
+    "shadow": "aimed at the cast shadow",
+    "surface": "aimed at the object's surface (self-shadowing)",
+    "centre": "aimed at the object's centre",
+}
+REFERENCES = {
+    "exact": "an exact shadow ray per pixel",
+    "shadow_map": "a 32768² shadow map, as in the thesis",
+}
+
+
+def describe_mesh(report: Mapping[str, Any]) -> str:
+    """One phrase on a prepared mesh: name, size, whether it is closed."""
+    name = report["name"]
+    kind = " (the pipeline's procedural stand-in, not the thesis's dragon)" if name == "wyrm" else ""
+    closed = "watertight" if report["watertight"] else "open"
+    return f"{name}{kind}, {report['faces']:,} triangles, {closed}"
+
+
+def describe_training(record: Mapping[str, Any]) -> str:
+    """One sentence on how a network was trained, and on what machine."""
+    training, machine = record["training"], record["machine"]
+    device = machine["gpu"] if training["device"] == "cuda" else f"{machine['cpu']} CPU"
+    return (
+        f"{record['name']}: {record['parameters']:,} parameters, {training['steps']:,} steps of "
+        f"{training['batch_size']:,} samples ({training['schedule']} learning rate "
+        f"{training['learning_rate']:g}, {training['precision']}) in {record['seconds']:.0f} s on "
+        f"{device}, {record['threads']} threads"
+    )
+
+
+def write_table_report(
+    metrics: Sequence[Path],
+    mesh_json: Path,
+    training_jsons: Sequence[Path],
+    lpips_json: Path,
+    published_csv: Path,
+    csv_path: Path,
+    md_path: Path,
+    *,
+    title: str,
+    number: str,
+    rows: Sequence[Mapping[str, str | None]],
+    scale: str,
+    width: int,
+    height: int,
+    reference: str,
+    seed: int,
+) -> None:
+    """Write a comparison table as CSV and Markdown, with what a reader must know below it.
+
+    Args:
+        number: the thesis's number of the table, "4.3".
+        rows: see `comparison_table`.
+        width, height: of the frames, in pixels.
+        reference: `exact` or `shadow_map`.
+
+    Raises:
+        InputError: metrics are missing, cut short or not finite.
+    """
+    mesh, lpips = read_json(mesh_json), read_json(lpips_json)
+    records = [read_json(path) for path in training_jsons]
+    frame = comparison_table(
+        read_metrics(metrics),
+        rows,
+        number,
+        read_published(published_csv),
+        {
+            "mesh": mesh["name"],
+            "scale": scale,
+            "width": width,
+            "height": height,
+            "lpips_net": lpips["net"] if lpips["available"] else None,
+            "seed": seed,
+        },
+        seed,
+    )
+    notes = [
+        f"Scale: {scale}; frames of {width} × {height}; seed {seed}; "
+        f"made on {datetime.date.today().isoformat()}.",
+        f"Mesh: {describe_mesh(mesh)}.",
+        f"Reference: {REFERENCES[reference]}.",
+        *(f"Network {describe_training(record)}." for record in records),
+    ]
+    if lpips["available"]:
+        notes.append(
+            f"LPIPS's network is `{lpips['net']}`; the thesis does not say which it used, and "
+            "values of different networks do not compare."
+        )
+    else:
+        notes.append(
+            f"LPIPS is missing, the rows are sorted by FLIP: {lpips['reason']}. After that, "
+            "`--forcerun find_lpips` looks again."
+        )
+    write_table(
+        frame, csv_path, md_path, title=f"{title} (table {number} of the thesis)", notes=notes
+    )
+
+
+def write_picture_strip(
+    pictures: Sequence[Path],
+    metrics: Sequence[Path],
+    mesh_json: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    rows: Sequence[Mapping[str, str | None]],
+    scale: str,
+) -> None:
+    """Draw the first frame of each view set by every method, whole and as a crop.
+
+    Args:
+        pictures: frames as `evaluate` wrote them, one file a view set.
+        metrics: the metrics of the same batches, in the same order.
+    """
+    labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
+    frames, captions, scores = [], [], []
+    for picture_path, metrics_path in zip(pictures, metrics, strict=True):
+        with np.load(picture_path, allow_pickle=False) as images:
+            frames.append({key: images[key].astype(np.float32) / 255 for key in labels})
+        values = read_metrics([metrics_path])
+        values = values[values["view"] == values["view"].iloc[0]]
+        captions.append(CAPTIONS[values["view_set"].iloc[0]])
+        scores.append(
+            {
+                method: dict(zip(group["metric"], group["value"]))
+                for method, group in values.groupby("method")
+            }
+        )
+    mesh = read_json(mesh_json)["name"]
+    figure = picture_strip(
+        frames, labels, captions, title=f"{title} ({mesh}, {scale} scale)", scores=scores
+    )
+    write_strip(figure, png, svg)

@@ -1,0 +1,60 @@
+"""Ray queries against one triangle mesh, by Embree."""
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+
+
+class Tracer:
+    """Embree's acceleration structure over a mesh; safe to share between threads.
+
+    Embree works in float32 and releases the GIL while it traces, so that threads over
+    chunks of rays scale with the cores.
+
+    Args:
+        vertices: (V, 3) positions, float32.
+        faces: (F, 3) vertex indices, int32.
+    """
+
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray):
+        self._scene = EmbreeScene()
+        TriangleMesh(
+            self._scene,
+            np.ascontiguousarray(vertices, np.float32),
+            np.ascontiguousarray(faces, np.int32),
+        )
+        # Embree builds its tree on the first query; done here, before threads share it.
+        self.occluded(np.zeros((1, 3), np.float32), np.array([[0, 0, 1]], np.float32))
+
+    def first_hit(self, origins: np.ndarray, directions: np.ndarray):
+        """Nearest hit of each ray o + t d, t > 0.
+
+        Args:
+            origins, directions: (n, 3) float32; t comes in units of |d|.
+
+        Returns:
+            t: (n,) float32, ∞ where nothing is hit.
+            face: (n,) int32 index of the triangle, −1 where nothing is hit.
+        """
+        hit = self._scene.run(origins, directions, query="INTERSECT", output=1)
+        face = hit["primID"]
+        return np.where(face >= 0, hit["tfar"], np.float32(np.inf)), face
+
+    def first_hit_barycentric(self, origins: np.ndarray, directions: np.ndarray):
+        """Where on its triangle each ray o + t d, t > 0, first hits.
+
+        Args:
+            origins, directions: (n, 3) float32.
+
+        Returns:
+            hit: (n,) bool.
+            face: (n,) int32 index of the triangle; u, v: (n,) float32, the weights of its
+            second and third vertex. Meaningless where nothing is hit.
+        """
+        found = self._scene.run(origins, directions, query="INTERSECT", output=1)
+        face = found["primID"]
+        return face >= 0, face, found["u"], found["v"]
+
+    def occluded(self, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        """Whether each ray o + t d, t > 0, hits anything: (n,) bool; inputs (n, 3) float32."""
+        return self._scene.run(origins, directions, query="OCCLUDED") >= 0

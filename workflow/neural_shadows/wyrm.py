@@ -1,0 +1,410 @@
+"""The procedural stand-in dragon: signed-distance parts, meshed by marching cubes.
+
+x is forward, y up, z to the creature's right. It is about 2.2 units long, standing on y = 0;
+the unit has no meaning, since every mesh is normalised later.
+"""
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.spatial.transform import Rotation
+from skimage.measure import marching_cubes
+from trimesh.graph import connected_component_labels
+
+from neural_shadows.errors import InputError
+
+# No radius or half thickness is evaluated below this many cells. A ball of radius sqrt(3)/2
+# cells always holds a grid sample, so anything thicker cannot slip between them and be torn.
+MIN_RADIUS_CELLS = 0.9
+# Samples nearer to the surface than this (in cells) count as just outside: no vertex falls on a
+# grid point, where marching cubes would emit triangles without area.
+MIN_VALUE_CELLS = 0.01
+# Here the least radius has swollen the volume by 40 % already, and the jaws have grown together.
+MIN_CELLS = 48
+FAR = np.float32(1e3)
+
+# Rows (x, y, z, radius) from the nape over neck, withers, back and hips to the tail's tip.
+SPINE = [
+    (0.74, 1.33, 0.05, 0.085),
+    (0.62, 1.30, 0.10, 0.085),
+    (0.56, 1.12, 0.13, 0.088),
+    (0.58, 0.92, 0.12, 0.105),
+    (0.47, 0.74, 0.06, 0.140),
+    (0.25, 0.64, 0.00, 0.175),
+    (-0.05, 0.63, -0.04, 0.155),
+    (-0.33, 0.60, 0.02, 0.160),
+    (-0.58, 0.47, 0.08, 0.115),
+    (-0.82, 0.24, 0.02, 0.085),
+    (-0.93, 0.09, -0.22, 0.070),
+    (-0.80, 0.06, -0.52, 0.058),
+    (-0.48, 0.05, -0.68, 0.047),
+    (-0.14, 0.05, -0.64, 0.038),
+    (0.08, 0.10, -0.55, 0.030),
+    (0.15, 0.25, -0.52, 0.024),
+    (0.05, 0.36, -0.54, 0.018),
+]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Pieces of one kind: joined sharply with each other, smoothly with the parts before.
+
+    The shape of `pieces` tells the kind:
+    (n, 2, 4) cones, the rows being two ends (x, y, z, radius);
+    (n, 3, 4) wedges, three corners (x, y, z, half thickness);
+    (n, 4, 3) ellipsoids, the centre and three orthogonal semi-axes.
+    `blend` is the width of the smooth union. A `carve` part is taken away instead.
+    """
+
+    pieces: np.ndarray
+    blend: float
+    carve: bool = False
+
+
+# Making parts -----------------------------------------------------------------------------
+
+
+def curve(*points, count: int = 24) -> np.ndarray:
+    """Spline through points (x, y, z, radius) as (count, 4); the radii do not overshoot."""
+    points = np.array(points, dtype=float)
+    knots = np.r_[0, np.cumsum(np.linalg.norm(np.diff(points[:, :3], axis=0), axis=1))]
+    at = np.linspace(0, knots[-1], count)
+    return np.c_[CubicSpline(knots, points[:, :3])(at), PchipInterpolator(knots, points[:, 3])(at)]
+
+
+def cones(rows: np.ndarray, blend: float) -> Part:
+    """Chain of cones along rows (x, y, z, radius)."""
+    return Part(np.stack([rows[:-1], rows[1:]], axis=1), blend)
+
+
+def tube(blend: float, *points, count: int = 24) -> Part:
+    """Chain of cones along the spline through points (x, y, z, radius)."""
+    return cones(curve(*points, count=count), blend)
+
+
+def ellipsoid(centre, radii, blend: float, carve: bool = False) -> Part:
+    """One axis-aligned ellipsoid."""
+    return Part(np.vstack([centre, np.diag(radii)])[None], blend, carve)
+
+
+def membrane(rows_a: np.ndarray, rows_b: np.ndarray, scallop: float) -> Part:
+    """Sheet of least thickness between two curves from one root.
+
+    Its free edge is cut in by `scallop`, a fraction of the curves' length.
+    """
+    lines = []
+    for u in np.linspace(0, 1, 10):
+        at = np.linspace(0, 1 - scallop * np.sin(np.pi * u), 20)
+        a, b = (
+            np.stack([np.interp(at, np.linspace(0, 1, len(r)), c) for c in r.T[:3]], axis=1)
+            for r in (rows_a, rows_b)
+        )
+        lines.append(np.pad((1 - u) * a + u * b, ((0, 0), (0, 1))))
+    grid = np.stack(lines)
+    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    # At the root a = b: the other triangle of those quads is without area.
+    halves = [(a, c, d), (a[:, 1:], b[:, 1:], c[:, 1:])]
+    return Part(np.concatenate([np.stack(h, axis=2).reshape(-1, 3, 4) for h in halves]), 0.004)
+
+
+def mirrored(parts: list[Part]) -> list[Part]:
+    """The parts, each with its mirror image in z."""
+    flip = np.array([1.0, 1.0, -1.0, 1.0])
+    return parts + [replace(p, pieces=p.pieces * flip[: p.pieces.shape[2]]) for p in parts]
+
+
+def placed(parts: list[Part], origin, scale: float, yaw: float, pitch: float = 0.0) -> list[Part]:
+    """The parts scaled, pitched about z, turned about y (both in degrees), then moved."""
+    turn = Rotation.from_euler("zy", [pitch, yaw], degrees=True).as_matrix()
+    result = []
+    for part in parts:
+        pieces = part.pieces * scale
+        pieces[..., :3] = pieces[..., :3] @ turn.T
+        points = pieces[:, :1] if pieces.shape[1] == 4 else pieces  # semi-axes stay
+        points[..., :3] += origin
+        result.append(replace(part, pieces=pieces, blend=part.blend * scale))
+    return result
+
+
+# The creature -----------------------------------------------------------------------------
+
+
+def hide() -> list[Part]:
+    """Belly plates, flank scales, the crest, and the blade at the tail's tip."""
+    rows = curve(*SPINE, count=240)
+    tangents = np.gradient(rows[:, :3], axis=0)
+    step = np.linalg.norm(tangents, axis=1).mean()
+    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    plates, scales, crest = [], [], []
+    dorsal, place, ring = np.array([0.0, 1.0, 0.0]), 8.0, 0
+    for i, ((*centre, radius), t) in enumerate(zip(rows, tangents, strict=True)):
+        dorsal = dorsal + [0.0, 0.05, 0.0]  # parallel transport rolls: pull the back upwards
+        dorsal -= (dorsal @ t) * t
+        dorsal /= np.linalg.norm(dorsal)
+        side = np.cross(t, dorsal)
+        if i < place or i > len(rows) - 12:
+            continue
+        pitch = 0.030 + 0.12 * radius
+        around = max(6, int(2 * np.pi * radius / pitch))
+        for angle in 2 * np.pi * (np.arange(around) + 0.5 * (ring % 2)) / around:
+            out = np.cos(angle) * dorsal + np.sin(angle) * side
+            if np.cos(angle) > -0.55:
+                # Tilted by 15 degrees, the rear edge stands off as on a tiled roof.
+                along, lift = 0.966 * t - 0.259 * out, 0.966 * out + 0.259 * t
+                axes = 0.62 * pitch * along, 0.47 * pitch * np.cross(out, t), 0.26 * pitch * lift
+                scales.append([centre + radius * out, *axes])
+        along, lift = 0.966 * t + 0.259 * dorsal, 0.259 * t - 0.966 * dorsal
+        axes = 0.75 * pitch * along, 0.72 * radius * side, 0.3 * pitch * lift
+        plates.append([centre - 0.93 * radius * dorsal, *axes])
+        if ring % 2 == 0:
+            foot = centre + 0.9 * radius * dorsal
+            front, back = foot - 0.75 * pitch * t, foot + pitch * t
+            tip = foot + 1.5 * pitch * t + (0.65 * radius + 0.02) * dorsal
+            crest.append([[*front, 0.012], [*back, 0.010], [*tip, 0.003]])
+        place += 0.8 * pitch / step
+        ring += 1
+    end = rows[-1, :3]
+    for barb in (end - 0.03 * t - 0.09 * side, end - 0.03 * t + 0.09 * side):
+        crest.append([[*(end + 0.03 * t), 0.014], [*barb, 0.003], [*(end + 0.22 * t), 0.003]])
+    return [
+        Part(np.array(plates), 0.012),
+        Part(np.array(scales), 0.006),
+        Part(np.array(crest), 0.006),
+    ]
+
+
+def head() -> list[Part]:
+    """Head of about unit length, the nape at the origin, snout along x, jaw open."""
+    teeth = []
+    for x, long in [(0.5, 0.07), (0.61, 0.09), (0.72, 0.10), (0.83, 0.12), (0.94, 0.17)]:
+        z = 0.146 - 0.09 * x
+        teeth.append([(x, -0.07, z, 0.04), (x - 0.03, -0.1 - long, z + 0.01, 0.002)])
+        low = 0.14 - 0.8 * x  # the lower jaw's rim
+        teeth.append([(x - 0.13, low, z, 0.036), (x - 0.07, low + 0.07 + long, z, 0.002)])
+    frill = [
+        curve((0.08, -0.1, 0.13, 0.04), (-0.13, -0.04, 0.275, 0.026), (-0.34, 0.02, 0.42, 0.008)),
+        curve((0.08, -0.1, 0.13, 0.04), (-0.16, -0.15, 0.255, 0.026), (-0.40, -0.2, 0.38, 0.008)),
+        curve((0.08, -0.1, 0.13, 0.04), (-0.09, -0.24, 0.205, 0.026), (-0.26, -0.38, 0.28, 0.008)),
+    ]
+    sides = [
+        # lip, jaw, nostril, brow, eye
+        tube(0.04, (0.2, -0.04, 0.1, 0.08), (0.5, -0.05, 0.085, 0.055), (0.95, -0.06, 0.03, 0.042)),
+        tube(0.03, (0.02, -0.06, 0.11, 0.08), (0.38, -0.3, 0.09, 0.05), (0.75, -0.6, 0.03, 0.045)),
+        ellipsoid((0.9, 0.02, 0.05), (0.07, 0.05, 0.045), 0.03),
+        ellipsoid((0.97, 0.035, 0.06), (0.03, 0.022, 0.03), 0.01, carve=True),
+        tube(0.03, (0.5, 0.06, 0.06, 0.03), (0.3, 0.16, 0.13, 0.05), (0.05, 0.17, 0.15, 0.05)),
+        ellipsoid((0.34, 0.075, 0.165), (0.075, 0.05, 0.05), 0.02, carve=True),
+        ellipsoid((0.34, 0.075, 0.125), (0.05, 0.045, 0.045), 0.005),
+        # great horn, small horn, frill
+        tube(
+            0.03,
+            (0.05, 0.15, 0.11, 0.075),
+            (-0.2, 0.32, 0.18, 0.06),
+            (-0.52, 0.42, 0.23, 0.045),
+            (-0.8, 0.40, 0.25, 0.028),
+            (-1.02, 0.5, 0.24, 0.006),
+            count=40,
+        ),
+        tube(0.03, (0.02, 0.05, 0.16, 0.055), (-0.18, 0.1, 0.28, 0.04), (-0.42, 0.2, 0.36, 0.006)),
+        *[cones(rows, 0.02) for rows in frill],
+        membrane(frill[0], frill[1], 0.25),
+        membrane(frill[1], frill[2], 0.25),
+        Part(np.array(teeth), 0.008),
+    ]
+    return [
+        # skull, snout, floor of the mouth
+        ellipsoid((0.14, 0.02, 0), (0.26, 0.2, 0.18), 0.08),
+        tube(0.08, (0.2, 0.04, 0, 0.16), (0.5, 0.02, 0, 0.105), (0.98, -0.03, 0, 0.06)),
+        tube(0.05, (0.05, -0.12, 0, 0.1), (0.38, -0.33, 0, 0.06), (0.75, -0.61, 0, 0.05)),
+        *mirrored(sides),
+        # tongue, nose horn, chin spike
+        tube(0.01, (0.1, -0.14, 0, 0.06), (0.42, -0.28, 0, 0.055), (0.98, -0.42, 0, 0.015)),
+        tube(0.03, (0.82, 0.0, 0, 0.06), (0.80, 0.11, 0, 0.035), (0.74, 0.21, 0, 0.004)),
+        tube(0.03, (0.67, -0.58, 0, 0.05), (0.6, -0.69, 0, 0.03), (0.5, -0.78, 0, 0.004)),
+    ]
+
+
+def leg(points, yaw: float, size: float) -> list[Part]:
+    """A leg along rows (x, y, z, radius) and, under its end, a clawed foot of length `size`."""
+    toe = [
+        tube(0.05, (0.0, 0.3, 0, 0.2), (0.4, 0.3, 0, 0.15), (0.72, 0.15, 0, 0.13)),
+        tube(0.02, (0.7, 0.2, 0, 0.12), (0.98, 0.22, 0, 0.08), (1.2, 0.02, 0, 0.015)),
+    ]
+    x, _, z, _ = points[-1]
+    turns = [(-38, 1.0), (0, 1.0), (38, 1.0), (180, 0.7)]
+    toes = [placed(toe, (x, 0, z), size * scale, yaw + turn) for turn, scale in turns]
+    return [tube(0.04, *points, count=48), *(part for parts in toes for part in parts)]
+
+
+def wing() -> list[Part]:
+    """The half-raised right wing: arm, three fingers and a thumb, membranes down to the hip."""
+    wrist = (0.12, 1.26, 0.36)
+    fingers = [
+        curve((*wrist, 0.03), (-0.03, 1.50, 0.50, 0.02), (-0.34, 1.60, 0.56, 0.006)),
+        curve((*wrist, 0.03), (-0.24, 1.37, 0.57, 0.02), (-0.66, 1.32, 0.66, 0.006)),
+        curve((*wrist, 0.03), (-0.33, 1.12, 0.54, 0.02), (-0.70, 0.98, 0.58, 0.006)),
+    ]
+    arm = curve(
+        (0.22, 0.72, 0.10, 0.07),
+        (0.08, 0.83, 0.20, 0.05),
+        (-0.02, 0.96, 0.26, 0.042),
+        (0.04, 1.12, 0.32, 0.036),
+        (*wrist, 0.034),
+        count=25,
+    )
+    elbow = 12
+    fold = curve(
+        (*arm[elbow, :3], 0.0), (-0.16, 0.82, 0.19, 0.0), (-0.36, 0.72, 0.10, 0.0), count=13
+    )
+    edges = [*fingers, np.concatenate([arm[:elbow:-1], fold])]
+    return [
+        cones(arm, 0.03),
+        *[cones(rows, 0.01) for rows in fingers],
+        tube(0.01, (*wrist, 0.03), (0.22, 1.33, 0.38, 0.02), (0.26, 1.27, 0.39, 0.005)),
+        *[
+            membrane(*pair, cut)
+            for pair, cut in zip(pairwise(edges), (0.22, 0.22, 0.3), strict=True)
+        ],
+        membrane(arm[elbow::-1], fold, 0.0),
+    ]
+
+
+def creature() -> list[Part]:
+    """All parts in the order in which they are joined: bulk first, thin detail last."""
+    legs = []
+    for side, hind, fore in [(1, 0.0, 0.04), (-1, 0.12, -0.12)]:  # mid-stride
+        z = 0.2 * side
+        thigh, knee = (-0.36, 0.5, 0.6 * z, 0.13), (-0.22 + hind / 2, 0.33, 1.2 * z, 0.1)
+        hock, sole = (-0.46 + hind, 0.17, 1.2 * z, 0.06), (-0.38 + hind, 0.06, 1.2 * z, 0.05)
+        legs += leg([thigh, knee, hock, sole], -15 * side, 0.19)
+        upper, elbow = (0.24, 0.56, 0.6 * z, 0.11), (0.16 + fore / 2, 0.34, 1.15 * z, 0.075)
+        wrist, sole = (0.3 + fore, 0.15, 1.15 * z, 0.052), (0.3 + fore, 0.06, 1.15 * z, 0.05)
+        legs += leg([upper, elbow, wrist, sole], -12 * side, 0.18)
+    haunch = ellipsoid((-0.36, 0.5, 0.12), (0.17, 0.2, 0.1), 0.05)
+    shoulder = ellipsoid((0.22, 0.56, 0.14), (0.12, 0.17, 0.08), 0.05)
+    return [
+        tube(0.01, *SPINE, count=200),
+        ellipsoid((0.3, 0.55, 0.0), (0.19, 0.22, 0.17), 0.06),  # chest
+        *mirrored([haunch, shoulder]),
+        *hide(),
+        *legs,
+        *placed(head(), (0.72, 1.33, 0.05), 0.46, 12, -10),
+        *mirrored(wing()),
+    ]
+
+
+# Distances: a piece and float32 coordinates that broadcast to a block of the grid -----------
+
+
+def _cone(piece, x, y, z):
+    (ax, ay, az, ar), (bx, by, bz, br) = piece.tolist()
+    ux, uy, uz = bx - ax, by - ay, bz - az
+    x, y, z = x - ax, y - ay, z - az
+    t = np.clip((x * ux + y * uy + z * uz) / (ux * ux + uy * uy + uz * uz), 0, 1)
+    return np.sqrt((x - t * ux) ** 2 + (y - t * uy) ** 2 + (z - t * uz) ** 2) - ar - t * (br - ar)
+
+
+def _wedge(piece, x, y, z):
+    (a, b, c), (ra, rb, rc) = piece[:, :3], piece[:, 3].tolist()
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal)
+    # Barycentric weights of b and c, and the height above the plane, are linear in the point.
+    rows = np.linalg.inv(np.stack([b - a, c - a, normal], axis=1)).tolist()
+    ax, ay, az = a.tolist()
+    v, w, height = (i * (x - ax) + j * (y - ay) + k * (z - az) for i, j, k in rows)
+    slab = np.abs(height) - ra - v * (rb - ra) - w * (rc - ra)
+    slab[(v < 0) | (w < 0) | (v + w > 1)] = FAR
+    edges = (_cone(piece[[i, i - 1]], x, y, z) for i in range(3))
+    return np.minimum.reduce([slab, *edges])
+
+
+def _ellipsoid(piece, x, y, z):
+    # Quilez's first-order estimate k (k - 1) / |gradient of k^2 / 2|; exact enough near 0.
+    cx, cy, cz = piece[0].tolist()
+    axes = piece[1:] / (piece[1:] ** 2).sum(axis=1, keepdims=True)
+    squares = [(i * (x - cx) + j * (y - cy) + k * (z - cz)) ** 2 for i, j, k in axes.tolist()]
+    k = np.sqrt(sum(squares) + 1e-12)  # never 0, or the centre would pass for surface
+    weights = (axes**2).sum(axis=1).tolist()
+    slope = np.sqrt(sum(s * w for s, w in zip(squares, weights, strict=True)))
+    return k * (k - 1) / np.maximum(slope, 1e-6)
+
+
+_DISTANCES = {2: _cone, 3: _wedge, 4: _ellipsoid}
+
+
+def _boxes(pieces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest corners (n, 3) of the pieces' boxes."""
+    if pieces.shape[1] == 4:
+        half = np.linalg.norm(pieces[:, 1:], axis=1)
+        return pieces[:, 0] - half, pieces[:, 0] + half
+    points, radii = pieces[..., :3], pieces[..., 3:]
+    return (points - radii).min(axis=1), (points + radii).max(axis=1)
+
+
+def distance_grid(parts: list[Part], cells: int) -> tuple[np.ndarray, np.ndarray, float]:
+    """Signed distance to the parts (float32, right near the surface), its origin and cell size.
+
+    A piece is evaluated only in its own box, widened by as much as its blend can reach.
+    """
+    boxes = [_boxes(part.pieces) for part in parts]
+    low = np.min([lows.min(axis=0) for lows, _ in boxes], axis=0)
+    high = np.max([highs.max(axis=0) for _, highs in boxes], axis=0)
+    cell = float((high - low).max() / cells)
+    origin = low - 4 * cell
+    shape = np.ceil((high - low) / cell).astype(int) + 9
+    lines = [
+        (o + cell * np.arange(n)).astype(np.float32) for o, n in zip(origin, shape, strict=True)
+    ]
+    grid = np.full(shape, FAR, np.float32)
+    for part, (lows, highs) in zip(parts, boxes, strict=True):
+        margin = part.blend + 3 * cell
+        first = np.maximum(((lows - margin - origin) / cell).astype(int), 0)
+        last = np.minimum(((highs + margin - origin) / cell).astype(int) + 2, shape)
+        corner = first.min(axis=0)
+        own = np.full(last.max(axis=0) - corner, FAR, np.float32)
+        pieces = part.pieces.copy()
+        if pieces.shape[2] == 4:
+            np.maximum(pieces[..., 3], MIN_RADIUS_CELLS * cell, out=pieces[..., 3])
+        distance = _DISTANCES[pieces.shape[1]]
+        for piece, start, stop in zip(pieces, first, last, strict=True):
+            (i, j, k), (to_i, to_j, to_k) = start, stop
+            axes = np.ix_(lines[0][i:to_i], lines[1][j:to_j], lines[2][k:to_k])
+            block = own[tuple(map(slice, start - corner, stop - corner))]
+            np.minimum(block, distance(piece, *axes), out=block)
+        block = grid[tuple(map(slice, corner, last.max(axis=0)))]
+        sign = -1 if part.carve else 1
+        overlap = np.maximum(part.blend - np.abs(sign * block - own), 0)
+        block[...] = sign * (np.minimum(sign * block, own) - overlap**2 / (4 * part.blend))
+    return grid, origin, cell
+
+
+def make_wyrm(cells: int = 220) -> tuple[np.ndarray, np.ndarray]:
+    """Mesh of the dragon: watertight, one piece, wound outward, lowest point on y = 0.
+
+    Args:
+        cells: cells along the creature's longest side (x). The triangles grow with its square:
+            22,000 at 64, 240,000 at 220, 510,000 at 320.
+
+    Returns:
+        Vertices (V, 3) float64 and faces (F, 3) int64. The same bytes each time.
+
+    Raises:
+        InputError: too few cells.
+    """
+    if cells < MIN_CELLS:
+        raise InputError(
+            f"wyrm: cells is {cells}, too coarse for its parts; give {MIN_CELLS} or more"
+        )
+    grid, origin, cell = distance_grid(creature(), cells)
+    grid[np.abs(grid) < MIN_VALUE_CELLS * cell] = MIN_VALUE_CELLS * cell
+    vertices, faces, _, _ = marching_cubes(grid, 0.0)
+    # Crumbs: bubbles where parts meet, and tips that a coarse grid cuts off.
+    labels = connected_component_labels(faces[:, [[0, 1], [1, 2]]].reshape(-1, 2), len(vertices))
+    keep = labels == np.bincount(labels).argmax()
+    assert keep.mean() > 0.99, f"the wyrm fell apart: its largest piece holds {keep.mean():.1%}"
+    faces = (np.cumsum(keep) - 1)[faces[keep[faces[:, 0]]]]
+    vertices = origin + cell * vertices[keep].astype(np.float64)
+    vertices[:, 1] -= vertices[:, 1].min()
+    return vertices, faces.astype(np.int64)

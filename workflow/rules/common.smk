@@ -1,0 +1,57 @@
+"""The checked configuration and the names that the rules share."""
+
+import os
+import sys
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+# The package of this checkout, for the rules and for the scripts that they start.
+WORKFLOW = Path(workflow.basedir) / "workflow"
+sys.path.insert(0, str(WORKFLOW))
+SEARCH_PATH = "PYTHONPATH"
+inherited = [path for path in [os.environ.get(SEARCH_PATH)] if path]
+os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
+
+from neural_shadows import layout
+from neural_shadows.config import read_config
+from neural_shadows.errors import InputError
+from neural_shadows.module_graph import modules_of
+
+try:
+    CONFIG = read_config(config)
+except InputError as error:
+    raise WorkflowError(str(error))
+
+LAYOUT = layout.Layout(CONFIG)
+RESULTS = LAYOUT.results
+REPORTS = LAYOUT.reports
+LOGS = f"{RESULTS}/logs"
+BENCHMARKS = f"{RESULTS}/benchmarks"
+SCENE = f"{RESULTS}/{layout.SCENE}"
+RAYS = f"{RESULTS}/{layout.RAYS}"
+NETWORK = f"{RESULTS}/{layout.NETWORK}"
+EVALUATION = f"{RESULTS}/{layout.EVALUATION}"
+ENVIRONMENT = "../../envs/environment.yaml"
+
+# What a job that computes networks reserves; with `device: auto` a GPU is used, not reserved.
+GPUS = int(CONFIG.compute.device == "cuda")
+
+
+wildcard_constraints:
+    scene="[a-z][a-z0-9_]*",
+    sampling="[a-z][a-z0-9_]*",
+    experiment="[a-z][a-z0-9_]*",
+    evaluation="[a-z][a-z0-9_]*",
+    view_set="[a-z]+",
+    table="table_[a-z0-9_]+",
+    shard="[0-9]+",
+    batch="[0-9]+",
+
+
+def code(name):
+    """The package's modules that the result of a script depends on."""
+    return [
+        os.path.relpath(path)
+        for path in modules_of(WORKFLOW / "scripts" / f"{name}.py")
+    ]

@@ -1,0 +1,12 @@
+"""Make a procedural mesh."""
+
+from neural_shadows.generated_mesh import generate_mesh
+from neural_shadows.jobs import run_job
+
+
+def main(job):
+    generate_mesh(job.output.mesh, generate=job.params.generate, cells=job.params.cells)
+
+
+if "snakemake" in globals():
+    run_job(snakemake, main)

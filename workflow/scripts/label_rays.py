@@ -1,0 +1,22 @@
+"""Trace the labels of one shard of a ray set."""
+
+from pathlib import Path
+
+from neural_shadows.jobs import run_job
+from neural_shadows.ray_files import make_labels
+
+
+def main(job):
+    make_labels(
+        Path(job.input.mesh),
+        Path(job.input.directions),
+        Path(job.input.origins),
+        Path(job.output.bounds),
+        first=job.params.first,
+        last=job.params.last,
+        threads=job.threads,
+    )
+
+
+if "snakemake" in globals():
+    run_job(snakemake, main)

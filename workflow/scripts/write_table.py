@@ -1,0 +1,31 @@
+"""Write a comparison table as CSV and Markdown."""
+
+from pathlib import Path
+
+from neural_shadows.jobs import run_job
+from neural_shadows.table_report import write_table_report
+
+
+def main(job):
+    params = job.params
+    write_table_report(
+        [Path(path) for path in job.input.metrics],
+        Path(job.input.mesh),
+        [Path(path) for path in job.input.training],
+        Path(job.input.lpips),
+        Path(job.input.published),
+        Path(job.output.csv),
+        Path(job.output.md),
+        title=params.title,
+        number=params.number,
+        rows=params.rows,
+        scale=params.scale,
+        width=params.width,
+        height=params.height,
+        reference=params.reference,
+        seed=params.seed,
+    )
+
+
+if "snakemake" in globals():
+    run_job(snakemake, main)
