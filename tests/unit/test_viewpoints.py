@@ -6,7 +6,7 @@ from shapes import Y_UP, box, prepared, sheet
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames import ground_height, primary_hits, reference_visibility, visibility
-from neural_shadows.viewpoints import VIEW_SETS, draw_viewpoints
+from neural_shadows.viewpoints import VIEW_SETS, draw_viewpoints, surface_points
 
 W, H = 150, 100
 SPHERE = {"domain": "sphere", "min_elevation_deg": 20}
@@ -78,15 +78,28 @@ def test_surface_frames_show_the_surface_in_their_middle(torus, surface_views):
     assert np.mean(covered) > 0.4
 
 
-def test_surface_targets_are_uniform_by_area():
-    """On a lone sheet nothing is hidden: its targets are uniform, whatever its triangles."""
-    views = draw(prepared(sheet(0.0, 0.5)), ["surface"], range(300), ground=False)
-    targets = np.array([view.target for view in views])
-    np.testing.assert_allclose(targets[:, 1], 0, atol=1e-7)
-    for axis in (0, 2):
-        assert kstest(targets[:, axis] + 0.5, "uniform").pvalue > 1e-3
-    first_triangle = (targets[:, 2] > targets[:, 0]).mean()
-    assert first_triangle == pytest.approx(0.5, abs=0.1)
+def test_surface_points_are_uniform_by_area():
+    # Two triangles, of areas 1 : 3, apart from each other.
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 0, 1], [5, 0, 0], [8, 0, 0], [5, 0, 1]], float)
+    mesh, _ = prepared(trimesh.Trimesh(corners, [[0, 1, 2], [3, 4, 5]], process=False))
+    points, normals = surface_points(mesh, np.array([1.0, 4.0]), 8000, np.random.default_rng(2))
+    np.testing.assert_array_equal(normals, np.tile([0.0, -1.0, 0.0], (8000, 1)))
+    first = points[:, 0] < 2
+    assert first.mean() == pytest.approx(0.25, abs=0.02)
+    for chosen, origin, width in [(first, 0, 1), (~first, 5, 3)]:
+        u, v = (points[chosen, 0] - origin) / width, points[chosen, 2]
+        # A weight w of a point uniform over a triangle exceeds x with probability (1 − x)².
+        for weight in (u, v, 1 - u - v):
+            assert kstest((1 - weight) ** 2, "uniform").pvalue > 1e-3
+
+
+def test_surface_that_no_light_reaches_is_refused():
+    upright = sheet(0.0, 0.5)
+    upright.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 0, 1]))
+    scene = prepared(upright)
+    scene[0].face_normals[:] = [1, 0, 0]  # and the arc about x has no light along x
+    with pytest.raises(InputError, match="view_sets: surface"):
+        draw(scene, ["surface"], range(1), light_domain=ARC)
 
 
 def test_centre_views_look_down_at_the_centre(torus):

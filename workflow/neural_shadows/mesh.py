@@ -109,8 +109,9 @@ def clean_mesh(
     Vertices within `MERGE_DISTANCE` of the bounding box's diagonal are merged (into the
     first of them), then faces of no height (relative to the same) and repeated faces (the
     same three vertices, whatever the winding) are dropped, then vertices of no face. Of a
-    flap made of two opposite faces one stays, so its rim then counts as open: the Stanford
-    dragon has 1,489 such faces. None of it depends on the unit or on an offset.
+    flap made of two opposite faces one stays, so its rim then counts as open (the Stanford
+    dragon loses 1,489 faces, nearly all of them to such flaps). None of it depends on the
+    unit or on an offset.
 
     Args:
         vertices: (V, 3) in any unit.

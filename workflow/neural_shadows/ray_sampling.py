@@ -211,6 +211,8 @@ def _place_patterns(counts, boxes, sizes, start, patterns, points, rng):
     placed = 0
     for i in range(len(counts)):
         n, size = counts[i], sizes[i]
+        if n == 0:
+            continue  # fewer points than quads: no draw of nothing is ever accepted below
         whole = _is_whole(boxes[i])
         while True:
             first = start[size] + size * int(patterns[size] * rng.random())

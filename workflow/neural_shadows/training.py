@@ -247,7 +247,7 @@ def train(
                 check_alive(name, run.step, mean_loss, spread.item())
                 run.curve.append([run.step, rate, mean_loss])
                 interval_loss.zero_()
-                bar.set_postfix(loss=f"{mean_loss:.4g}")
+                bar.set_postfix(loss=f"{mean_loss:.4g}", refresh=False)
                 run.seconds = seconds_before + time.monotonic() - started
                 if time.monotonic() - last_saved > state_interval_s:
                     run.save(state_file)

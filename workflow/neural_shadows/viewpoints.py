@@ -54,9 +54,10 @@ def draw_viewpoints(
     A viewpoint depends on the scene, the aspect ratio, `seed`, its set and its number alone:
     sets can be drawn in batches, and more viewpoints leave the earlier ones as they were.
 
-    `shadow`: at the shadow cast on the ground, seen past the object, which fills the frame.
-    `surface`: at a visible point of the object's surface, uniform by area before visibility.
-    `centre`: at the centre of the bounding sphere, from above.
+    `shadow`: at the shadow cast on the ground, which fills about half of the frame, from where
+    the object hides little of it.
+    `surface`: at a visible point of the object's surface that is turned to the light.
+    `centre`: at the centre of the bounding sphere, from 20 to 70 degrees above.
 
     Args:
         up: (3,) unit vector.
@@ -65,8 +66,8 @@ def draw_viewpoints(
         width, height: pixels of the frames to come.
 
     Raises:
-        InputError: a set is unknown, or `shadow` is asked of a scene without ground; a
-            value of `light_domain` is wrong.
+        InputError: a set is unknown, or `shadow` is asked of a scene without ground, or
+            `surface` of one whose light reaches none; a value of `light_domain` is wrong.
     """
     view_sets = tuple(view_sets)
     for view_set in view_sets:
@@ -96,14 +97,20 @@ def draw_viewpoints(
     return viewpoints
 
 
-def _surface_points(scene: _Scene, count: int, rng: np.random.Generator):
-    """Points uniform over the object's area, and the normals of their faces: (count, 3) each."""
-    where = rng.uniform(0, scene.cumulative_area[-1], count)
-    face = np.minimum(np.searchsorted(scene.cumulative_area, where), len(scene.cumulative_area) - 1)
-    a, b, c = (scene.mesh.vertices[scene.mesh.faces[face, k]].astype(np.float64) for k in range(3))
+def surface_points(
+    mesh: PreparedMesh, cumulative_area: np.ndarray, count: int, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    """Points uniform over the surface, and the normals of their faces: (count, 3) each.
+
+    Args:
+        cumulative_area: (F,) running sum of the faces' areas, in any unit.
+    """
+    where = rng.uniform(0, cumulative_area[-1], count)
+    face = np.minimum(np.searchsorted(cumulative_area, where), len(cumulative_area) - 1)
+    a, b, c = (mesh.vertices[mesh.faces[face, k]].astype(np.float64) for k in range(3))
     # The square root spreads points evenly over a triangle (Turk 1990).
     s, t = np.sqrt(rng.uniform(size=(count, 1))), rng.uniform(size=(count, 1))
-    return (1 - s) * a + s * (1 - t) * b + s * t * c, scene.mesh.face_normals[face]
+    return (1 - s) * a + s * (1 - t) * b + s * t * c, mesh.face_normals[face]
 
 
 def _direction_above(up: np.ndarray, lowest: float, highest: float, rng: np.random.Generator):
@@ -125,7 +132,7 @@ def _shares(scene: _Scene, eye: np.ndarray, target: np.ndarray, light: np.ndarra
 
 
 def _draw_shadow(scene: _Scene, light: np.ndarray, rng: np.random.Generator):
-    points, _ = _surface_points(scene, 256, rng)
+    points, _ = surface_points(scene.mesh, scene.cumulative_area, 256, rng)
     drop = (points @ scene.up - scene.ground) / (light @ scene.up)
     shadow = points - drop[:, None] * light
     best = -np.inf
@@ -163,13 +170,14 @@ def _draw_surface(scene: _Scene, light: np.ndarray, rng: np.random.Generator):
 
 def _see_surface(scene: _Scene, light: np.ndarray, rng: np.random.Generator):
     """Eye outside the bounding sphere and target on the surface, with nothing between them."""
-    while True:
-        target, normal = (value[0] for value in _surface_points(scene, 1, rng))
+    for _ in range(1000):  # on the dragon one in six will do
+        points, normals = surface_points(scene.mesh, scene.cumulative_area, 1, rng)
+        target, normal = points[0], normals[0]
         direction = _direction_above(scene.up, 5, 80, rng)
         # Either side of the face: an object hides its own inside, and an open sheet has none.
         cosine = normal @ direction
-        # Seen from within 73 degrees of its normal, and not turned from the light: there
-        # every method is dark, and nothing is compared.
+        # Seen from within 73 degrees of its normal, and turned to the light: elsewhere every
+        # method is dark, and nothing would be compared.
         if abs(cosine) < 0.3 or (normal @ light) * cosine <= 0:
             continue
         eye = target + rng.uniform(0.9, 2.3) * direction
@@ -179,6 +187,10 @@ def _see_surface(scene: _Scene, light: np.ndarray, rng: np.random.Generator):
         t, _ = scene.tracer.first_hit(eye.astype(np.float32)[None], ray)
         if 0.999 < t[0] < np.inf:
             return eye, target
+    raise InputError(
+        "view_sets: surface: no point of the object is both lit and seen from above; "
+        "check the mesh, the scene's up and its light"
+    )
 
 
 def _draw_centre(scene: _Scene, light: np.ndarray, rng: np.random.Generator):

@@ -1,0 +1,40 @@
+"""The dead-zone loss is zero between its bounds and the distance to them outside."""
+
+import math
+
+import pytest
+import torch
+
+from neural_shadows.dead_zone_loss import dead_zone_loss
+
+# t, t_lb, t_ub, loss, gradient
+CASES = [
+    (0.25, 0.5, 1.0, 0.25, -1.0),
+    (0.75, 0.5, 1.0, 0.0, 0.0),
+    (1.5, 0.5, 1.0, 0.5, 1.0),
+    (0.5, 0.5, 1.0, 0.0, 0.0),  # on the bounds
+    (1.0, 0.5, 1.0, 0.0, 0.0),
+    (0.0, 2.0, math.inf, 2.0, -1.0),
+    (2.5, 2.0, math.inf, 0.0, 0.0),  # one hit, or none: too far is never wrong
+    (0.25, 0.5, 0.5, 0.25, -1.0),  # an interval of no length
+]
+
+
+@pytest.mark.parametrize(("t", "t_lb", "t_ub", "loss", "gradient"), CASES)
+def test_value_and_gradient(t, t_lb, t_ub, loss, gradient):
+    prediction = torch.tensor([t], requires_grad=True)
+    found = dead_zone_loss(prediction, torch.tensor([t_lb]), torch.tensor([t_ub]))
+    found.sum().backward()
+    assert found.tolist() == [loss]
+    assert prediction.grad.tolist() == [gradient]  # NaN equals nothing
+
+
+def test_each_sample_by_itself():
+    t, t_lb, t_ub, loss, _ = torch.tensor(CASES).T
+    assert torch.equal(dead_zone_loss(t, t_lb, t_ub), loss)
+
+
+@pytest.mark.parametrize("t", [math.nan, math.inf])
+def test_what_is_no_depth_shows_in_the_loss(t):
+    bounds = torch.tensor([0.5]), torch.tensor([math.inf])
+    assert not torch.isfinite(dead_zone_loss(torch.tensor([t]), *bounds)).any()
