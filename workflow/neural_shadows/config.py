@@ -257,7 +257,11 @@ class Table(Model):
 
     title: str = Field(min_length=1, description="heading of the table")
     evaluation: Name = Field(description="a name in `evaluations`")
-    published: str = Field(pattern=r"^4\.[1-7]$", description="the thesis's number of this table")
+    published: str | None = Field(
+        None,
+        pattern=r"^4\.[1-7]$",
+        description="the thesis's number of this table; null for a table of your own",
+    )
     rows: list[Row] = Field(min_length=1, description="methods, in the table's order")
 
 

@@ -53,7 +53,7 @@ def write_table_report(
     md_path: Path,
     *,
     title: str,
-    number: str,
+    number: str | None,
     rows: Sequence[Mapping[str, str | None]],
     scale: str,
     width: int,
@@ -64,7 +64,7 @@ def write_table_report(
     """Write a comparison table as CSV and Markdown, with what a reader must know below it.
 
     Args:
-        number: the thesis's number of the table, "4.3".
+        number: the thesis's number of the table, "4.3"; None for one that is not in it.
         rows: see `comparison_table`.
         width, height: of the frames, in pixels.
         reference: `exact` or `shadow_map`.
@@ -106,9 +106,9 @@ def write_table_report(
             f"LPIPS is missing, the rows are sorted by FLIP: {lpips['reason']}. After that, "
             "`--forcerun find_lpips` looks again."
         )
-    write_table(
-        frame, csv_path, md_path, title=f"{title} (table {number} of the thesis)", notes=notes
-    )
+    if number:
+        title += f" (table {number} of the thesis)"
+    write_table(frame, csv_path, md_path, title=title, notes=notes)
 
 
 def write_picture_strip(

@@ -82,7 +82,7 @@ def _read_one(path: str | Path) -> pd.DataFrame:
 def comparison_table(
     metrics: pd.DataFrame,
     rows: Sequence[Mapping[str, str | None]],
-    published_table: str,
+    published_table: str | None,
     published: pd.DataFrame,
     context: Mapping[str, Any],
     seed: int,
@@ -94,7 +94,7 @@ def comparison_table(
             its trunk could not be had; its columns are then empty.
         rows: `method` (its key in `metrics`), `label` (its name in the table) and `published`
             (its row in `published`, None where that is the method's key) of each row.
-        published_table: the table of the thesis, "4.3".
+        published_table: the table of the thesis, "4.3"; None for one that is not in it.
         published: as `read_published` gives it.
         context: `mesh`, `scale`, `width`, `height` (pixels), `lpips_net` (None without LPIPS)
             and `seed` (of the viewpoints).
