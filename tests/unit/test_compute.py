@@ -61,6 +61,8 @@ def test_torch_names_the_cpu_capabilities_as_expected():
 def test_automatic_dtype_of_a_gpu(monkeypatch, native, dtype):
     """A GPU that only emulates bfloat16 says that it supports it, unless asked further."""
     monkeypatch.setattr(
-        torch.cuda, "is_bf16_supported", lambda including_emulation=True: including_emulation or native
+        torch.cuda,
+        "is_bf16_supported",
+        lambda including_emulation=True: including_emulation or native,
     )
     assert choose_dtype("auto", torch.device("cuda")) == dtype

@@ -252,7 +252,7 @@ def test_refuses_vertices_that_are_not_finite(bad):
 )
 def test_nan_in_a_file(tmp_path, content):
     suffix = ".ply" if content.startswith("ply") else ".obj"
-    with pytest.raises(InputError, match=r"mesh thing: vertex 1 \(counted from 0\) is \(nan"):
+    with pytest.raises(InputError, match=r"source\.\w+: vertex 1 \(counted from 0\) is \(nan"):
         prepare(tmp_path, content, suffix)
 
 

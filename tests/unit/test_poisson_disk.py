@@ -2,6 +2,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
+from scipy.stats import chisquare
+
 from neural_shadows.poisson_disk import (
     PatternBank,
     poisson_disk_sphere,
@@ -9,8 +12,6 @@ from neural_shadows.poisson_disk import (
     sphere_directions,
     torus_pattern,
 )
-from scipy.spatial import cKDTree
-from scipy.stats import chisquare
 
 
 def uniform_directions(count, rng):

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
-from neural_shadows.quadtree import DISK_RADIUS, build_quadtree, disk_area
 from scipy.integrate import quad as integrate
+
+from neural_shadows.quadtree import DISK_RADIUS, build_quadtree, disk_area
 
 
 def grid(resolution):
@@ -128,8 +129,9 @@ def test_disk_area_is_that_of_quadrature():
             return max(0.0, min(top, reach) - max(bottom, -reach))
 
         # Where a side of the rectangle or the disk's end makes a kink.
-        kinks = [s * np.sqrt(max(0.0, DISK_RADIUS**2 - y * y)) for y in (bottom, top, 0)
-                 for s in (-1, 1)]  # fmt: skip
+        kinks = [
+            s * np.sqrt(max(0.0, DISK_RADIUS**2 - y * y)) for y in (bottom, top, 0) for s in (-1, 1)
+        ]
         lines = np.unique(np.clip([left, right, *kinks], left, right))
         pieces = [integrate(height, *ends, epsabs=1e-12)[0] for ends in zip(lines, lines[1:])]
         assert disk_area(left, bottom, right, top) == pytest.approx(sum(pieces), abs=1e-9)

@@ -3,6 +3,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import trimesh
+from scipy.spatial import cKDTree
+from scipy.stats import chi2, chisquare
+from shapes import prepared, unit
+
 from neural_shadows.poisson_disk import PatternBank
 from neural_shadows.quadtree import DISK_RADIUS, build_quadtree, disk_area
 from neural_shadows.ray_sampling import (
@@ -13,9 +17,6 @@ from neural_shadows.ray_sampling import (
     uniform_on_disk,
 )
 from neural_shadows.silhouette import plane_basis, silhouette
-from scipy.spatial import cKDTree
-from scipy.stats import chi2, chisquare
-from shapes import prepared, unit
 
 RESOLUTION = 16
 CELLS = 3  # a quad is divided into 3 × 3 cells, the smallest quads too
@@ -43,97 +44,70 @@ def quad_of(quads, points):
     return index[row, column]
 
 
-def cell_in_quad(quads, points, which):
-    row, column, size = quads[which].T
-    a, b = texels(points).T
-    i = np.minimum((b - row) / size * CELLS, CELLS - 1).astype(int)
-    j = np.minimum((a - column) / size * CELLS, CELLS - 1).astype(int)
-    return i, j
+def draw_in_quads(quads, sampler, per_quad, draws):
+    """(q, draws, 2): one random point of each of many draws of `per_quad` points in each quad.
 
-
-def expected_shares(quads):
-    """(q, CELLS, CELLS): the stated density, integrated over each cell, of each quad."""
-    shares = np.zeros((len(quads), CELLS, CELLS))
-    for n, (row, column, size) in enumerate(quads):
-        rows = 2 * (row + size * np.arange(CELLS + 1) / CELLS) / RESOLUTION - 1
-        columns = 2 * (column + size * np.arange(CELLS + 1) / CELLS) / RESOLUTION - 1
-        for i, (bottom, top) in enumerate(pairwise(rows)):
-            for j, (left, right) in enumerate(pairwise(columns)):
-                area = disk_area(left, bottom, right, top)
-                if area > 1e-12:
-                    shares[n, i, j] = area
-        # The density is constant in the quad's part of the disk: read at a point in it.
-        i, j = np.unravel_index(shares[n].argmax(), (CELLS, CELLS))
-        inside = [[columns[j : j + 2].mean(), rows[i : i + 2].mean()]]
-        nearer = np.array(inside) * (1 - 1e-9)
-        shares[n] *= sample_density(quads, RESOLUTION, nearer)[0]
-    return shares
-
-
-def cell_counts(quads, draw, draws):
-    """One random point of each quad in each of many draws, counted by cell.
-
-    Points of a pattern keep away from each other; one of each is independent of the others,
-    as the chi-square test wants them.
+    Points of a pattern keep away from each other; one of each pattern is independent of the
+    others, as the chi-square test wants them. A repeated quad is as good as a repeated draw.
     """
-    counts = np.zeros((len(quads), CELLS, CELLS))
-    for i in range(draws):
-        rng = np.random.default_rng(i)
-        points = rng.permutation(draw(rng))
-        which, first = np.unique(quad_of(quads, points), return_index=True)
-        assert len(which) == len(quads)
-        np.add.at(counts, (which, *cell_in_quad(quads, points[first], which)), 1)
-    return counts
+    rng = np.random.default_rng(0)
+    count = len(quads) * draws
+    repeated = np.repeat(quads, draws, axis=0)
+    points = sample_quads(repeated, RESOLUTION, per_quad * count, rng, BANKS[sampler])
+    points = points.reshape(count, per_quad, 2)  # they come in the order of the quads
+    return points[np.arange(count), rng.integers(per_quad, size=count)].reshape(-1, draws, 2)
 
 
-def p_value(counts, expected):
-    """Chi-square test; cells of less than five expected points are pooled."""
-    assert counts.sum() == pytest.approx(expected.sum())
-    assert counts[expected == 0].sum() == 0
-    few = expected < 5
-    pooled = [np.append(x[~few], x[few].sum()) for x in (counts, expected)]
-    if pooled[1][-1] < 5:
-        pooled = [x[:-1] for x in pooled]
-    statistic = np.sum((pooled[0] - pooled[1]) ** 2 / pooled[1])
-    # The draws give each quad the same count: one degree less each.
-    return chi2.sf(statistic, len(pooled[0]) - len(counts))
+def density_p_value(quads, points):
+    """Chi-square test of points (q, draws, 2) in the cells of each quad, by the stated density."""
+    statistic = degrees = 0
+    for (row, column, size), drawn in zip(quads, points, strict=True):
+        lines = size * np.arange(CELLS + 1) / CELLS
+        rows, columns = 2 * (row + lines) / RESOLUTION - 1, 2 * (column + lines) / RESOLUTION - 1
+        counts = np.histogram2d(drawn[:, 1], drawn[:, 0], bins=(rows, columns))[0]
+        assert counts.sum() == len(drawn)  # none is outside its quad
+        density = sample_density(quads, RESOLUTION, drawn[:1])[0]
+        areas = [
+            [max(0, disk_area(left, bottom, right, top)) for left, right in pairwise(columns)]
+            for bottom, top in pairwise(rows)
+        ]
+        # 1 / q of all draws' points are of this quad: one draw in each.
+        expected = density * np.array(areas) * len(quads) * len(drawn)
+        assert expected.sum() == pytest.approx(len(drawn))
+        few = expected < 5
+        assert counts[few].sum() < 40  # slivers of cells
+        statistic += np.sum((counts - expected)[~few] ** 2 / expected[~few])
+        degrees += np.sum(~few) - 1
+    return chi2.sf(statistic, degrees)
 
 
 @pytest.mark.parametrize("sampler", BANKS)
-@pytest.mark.parametrize("per_quad", [3, 15])
+@pytest.mark.parametrize("per_quad", [2, 3, 15])
 def test_quadtree_samplers_keep_to_their_density(quads, sampler, per_quad):
-    draws = 2500
-
-    def draw(rng):
-        return sample_quads(quads, RESOLUTION, per_quad * len(quads), rng, BANKS[sampler])
-
-    expected = expected_shares(quads) * len(quads) * draws
-    assert p_value(cell_counts(quads, draw, draws), expected) > 1e-3
+    points = draw_in_quads(quads, sampler, per_quad, 20_000)
+    assert density_p_value(quads, points) > 1e-3
 
 
-def crowd_to_edges(points, quads):
-    """Each point moved an eighth of the way from its quad's center, as far as there is room."""
-    row, column, size = quads[quad_of(quads, points)].T
-    low = np.stack([column, row], axis=1)
-    within = (texels(points) - low) / size[:, None] - 0.5
-    within = np.sign(within) * np.abs(2 * within) ** 0.875 / 2
-    return 2 * (low + size[:, None] * (within + 0.5)) / RESOLUTION - 1
+@pytest.mark.parametrize("sampler", BANKS)
+def test_quads_at_the_rim_keep_to_their_density(quads, sampler):
+    """Alone, with more draws: what is thinned at the rim must not thin out towards it."""
+    far = 2 * np.abs(2 * quads[:, :2] + quads[:, 2:] - RESOLUTION) + 2 * quads[:, 2:]
+    rim = quads[np.hypot(*far.T) > 2 * RESOLUTION]
+    assert 5 < len(rim) < len(quads) / 2
+    points = draw_in_quads(rim, sampler, 2, 100_000)
+    assert density_p_value(rim, points) > 1e-3
 
 
 def test_the_density_test_finds_points_crowded_at_the_edges_of_quads(quads):
-    draws = 2500
-    row, column, size = quads.T
-    corners = [2 * np.stack([column + i * size, row + j * size]) / RESOLUTION - 1
-               for i in (0, 1) for j in (0, 1)]  # fmt: skip
-    whole = quads[np.max([np.hypot(*corner) for corner in corners], axis=0) < 1]
-    assert len(whole) == 20
-
-    def draw(rng):
-        points = sample_quads(whole, RESOLUTION, 3 * len(whole), rng, BANKS["poisson_quadtree"])
-        return crowd_to_edges(points, whole)
-
-    expected = expected_shares(whole) * len(whole) * draws
-    assert p_value(cell_counts(whole, draw, draws), expected) < 1e-6
+    points = draw_in_quads(quads, "poisson_quadtree", 3, 20_000)
+    for (row, column, size), drawn in zip(quads, points, strict=True):
+        center = (2 * np.array([column, row]) + size) / RESOLUTION - 1
+        side = 2 * size / RESOLUTION
+        within = 2 * (drawn - center) / side
+        crowded = center + np.sign(within) * np.abs(within) ** 0.95 * side / 2
+        inside = np.linalg.norm(crowded, axis=1) < DISK_RADIUS
+        drawn[inside] = crowded[inside]
+    assert density_p_value(quads, points) < 1e-6
 
 
 def test_uniform_sampler_keeps_to_its_density():
@@ -184,9 +158,8 @@ def closest_in_quads(quads, points):
     """Smallest distance in each quad, in units of the quad's side."""
     which = quad_of(quads, points)
     sides = 2 * quads[:, 2] / RESOLUTION
-    return np.array(
-        [cKDTree(p).query(p, k=2)[0][:, 1].min() for p in (points[which == i] for i in range(len(quads)))]
-    ) / sides
+    groups = [points[which == i] for i in range(len(quads))]
+    return np.array([cKDTree(p).query(p, k=2)[0][:, 1].min() for p in groups]) / sides
 
 
 def test_patterns_keep_their_distance_in_whole_quads():
@@ -200,18 +173,18 @@ def test_patterns_keep_their_distance_in_whole_quads():
 
 
 def test_slivers_at_the_rim_get_their_points_too():
-    # In 128 texels some quads have a corner of less than a thousandth of theirs in the disk.
-    image = np.zeros((128, 128), bool)
-    image[63, 127] = image[20, 10] = True
-    quads = build_quadtree(image, 1)
-    left, bottom = (2 * quads[:, 1] / 128 - 1), (2 * quads[:, 0] / 128 - 1)
-    side = 2 * quads[:, 2] / 128
-    areas = [disk_area(a, b, a + s, b + s) for a, b, s in zip(left, bottom, side)]
-    assert min(areas / side**2) < 1e-2
+    # A checkerboard is split down to texels; of some, the disk has less than a thousandth.
+    quads = build_quadtree(np.indices((128, 128)).sum(axis=0) % 2 == 0, 1)
+    left, bottom = 2 * quads[:, 1] / 128 - 1, 2 * quads[:, 0] / 128 - 1
+    side = 2 / 128
+    areas = [disk_area(a, b, a + side, b + side) for a, b in zip(left, bottom, strict=True)]
+    assert 0 < min(areas) < 1e-3 * side**2
     for bank in BANKS.values():
-        points = sample_quads(quads, 128, 10 * len(quads), np.random.default_rng(0), bank)
+        points = sample_quads(quads, 128, 5 * len(quads), np.random.default_rng(0), bank)
         assert np.linalg.norm(points, axis=1).max() < DISK_RADIUS
-        assert np.isfinite(sample_density(quads, 128, points)).all()
+        column, row = np.floor((points.T + 1) * 64).astype(int)
+        assert np.array_equal(row, np.repeat(quads[:, 0], 5))
+        assert np.array_equal(column, np.repeat(quads[:, 1], 5))
 
 
 @pytest.fixture(scope="module")

@@ -185,6 +185,15 @@ def test_another_seed_gives_other_weights(tmp_path):
         assert ours != theirs
 
 
+def test_the_seed_decides_the_first_weights(tmp_path):
+    run_training(tmp_path, **TINY | {"seed": 7, "steps": 1, "learning_rate": 1e-12})
+    network, _ = load_network(tmp_path / "weights.safetensors")
+    expected = ShadowNetwork(**TINY["network"])
+    expected.initialise(7)
+    for ours, theirs in zip(network.parameters(), expected.parameters(), strict=True):
+        torch.testing.assert_close(ours, theirs, rtol=0, atol=1e-9)
+
+
 # A parent that has loaded torch starts trainings as its children and kills them. Each child
 # is killed up to 30 ms after it saved a state of its own, which it does every 20 ms: now in a
 # step, now in the middle of writing.
@@ -261,7 +270,9 @@ def test_the_same_settings_resume(tmp_path, capsys):
     interrupt(tmp_path, 12)
     capsys.readouterr()
     assert run_training(tmp_path, **TINY).gathers == 20 - 12
-    assert f"{12 * 32}/640" in capsys.readouterr().err.split("\r")[1]  # where the bar begins
+    shown = capsys.readouterr().err.split("\r")[1:]
+    assert f"{12 * 32}/640" in shown[0]  # where the bar begins
+    assert len(shown) <= 4  # every two seconds a line, and not at every point of the curve
     assert not list((tmp_path / "unfinished").iterdir())
 
 
@@ -425,6 +436,16 @@ def test_gradient_against_differences():
         differences.append((losses[0] - losses[1]) / (2 * step))
     assert weight.grad[0].tolist() == pytest.approx(differences, abs=0.02)
     assert max(map(abs, differences)) > 0.2
+
+
+@pytest.mark.parametrize("rate", [1e-2, 1e-4])
+def test_a_step_moves_by_its_rate(rate):
+    """Adam's first step moves a weight by the rate, whatever its gradient."""
+    run, before = first_run(), first_run()
+    run.train_step(BallRays(), np.arange(200), rate, torch.float32, 200)
+    assert run.step == 1
+    moved = (run.network.output - before.network.output).abs().max().item()
+    assert moved == pytest.approx(rate, rel=0.01)
 
 
 def test_learning_rates():

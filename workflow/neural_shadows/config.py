@@ -24,6 +24,10 @@ Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
 SHADOW_MAP_PREFIX = "shadow_map_"
 
+# Folders below results/ and reports/, where an overlay's own folder of this name would mix with
+# the default's files.
+RESERVED_SCALES = {"scenes", "rays", "networks", "evaluations", "logs", "benchmarks", "reference"}
+
 
 class Model(BaseModel):
     """Base of all sections: unknown keys are refused, values are not converted silently."""
@@ -309,6 +313,11 @@ class Config(Model):
                     f"allowed: {', '.join(sorted(getattr(self, section)))}"
                 )
 
+        if self.scale in RESERVED_SCALES:
+            raise ValueError(
+                f"scale = {self.scale!r}: is the name of a folder of results or reports; "
+                f"allowed: any other than {', '.join(sorted(RESERVED_SCALES))}"
+            )
         for name, experiment in self.experiments.items():
             if name == "reference" or name.startswith(SHADOW_MAP_PREFIX):
                 raise ValueError(
@@ -477,6 +486,29 @@ def read_config(values: dict[str, Any]) -> Config:
         return Config.model_validate(values)
     except ValidationError as error:
         raise InputError(f"config: {_describe(error)}") from error
+
+
+def check_files(config: Config) -> None:
+    """Check that the files that a configuration names are there.
+
+    Snakemake does not, where an older result exists: it then takes that for up to date.
+
+    Raises:
+        InputError: a mesh file or LPIPS's trunk is missing; one line with its key.
+    """
+    named = {
+        f"scenes.{name}.mesh.path": scene.mesh.path
+        for name, scene in config.scenes.items()
+        if isinstance(scene.mesh, MeshFile)
+    }
+    if config.metrics.lpips.trunk is not None:
+        named["metrics.lpips.trunk"] = config.metrics.lpips.trunk
+    for key, path in named.items():
+        if not Path(path).is_file():
+            raise InputError(
+                f"config: {key} = {path!r}: no such file; "
+                "give a path from the working directory, or an absolute one"
+            )
 
 
 def json_schema() -> str:

@@ -187,7 +187,7 @@ def prepare_mesh(source: Path, mesh_ply: Path, mesh_json: Path, *, name: str) ->
         mesh_ply: the mesh in normalised space, as binary float32 PLY.
         mesh_json: the report: `name`, `source` (file name) and its `sha256`, `center` (c) and
             `radius` (r) in the source's unit, and the report of `clean_mesh`.
-        name: what tables and messages call the mesh.
+        name: what tables call the mesh; messages name its file.
 
     Returns:
         The content of `mesh_json`.
@@ -196,12 +196,12 @@ def prepare_mesh(source: Path, mesh_ply: Path, mesh_json: Path, *, name: str) ->
         InputError: as `read_mesh` and `clean_mesh`; nothing is written then.
     """
     source = Path(source)
-    vertices, faces, report = clean_mesh(*read_mesh(source), name)
+    vertices, faces, report = clean_mesh(*read_mesh(source), str(source))
     center, radius = minimal_bounding_sphere(vertices)
     normalised = ((vertices - center) / radius).astype(np.float32)
     # float32 can bring distinct vertices together (its spacing at 1 is 6e-8), so what is
     # written is cleaned once more.
-    normalised, faces, again = clean_mesh(normalised, faces, name)
+    normalised, faces, again = clean_mesh(normalised, faces, str(source))
     dropped = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "duplicate_faces")
     report = (
         {

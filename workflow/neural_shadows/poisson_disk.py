@@ -5,6 +5,7 @@ R. Bridson, "Fast Poisson disk sampling in arbitrary dimensions", SIGGRAPH 2007 
 
 import math
 import threading
+from collections.abc import Sequence
 
 import numpy as np
 from numba import njit
@@ -143,9 +144,12 @@ class PatternBank:
     """Poisson-disk patterns on the unit torus, made when first asked for; threads may share it.
 
     What it holds for a count of points depends on the seed and that count alone.
+
+    Args:
+        seed: an integer or some, as of numpy's SeedSequence.
     """
 
-    def __init__(self, seed: int):
+    def __init__(self, seed: int | Sequence[int]):
         self._seed = seed
         self._lock = threading.Lock()
         # Of 0 points there is one pattern, the empty one.
@@ -177,7 +181,7 @@ class PatternBank:
         grown[:, : len(start)] = start, patterns
         number = int(np.clip(_PATTERN_POINTS // count, _PATTERNS_LEAST, _PATTERNS))
         grown[:, count] = len(points), number
-        rng = np.random.default_rng((self._seed, count))
+        rng = np.random.default_rng(np.random.SeedSequence(self._seed, spawn_key=(count,)))
         new = [_exactly(count, rng, CANDIDATES, False)[0] for _ in range(number)]
         return grown[0], grown[1], np.concatenate([points, *new])
 
@@ -227,7 +231,7 @@ def _is_free_on_torus(x, y, radius, reach, points, bins):
     side = len(bins)
     column, row = int(x * side), int(y * side)
     for i in range(column - reach, column + reach + 1):
-        i += side if i < 0 else -side if i >= side else 0  # a third of the time of i % side
+        i += side if i < 0 else -side if i >= side else 0  # much faster than i % side
         for j in range(row - reach, row + reach + 1):
             j += side if j < 0 else -side if j >= side else 0
             other = bins[i, j]
@@ -282,16 +286,9 @@ def _draw_around(center, radius, rng, out):
     # The cap within a chord c has the area π c², so c² is uniform; on the axis 1 − c² / 2.
     chord2 = radius**2 * (1 + rng.random() * (min(4.0, 4 / radius**2) - 1))
     along = 1 - chord2 / 2
-    across = math.sqrt(max(0.0, 1 - along * along))
-    angle = 2 * math.pi * rng.random()
-    a, b = across * math.cos(angle), across * math.sin(angle)
-    # Basis around the center: Duff et al. 2017 (see plane_basis).
-    x, y, z = center
-    sign = math.copysign(1.0, z)
-    p = -1 / (sign + z)
-    q = x * y * p
-    out[0] = along * x + a * (1 + sign * x * x * p) + b * q
-    out[1] = along * y + a * sign * q + b * (sign + y * y * p)
-    out[2] = along * z - a * sign * x - b * y
-    scale = 1 / math.sqrt(out[0] ** 2 + out[1] ** 2 + out[2] ** 2)
-    out *= scale
+    # A random vector less its part along the center: a uniform direction across.
+    out[0], out[1], out[2] = rng.normal(), rng.normal(), rng.normal()
+    out -= np.dot(out, center) * center
+    out *= math.sqrt(max(0.0, 1 - along * along)) / np.linalg.norm(out)
+    out += along * center
+    out /= np.linalg.norm(out)

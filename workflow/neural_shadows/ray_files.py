@@ -10,6 +10,7 @@ A ray set of D directions with m points each, in S shards (consecutive ranges of
 All in normalised space: lengths are in radii of the object's minimal bounding sphere.
 """
 
+import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -91,8 +92,7 @@ def make_rays(
     bank = PatternBank((seed, _PATTERNS))
 
     with whole_file(origins_npy) as part:
-        shape = (last - first, points_per_direction, 3)
-        origins = np.lib.format.open_memmap(part, mode="w+", dtype=np.float32, shape=shape)
+        origins = _new_array(part, (last - first, points_per_direction, 3))
 
         def sample(begin: int, end: int) -> None:
             for i in range(begin, end):
@@ -141,13 +141,12 @@ def make_labels(
     tracer = _tracer(mesh_ply)
 
     with whole_file(bounds_npy) as part:
-        shape = (last - first, points, 2)
-        bounds = np.lib.format.open_memmap(part, mode="w+", dtype=np.float32, shape=shape)
+        bounds = _new_array(part, (last - first, points, 2))
 
         def label(begin: int, end: int) -> None:
             t_lb, t_ub = dual_bounds(
                 tracer,
-                np.asarray(origins[begin:end]).reshape(-1, 3),
+                origins[begin:end].reshape(-1, 3),
                 np.repeat(directions[begin:end], points, axis=0),
                 name=f"{origins_npy}, directions {first + begin} to {first + end - 1}",
             )
@@ -213,9 +212,7 @@ class RaySet:
         """Number of rays, D · m."""
         return len(self.directions) * self.points_per_direction
 
-    def gather(
-        self, indices: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def gather(self, indices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Some of the rays with their labels.
 
         Args:
@@ -331,6 +328,16 @@ def _run_tasks(
 def _tracer(mesh_ply: str | Path) -> Tracer:
     mesh = read_prepared(mesh_ply)
     return Tracer(mesh.vertices, mesh.faces)
+
+
+def _new_array(path: Path, shape: tuple[int, ...]) -> np.memmap:
+    """A new float32 `.npy` file, memory-mapped for writing: it may be larger than memory."""
+    array = np.lib.format.open_memmap(path, mode="w+", dtype=np.float32, shape=shape)
+    if hasattr(os, "posix_fallocate"):
+        # A full disk is an error here; found when a page is written, it kills the process.
+        with path.open("rb+") as file:
+            os.posix_fallocate(file.fileno(), 0, path.stat().st_size)
+    return array
 
 
 def _read_directions(path: str | Path) -> np.ndarray:

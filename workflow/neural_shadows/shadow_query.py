@@ -35,7 +35,7 @@ def sphere_rays(p: np.ndarray, light: np.ndarray) -> SphereRays:
     light = np.asarray(light, np.float32)
     along = p @ light
     # The part of p across the light and not |p|² − (p·l)², which would lose a ground point's
-    # digits: at |p| = 8 the square is 64 times the sphere.
+    # digits: at |p| = 20, the ground's rim, the square is 400 times the sphere's.
     across = p - along[:, None] * light
     half_chord_squared = 1 - np.einsum("ij,ij->i", across, across)
     half_chord = np.sqrt(np.maximum(half_chord_squared, 0))

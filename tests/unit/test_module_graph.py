@@ -1,0 +1,74 @@
+"""A script's modules are those that it needs: an edited plot must not retrain a network."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from neural_shadows.module_graph import PACKAGE, modules_of
+
+SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
+
+
+def names_of(script: str) -> set[str]:
+    return {path.stem for path in modules_of(SCRIPTS / f"{script}.py")}
+
+
+@pytest.mark.parametrize("script", sorted(SCRIPTS.glob("*.py")), ids=lambda path: path.stem)
+def test_paths(script):
+    found = modules_of(script)
+    assert found and found == sorted(set(found))
+    assert all(path.is_file() and path.parent == PACKAGE for path in found)
+    assert {"jobs", "errors"} <= {path.stem for path in found}
+
+
+@pytest.mark.parametrize("script", sorted(SCRIPTS.glob("*.py")), ids=lambda path: path.stem)
+def test_imports_exist(script):
+    """A module that is misspelt or missing would silently be no input."""
+    for source in [script, *modules_of(script)]:
+        for node in ast.walk(ast.parse(source.read_text())):
+            if isinstance(node, ast.ImportFrom):
+                assert node.level == 0, f"{source}: relative imports are not followed"
+                if node.module and node.module.startswith("neural_shadows."):
+                    path = PACKAGE / (node.module.split(".")[1] + ".py")
+                    assert path.is_file(), f"{source}: {node.module}"
+
+
+def test_training_depends_on_what_decides_the_weights():
+    names = names_of("train")
+    assert {"training", "network", "dead_zone_loss", "network_file", "ray_files"} <= names
+    assert not names & {
+        *("tables", "table_report", "strips", "preview", "wyrm", "metrics", "frames"),
+        *("config", "layout", "shadow_query", "shadow_map", "evaluation", "published"),
+    }
+
+
+def test_rays_know_nothing_of_networks():
+    for script in ("view_directions", "sample_rays", "label_rays", "prepare_mesh"):
+        assert not names_of(script) & {"network", "training", "compute", "metrics"}, script
+
+
+def test_tables_do_not_depend_on_training():
+    names = names_of("write_table")
+    assert "tables" in names
+    assert not names & {"training", "network", "wyrm", "mesh", "ray_files"}
+
+
+def test_all_forms_of_import_are_followed(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import json\n"
+        "import neural_shadows.light\n"
+        "from neural_shadows import published\n"
+        "from neural_shadows.statistics import nothing\n"
+        "def main():\n"
+        "    import numpy, neural_shadows.hardware as h\n"
+    )
+    expected = {"light", "published", "statistics", "hardware", "errors"}  # errors: by light
+    assert {path.stem for path in modules_of(script)} == expected
+
+
+def test_no_import_no_modules(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text("import numpy\nfrom neural_shadowsx.light import draw_light\n")
+    assert modules_of(script) == []

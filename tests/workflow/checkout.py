@@ -1,0 +1,112 @@
+"""A copy of the checkout that tests run the workflow in, apart from the user's own results."""
+
+import csv
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+ROOT = Path(__file__).parents[2]
+SMOKE = Path("config/smoke.yaml")
+
+# LPIPS's trunk can then be downloaded nowhere, so that the tables are the same everywhere.
+OFFLINE = {"http_proxy": "http://127.0.0.1:9", "https_proxy": "http://127.0.0.1:9", "no_proxy": ""}
+
+
+def source_files() -> list[Path]:
+    """Files of the checkout that git tracks or would, relative to `ROOT`."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    paths = (Path(name) for name in listed.stdout.split("\0") if name)
+    return [path for path in paths if (ROOT / path).is_file()]
+
+
+def write_overlay(path: Path, **sections: Any) -> Path:
+    """Write a config overlay."""
+    path.write_text(yaml.safe_dump(sections), encoding="utf-8")
+    return path
+
+
+@dataclass(frozen=True)
+class Checkout:
+    """A copy of the checkout, and Snakemake in it at the smoke scale."""
+
+    folder: Path
+
+    @classmethod
+    def fresh(cls, folder: Path) -> "Checkout":
+        """A copy of what git tracks or would: no results, no caches."""
+        for path in source_files():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / path, folder / path)
+        return cls(folder)
+
+    def copy(self, folder: Path) -> "Checkout":
+        """A copy with results, Snakemake's records of them and times of modification."""
+        shutil.copytree(self.folder, folder, symlinks=True, dirs_exist_ok=True)
+        return Checkout(folder)
+
+    @property
+    def results(self) -> Path:
+        return self.folder / "results" / "smoke"
+
+    @property
+    def reports(self) -> Path:
+        return self.folder / "reports" / "smoke"
+
+    def module(self, name: str) -> Path:
+        """A module of the package."""
+        return self.folder / "workflow" / "neural_shadows" / name
+
+    def command(self, *arguments: str, overlays: Sequence[Path] = ()) -> list[str]:
+        """Snakemake's command line; `overlays` are merged into the smoke configuration."""
+        configs = [str(path) for path in (SMOKE, *overlays)]
+        snakemake = [sys.executable, "-m", "snakemake"]
+        return [*snakemake, *arguments, "--cores", "2", "--configfile", *configs]
+
+    def environment(self) -> dict[str, str]:
+        """The environment that Snakemake runs in: offline, nothing of the user's settings."""
+        kept = {key: value for key, value in os.environ.items() if key != "SNAKEMAKE_PROFILE"}
+        return kept | OFFLINE | {"TORCH_HOME": str(self.folder / ".torch")}
+
+    def snakemake(
+        self, *arguments: str, overlays: Sequence[Path] = ()
+    ) -> subprocess.CompletedProcess[str]:
+        """Run Snakemake; its `stdout` is all that it says."""
+        return subprocess.run(
+            self.command(*arguments, overlays=overlays),
+            cwd=self.folder,
+            env=self.environment(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=600,
+        )
+
+    def run(self, *arguments: str, overlays: Sequence[Path] = ()) -> str:
+        """Run Snakemake, which must succeed, and give all that it says."""
+        done = self.snakemake(*arguments, overlays=overlays)
+        assert done.returncode == 0, done.stdout
+        return done.stdout
+
+    def summary(self, *, overlays: Sequence[Path] = ()) -> list[dict[str, str]]:
+        """Snakemake's own account: a row per output file, with `rule`, `log-file(s)`, `plan`."""
+        said = self.run("--summary", overlays=overlays)
+        header = said.index("output_file\t")
+        return list(csv.DictReader(said[header:].splitlines(), delimiter="\t"))
+
+    def pending(self, *, overlays: Sequence[Path] = ()) -> dict[str, str]:
+        """What the next run would make: rule by output file."""
+        rows = self.summary(overlays=overlays)
+        return {row["output_file"]: row["rule"] for row in rows if row["plan"] != "no update"}

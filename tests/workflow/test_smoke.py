@@ -1,0 +1,101 @@
+"""One run of the smoke workflow makes every report, and a second does nothing."""
+
+import xml.etree.ElementTree
+
+import numpy as np
+import pandas as pd
+import pytest
+from PIL import Image
+
+MAPS = ["2048² shadow map", "1024² shadow map", "512² shadow map", "256² shadow map"]
+METRICS = ["psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak"]
+
+
+@pytest.fixture(scope="module")
+def table(smoke) -> pd.DataFrame:
+    return pd.read_csv(smoke.reports / "table_4_3.csv")
+
+
+def test_second_run_does_nothing(smoke):
+    said = smoke.run()
+    assert "Nothing to be done" in said
+    assert "Execute" not in said
+
+
+def test_everything_is_made_and_nothing_else_is_left(smoke):
+    for name in ("csv", "md"):
+        assert (smoke.reports / f"table_4_3.{name}").stat().st_size > 0
+    parts = [path for path in smoke.folder.glob("re*/**/*") if ".part" in path.name]
+    assert parts == []
+    assert list(smoke.results.glob("networks/unfinished/*")) == []
+
+
+def test_each_job_left_its_log(smoke):
+    logs = {row["log-file(s)"] for row in smoke.summary()}
+    assert len(logs) == 17  # one for each job, shards and batches counted
+    assert [name for name in logs if not (smoke.folder / name).is_file()] == []
+    (training,) = [name for name in logs if "/train/" in name]
+    assert "train dragon: 100%" in (smoke.folder / training).read_text()
+
+
+def test_columns_and_rows_are_the_thesis_s(table):
+    assert list(table.columns[:4]) == ["method", "lpips", "psnr", "ssim"]
+    assert sorted(table["method"]) == sorted([*MAPS, "128² shadow map", "Our method"])
+    printed = dict(zip(table["method"], table["thesis_psnr"]))
+    assert printed["2048² shadow map"] == 38.50
+    assert printed["Our method"] == 27.39
+
+
+def test_finer_shadow_maps_are_better(table):
+    psnr = table.set_index("method")["psnr"][[*MAPS, "128² shadow map"]]
+    assert psnr.is_monotonic_decreasing and psnr.is_unique
+    # Of the rows as they are written, too.
+    maps = table["method"][table["method"] != "Our method"]
+    assert list(maps) == [*MAPS, "128² shadow map"]
+
+
+def test_values_are_finite_and_within_their_intervals(table):
+    for metric in METRICS:
+        low, mean, high = (table[f"{metric}{ending}"] for ending in ("_low", "", "_high"))
+        assert np.isfinite([low, mean, high]).all(), metric
+        assert ((low <= mean) & (mean <= high)).all(), metric
+    assert table["psnr"].between(5, 100).all()
+    assert table["ssim"].between(0, 1).all()
+    assert np.allclose(
+        table["false_shadow"] + table["light_leak"], table["shadow_error"], atol=1e-6
+    )
+    assert (table["views"] == 6).all()  # 2 sets of 3
+
+
+def test_lpips_is_empty_without_its_trunk(table):
+    names = [name for name in table.columns if name.startswith("lpips")]
+    assert set(names) >= {"lpips", "lpips_low", "lpips_high"}
+    assert table[names].isna().all(axis=None)
+
+
+def test_table_says_what_it_is_of(smoke):
+    text = (smoke.reports / "table_4_3.md").read_text(encoding="utf-8")
+    for part in (
+        "Scale: smoke",
+        "120 × 80",
+        "Mesh: wyrm",
+        "steps of 2,048 samples",
+        "LPIPS is missing",
+        "cannot download https://download.pytorch.org/",
+    ):
+        assert part in text
+
+
+@pytest.mark.parametrize("name", ["table_4_3_pictures.png", "scenes/dragon.png"])
+def test_pictures_are_pictures(smoke, name):
+    with Image.open(smoke.reports / name) as image:
+        assert image.format == "PNG"
+        assert 600 <= image.width <= 4000 and 300 <= image.height <= 4000
+        grey = np.asarray(image.convert("L"), dtype=float)
+    assert grey.std() > 10  # not a blank sheet
+    assert len(np.unique(grey)) > 50  # shading, not line art alone
+
+
+def test_strip_is_a_vector_file_too(smoke):
+    root = xml.etree.ElementTree.parse(smoke.reports / "table_4_3_pictures.svg").getroot()
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
