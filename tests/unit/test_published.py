@@ -2,6 +2,7 @@ import math
 from pathlib import Path
 
 import pytest
+
 from neural_shadows.errors import InputError
 from neural_shadows.published import printed, read_published
 

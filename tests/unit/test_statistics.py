@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
-from neural_shadows.statistics import mean_interval
 from scipy import stats
+
+from neural_shadows.statistics import mean_interval
 
 
 def test_width_is_that_of_normal_theory():

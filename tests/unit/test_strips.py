@@ -6,8 +6,9 @@ import xml.etree.ElementTree
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from neural_shadows.strips import choose_crop, picture_strip, write_strip
 from PIL import Image
+
+from neural_shadows.strips import choose_crop, picture_strip, write_strip
 
 LABELS = {
     "shadow_map_256": "256² shadow map",

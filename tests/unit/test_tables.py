@@ -3,6 +3,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+
 from neural_shadows.errors import InputError
 from neural_shadows.published import read_published
 from neural_shadows.tables import METRICS, comparison_table, read_metrics, write_table

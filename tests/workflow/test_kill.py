@@ -59,7 +59,8 @@ def interrupt(checkout: Checkout, stage: str, sign: signal.Signals, output: Path
         )
         try:
             started = time.monotonic()
-            while not any(logs.glob("*.log")):
+            # The first that a job says is its progress bar, just before the work.
+            while not any(log.stat().st_size for log in logs.glob("*.log")):
                 assert process.poll() is None, output.read_text()
                 assert time.monotonic() - started < 300, output.read_text()
                 time.sleep(0.01)

@@ -111,7 +111,9 @@ class Layout:
 
     def first_batches(self, evaluation: str, ending: str) -> list[str]:
         """Files of the first batch of each view set; its first frame is the one shown."""
-        return [path for path in self.batches(evaluation, ending) if path.endswith(f".000.{ending}")]
+        return [
+            path for path in self.batches(evaluation, ending) if path.endswith(f".000.{ending}")
+        ]
 
     def view_range(self, batch: str) -> tuple[int, int]:
         """First and last (exclusive) viewpoint of a batch."""

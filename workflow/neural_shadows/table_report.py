@@ -26,7 +26,9 @@ REFERENCES = {
 def describe_mesh(report: Mapping[str, Any]) -> str:
     """One phrase on a prepared mesh: name, size, whether it is closed."""
     name = report["name"]
-    kind = " (the pipeline's procedural stand-in, not the thesis's dragon)" if name == "wyrm" else ""
+    kind = (
+        " (the pipeline's procedural stand-in, not the thesis's dragon)" if name == "wyrm" else ""
+    )
     closed = "watertight" if report["watertight"] else "open"
     return f"{name}{kind}, {report['faces']:,} triangles, {closed}"
 
