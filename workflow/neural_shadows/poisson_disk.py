@@ -37,7 +37,7 @@ def poisson_disk_sphere(radius, rng, k=CANDIDATES):
         (n, 3) float64 unit vectors, in the order in which they were found.
     """
     # Caps of chord radius r / 2 (area π r² / 4) do not overlap: fewer than this fit.
-    capacity = int(16 / radius**2) + 16
+    capacity = int(16 / radius**2)
     points = np.empty((capacity, 3))
     active = np.empty(capacity, np.int64)
     # Bins are cubes of side r, hashed because the sphere meets few of those in its box: the

@@ -13,9 +13,10 @@ SEARCH_PATH = "PYTHONPATH"
 inherited = [path for path in [os.environ.get(SEARCH_PATH)] if path]
 os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
 
-# Threads that wait at the end of a matrix product sleep instead of spinning. Beside one other
-# busy process, training on two cores made 6,600 samples/s with spinning and 73,000 without.
-os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+# Threads that wait for each other in a matrix product soon sleep instead of spinning on. Alone on
+# two cores it makes no difference to training (74,000 and 78,000 samples/s in one run); beside
+# one other busy process it made 42,000 samples/s of 17,000.
+os.environ.setdefault("GOMP_SPINCOUNT", "1000")
 
 from neural_shadows import layout
 from neural_shadows.config import check_files, read_config
