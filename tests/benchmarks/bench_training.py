@@ -3,13 +3,14 @@
     python tests/benchmarks/bench_training.py [--width 256] [--rounds 7]
 
 Per round, one after another so that all see the same machine: our step in the number format that
-`precision: auto` chooses, in cache-sized chunks; the plain step, float32 on the whole batch at
-once; and the rate that the layers' matrix products alone would allow (the ceiling). Prints
+`precision: auto` chooses, cache-sized chunks side by side; the plain step, float32 on the whole
+batch at once, threads within each product; and the rate that the layers' matrix products alone would allow (the ceiling). Prints
 medians over the rounds, and ratios.
 """
 
 import argparse
 import time
+from concurrent.futures import Executor
 
 import numpy as np
 import torch
@@ -17,7 +18,7 @@ import torch
 from neural_shadows.compute import choose_dtype
 from neural_shadows.hardware import describe_machine
 from neural_shadows.network import ShadowNetwork
-from neural_shadows.training import CPU_CHUNK, TrainingRun
+from neural_shadows.training import CPU_CHUNK, TrainingRun, chunk_size, gradient_pool
 
 BATCH = 16384
 
@@ -67,23 +68,30 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--threads", type=int, default=2)
     arguments = parser.parse_args()
-    torch.set_num_threads(arguments.threads)
     dtype = choose_dtype("auto", torch.device("cpu"))
     rays = RandomRays()
     network = ShadowNetwork(frequencies=10, width=arguments.width, hidden_layers=8)
     network.initialise(0)
     run = TrainingRun(network, torch.device("cpu"), 1e-3)
 
-    def step_seconds(step_dtype: torch.dtype, chunk: int, number: int) -> float:
+    pool = gradient_pool(arguments.threads)
+    serial = gradient_pool(1)
+    serial.submit(torch.set_num_threads, arguments.threads).result()
+
+    def step_seconds(step_dtype: torch.dtype, chunk: int, workers: Executor, number: int) -> float:
         indices = np.random.default_rng(number).integers(0, rays.count, BATCH)
         started = time.perf_counter()
-        run.train_step(rays, indices, 1e-4, step_dtype, chunk)
+        run.train_step(rays, indices, 1e-4, step_dtype, chunk, workers)
         return time.perf_counter() - started
 
+    ours = dtype, chunk_size(BATCH, torch.device("cpu")), pool
+    plain = torch.float32, BATCH, serial
     seconds: dict[str, list[float]] = {"ours": [], "plain": [], "ceiling": []}
     for number in range(arguments.rounds + 1):  # the first round warms up
-        seconds["ours"].append(step_seconds(dtype, CPU_CHUNK, number))
-        seconds["plain"].append(step_seconds(torch.float32, BATCH, number))
+        torch.set_num_threads(1)
+        seconds["ours"].append(step_seconds(*ours, number))
+        torch.set_num_threads(arguments.threads)
+        seconds["plain"].append(step_seconds(*plain, number))
         seconds["ceiling"].append(product_seconds(network, dtype))
     rate = {name: BATCH / np.median(times[1:]) for name, times in seconds.items()}
     print(f"{describe_machine()}, {arguments.threads} threads, median of {arguments.rounds} rounds")

@@ -340,7 +340,7 @@ def test_restored_state_is_the_saved_one(tmp_path):
 
     run = new_run(1)
     for step in range(5):
-        run.train_step(rays, np.arange(64) + step, 1e-3, torch.float32, 64)
+        run.train_step(rays, np.arange(64) + step, 1e-3, torch.float32, 64, POOL)
     run.curve, run.seconds = [[5, 1e-3, 1 / 3]], 0.1 + 0.2
     run.save(tmp_path / "state.safetensors")
     other = new_run(2)
@@ -352,7 +352,7 @@ def test_restored_state_is_the_saved_one(tmp_path):
     tensors, _ = load_tensors(tmp_path / "state.safetensors")
     assert len(tensors) == 3 * 3  # weights and both of Adam's means
     for one in (run, other):  # and Adam's own count of steps, for its bias correction
-        one.train_step(rays, np.arange(64), 1e-3, torch.float32, 64)
+        one.train_step(rays, np.arange(64), 1e-3, torch.float32, 64, POOL)
     for ours, theirs in zip(run.network.parameters(), other.network.parameters(), strict=True):
         assert torch.equal(ours, theirs)
 
@@ -403,8 +403,8 @@ def first_run(seed: int = 0) -> TrainingRun:
 def test_chunks_add_up_to_the_batch(chunk):
     whole, chunked = first_run(), first_run()
     indices = np.arange(100)
-    loss, spread = whole.train_step(BallRays(), indices, 1e-3, torch.float32, 100)
-    parts_loss, parts_spread = chunked.train_step(BallRays(), indices, 1e-3, torch.float32, chunk)
+    loss, spread = whole.train_step(BallRays(), indices, 1e-3, torch.float32, 100, POOL)
+    parts_loss, parts_spread = chunked.train_step(BallRays(), indices, 1e-3, torch.float32, chunk, POOL)
     assert parts_loss.item() == pytest.approx(loss.item(), rel=1e-6)
     assert parts_spread.item() == pytest.approx(spread.item(), rel=1e-6)
     for ours, theirs in zip(chunked.network.parameters(), whole.network.parameters(), strict=True):
@@ -414,7 +414,7 @@ def test_chunks_add_up_to_the_batch(chunk):
 
 def test_spread_is_that_of_the_whole_batch():
     """A last chunk of one ray has none of its own, which is no dead network."""
-    _, spread = first_run().train_step(BallRays(), np.arange(65), 1e-3, torch.float32, 64)
+    _, spread = first_run().train_step(BallRays(), np.arange(65), 1e-3, torch.float32, 64, POOL)
     assert spread > 0.01
 
 
@@ -422,7 +422,7 @@ def test_gradient_against_differences():
     """The step's gradient is that of the mean loss: central differences in float64's stead."""
     run, rays = first_run(), BallRays()
     indices = np.arange(200)
-    run.train_step(rays, indices, 0.0, torch.float32, 200)  # rate 0: the weights stay
+    run.train_step(rays, indices, 0.0, torch.float32, 200, POOL)  # rate 0: the weights stay
     weight = run.network.output
     step = 1e-2  # the loss is piecewise linear in it: the step may be large beside rounding
     differences = []
@@ -432,7 +432,7 @@ def test_gradient_against_differences():
             other = first_run()
             with torch.no_grad():
                 other.network.output[0, i] += sign * step
-            losses.append(other.train_step(rays, indices, 0.0, torch.float32, 200)[0].item())
+            losses.append(other.train_step(rays, indices, 0.0, torch.float32, 200, POOL)[0].item())
         differences.append((losses[0] - losses[1]) / (2 * step))
     assert weight.grad[0].tolist() == pytest.approx(differences, abs=0.02)
     assert max(map(abs, differences)) > 0.2
@@ -442,7 +442,7 @@ def test_gradient_against_differences():
 def test_a_step_moves_by_its_rate(rate):
     """Adam's first step moves a weight by the rate, whatever its gradient."""
     run, before = first_run(), first_run()
-    run.train_step(BallRays(), np.arange(200), rate, torch.float32, 200)
+    run.train_step(BallRays(), np.arange(200), rate, torch.float32, 200, POOL)
     assert run.step == 1
     moved = (run.network.output - before.network.output).abs().max().item()
     assert moved == pytest.approx(rate, rel=0.01)

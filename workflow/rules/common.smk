@@ -13,11 +13,6 @@ SEARCH_PATH = "PYTHONPATH"
 inherited = [path for path in [os.environ.get(SEARCH_PATH)] if path]
 os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
 
-# Threads that wait for each other in a matrix product soon sleep instead of spinning on. Alone on
-# two cores it makes no difference to training (74,000 and 78,000 samples/s in one run); beside
-# one other busy process it made 42,000 samples/s of 17,000.
-os.environ.setdefault("GOMP_SPINCOUNT", "1000")
-
 from neural_shadows import layout
 from neural_shadows.config import check_files, read_config
 from neural_shadows.errors import InputError
