@@ -167,6 +167,9 @@ def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
     once = np.isinf(t_ub) & ~missed
     assert 0.001 < content["one_hit"] == pytest.approx(once.mean(), abs=1e-12)
     assert content["mesh_sha256"] == sha256_of(mesh_ply)
+    assert len(content["sha256"]) == 5
+    for file, digest in content["sha256"].items():
+        assert digest == sha256_of(ray_set / file)
     assert (content["directions"], content["points_per_direction"]) == (DIRECTIONS, POINTS)
     assert content["rays"] == DIRECTIONS * POINTS and content["shards"] == 2
     assert content["second_hit_step"] == 2e-5

@@ -17,7 +17,16 @@ from neural_shadows import training
 from neural_shadows.errors import InputError
 from neural_shadows.network import ShadowNetwork
 from neural_shadows.network_file import load_network, load_tensors
-from neural_shadows.training import TrainingRun, batch_indices, learning_rate_at, train
+from neural_shadows.training import (
+    TrainingRun,
+    batch_indices,
+    chunk_size,
+    gradient_pool,
+    learning_rate_at,
+    train,
+)
+
+POOL = gradient_pool(1)
 
 SETTINGS = {
     "name": "ball",
@@ -104,6 +113,17 @@ def trained(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("trained")
     run_training(folder)
     return folder
+
+
+def test_threads_do_not_change_the_weights(tmp_path):
+    run_training(tmp_path / "one", **TINY | {"batch_size": 6000, "threads": 1})
+    run_training(tmp_path / "three", **TINY | {"batch_size": 6000, "threads": 3})
+    assert contents(tmp_path / "one") == contents(tmp_path / "three")
+
+
+def test_chunks_fill_a_cache_and_leave_work_for_two():
+    assert [chunk_size(batch, torch.device("cpu")) for batch in (16, 1023, 65536)] == [8, 512, 2048]
+    assert chunk_size(65536, torch.device("cuda")) == 65536
 
 
 def test_rays_of_this_file_are_right():
@@ -404,7 +424,9 @@ def test_chunks_add_up_to_the_batch(chunk):
     whole, chunked = first_run(), first_run()
     indices = np.arange(100)
     loss, spread = whole.train_step(BallRays(), indices, 1e-3, torch.float32, 100, POOL)
-    parts_loss, parts_spread = chunked.train_step(BallRays(), indices, 1e-3, torch.float32, chunk, POOL)
+    parts_loss, parts_spread = chunked.train_step(
+        BallRays(), indices, 1e-3, torch.float32, chunk, POOL
+    )
     assert parts_loss.item() == pytest.approx(loss.item(), rel=1e-6)
     assert parts_spread.item() == pytest.approx(spread.item(), rel=1e-6)
     for ours, theirs in zip(chunked.network.parameters(), whole.network.parameters(), strict=True):

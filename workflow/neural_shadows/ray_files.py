@@ -256,8 +256,8 @@ def describe_rays(
 
     Args:
         rays_json: gets the counts, the settings it was made with, the units, the mesh's
-            sha256, the step behind the first hit, and the shares of rays that hit the object
-            at no place (`misses`) and at one (`one_hit`).
+            sha256 and that of each file, the step behind the first hit, and the shares of rays
+            that hit the object at no place (`misses`) and at one (`one_hit`).
         mesh_ply, sampler, silhouette_resolution, min_quad, seed: as given to `make_rays`.
 
     Returns:
@@ -288,6 +288,10 @@ def describe_rays(
         "silhouette_resolution": silhouette_resolution,
         "min_quad": min_quad,
         "mesh_sha256": sha256_of(mesh_ply),
+        "sha256": {
+            Path(file).name: sha256_of(file)
+            for file in (directions_npy, *origins_npys, *bounds_npys)
+        },
         "units": "radii of the minimal bounding sphere; bounds are distances from the origin",
         "second_hit_step": SECOND_HIT_STEP,
         "misses": misses / rays.count,
