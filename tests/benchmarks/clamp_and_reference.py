@@ -1,0 +1,73 @@
+"""Two choices of the method in numbers, on the viewpoints of a finished run.
+
+    python tests/benchmarks/clamp_and_reference.py results [--views 12]
+
+1. How well the thesis's reference, a 32768² shadow map, agrees with exact shadow rays (PSNR).
+2. What the clamp of s to the chord ℓ is worth in the network query (PSNR with and without).
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from neural_shadows.compute import choose_dtype
+from neural_shadows.evaluation import REFERENCE_MAP_RESOLUTION, reference_of
+from neural_shadows.frames import ground_height, primary_hits, shade
+from neural_shadows.mesh import read_prepared
+from neural_shadows.metrics import psnr
+from neural_shadows.network_file import load_network
+from neural_shadows.shadow_query import predict_depths, sphere_rays
+from neural_shadows.tracing import Tracer
+from neural_shadows.viewpoints import draw_viewpoints
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("results", type=Path, help="folder of a finished run of table 4.3")
+    parser.add_argument("--views", type=int, default=12, help="of each view set")
+    parser.add_argument("--width", type=int, default=600)
+    parser.add_argument("--height", type=int, default=400)
+    parser.add_argument("--seed", type=int, default=2026)
+    arguments = parser.parse_args()
+    mesh = read_prepared(arguments.results / "scenes/dragon/mesh.ply")
+    network, _ = load_network(arguments.results / "networks/dragon/weights.safetensors")
+    tracer = Tracer(mesh.vertices, mesh.faces)
+    up = np.array([0.0, 1.0, 0.0])
+    dtype = choose_dtype("auto", torch.device("cpu"))
+    exact, large_map = (reference_of(mesh, tracer, kind) for kind in ("exact", "shadow_map"))
+
+    values: dict[str, list[float]] = {"map": [], "clamped": [], "not clamped": []}
+    for view in draw_viewpoints(
+        mesh,
+        tracer,
+        up=up,
+        ground=True,
+        light_domain={"domain": "sphere", "min_elevation_deg": 20},
+        view_sets=["shadow", "surface"],
+        indices=range(arguments.views),
+        width=arguments.width,
+        height=arguments.height,
+        seed=arguments.seed,
+    ):
+        points = primary_hits(
+            mesh, tracer, view, arguments.width, arguments.height, ground_height(mesh, up)
+        )
+        reference = shade(points, exact(points))
+        values["map"].append(psnr(shade(points, large_map(points)), reference))
+        rays = sphere_rays(points.p, points.light)
+        t_pred = predict_depths(network, rays.origins, points.light, dtype)
+        for name, s in (("clamped", np.minimum(rays.s, rays.chord)), ("not clamped", rays.s)):
+            lit = np.ones(len(points.p), bool)
+            lit[rays.index] = s <= t_pred
+            values[name].append(psnr(shade(points, lit), reference))
+    print(f"mean PSNR in dB over {2 * arguments.views} views:")
+    print(f"{REFERENCE_MAP_RESOLUTION}² map against exact rays: {np.mean(values['map']):.1f}")
+    print(f"  lowest of a view: {np.min(values['map']):.1f}")
+    print(f"network, s clamped to the chord: {np.mean(values['clamped']):.2f}")
+    print(f"network, s not clamped: {np.mean(values['not clamped']):.2f}")
+
+
+if __name__ == "__main__":
+    main()
