@@ -1,6 +1,6 @@
 """Training rate of the thesis's network on this CPU, beside the plain step and the ceiling.
 
-    python tests/benchmarks/bench_training.py [--width 256] [--rounds 7]
+    python tests/benchmarks/bench_training.py [--width 256] [--batch 1024] [--rounds 7]
 
 Per round, one after another so that all see the same machine: our step in the number format that
 `precision: auto` chooses, cache-sized chunks side by side; the plain step, float32 on the whole
@@ -18,15 +18,15 @@ import torch
 from neural_shadows.compute import choose_dtype
 from neural_shadows.hardware import describe_machine
 from neural_shadows.network import ShadowNetwork
-from neural_shadows.training import CPU_CHUNK, TrainingRun, chunk_size, gradient_pool
+from neural_shadows.training import TrainingRun, chunk_size, gradient_pool
 
-BATCH = 16384
+DESK_BATCH = 1024
 
 
 class RandomRays:
     """Rays across the unit sphere with made-up bounds: the rate does not depend on them."""
 
-    count = 4 * BATCH
+    count = 65536
 
     def __init__(self):
         generator = np.random.default_rng(0)
@@ -45,15 +45,16 @@ class RandomRays:
         )
 
 
-def product_seconds(network: ShadowNetwork, dtype: torch.dtype) -> float:
+def product_seconds(network: ShadowNetwork, dtype: torch.dtype, batch: int) -> float:
     """Seconds of one batch's matrix products: forward, and both of the backward pass."""
     pairs = []
+    rows = min(batch, 4096)  # 2 MiB of activations, where the products were fastest
     for weight in network.layers:
-        x = torch.randn(CPU_CHUNK, weight.shape[1]).to(dtype)
-        y = torch.randn(CPU_CHUNK, weight.shape[0]).to(dtype)
+        x = torch.randn(rows, weight.shape[1]).to(dtype)
+        y = torch.randn(rows, weight.shape[0]).to(dtype)
         pairs.append((x, y, weight.detach().to(dtype)))
     started = time.perf_counter()
-    for _ in range(BATCH // CPU_CHUNK):
+    for _ in range(batch // rows):
         for i, (x, y, weight) in enumerate(pairs):
             torch.mm(x, weight.t())
             torch.mm(y.t(), x)
@@ -65,6 +66,7 @@ def product_seconds(network: ShadowNetwork, dtype: torch.dtype) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--width", type=int, default=256)
+    parser.add_argument("--batch", type=int, default=DESK_BATCH, help="the default: desk's")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--threads", type=int, default=2)
     arguments = parser.parse_args()
@@ -79,21 +81,21 @@ def main() -> None:
     serial.submit(torch.set_num_threads, arguments.threads).result()
 
     def step_seconds(step_dtype: torch.dtype, chunk: int, workers: Executor, number: int) -> float:
-        indices = np.random.default_rng(number).integers(0, rays.count, BATCH)
+        indices = np.random.default_rng(number).integers(0, rays.count, arguments.batch)
         started = time.perf_counter()
         run.train_step(rays, indices, 1e-4, step_dtype, chunk, workers)
         return time.perf_counter() - started
 
-    ours = dtype, chunk_size(BATCH, torch.device("cpu")), pool
-    plain = torch.float32, BATCH, serial
+    ours = dtype, chunk_size(arguments.batch, torch.device("cpu")), pool
+    plain = torch.float32, arguments.batch, serial
     seconds: dict[str, list[float]] = {"ours": [], "plain": [], "ceiling": []}
     for number in range(arguments.rounds + 1):  # the first round warms up
         torch.set_num_threads(1)
         seconds["ours"].append(step_seconds(*ours, number))
         torch.set_num_threads(arguments.threads)
         seconds["plain"].append(step_seconds(*plain, number))
-        seconds["ceiling"].append(product_seconds(network, dtype))
-    rate = {name: BATCH / np.median(times[1:]) for name, times in seconds.items()}
+        seconds["ceiling"].append(product_seconds(network, dtype, arguments.batch))
+    rate = {name: arguments.batch / np.median(times[1:]) for name, times in seconds.items()}
     print(f"{describe_machine()}, {arguments.threads} threads, median of {arguments.rounds} rounds")
     print(
         f"width {arguments.width}, {str(dtype).removeprefix('torch.')}: {rate['ours']:,.0f} samples/s"

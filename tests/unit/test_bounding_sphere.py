@@ -18,12 +18,12 @@ def on_sphere(n, seed=0):
     return points / np.linalg.norm(points, axis=1, keepdims=True)
 
 
-def assert_encloses(points, center, radius):
-    assert np.linalg.norm(points - center, axis=1).max() <= radius * (1 + 1e-12)
+def assert_encloses(points, centre, radius):
+    assert np.linalg.norm(points - centre, axis=1).max() <= radius * (1 + 1e-12)
 
 
 @pytest.mark.parametrize(
-    ("points", "center", "radius"),
+    ("points", "centre", "radius"),
     [
         ([[3, -4, 5]], [3, -4, 5], 0),
         ([[3, -4, 5]] * 7, [3, -4, 5], 0),
@@ -42,49 +42,49 @@ def assert_encloses(points, center, radius):
         ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.1, 0, 0]], [0.5, 0.5, 0], 0.5**0.5),
     ],
 )
-def test_analytic(points, center, radius):
+def test_analytic(points, centre, radius):
     points = np.array(points, dtype=float)
-    found_center, found_radius = minimal_bounding_sphere(points)
-    assert found_center == pytest.approx(center, abs=1e-14)
+    found_centre, found_radius = minimal_bounding_sphere(points)
+    assert found_centre == pytest.approx(centre, abs=1e-14)
     assert found_radius == pytest.approx(radius, rel=1e-14)
-    assert_encloses(points, found_center, found_radius)
+    assert_encloses(points, found_centre, found_radius)
 
 
 def test_of_a_set_off_centre_is_not_that_of_its_box_or_centroid():
     # An acute triangle: the centre of its box is (0, 1), its centroid (0, 1), its
     # circumcentre (0, 3/4) with radius 5/4.
     points = np.array([[-1, 0, 0], [1, 0, 0], [0, 2, 0], [0, 1, 0]], dtype=float)
-    center, radius = minimal_bounding_sphere(points)
-    assert center == pytest.approx([0, 0.75, 0])
+    centre, radius = minimal_bounding_sphere(points)
+    assert centre == pytest.approx([0, 0.75, 0])
     assert radius == pytest.approx(1.25)
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1, 1e3, 1e-200, 1e200], ids="{:g}".format)
 def test_scales_with_the_unit(scale):
     points = np.random.default_rng(1).normal(size=(500, 3))
-    center, radius = minimal_bounding_sphere(points)
-    scaled_center, scaled_radius = minimal_bounding_sphere(points * scale)
-    assert scaled_center / scale == pytest.approx(center, abs=1e-13)
+    centre, radius = minimal_bounding_sphere(points)
+    scaled_centre, scaled_radius = minimal_bounding_sphere(points * scale)
+    assert scaled_centre / scale == pytest.approx(centre, abs=1e-13)
     assert scaled_radius / scale == pytest.approx(radius, rel=1e-13)
 
 
 def test_offset():
     points = on_sphere(20_000) * 0.01 + 1e6
-    center, radius = minimal_bounding_sphere(points)
+    centre, radius = minimal_bounding_sphere(points)
     # Coordinates at 1e6 are multiples of 1.2e-10.
-    assert center == pytest.approx([1e6] * 3, abs=5e-10)
+    assert centre == pytest.approx([1e6] * 3, abs=5e-10)
     assert radius == pytest.approx(0.01, abs=5e-10)
-    assert_encloses(points, center, radius)
+    assert_encloses(points, centre, radius)
 
 
 def test_many_points_on_a_sphere_quickly():
     points = on_sphere(200_000)
     start = perf_counter()
-    center, radius = minimal_bounding_sphere(points)
+    centre, radius = minimal_bounding_sphere(points)
     assert perf_counter() - start < 1
-    assert center == pytest.approx([0, 0, 0], abs=1e-13)
+    assert centre == pytest.approx([0, 0, 0], abs=1e-13)
     assert radius == pytest.approx(1, abs=1e-13)
-    assert_encloses(points, center, radius)
+    assert_encloses(points, centre, radius)
 
 
 def smallest_by_brute_force(points):
@@ -94,8 +94,8 @@ def smallest_by_brute_force(points):
         for chosen in combinations(points, size):
             edges = np.array(chosen[1:]).reshape(-1, 3) - chosen[0]
             weights = np.linalg.pinv(edges @ edges.T) @ (edges**2).sum(axis=1) / 2
-            center = chosen[0] + weights @ edges
-            best = min(best, np.linalg.norm(points - center, axis=1).max())
+            centre = chosen[0] + weights @ edges
+            best = min(best, np.linalg.norm(points - centre, axis=1).max())
     return best
 
 
@@ -113,14 +113,14 @@ def test_against_brute_force(kind):
                 points /= np.linalg.norm(points, axis=1, keepdims=True)
             case "almost a line":
                 points = points[:, :1] * [1, 2, 3] + 1e-6 * points
-        center, radius = minimal_bounding_sphere(points)
+        centre, radius = minimal_bounding_sphere(points)
         assert radius == pytest.approx(smallest_by_brute_force(points), rel=1e-10)
-        assert_encloses(points, center, radius)
+        assert_encloses(points, centre, radius)
 
 
 def test_against_an_optimiser():
     points = np.random.default_rng(3).gamma(2, size=(300, 3))
-    center, radius = minimal_bounding_sphere(points)
+    centre, radius = minimal_bounding_sphere(points)
     # smallest q with |p|^2 - 2 p.c + |c|^2 <= q for all p
     found = minimize(
         lambda x: x[3],
@@ -133,7 +133,7 @@ def test_against_an_optimiser():
     )
     assert found.success
     assert radius == pytest.approx(np.sqrt(found.x[3]), rel=1e-6)
-    assert center == pytest.approx(found.x[:3], abs=1e-4)
+    assert centre == pytest.approx(found.x[:3], abs=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -148,10 +148,10 @@ def test_against_an_optimiser():
 )
 def test_is_optimal_for_many_points(points):
     # A sphere is minimal exactly if its centre is a convex combination of points on it.
-    center, radius = minimal_bounding_sphere(points)
-    touching = points[np.linalg.norm(points - center, axis=1) > radius * (1 - 1e-12)]
+    centre, radius = minimal_bounding_sphere(points)
+    touching = points[np.linalg.norm(points - centre, axis=1) > radius * (1 - 1e-12)]
     assert 2 <= len(touching) <= 10
-    system = np.vstack([(touching - center).T, np.ones(len(touching))])
+    system = np.vstack([(touching - centre).T, np.ones(len(touching))])
     _, residual = nnls(system, [0, 0, 0, 1])
     assert residual < 1e-9
 

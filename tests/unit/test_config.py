@@ -11,6 +11,7 @@ from neural_shadows.config import (
     DownloadedMesh,
     GeneratedMesh,
     MeshFile,
+    SphereLight,
     check_files,
     json_schema,
     read_config,
@@ -107,6 +108,8 @@ MISTAKES = [
     ("scenes.dragon.mesh", None, ["scenes.dragon.mesh = None", "{path: FILE}"]),
     ("scenes.dragon.mesh", "wyrm", ["scenes.dragon.mesh = 'wyrm'", "{generate: wyrm}"]),
     ("scenes.dragon.mesh", {"foo": "x"}, ["scenes.dragon.mesh = {'foo': 'x'}", "{path: FILE}"]),
+    ("trainings.base.learning_rate", "1e-3", ["'1e-3'", "text to YAML", "1.0e-3"]),
+    ("scale", "networks", ["'networks'", "folder"]),
     ("scenes.dragon.mesh.path", "x.ply", ["'path': 'x.ply'", "to null"]),
     ("scenes.dragon.mesh.cels", 3, ["scenes.dragon.mesh.cels: unknown key", "generate, cells"]),
     ("scenes.dragon.mesh.cells", 7, ["scenes.dragon.mesh.cells = 7", "equal to 48"]),
@@ -203,12 +206,19 @@ def test_names_of_other_methods_are_taken(values, name):
     assert f"experiments.{name}: " in message_of(values)
 
 
+def test_overlay_drops_a_light_key_by_null(values):
+    light = {"domain": "sphere", "axis": None, "min_elevation_deg": 30}
+    assert read_config(change(values, "scenes.dragon.light", light)).scenes[
+        "dragon"
+    ].light == SphereLight(domain="sphere", min_elevation_deg=30)
+
+
 @pytest.mark.parametrize(
     ("shorthand", "mesh", "name"),
     [
         ("wyrm", GeneratedMesh(generate="wyrm"), "wyrm"),
         ("stanford", DownloadedMesh(download="stanford_dragon"), "stanford_dragon"),
-        ("../meshes/my.dragon.ply.gz", MeshFile(path="../meshes/my.dragon.ply.gz"), "my"),
+        ("../meshes/my.dragon.ply.gz", MeshFile(path="../meshes/my.dragon.ply.gz"), "my.dragon"),
     ],
 )
 def test_dragon_shorthand(values, shorthand, mesh, name):

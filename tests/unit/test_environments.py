@@ -49,8 +49,8 @@ def test_conda_has_the_pythons_of_the_project(environment):
     others = [part for part in environment["dependencies"] if isinstance(part, str)]
     (python,) = [part for part in others if part.startswith("python")]
     pyproject = (ENVS.parent / "pyproject.toml").read_text()
-    lowest = re.search(r'requires-python = ">=([0-9.]+)"', pyproject)[1]
-    assert python.startswith(f"python>={lowest},<")
+    supported = re.search(r'requires-python = "([^"]+)"', pyproject)[1]
+    assert python == f"python{supported}"
     assert "pip" in others  # conda warns where pip is used but not listed
 
 

@@ -59,7 +59,7 @@ def test_fine_sphere_gives_the_chord_of_the_analytic_one():
     t_lb, t_ub = dual_bounds(tracer, origins, directions)
     o, d = origins.astype(float), directions.astype(float)
     middle = -np.sum(o * d, axis=1)
-    distance = np.sqrt(1 - middle**2)  # of the ray from the center
+    distance = np.sqrt(1 - middle**2)  # of the ray from the centre
     # The faces lie this far inside the sphere; flat hits amplify it by 1 / cos.
     sag = radius - np.linalg.norm(shape.triangles_center, axis=1).min()
     assert sag < 2e-4

@@ -274,7 +274,7 @@ def test_a_single_triangle_is_a_mesh(tmp_path):
     report, mesh = prepare(tmp_path, SINGLE_TRIANGLE_OBJ, ".obj")
     assert (report["vertices"], report["faces"]) == (3, 1)
     assert (report["watertight"], report["open_edges"], report["bodies"]) == (False, 3, 1)
-    assert report["center"] == pytest.approx([0.5, 0.5, 0])
+    assert report["centre"] == pytest.approx([0.5, 0.5, 0])
     assert report["radius"] == pytest.approx(0.5**0.5)
     np.testing.assert_array_equal(mesh.face_normals, [[0, 0, 1]])
     np.testing.assert_array_equal(mesh.vertex_normals, [[0, 0, 1]] * 3)
@@ -414,7 +414,7 @@ def test_report_and_files(tmp_path):
     assert report["sha256"] == sha256((tmp_path / "source.ply.gz").read_bytes()).hexdigest()
     assert str(tmp_path) not in json.dumps(report)
     # The face (1, 2, 3) is equilateral with side sqrt(2), and its circumcircle a great circle.
-    assert report["center"] == pytest.approx([1 / 3] * 3)
+    assert report["centre"] == pytest.approx([1 / 3] * 3)
     assert report["radius"] == pytest.approx(np.sqrt(2 / 3))
     assert (report["source_vertices"], report["source_faces"]) == (4, 4)
     assert report["watertight"]
@@ -446,7 +446,7 @@ def test_normalised_vertices_do_not_depend_on_unit_or_offset(tmp_path, unit, off
     np.testing.assert_array_equal(mesh.faces, expected.faces)
     reach = np.linalg.norm(mesh.vertices.astype(float), axis=1).max()
     assert reach == pytest.approx(1, abs=1e-6)
-    back = mesh.vertices * report["radius"] + np.array(report["center"])
+    back = mesh.vertices * report["radius"] + np.array(report["centre"])
     np.testing.assert_allclose(back, shape * unit + offset, rtol=0, atol=2e-7 * 2 * unit + 1e-9)
 
 

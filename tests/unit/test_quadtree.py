@@ -6,7 +6,7 @@ from neural_shadows.quadtree import DISK_RADIUS, build_quadtree, disk_area
 
 
 def grid(resolution):
-    """Texel centers (a, b)."""
+    """Texel centres (a, b)."""
     axis = (2 * np.arange(resolution) + 1) / resolution - 1
     return np.meshgrid(axis, axis)
 

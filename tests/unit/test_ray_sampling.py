@@ -101,10 +101,10 @@ def test_quads_at_the_rim_keep_to_their_density(quads, sampler):
 def test_the_density_test_finds_points_crowded_at_the_edges_of_quads(quads):
     points = draw_in_quads(quads, "poisson_quadtree", 3, 20_000)
     for (row, column, size), drawn in zip(quads, points, strict=True):
-        center = (2 * np.array([column, row]) + size) / RESOLUTION - 1
+        centre = (2 * np.array([column, row]) + size) / RESOLUTION - 1
         side = 2 * size / RESOLUTION
-        within = 2 * (drawn - center) / side
-        crowded = center + np.sign(within) * np.abs(within) ** 0.95 * side / 2
+        within = 2 * (drawn - centre) / side
+        crowded = centre + np.sign(within) * np.abs(within) ** 0.95 * side / 2
         inside = np.linalg.norm(crowded, axis=1) < DISK_RADIUS
         drawn[inside] = crowded[inside]
     assert density_p_value(quads, points) < 1e-6

@@ -44,14 +44,14 @@ def rectangle_across(d, a, b):
 
 @pytest.mark.parametrize("d", [unit(1, 2, 3), unit(0, 0, -1), unit(-1, 0.2, -0.4)])
 def test_rows_are_b_and_columns_are_a(d):
-    # Its edges are between texel centers: in 16 texels, columns 9 to 13 and rows 2 to 4.
+    # Its edges are between texel centres: in 16 texels, columns 9 to 13 and rows 2 to 4.
     tracer = rectangle_across(d, a=(0.125, 0.75), b=(-0.75, -0.375))
     expected = np.zeros((16, 16), bool)
     expected[2:5, 9:14] = True
     assert np.array_equal(silhouette(tracer, d, 16), expected)
 
 
-def test_texels_with_their_center_outside_the_disk_are_empty():
+def test_texels_with_their_centre_outside_the_disk_are_empty():
     # A wall behind all rays covers every texel that is traced at all.
     d = unit(1, -2, 0.5)
     covered = silhouette(rectangle_across(d, a=(-2, 2), b=(-2, 2)), d, 64)

@@ -20,7 +20,14 @@ OFFLINE = {"http_proxy": "http://127.0.0.1:9", "https_proxy": "http://127.0.0.1:
 
 
 def source_files() -> list[Path]:
-    """Files of the checkout that git tracks or would, relative to `ROOT`."""
+    """Files of the checkout that git tracks or would, relative to `ROOT`.
+
+    Without git (an unpacked archive): all but what runs and tools leave behind.
+    """
+    if shutil.which("git") is None or not (ROOT / ".git").exists():
+        made = {".snakemake", ".venv", "venv", "results", "reports", "__pycache__"}
+        paths = (path.relative_to(ROOT) for path in ROOT.rglob("*"))
+        return [path for path in paths if (ROOT / path).is_file() and not made & {*path.parts}]
     listed = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,

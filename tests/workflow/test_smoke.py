@@ -79,7 +79,7 @@ def test_table_says_what_it_is_of(smoke):
         "Scale: smoke",
         "120 × 80",
         "Mesh: wyrm",
-        "steps of 2,048 samples",
+        "200 steps of 1,024 samples",
         "LPIPS is missing",
         "cannot download https://download.pytorch.org/",
     ):

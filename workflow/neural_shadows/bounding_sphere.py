@@ -44,9 +44,9 @@ def minimal_bounding_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
     local = (points - middle) / scale
 
     support = local[[np.argmax(np.linalg.norm(local, axis=1))]]
-    center, radius = support[0], 0.0
+    centre, radius = support[0], 0.0
     while True:
-        distances = np.linalg.norm(local - center, axis=1)
+        distances = np.linalg.norm(local - centre, axis=1)
         furthest = np.argmax(distances)
         if distances[furthest] <= radius * (1 + _SLACK):
             break
@@ -54,10 +54,10 @@ def minimal_bounding_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
         # Each step enlarges the sphere, unless rounding has the last word.
         if grown[1] <= radius:
             break
-        center, radius, support = grown
+        centre, radius, support = grown
 
-    center = middle + scale * center
-    return center, float(np.linalg.norm((points - center) / scale, axis=1).max() * scale)
+    centre = middle + scale * centre
+    return centre, float(np.linalg.norm((points - centre) / scale, axis=1).max() * scale)
 
 
 def _sphere_of_few(points: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
@@ -70,14 +70,14 @@ def _sphere_of_few(points: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
     for size in range(1, min(len(points), 4) + 1):
         for chosen in combinations(points, size):
             subset = np.array(chosen)
-            center = _circumcenter(subset)
-            radius = float(np.linalg.norm(points - center, axis=1).max())
+            centre = _circumcentre(subset)
+            radius = float(np.linalg.norm(points - centre, axis=1).max())
             if radius < best[1]:
-                best = (center, radius, subset)
+                best = (centre, radius, subset)
     return best
 
 
-def _circumcenter(points: np.ndarray) -> np.ndarray:
+def _circumcentre(points: np.ndarray) -> np.ndarray:
     """Point in the affine hull of one to four points that is equally far from each.
 
     Where the points are affinely dependent it is a least-squares compromise.

@@ -378,14 +378,19 @@ class Config(Model):
             case DownloadedMesh():
                 return mesh.download
             case MeshFile():
-                return Path(mesh.path).name.split(".")[0]
+                name = Path(mesh.path).name.removesuffix(".gz")
+                return Path(name).stem
 
 
-def _without_nulls(mesh: Any) -> Any:
-    """A mesh section without the keys that an overlay set to null to drop them."""
-    if not isinstance(mesh, dict):
-        return mesh
-    return {key: value for key, value in mesh.items() if value is not None}
+def _without_nulls(scene: Any) -> Any:
+    """A scene whose `mesh` and `light` lack the keys that an overlay set to null to drop them."""
+    if not isinstance(scene, dict):
+        return scene
+    return scene | {
+        key: {name: value for name, value in scene[key].items() if value is not None}
+        for key in ("mesh", "light")
+        if isinstance(scene.get(key), dict)
+    }
 
 
 def _mesh_of_shorthand(value: str) -> dict[str, str]:
@@ -409,10 +414,21 @@ def _describe(error: ValidationError) -> str:
         message = "this key is missing"
     elif problem["type"] in ("dict_type", "model_type", "model_attributes_type"):
         message = f"should be a section of keys, not {problem['input']!r}"
+    elif problem["type"] == "float_type" and _is_number(problem["input"]):
+        key = f"{key} = {problem['input']!r}"
+        message = "is text to YAML; write a number with a point, as 0.001 or 1.0e-3"
     elif problem["type"] != "value_error":  # our own checks name key and value themselves
         key = f"{key} = {problem['input']!r}"
     more = error.error_count() - 1
     return f"{key + ': ' if key else ''}{message}" + (f" (and {more} more)" if more else "")
+
+
+def _is_number(text: Any) -> bool:
+    try:
+        float(text)
+    except (TypeError, ValueError):
+        return False
+    return True
 
 
 def _locate(location: tuple[str | int, ...]) -> tuple[str, list[str]]:
@@ -467,12 +483,7 @@ def read_config(values: dict[str, Any]) -> Config:
     values = dict(values)
     scenes = values.get("scenes")
     if isinstance(scenes, dict):
-        values["scenes"] = scenes = {
-            name: scene | {"mesh": _without_nulls(scene["mesh"])}
-            if isinstance(scene, dict) and "mesh" in scene
-            else scene
-            for name, scene in scenes.items()
-        }
+        values["scenes"] = scenes = {name: _without_nulls(scene) for name, scene in scenes.items()}
     shorthand = values.get("dragon")
     if isinstance(shorthand, str) and shorthand:
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):

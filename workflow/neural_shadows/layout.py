@@ -133,6 +133,10 @@ class Layout:
         """The scene that a table is about."""
         return self.evaluation_scene(self.table_evaluation(table))
 
+    def is_procedural(self, scene: str) -> bool:
+        """Whether the pipeline makes a scene's mesh itself."""
+        return isinstance(self.config.scenes[scene].mesh, GeneratedMesh)
+
     def table_rows(self, table: str) -> list[dict[str, Any]]:
         """The rows of a table as plain data."""
         return [plain(row) for row in self.config.tables[table].rows]

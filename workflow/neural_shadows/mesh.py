@@ -185,7 +185,7 @@ def prepare_mesh(source: Path, mesh_ply: Path, mesh_json: Path, *, name: str) ->
     Args:
         source: any mesh that `read_mesh` reads.
         mesh_ply: the mesh in normalised space, as binary float32 PLY.
-        mesh_json: the report: `name`, `source` (file name) and its `sha256`, `center` (c) and
+        mesh_json: the report: `name`, `source` (file name) and its `sha256`, `centre` (c) and
             `radius` (r) in the source's unit, and the report of `clean_mesh`.
         name: what tables call the mesh; messages name its file.
 
@@ -197,8 +197,8 @@ def prepare_mesh(source: Path, mesh_ply: Path, mesh_json: Path, *, name: str) ->
     """
     source = Path(source)
     vertices, faces, report = clean_mesh(*read_mesh(source), str(source))
-    center, radius = minimal_bounding_sphere(vertices)
-    normalised = ((vertices - center) / radius).astype(np.float32)
+    centre, radius = minimal_bounding_sphere(vertices)
+    normalised = ((vertices - centre) / radius).astype(np.float32)
     # float32 can bring distinct vertices together (its spacing at 1 is 6e-8), so what is
     # written is cleaned once more.
     normalised, faces, again = clean_mesh(normalised, faces, str(source))
@@ -208,7 +208,7 @@ def prepare_mesh(source: Path, mesh_ply: Path, mesh_json: Path, *, name: str) ->
             "name": name,
             "source": source.name,
             "sha256": sha256_of(source),
-            "center": center.tolist(),
+            "centre": centre.tolist(),
             "radius": radius,
         }
         | report

@@ -281,14 +281,14 @@ def _is_free_on_sphere(point, radius, points, latest, before):
 
 
 @njit(cache=True, nogil=True)
-def _draw_around(center, radius, rng, out):
-    """A point of the sphere with its chord to `center` in [r, 2r], uniform in area, into `out`."""
+def _draw_around(centre, radius, rng, out):
+    """A point of the sphere with its chord to `centre` in [r, 2r], uniform in area, into `out`."""
     # The cap within a chord c has the area π c², so c² is uniform; on the axis 1 − c² / 2.
     chord2 = radius**2 * (1 + rng.random() * (min(4.0, 4 / radius**2) - 1))
     along = 1 - chord2 / 2
-    # A random vector less its part along the center: a uniform direction across.
+    # A random vector less its part along the centre: a uniform direction across.
     out[0], out[1], out[2] = rng.normal(), rng.normal(), rng.normal()
-    out -= np.dot(out, center) * center
+    out -= np.dot(out, centre) * centre
     out *= math.sqrt(max(0.0, 1 - along * along)) / np.linalg.norm(out)
-    out += along * center
+    out += along * centre
     out /= np.linalg.norm(out)

@@ -118,7 +118,7 @@ def _leaves(silhouette, min_quad):
 @njit(cache=True, nogil=True)
 def _meets_disk(row, column, size, resolution):
     """Whether the quad's nearest point to the origin is inside the disk."""
-    # In half texels from the center, where all corners are whole numbers.
+    # In half texels from the centre, where all corners are whole numbers.
     near_a = max(2 * column - resolution, resolution - 2 * (column + size), 0)
     near_b = max(2 * row - resolution, resolution - 2 * (row + size), 0)
     return near_a**2 + near_b**2 < (DISK_RADIUS * resolution) ** 2

@@ -2,7 +2,7 @@
 
 The plane of a direction d goes through the origin, with the basis u, v of `plane_basis`; the
 offset (a, b) is its point a·u + b·v. The square [−1, 1]² of it has `resolution`² texels: row i
-is along b, column j along a, and the center of texel (i, j) is at
+is along b, column j along a, and the centre of texel (i, j) is at
 (a, b) = ((2j + 1) / resolution − 1, (2i + 1) / resolution − 1).
 """
 
@@ -59,7 +59,7 @@ def entry_points(direction, offsets):
 
 
 def silhouette(tracer: Tracer, direction: np.ndarray, resolution: int) -> np.ndarray:
-    """The object's silhouette along a direction: an occlusion ray per texel center [3.4.2].
+    """The object's silhouette along a direction: an occlusion ray per texel centre [3.4.2].
 
     Args:
         direction: (3,) float64 unit vector.
@@ -67,10 +67,10 @@ def silhouette(tracer: Tracer, direction: np.ndarray, resolution: int) -> np.nda
 
     Returns:
         (resolution, resolution) bool, row b and column a: whether the ray through the texel's
-        center hits anything. Texels with their center outside the unit disk are False.
+        centre hits anything. Texels with their centre outside the unit disk are False.
     """
-    centers, inside = _texel_centers(resolution)
-    origins = entry_points(direction, centers)
+    centres, inside = _texel_centres(resolution)
+    origins = entry_points(direction, centres)
     image = np.zeros((resolution, resolution), bool)
     along = np.broadcast_to(direction.astype(np.float32), origins.shape)
     image[inside] = tracer.occluded(origins, along)
@@ -78,8 +78,8 @@ def silhouette(tracer: Tracer, direction: np.ndarray, resolution: int) -> np.nda
 
 
 @lru_cache(maxsize=2)
-def _texel_centers(resolution: int) -> tuple[np.ndarray, np.ndarray]:
-    """Offsets (n, 2) of the texel centers inside the unit disk, and the mask of those texels."""
+def _texel_centres(resolution: int) -> tuple[np.ndarray, np.ndarray]:
+    """Offsets (n, 2) of the texel centres inside the unit disk, and the mask of those texels."""
     axis = (2 * np.arange(resolution) + 1) / resolution - 1
     a, b = np.meshgrid(axis, axis)
     inside = a**2 + b**2 < 1

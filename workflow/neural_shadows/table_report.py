@@ -23,12 +23,10 @@ REFERENCES = {
 }
 
 
-def describe_mesh(report: Mapping[str, Any]) -> str:
+def describe_mesh(report: Mapping[str, Any], procedural: bool) -> str:
     """One phrase on a prepared mesh: name, size, whether it is closed."""
     name = report["name"]
-    kind = (
-        " (the pipeline's procedural stand-in, not the thesis's dragon)" if name == "wyrm" else ""
-    )
+    kind = " (the pipeline's procedural stand-in, not the thesis's mesh)" if procedural else ""
     closed = "watertight" if report["watertight"] else "open"
     return f"{name}{kind}, {report['faces']:,} triangles, {closed}"
 
@@ -61,6 +59,7 @@ def write_table_report(
     width: int,
     height: int,
     reference: str,
+    procedural: bool,
     seed: int,
 ) -> None:
     """Write a comparison table as CSV and Markdown, with what a reader must know below it.
@@ -70,6 +69,7 @@ def write_table_report(
         rows: see `comparison_table`.
         width, height: of the frames, in pixels.
         reference: `exact` or `shadow_map`.
+        procedural: whether the pipeline made the mesh itself.
 
     Raises:
         InputError: metrics are missing, cut short or not finite.
@@ -94,7 +94,7 @@ def write_table_report(
     notes = [
         f"Scale: {scale}; frames of {width} × {height}; seed {seed}; "
         f"made on {datetime.date.today().isoformat()}.",
-        f"Mesh: {describe_mesh(mesh)}.",
+        f"Mesh: {describe_mesh(mesh, procedural)}.",
         f"Reference: {REFERENCES[reference]}.",
         *(f"Network {describe_training(record)}." for record in records),
     ]

@@ -1,5 +1,6 @@
 """The checked configuration and the names that the rules share."""
 
+import hashlib
 import os
 import sys
 from pathlib import Path
@@ -12,6 +13,16 @@ sys.path.insert(0, str(WORKFLOW))
 SEARCH_PATH = "PYTHONPATH"
 inherited = [path for path in [os.environ.get(SEARCH_PATH)] if path]
 os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
+
+# numba keeps compiled kernels by the age of their own file: one that calls a kernel of another
+# module would stay as it was when that module is edited. Keyed by the package's content it cannot.
+package = b"".join(
+    path.read_bytes() for path in sorted(WORKFLOW.glob("neural_shadows/*.py"))
+)
+kernels = os.path.abspath(
+    f".snakemake/numba/{hashlib.sha256(package).hexdigest()[:16]}"
+)
+os.environ.update(NUMBA_CACHE_DIR=kernels)
 
 from neural_shadows import layout
 from neural_shadows.config import check_files, read_config

@@ -13,6 +13,7 @@ rule table:
         lpips=f"{RESULTS}/lpips.json",
         published="config/published.csv",
         code=code("write_table"),
+        # Not read: so that asking for the table makes its pictures too.
         pictures=f"{REPORTS}/{{table}}_pictures.png",
         preview=lambda wildcards: f"{REPORTS}/scenes/{LAYOUT.table_scene(wildcards.table)}.png",
     output:
@@ -34,6 +35,9 @@ rule table:
         width=CONFIG.rendering.width,
         height=CONFIG.rendering.height,
         reference=CONFIG.rendering.reference,
+        procedural=lambda wildcards: LAYOUT.is_procedural(
+            LAYOUT.table_scene(wildcards.table)
+        ),
         seed=lambda wildcards: CONFIG.scene_seed(LAYOUT.table_scene(wildcards.table)),
     message:
         "Writing {wildcards.table}"

@@ -23,6 +23,7 @@ def main(job):
         width=params.width,
         height=params.height,
         reference=params.reference,
+        procedural=params.procedural,
         seed=params.seed,
     )
 
