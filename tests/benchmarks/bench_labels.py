@@ -56,8 +56,12 @@ def compare(arguments: argparse.Namespace, folder: Path) -> None:
     make_directions(
         directions_npy, sampler="poisson_quadtree", directions=arguments.directions, seed=0
     )
-    mesh = read_prepared(mesh_ply)
-    tracer = Tracer(mesh.vertices, mesh.faces)
+
+    def start() -> Tracer:
+        prepared = read_prepared(mesh_ply)
+        return Tracer(prepared.vertices, prepared.faces)
+
+    mesh, tracer = read_prepared(mesh_ply), start()
     peer = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).ray
     part = {"first": 0, "last": arguments.directions, "threads": arguments.threads}
 
@@ -108,6 +112,7 @@ def compare(arguments: argparse.Namespace, folder: Path) -> None:
     times: dict[str, list[float]] = {}
     for _ in range(arguments.rounds):
         for name, work in [
+            ("start", start),
             ("rays", rays),
             ("labels", labels),
             ("traces", lambda: in_threads(trace)),
@@ -129,6 +134,7 @@ def compare(arguments: argparse.Namespace, folder: Path) -> None:
     )
     print(f"rays and labels: {both:,.0f} samples/s")
     print(f"rays: {rate('rays'):,.0f} samples/s, labels: {rate('labels'):,.0f} samples/s")
+    print(f"mesh and tree, in each of both stages: {np.median(times['start']):.2f} s")
     print(f"Embree alone, the same hits: {rate('traces'):,.0f} samples/s")
     print(f"Embree alone, the same hits and silhouettes: {ceiling:,.0f} samples/s")
     print(f"trimesh's multi-hit, {PEER_RAYS:,} rays, one thread: {single_thread:,.0f} samples/s")
