@@ -22,9 +22,11 @@ import trimesh
 from neural_shadows.hardware import processor_name
 from neural_shadows.labels import SECOND_HIT_STEP
 from neural_shadows.mesh import prepare_mesh, read_prepared
-from neural_shadows.ray_files import RaySet, make_directions, make_labels, make_rays
+from neural_shadows.ray_files import make_labels, make_rays
+from neural_shadows.ray_set import RaySet
 from neural_shadows.silhouette import silhouette
 from neural_shadows.tracing import Tracer
+from neural_shadows.view_directions import make_directions
 
 PEER_RAYS = 100_000
 

@@ -9,9 +9,9 @@ import yaml
 
 from neural_shadows.config import (
     DownloadedMesh,
-    GeneratedMesh,
     MeshFile,
     SphereLight,
+    Wyrm,
     check_files,
     json_schema,
     read_config,
@@ -55,7 +55,9 @@ def test_shipped_config_is_valid(values):
     }
     assert config.mesh_name("dragon") == "wyrm"
     maps = [f"shadow_map_{n}" for n in (2048, 1024, 512, 256, 128)]
-    assert config.methods("dragon") == [*maps, "dragon"]
+    assert config.methods(["dragon"]) == [*maps, "dragon"]
+    sampling = ["dragon_uniform_quadtree", "dragon_uniform"]
+    assert config.methods(["dragon", "dragon_sampling"]) == [*maps, "dragon", *sampling]
     assert config.compute.device == "auto" and config.rendering.reference == "exact"
 
 
@@ -75,7 +77,7 @@ def test_shipped_overlays_are_valid(values, path):
 
 TABLE = {
     "title": "Mine",
-    "evaluation": "dragon",
+    "evaluations": ["dragon"],
     "published": "4.3",
     "rows": [{"method": "dragon", "label": "Mine"}],
 }
@@ -106,14 +108,16 @@ MISTAKES = [
     ("scenes.dragon.ground", "no", ["scenes.dragon.ground = 'no'", "boolean"]),
     ("scenes.dragon.seed", 0.5, ["scenes.dragon.seed = 0.5", "integer"]),
     ("scenes.dragon.mesh", None, ["scenes.dragon.mesh = None", "{path: FILE}"]),
-    ("scenes.dragon.mesh", "wyrm", ["scenes.dragon.mesh = 'wyrm'", "{generate: wyrm}"]),
+    ("scenes.dragon.mesh", "wyrm", ["scenes.dragon.mesh = 'wyrm'", "{generate: wyrm,"]),
     ("scenes.dragon.mesh", {"foo": "x"}, ["scenes.dragon.mesh = {'foo': 'x'}", "{path: FILE}"]),
     ("trainings.base.learning_rate", "1e-3", ["'1e-3'", "text to YAML", "1.0e-3"]),
     ("scale", "networks", ["'networks'", "folder"]),
     ("scenes.dragon.mesh.path", "x.ply", ["'path': 'x.ply'", "to null"]),
     ("scenes.dragon.mesh.cels", 3, ["scenes.dragon.mesh.cels: unknown key", "generate, cells"]),
     ("scenes.dragon.mesh.cells", 7, ["scenes.dragon.mesh.cells = 7", "equal to 48"]),
-    ("scenes.dragon.mesh.generate", "dog", ["scenes.dragon.mesh.generate = 'dog'", "'wyrm'"]),
+    ("scenes.dragon.mesh.generate", "dog", ["{'generate': 'dog'}", "fence or landscape"]),
+    ("scenes.fence.mesh.wires", 1, ["scenes.fence.mesh.wires = 1", "equal to 2"]),
+    ("scenes.fence.mesh.cells", 9, ["scenes.fence.mesh.cells: unknown key", "wires, wire_radius"]),
     ("scenes.dragon.light.domain", "disk", ["scenes.dragon.light", "disk", "'single_axis'"]),
     ("scenes.dragon.light.domaine", 3, ["scenes.dragon.light.domaine", "domain, min_elev"]),
     ("scenes.dragon.light.axis", "x", ["scenes.dragon.light.axis: unknown", "min_elevation_deg"]),
@@ -151,7 +155,23 @@ MISTAKES = [
     ("tables.mine", TABLE, ["tables.mine = 'mine'", "^table_"]),
     ("tables.table_4_3.published", 4.3, ["tables.table_4_3.published = 4.3", "string"]),
     ("tables.table_4_3.published", "5.1", ["tables.table_4_3.published = '5.1'", "4"]),
-    ("tables.table_4_3.evaluation", "dog", ["tables.table_4_3.evaluation", "'dog'", "dragon"]),
+    ("tables.table_4_3.evaluations", ["dog"], ["table_4_3.evaluations", "'dog'", "dragon"]),
+    ("tables.table_4_3.evaluations", [], ["tables.table_4_3.evaluations = []", "at least 1"]),
+    (
+        "tables.table_4_3.evaluations",
+        ["dragon", "fence"],
+        ["'dragon' and 'fence' differ in `scene`", "the same"],
+    ),
+    (
+        "tables.table_4_3.evaluations",
+        ["dragon", "dragon"],
+        ["tables.table_4_3.evaluations: 'dragon' is in more than one", "each method in one"],
+    ),
+    (
+        "tables.table_4_3.rows.1.method",
+        "dragon",
+        ["tables.table_4_3.rows: ", "each method only once"],
+    ),
     ("tables.table_4_3.rows", [], ["tables.table_4_3.rows = []", "at least 1"]),
     (
         "tables.table_4_3.rows.0.method",
@@ -193,7 +213,6 @@ def test_shadows_need_a_ground(values):
 
 
 def test_networks_of_another_scene(values):
-    values = change(values, "scenes.fence", {"mesh": {"path": "fence.ply"}})
     values = change(values, "evaluations.dragon.scene", "fence")
     message = message_of(values)
     assert "evaluations.dragon.networks: 'dragon'" in message
@@ -216,7 +235,7 @@ def test_overlay_drops_a_light_key_by_null(values):
 @pytest.mark.parametrize(
     ("shorthand", "mesh", "name"),
     [
-        ("wyrm", GeneratedMesh(generate="wyrm"), "wyrm"),
+        ("wyrm", Wyrm(generate="wyrm"), "wyrm"),
         ("stanford", DownloadedMesh(download="stanford_dragon"), "stanford_dragon"),
         ("../meshes/my.dragon.ply.gz", MeshFile(path="../meshes/my.dragon.ply.gz"), "my.dragon"),
     ],
@@ -234,10 +253,10 @@ def test_dragon_shorthand(values, shorthand, mesh, name):
 def test_dragon_shorthand_keeps_what_agrees(values):
     values = change(values, "scenes.dragon.mesh.cells", 64)
     mesh = read_config({**values, "dragon": "wyrm"}).scenes["dragon"].mesh
-    assert mesh == GeneratedMesh(generate="wyrm", cells=64)
+    assert mesh == Wyrm(generate="wyrm", cells=64)
     values = change(values, "scenes.dragon.mesh", {"path": "x.ply"})
     mesh = read_config({**values, "dragon": "wyrm"}).scenes["dragon"].mesh
-    assert mesh == GeneratedMesh(generate="wyrm")
+    assert mesh == Wyrm(generate="wyrm")
 
 
 def test_dragon_shorthand_without_a_dragon(values):
@@ -254,20 +273,20 @@ def test_overlay_drops_a_mesh_key_by_null(values):
 @pytest.mark.parametrize(
     ("key", "section"),
     [
-        ("scenes.dragon.mesh.path", lambda path: {"scenes": {"dragon": {"mesh": {"path": path}}}}),
-        ("metrics.lpips.trunk", lambda path: {"metrics": {"lpips": {"trunk": path}}}),
+        ("scenes.dragon.mesh.path", lambda path: ("scenes.dragon.mesh", {"path": path})),
+        ("metrics.lpips.trunk", lambda path: ("metrics.lpips", {"trunk": path})),
     ],
 )
 def test_named_files_must_be_there(values, tmp_path, monkeypatch, key, section):
     monkeypatch.chdir(tmp_path)
-    config = read_config(values | section("here/a.ply"))
+    config = read_config(change(values, *section("here/a.ply")))
     with pytest.raises(InputError) as caught:
         check_files(config)
     message = str(caught.value)
     assert message.startswith(f"config: {key} = 'here/a.ply': no such file") and "\n" not in message
     (tmp_path / "here").mkdir()
     with pytest.raises(InputError):  # a folder on the way is no file
-        check_files(read_config(values | section("here")))
+        check_files(read_config(change(values, *section("here"))))
     (tmp_path / "here" / "a.ply").touch()
     check_files(config)
     check_files(read_config(values))  # names none

@@ -36,10 +36,11 @@ def test_imports_exist(script):
 
 def test_training_depends_on_what_decides_the_weights():
     names = names_of("train")
-    assert {"training", "network", "dead_zone_loss", "network_file", "ray_files"} <= names
+    assert {"training", "network", "dead_zone_loss", "network_file", "ray_set"} <= names
     assert not names & {
         *("tables", "table_report", "strips", "preview", "wyrm", "metrics", "frames"),
         *("config", "layout", "shadow_query", "shadow_map", "evaluation", "published"),
+        *("mesh", "ray_files", "view_directions", "ray_sampling", "light"),
     }
 
 

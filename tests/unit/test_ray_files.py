@@ -4,20 +4,15 @@ import shutil
 import numpy as np
 import pytest
 import trimesh
-from scipy.spatial import cKDTree
 from shapes import prepared
 
 from neural_shadows.errors import InputError
 from neural_shadows.files import sha256_of
 from neural_shadows.labels import dual_bounds
-from neural_shadows.ray_files import (
-    RaySet,
-    describe_rays,
-    make_directions,
-    make_labels,
-    make_rays,
-)
+from neural_shadows.ray_files import describe_rays, make_labels, make_rays
 from neural_shadows.ray_sampling import SAMPLERS
+from neural_shadows.ray_set import RaySet
+from neural_shadows.view_directions import make_directions
 
 DIRECTIONS, POINTS = 30, 400
 SETTINGS = {"silhouette_resolution": 32, "min_quad": 1, "seed": 3}
@@ -135,19 +130,6 @@ def test_gather_finds_rays_across_shards(ray_set):
             rays.gather(np.array([0, wrong]))
 
 
-def test_directions_are_poisson_disk_for_that_sampler_alone(tmp_path):
-    closest = {}
-    for sampler in SAMPLERS:
-        out = tmp_path / f"{sampler}.npy"
-        make_directions(out, sampler=sampler, directions=500, seed=1)
-        directions = np.load(out)
-        assert directions.shape == (500, 3) and directions.dtype == np.float32
-        assert np.abs(np.linalg.norm(directions, axis=1) - 1).max() < 1e-6
-        closest[sampler] = cKDTree(directions).query(directions, k=2)[0][:, 1].min()
-    assert closest["poisson_quadtree"] > 0.11  # √(0.5 · 4π / 500)
-    assert closest["uniform_quadtree"] == closest["uniform"] < 0.03
-
-
 def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
     path = tmp_path / "rays.json"
     content = describe_rays(
@@ -231,11 +213,6 @@ def test_missing_files_are_named(copy):
 
 def test_wrong_arguments_are_named(mesh_ply, ray_set, tmp_path):
     directions, out = ray_set / "directions.npy", tmp_path / "out.npy"
-    with pytest.raises(InputError, match="sampler: 'sobol'.*poisson_quadtree"):
-        make_directions(out, sampler="sobol", directions=5, seed=0)
-    with pytest.raises(InputError, match="directions: 0"):
-        make_directions(out, sampler="uniform", directions=0, seed=0)
-
     right = SETTINGS | {"sampler": "uniform", "points_per_direction": 5}
     right |= {"first": 0, "last": 30, "threads": 1}
     wrong = [

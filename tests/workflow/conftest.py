@@ -71,7 +71,7 @@ def second_scene(smoke, tmp_path_factory) -> SecondScene:
         tables={
             "table_torus": {
                 "title": "Our method and directional shadow maps on a torus",
-                "evaluation": "torus",
+                "evaluations": ["torus"],
                 "rows": [
                     {"method": "shadow_map_512", "label": "512² map"},
                     {"method": "shadow_map_128", "label": "128² map"},

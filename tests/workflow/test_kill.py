@@ -12,12 +12,12 @@ from checkout import Checkout
 
 TARGET = "reports/smoke/table_4_3.csv"
 
-# Files of each stage below results/smoke.
+# Files of each stage that the target needs, below results/smoke.
 STAGES = {
-    "sample_rays": "rays/*/*/origins.*.npy",
-    "label_rays": "rays/*/*/bounds.*.npy",
-    "train": "networks/*/weights.safetensors",
-    "evaluate": "evaluations/*/*.csv",
+    "sample_rays": "rays/dragon/poisson_quadtree/origins.*.npy",
+    "label_rays": "rays/dragon/poisson_quadtree/bounds.*.npy",
+    "train": "networks/dragon/weights.safetensors",
+    "evaluate": "evaluations/dragon/*.csv",
 }
 
 # Hold times and the machine.
@@ -34,9 +34,10 @@ def interruptible():
 
 
 def results_of(checkout: Checkout) -> dict[str, bytes]:
-    """Content of every result that does not hold times, by its path."""
+    """Content of every result of the target that does not hold times, by its path."""
     found = {TARGET: (checkout.folder / TARGET).read_bytes()}
-    for path in checkout.results.rglob("*"):
+    folders = {Path(pattern).parent for pattern in STAGES.values()}
+    for path in (path for folder in folders for path in (checkout.results / folder).iterdir()):
         name = path.relative_to(checkout.results)
         # What SIGKILL cuts short keeps its temporary, hidden name.
         if path.is_file() and name.parts[0] not in TIMED and not name.name.startswith("."):

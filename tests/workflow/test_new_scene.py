@@ -18,7 +18,6 @@ TINY = {
         }
     },
     "trainings": {"base": {"steps": 20, "batch_size": 256}},
-    "evaluations": {"dragon": {"view_sets": ["surface"]}},
     "rendering": {"width": 64, "height": 64, "views_per_set": 1, "batch": 1},
 }
 

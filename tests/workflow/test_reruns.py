@@ -38,7 +38,7 @@ def test_edited_module(finished, module, rules):
 @pytest.mark.parametrize(
     ("edit", "rules"),
     [
-        ({"tables": {"table_4_3": {"title": "Another title"}}}, {"picture_strip", "table"}),
+        ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table"}),
         ({"evaluations": {"dragon": {"depth_bias": 0.01}}}, {"evaluate", "picture_strip", "table"}),
         (
             {"trainings": {"base": {"learning_rate": 0.002}}},
@@ -65,7 +65,10 @@ def test_seed_of_one_scene(second_scene, tmp_path, edited, other):
     overlay = write_overlay(tmp_path / "seed.yaml", scenes={edited: {"seed": 7}})
     pending = second_scene.checkout.pending(overlays=[second_scene.overlay, overlay])
     assert set(pending.values()) == SEEDED
-    names = {"dragon": ("dragon", "table_4_3"), "torus": ("torus",)}
+    names = {
+        "dragon": ("dragon", "table_4_1", "table_4_2", "table_4_3", "figure_4_4", "figure_4_5"),
+        "torus": ("torus",),
+    }
     for path in pending:
         assert any(name in path for name in names[edited]), path
         assert not any(name in path for name in names[other]), path

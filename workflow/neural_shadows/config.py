@@ -5,6 +5,8 @@
 """
 
 import json
+import re
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -23,6 +25,13 @@ from neural_shadows.errors import InputError
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
 SHADOW_MAP_PREFIX = "shadow_map_"
+RAY_TRACED = "ray_traced"
+
+
+def is_shadow_map(method: str) -> bool:
+    """Whether a method's key is `shadow_map_N`."""
+    return re.fullmatch(rf"{SHADOW_MAP_PREFIX}[1-9]\d{{0,4}}", method) is not None
+
 
 # Folders below results/ and reports/, where an overlay's own folder of this name would mix with
 # the default's files.
@@ -43,12 +52,35 @@ def _check_power_of_two(value: int, key: str) -> None:
 class GeneratedMesh(Model):
     """A mesh that the pipeline makes."""
 
-    generate: Literal["wyrm"] = Field(
-        description="which procedural mesh: `wyrm`, the stand-in dragon"
-    )
+    generate: str
+
+
+class Wyrm(GeneratedMesh):
+    """The procedural stand-in dragon."""
+
+    generate: Literal["wyrm"] = Field(description="`wyrm`: a creature, the stand-in dragon")
     cells: int = Field(
         220, ge=48, le=1024, description="marching-cubes cells along the longest axis"
     )
+
+
+class Fence(GeneratedMesh):
+    """A panel of woven wire in a frame, standing on the ground [4.1.1]."""
+
+    generate: Literal["fence"] = Field(description="`fence`: diagonally crossing round wires")
+    wires: int = Field(16, ge=2, le=200, description="diamonds along the panel's width")
+    wire_radius: float = Field(
+        0.006, gt=0, le=0.1, description="radius of a wire, in widths of the panel"
+    )
+
+
+class Landscape(GeneratedMesh):
+    """A height field with extrusions, one open sheet [4.1.1]."""
+
+    generate: Literal["landscape"] = Field(description="`landscape`: one sheet of low frequency")
+    cells: int = Field(256, ge=16, le=2048, description="grid cells along a side")
+    extrusions: int = Field(12, ge=0, le=200, description="plateaus raised from the relief")
+    seed: int = Field(7, ge=0, lt=2**32, description="which landscape; places and heights")
 
 
 class DownloadedMesh(Model):
@@ -87,23 +119,30 @@ class SingleAxisLight(Model):
     )
 
 
-MESH_KINDS = {"generate": GeneratedMesh, "download": DownloadedMesh, "path": MeshFile}
+GENERATED = ("wyrm", "fence", "landscape")
 
 
 def _mesh_kind(value: Any) -> str | None:
-    kinds = [kind for kind in MESH_KINDS if isinstance(value, dict) and kind in value]
-    return kinds[0] if len(kinds) == 1 else None
+    sources = ("generate", "download", "path")
+    named = [key for key in sources if isinstance(value, dict) and key in value]
+    if named == ["generate"]:
+        made = value["generate"]
+        return made if made in GENERATED else None
+    return named[0] if len(named) == 1 else None
 
 
 Mesh = Annotated[
-    Annotated[GeneratedMesh, Tag("generate")]
+    Annotated[Wyrm, Tag("wyrm")]
+    | Annotated[Fence, Tag("fence")]
+    | Annotated[Landscape, Tag("landscape")]
     | Annotated[DownloadedMesh, Tag("download")]
     | Annotated[MeshFile, Tag("path")],
     Discriminator(
         _mesh_kind,
         custom_error_type="mesh_kind",
         custom_error_message=(
-            "should be one of {generate: wyrm}, {download: stanford_dragon}, {path: FILE} "
+            "should be one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, "
+            "{path: FILE} "
             "(an overlay drops a key of the default by setting it to null)"
         ),
     ),
@@ -114,7 +153,9 @@ class Scene(Model):
     """A mesh, how it stands and how it is lit [4.1.1]."""
 
     mesh: Mesh = Field(
-        description="one of {generate: wyrm}, {download: stanford_dragon}, {path: FILE}"
+        description=(
+            "one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, {path: FILE}"
+        )
     )
     up: Literal["x", "y", "z"] = Field("y", description="the mesh's axis that points up")
     ground: bool = Field(True, description="whether it stands on a plane that receives its shadow")
@@ -131,6 +172,9 @@ class Sampling(Model):
 
     sampler: Literal["poisson_quadtree", "uniform_quadtree", "uniform"] = Field(
         description="the sampling methods of table 4.1"
+    )
+    domain: Literal["sphere", "light"] = Field(
+        "sphere", description="view directions: the whole sphere, or the scene's light domain alone"
     )
     directions: int = Field(ge=1, le=1_000_000, description="view directions")
     points_per_direction: int = Field(
@@ -245,10 +289,10 @@ class Metrics(Model):
 
 
 class Row(Model):
-    """A row of a comparison table."""
+    """A row of a table."""
 
     method: str = Field(
-        description="`shadow_map_N`, or the name of an experiment of the table's evaluation"
+        description="`shadow_map_N`, or the name of an experiment of the table's evaluations"
     )
     label: str = Field(min_length=1, description="the row's name in the table")
     published: str | None = Field(
@@ -256,17 +300,138 @@ class Row(Model):
     )
 
 
-class Table(Model):
-    """A table of the thesis: rows of one evaluation beside the printed values."""
+class TimedRow(Row):
+    """A row of a table of frame times."""
+
+    method: str = Field(
+        description="an experiment of the table's evaluations, `shadow_map_N` or `ray_traced`"
+    )
+    scene: Name | None = Field(
+        None, description="a name in `scenes`; needed for `shadow_map_N` and `ray_traced` alone"
+    )
+
+
+class AnyTable(Model):
+    """What all tables have."""
 
     title: str = Field(min_length=1, description="heading of the table")
-    evaluation: Name = Field(description="a name in `evaluations`")
     published: str | None = Field(
         None,
         pattern=r"^4\.[1-7]$",
         description="the thesis's number of this table; null for a table of your own",
     )
+
+
+class Table(AnyTable):
+    """A table of methods on the same viewpoints, beside the values that the thesis prints."""
+
+    kind: Literal["comparison"] = Field("comparison", description="`comparison`, the default")
+    evaluations: list[Name] = Field(
+        min_length=1,
+        description="names in `evaluations`, of one scene and the same view sets; rows are theirs",
+    )
     rows: list[Row] = Field(min_length=1, description="methods, in the table's order")
+    figures: list[Name] = Field(
+        [], description="names in `figures` that are made and shown beside the table"
+    )
+
+
+class FrameTimesTable(AnyTable):
+    """A table of frame time, LPIPS and size [4.4.1]."""
+
+    kind: Literal["frame_times"] = Field(description="`frame_times`")
+    evaluations: list[Name] = Field(
+        min_length=1, description="names in `evaluations` that give the networks' LPIPS"
+    )
+    rows: list[TimedRow] = Field(min_length=1, description="methods, in the table's order")
+
+
+class MemoryTable(AnyTable):
+    """A table of the memory that methods take [4.4.2]."""
+
+    kind: Literal["memory"] = Field(description="`memory`")
+    rows: list[Row] = Field(min_length=1, description="experiments and `shadow_map_N`")
+
+
+def _table_kind(value: Any) -> str | None:
+    kind = value.get("kind", "comparison") if isinstance(value, dict) else "comparison"
+    return kind if kind in ("comparison", "frame_times", "memory") else None
+
+
+AnyTableKind = Annotated[
+    Annotated[Table, Tag("comparison")]
+    | Annotated[FrameTimesTable, Tag("frame_times")]
+    | Annotated[MemoryTable, Tag("memory")],
+    Discriminator(
+        _table_kind,
+        custom_error_type="table_kind",
+        custom_error_message="`kind` should be comparison (the default), frame_times or memory",
+    ),
+]
+
+
+class PicturesFigure(Model):
+    """The same viewpoints by every method, whole and as crops [figures 4.4 to 4.7]."""
+
+    kind: Literal["pictures"] = Field(description="`pictures`")
+    title: str = Field(min_length=1, description="heading of the figure")
+    table: str = Field(description="a comparison in `tables`; its rows are drawn")
+    view_sets: list[Literal["shadow", "surface", "centre"]] = Field(
+        min_length=1, description="view sets of the table's evaluations; the first view of each"
+    )
+
+
+class Curve(Model):
+    """A curve of a figure of training losses."""
+
+    experiment: Name = Field(description="a name in `experiments`")
+    label: str = Field(min_length=1, description="the curve's name in the figure")
+
+
+class LossFigure(Model):
+    """Training loss over steps [figures 4.1 to 4.3]."""
+
+    kind: Literal["loss"] = Field(description="`loss`")
+    title: str = Field(min_length=1, description="heading of the figure")
+    curves: list[Curve] = Field(min_length=1, description="curves, in the legend's order")
+
+
+class WidthsFigure(Model):
+    """LPIPS and frame time over layer width [figure 4.8]."""
+
+    kind: Literal["widths"] = Field(description="`widths`")
+    title: str = Field(min_length=1, description="heading of the figure")
+    table: str = Field(description="a table of `frame_times` in `tables`")
+
+
+class MethodFigure(Model):
+    """A picture of how the method works, from real data [figures 3.1 to 3.6]."""
+
+    kind: Literal[
+        "overview",
+        "shadow_boundary",
+        "view_directions",
+        "quadtree",
+        "dual_bounds",
+        "dead_zone_loss",
+    ] = Field(description="what is drawn")
+    title: str = Field(min_length=1, description="heading of the figure")
+    scene: Name = Field(description="a name in `scenes`")
+    sampling: Name = Field(description="a name in `samplings`")
+
+
+Figure = Annotated[
+    PicturesFigure | LossFigure | WidthsFigure | MethodFigure, Field(discriminator="kind")
+]
+
+
+class FrameTimes(Model):
+    """How frame times are measured [4.4.1]."""
+
+    width: int = Field(1200, ge=64, le=8192, description="pixels")
+    height: int = Field(800, ge=64, le=8192, description="pixels")
+    repeats: int = Field(15, ge=3, le=10_000, description="timed frames of each method")
+    warm_up: int = Field(2, ge=0, le=1000, description="frames of each method before those")
 
 
 class Compute(Model):
@@ -300,8 +465,12 @@ class Config(Model):
     evaluations: dict[Name, Evaluation] = Field(description="comparisons to render, by name")
     rendering: Rendering = Field(description="frames and viewpoints of all evaluations")
     metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
-    tables: dict[Annotated[str, Field(pattern=r"^table_[a-z0-9_]+$")], Table] = Field(
+    frame_times: FrameTimes = Field(FrameTimes(), description="how frame times are measured")
+    tables: dict[Annotated[str, Field(pattern=r"^table_[a-z0-9_]+$")], AnyTableKind] = Field(
         description="tables to write, by name: `table_` and the thesis's number"
+    )
+    figures: dict[Annotated[str, Field(pattern=r"^figure_[a-z0-9_]+$")], Figure] = Field(
+        {}, description="figures to draw, by name: `figure_` and the thesis's number"
     )
 
     @model_validator(mode="after")
@@ -319,10 +488,10 @@ class Config(Model):
                 f"allowed: any other than {', '.join(sorted(RESERVED_SCALES))}"
             )
         for name, experiment in self.experiments.items():
-            if name == "reference" or name.startswith(SHADOW_MAP_PREFIX):
+            if name in ("reference", RAY_TRACED) or name.startswith(SHADOW_MAP_PREFIX):
                 raise ValueError(
-                    f"experiments.{name}: tables and pictures have a method of this name; "
-                    f"allowed: any other than 'reference' and '{SHADOW_MAP_PREFIX}…'"
+                    f"experiments.{name}: tables and pictures have a method of this name; allowed: "
+                    f"any other than 'reference', '{RAY_TRACED}' and '{SHADOW_MAP_PREFIX}…'"
                 )
             for key in ("scene", "sampling", "network", "training"):
                 known(f"{key}s", getattr(experiment, key), f"experiments.{name}.{key}")
@@ -342,13 +511,34 @@ class Config(Model):
                     "allowed here: 'surface', 'centre'"
                 )
         for name, table in self.tables.items():
-            known("evaluations", table.evaluation, f"tables.{name}.evaluation")
-            methods = self.methods(table.evaluation)
-            for row in table.rows:
-                if row.method not in methods:
+            for evaluation in getattr(table, "evaluations", []):
+                known("evaluations", evaluation, f"tables.{name}.evaluations")
+            for figure in getattr(table, "figures", []):
+                known("figures", figure, f"tables.{name}.figures")
+            self._check_table(name, table)
+        for name, figure in self.figures.items():
+            match figure:
+                case PicturesFigure() | WidthsFigure():
+                    known("tables", figure.table, f"figures.{name}.table")
+                    wanted = "comparison" if figure.kind == "pictures" else "frame_times"
+                    if self.tables[figure.table].kind != wanted:
+                        raise ValueError(
+                            f"figures.{name}.table: {figure.table!r} is a table of "
+                            f"{self.tables[figure.table].kind}; allowed: one of {wanted}"
+                        )
+                case LossFigure():
+                    for curve in figure.curves:
+                        known("experiments", curve.experiment, f"figures.{name}.curves")
+                case MethodFigure():
+                    known("scenes", figure.scene, f"figures.{name}.scene")
+                    known("samplings", figure.sampling, f"figures.{name}.sampling")
+            if isinstance(figure, PicturesFigure):
+                rendered = self.evaluations[self.tables[figure.table].evaluations[0]].view_sets
+                missing = [view_set for view_set in figure.view_sets if view_set not in rendered]
+                if missing:
                     raise ValueError(
-                        f"tables.{name}.rows: no such method in the evaluation "
-                        f"{table.evaluation!r}: {row.method!r}; allowed: {', '.join(methods)}"
+                        f"figures.{name}.view_sets: {missing[0]!r} is not rendered for "
+                        f"{figure.table}; allowed: {', '.join(rendered)}"
                     )
         for name, scene in self.scenes.items():
             if isinstance(scene.light, SingleAxisLight) and scene.light.axis == scene.up:
@@ -358,11 +548,80 @@ class Config(Model):
                 )
         return self
 
-    def methods(self, evaluation: str) -> list[str]:
-        """Keys of the methods of an evaluation: its shadow maps, then its networks."""
-        settings = self.evaluations[evaluation]
-        maps = [f"{SHADOW_MAP_PREFIX}{resolution}" for resolution in settings.shadow_maps]
-        return maps + settings.networks
+    def _check_table(self, name: str, table: "Table | FrameTimesTable | MemoryTable") -> None:
+        keys = [(row.method, getattr(row, "scene", None)) for row in table.rows]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise ValueError(f"tables.{name}.rows: {key[0]!r}: must name each method only once")
+        match table:
+            case Table():
+                self._check_comparison(name, table)
+            case FrameTimesTable():
+                for row in table.rows:
+                    self._check_timed_row(name, table, row)
+            case MemoryTable():
+                for row in table.rows:
+                    if row.method not in self.experiments and not is_shadow_map(row.method):
+                        raise ValueError(
+                            f"tables.{name}.rows: no such method: {row.method!r}; "
+                            f"allowed: shadow_map_N, {', '.join(self.experiments)}"
+                        )
+
+    def _check_comparison(self, name: str, table: Table) -> None:
+        first = self.evaluations[table.evaluations[0]]
+        for evaluation in table.evaluations[1:]:
+            for key in ("scene", "view_sets"):
+                value, other = getattr(first, key), getattr(self.evaluations[evaluation], key)
+                if value != other:
+                    raise ValueError(
+                        f"tables.{name}.evaluations: {table.evaluations[0]!r} and {evaluation!r} "
+                        f"differ in `{key}`: {value!r} and {other!r}; allowed: the same"
+                    )
+        methods = self.methods(table.evaluations)
+        twice = sorted({method for method in methods if methods.count(method) > 1})
+        if twice:
+            raise ValueError(
+                f"tables.{name}.evaluations: {twice[0]!r} is in more than one of them; "
+                "allowed: each method in one"
+            )
+        for row in table.rows:
+            if row.method not in methods:
+                raise ValueError(
+                    f"tables.{name}.rows: no such method in the evaluations "
+                    f"{', '.join(table.evaluations)}: {row.method!r}; allowed: {', '.join(methods)}"
+                )
+
+    def _check_timed_row(self, name: str, table: FrameTimesTable, row: TimedRow) -> None:
+        networks = [
+            network for key in table.evaluations for network in self.evaluations[key].networks
+        ]
+        if row.method in networks:
+            if row.scene is not None:
+                raise ValueError(
+                    f"tables.{name}.rows: {row.method!r} has its own scene; leave `scene` out"
+                )
+        elif row.method == RAY_TRACED or is_shadow_map(row.method):
+            if row.scene not in self.scenes:
+                raise ValueError(
+                    f"tables.{name}.rows: {row.method!r} needs a `scene`, not {row.scene!r}; "
+                    f"allowed: {', '.join(self.scenes)}"
+                )
+        else:
+            raise ValueError(
+                f"tables.{name}.rows: no such method: {row.method!r}; "
+                f"allowed: {RAY_TRACED}, shadow_map_N, {', '.join(networks)}"
+            )
+
+    def methods(self, evaluations: Iterable[str]) -> list[str]:
+        """Keys of the methods of evaluations: of each its shadow maps, then its networks."""
+        return [
+            method
+            for settings in (self.evaluations[name] for name in evaluations)
+            for method in (
+                *(f"{SHADOW_MAP_PREFIX}{resolution}" for resolution in settings.shadow_maps),
+                *settings.networks,
+            )
+        ]
 
     def scene_seed(self, scene: str) -> int:
         """The seed of everything drawn for a scene."""
@@ -431,6 +690,9 @@ def _is_number(text: Any) -> bool:
     return True
 
 
+TAGS = ("domain", "generate", "kind")  # keys whose value tells which section of a union it is
+
+
 def _locate(location: tuple[str | int, ...]) -> tuple[str, list[str]]:
     """The config key of an error's location, and the keys allowed in its section.
 
@@ -454,7 +716,7 @@ def _locate(location: tuple[str | int, ...]) -> tuple[str, list[str]]:
                 kind
                 for kind in kinds
                 if part in kind["properties"]
-                or kind["properties"].get("domain", {}).get("const") == part
+                or part in (kind["properties"].get(key, {}).get("const") for key in TAGS)
             ]
             node = tagged[0] if tagged else {}
             continue

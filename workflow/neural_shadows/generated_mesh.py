@@ -1,22 +1,25 @@
 """The stage that makes procedural meshes."""
 
 from pathlib import Path
+from typing import Any
 
 import trimesh
 
+from neural_shadows.fence import make_fence
 from neural_shadows.files import whole_file
+from neural_shadows.landscape import make_landscape
 from neural_shadows.wyrm import make_wyrm
 
+MAKERS = {"wyrm": make_wyrm, "fence": make_fence, "landscape": make_landscape}
 
-def generate_mesh(mesh_ply: str | Path, *, generate: str, cells: int) -> None:
+
+def generate_mesh(mesh_ply: str | Path, *, generate: str, **parameters: Any) -> None:
     """Write a procedural mesh as binary PLY.
 
     Args:
-        generate: which mesh; `wyrm` is the only one.
-        cells: marching-cubes cells along its longest axis.
+        generate: which mesh, a key of `MAKERS`.
+        parameters: what its maker takes, as the scene's `mesh` section names them.
     """
-    if generate != "wyrm":
-        raise ValueError(f"no procedural mesh is named {generate!r}")
-    vertices, faces = make_wyrm(cells)
+    vertices, faces = MAKERS[generate](**parameters)
     with whole_file(mesh_ply) as part:
         trimesh.Trimesh(vertices, faces, process=False).export(part, file_type="ply")

@@ -1,5 +1,6 @@
 """Where each result lies, and which part of the work each job does: all that rules look up."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from pydantic import BaseModel
@@ -21,6 +22,11 @@ def part_range(total: int, parts: int, part: int) -> tuple[int, int]:
 def numbers(count: int) -> list[str]:
     """Names of numbered parts: 000, 001, …"""
     return [f"{part:03d}" for part in range(count)]
+
+
+def one_of(names: Sequence[str]) -> str:
+    """The regular expression of a wildcard that is one of `names`; nothing matches if none is."""
+    return "|".join(names) or "(?!)"
 
 
 def plain(value: Any) -> Any:
@@ -109,12 +115,6 @@ class Layout:
             for part in numbers(count)
         ]
 
-    def first_batches(self, evaluation: str, ending: str) -> list[str]:
-        """Files of the first batch of each view set; its first frame is the one shown."""
-        return [
-            path for path in self.batches(evaluation, ending) if path.endswith(f".000.{ending}")
-        ]
-
     def view_range(self, batch: str) -> tuple[int, int]:
         """First and last (exclusive) viewpoint of a batch."""
         rendering = self.config.rendering
@@ -125,13 +125,25 @@ class Layout:
         """The scene that an evaluation renders."""
         return self.config.evaluations[evaluation].scene
 
-    def table_evaluation(self, table: str) -> str:
-        """The evaluation that a table shows."""
-        return self.config.tables[table].evaluation
+    def table_batches(self, table: str, ending: str) -> list[str]:
+        """Files of all batches of a table's evaluations."""
+        names = self.config.tables[table].evaluations
+        return [path for name in names for path in self.batches(name, ending)]
+
+    def table_networks(self, table: str, file: str) -> list[str]:
+        """A file of each network among a table's rows."""
+        methods = [row.method for row in self.config.tables[table].rows]
+        names = [name for name in methods if name in self.config.experiments]
+        return [f"{self.results}/{NETWORK.format(experiment=name)}/{file}" for name in names]
 
     def table_scene(self, table: str) -> str:
         """The scene that a table is about."""
-        return self.evaluation_scene(self.table_evaluation(table))
+        return self.evaluation_scene(self.config.tables[table].evaluations[0])
+
+    def sampling_light(self, scene: str, sampling: str) -> dict[str, Any] | None:
+        """The light domain that view directions are drawn from; None for the whole sphere."""
+        only_light = self.config.samplings[sampling].domain == "light"
+        return self.scene_param(scene, "light") if only_light else None
 
     def is_procedural(self, scene: str) -> bool:
         """Whether the pipeline makes a scene's mesh itself."""
@@ -141,9 +153,36 @@ class Layout:
         """The rows of a table as plain data."""
         return [plain(row) for row in self.config.tables[table].rows]
 
+    def table_figures(self, table: str) -> list[str]:
+        """The figures that are made beside a table."""
+        return [f"{self.reports}/{name}.png" for name in self.config.tables[table].figures]
+
+    def tables_of(self, kind: str) -> list[str]:
+        """Names of the tables of a kind."""
+        return [name for name, table in self.config.tables.items() if table.kind == kind]
+
+    def figures_of(self, *kinds: str) -> list[str]:
+        """Names of the figures of some kinds."""
+        return [name for name, figure in self.config.figures.items() if figure.kind in kinds]
+
+    def pictures_table(self, figure: str) -> str:
+        """The table whose rows a figure of pictures shows."""
+        return self.config.figures[figure].table
+
+    def first_batches(self, figure: str, ending: str) -> list[str]:
+        """Files of the first batches of a figure's view sets; their first frames are shown."""
+        settings = self.config.figures[figure]
+        return [
+            path
+            for evaluation in self.config.tables[settings.table].evaluations
+            for path in self.batches(evaluation, ending)
+            for view_set in settings.view_sets
+            if path.endswith(f"/{view_set}.000.{ending}")
+        ]
+
     def all_reports(self) -> list[str]:
         """Everything that `rule all` makes."""
-        endings = (".csv", ".md", "_pictures.png", "_pictures.svg")
-        return [
-            f"{self.reports}/{table}{ending}" for table in self.config.tables for ending in endings
-        ] + [f"{self.reports}/scenes/{scene}.png" for scene in self.config.scenes]
+        tables = [f"{name}{ending}" for name in self.config.tables for ending in (".csv", ".md")]
+        figures = [f"{name}{ending}" for name in self.config.figures for ending in (".png", ".svg")]
+        previews = [f"scenes/{scene}.png" for scene in self.config.scenes]
+        return [f"{self.reports}/{name}" for name in tables + figures + previews]

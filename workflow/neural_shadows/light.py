@@ -30,6 +30,33 @@ def light_basis(light: np.ndarray) -> np.ndarray:
     return np.stack([u, np.cross(light, u), light])
 
 
+def lowest_elevation(domain: dict) -> float:
+    """A light domain's `min_elevation_deg` in radians.
+
+    Raises:
+        InputError: it is not in [0, 90) degrees.
+    """
+    lowest = domain["min_elevation_deg"]
+    if not 0 <= lowest < 90:
+        raise InputError(f"light.min_elevation_deg: {lowest} is not in [0, 90); give degrees")
+    return float(np.radians(lowest))
+
+
+def arc_directions(domain: dict, up: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Unit vectors (..., 3) towards the light at `angle` (...) from the zenith on an arc [4.1.1].
+
+    The arc is a turn about the horizontal `axis` of a `single_axis` domain.
+
+    Raises:
+        InputError: the axis is none, or not horizontal.
+    """
+    axis = axis_vector(domain["axis"], "light.axis")
+    if abs(axis @ up) > 1e-6:
+        raise InputError(f"light.axis: {domain['axis']} is not horizontal; pick one across `up`")
+    angle = np.asarray(angle)[..., None]
+    return np.cos(angle) * up + np.sin(angle) * np.cross(axis, up)
+
+
 def draw_light(domain: dict, up: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Unit vector (3,) towards the light, float64, drawn from a scene's `light` domain [4.1].
 
@@ -43,22 +70,15 @@ def draw_light(domain: dict, up: np.ndarray, rng: np.random.Generator) -> np.nda
     Raises:
         InputError: a value of `domain` is wrong.
     """
-    lowest = domain["min_elevation_deg"]
-    if not 0 <= lowest < 90:
-        raise InputError(f"light.min_elevation_deg: {lowest} is not in [0, 90); give degrees")
+    lowest = lowest_elevation(domain)
     if domain["domain"] == "sphere":
         # Archimedes: area on the sphere is uniform in height.
-        height = rng.uniform(np.sin(np.radians(lowest)), 1.0)
+        height = rng.uniform(np.sin(lowest), 1.0)
         angle = rng.uniform(0.0, 2 * np.pi)
         across = np.sqrt(1 - height**2)
         local = [across * np.cos(angle), across * np.sin(angle), height]
         return np.array(local) @ light_basis(up)
     if domain["domain"] == "single_axis":
-        axis = axis_vector(domain["axis"], "light.axis")
-        if abs(axis @ up) > 1e-6:
-            raise InputError(
-                f"light.axis: {domain['axis']} is not horizontal; pick one across `up`"
-            )
-        angle = np.radians(rng.uniform(lowest - 90, 90 - lowest))
-        return np.cos(angle) * up + np.sin(angle) * np.cross(axis, up)
+        half = np.pi / 2 - lowest
+        return arc_directions(domain, up, rng.uniform(-half, half))
     raise InputError(f"light.domain: {domain['domain']!r} is unknown; use sphere or single_axis")

@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
+from neural_shadows.errors import InputError
 from neural_shadows.poisson_disk import PatternBank
 from neural_shadows.quadtree import DISK_RADIUS, build_quadtree, disk_area
 from neural_shadows.silhouette import entry_points, silhouette
@@ -12,6 +13,18 @@ from neural_shadows.tracing import Tracer
 
 SAMPLERS = ("poisson_quadtree", "uniform_quadtree", "uniform")
 """Directions and points in quads Poisson-disk; both uniform; uniform without quads."""
+
+
+def check_sampler(sampler: str) -> None:
+    """Raise InputError for a name that is none of `SAMPLERS`."""
+    if sampler not in SAMPLERS:
+        raise InputError(f"sampler: {sampler!r} is unknown; use one of {', '.join(SAMPLERS)}")
+
+
+def check_positive(key: str, value: int) -> None:
+    """Raise InputError, naming `key`, for a number below 1."""
+    if value < 1:
+        raise InputError(f"{key}: {value} is too few; give 1 or more")
 
 
 def sample_rays(

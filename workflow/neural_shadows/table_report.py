@@ -1,6 +1,7 @@
 """The stages that turn per-view metrics and frames into a table and its pictures."""
 
 import datetime
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -127,25 +128,29 @@ def write_picture_strip(
     """Draw the first frame of each view set by every method, whole and as a crop.
 
     Args:
-        pictures: frames as `evaluate` wrote them, one file a view set.
+        pictures: frames as `evaluate` wrote them, one file for each evaluation and view set.
         metrics: the metrics of the same batches, in the same order.
     """
     labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
-    frames, captions, scores = [], [], []
+    frames, scores = defaultdict(dict), defaultdict(dict)  # by view set
     for picture_path, metrics_path in zip(pictures, metrics, strict=True):
-        with np.load(picture_path, allow_pickle=False) as images:
-            frames.append({key: images[key].astype(np.float32) / 255 for key in labels})
         values = read_metrics([metrics_path])
         values = values[values["view"] == values["view"].iloc[0]]
-        captions.append(CAPTIONS[values["view_set"].iloc[0]])
-        scores.append(
-            {
-                method: dict(zip(group["metric"], group["value"]))
-                for method, group in values.groupby("method")
-            }
-        )
+        view_set = values["view_set"].iloc[0]
+        with np.load(picture_path, allow_pickle=False) as images:
+            shown = [key for key in images if key in labels]
+            frames[view_set] |= {key: images[key].astype(np.float32) / 255 for key in shown}
+        scores[view_set] |= {
+            method: dict(zip(group["metric"], group["value"]))
+            for method, group in values.groupby("method")
+        }
+    captions = [CAPTIONS[view_set] for view_set in frames]
     mesh = read_json(mesh_json)["name"]
     figure = picture_strip(
-        frames, labels, captions, title=f"{title} ({mesh}, {scale} scale)", scores=scores
+        [*frames.values()],
+        labels,
+        captions,
+        title=f"{title} ({mesh}, {scale} scale)",
+        scores=[*scores.values()],
     )
     write_strip(figure, png, svg)

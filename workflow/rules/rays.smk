@@ -18,6 +18,10 @@ rule view_directions:
         sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
         directions=lambda wildcards: CONFIG.samplings[wildcards.sampling].directions,
         seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
+        light=lambda wildcards: LAYOUT.sampling_light(
+            wildcards.scene, wildcards.sampling
+        ),
+        up=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "up"),
     message:
         "Drawing view directions of {wildcards.scene} ({wildcards.sampling})"
     script:

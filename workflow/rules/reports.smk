@@ -3,24 +3,24 @@
 
 rule table:
     input:
-        metrics=lambda wildcards: LAYOUT.batches(
-            LAYOUT.table_evaluation(wildcards.table), "csv"
-        ),
+        metrics=lambda wildcards: LAYOUT.table_batches(wildcards.table, "csv"),
         mesh=lambda wildcards: LAYOUT.mesh(LAYOUT.table_scene(wildcards.table), "json"),
-        training=lambda wildcards: LAYOUT.networks(
-            LAYOUT.table_evaluation(wildcards.table), "training.json"
+        training=lambda wildcards: LAYOUT.table_networks(
+            wildcards.table, "training.json"
         ),
         lpips=f"{RESULTS}/lpips.json",
         published="config/published.csv",
         code=code("write_table"),
-        # Not read: so that asking for the table makes its pictures too.
-        pictures=f"{REPORTS}/{{table}}_pictures.png",
+        # Not read: so that asking for the table makes its figures too.
+        figures=lambda wildcards: LAYOUT.table_figures(wildcards.table),
         preview=lambda wildcards: f"{REPORTS}/scenes/{LAYOUT.table_scene(wildcards.table)}.png",
     output:
         csv=f"{REPORTS}/{{table}}.csv",
         md=f"{REPORTS}/{{table}}.md",
     log:
         f"{LOGS}/table/{{table}}.log",
+    wildcard_constraints:
+        table=layout.one_of(LAYOUT.tables_of("comparison")),
     conda:
         ENVIRONMENT
     threads: 1
@@ -47,19 +47,19 @@ rule table:
 
 rule picture_strip:
     input:
-        pictures=lambda wildcards: LAYOUT.first_batches(
-            LAYOUT.table_evaluation(wildcards.table), "npz"
+        pictures=lambda wildcards: LAYOUT.first_batches(wildcards.figure, "npz"),
+        metrics=lambda wildcards: LAYOUT.first_batches(wildcards.figure, "csv"),
+        mesh=lambda wildcards: LAYOUT.mesh(
+            LAYOUT.table_scene(LAYOUT.pictures_table(wildcards.figure)), "json"
         ),
-        metrics=lambda wildcards: LAYOUT.first_batches(
-            LAYOUT.table_evaluation(wildcards.table), "csv"
-        ),
-        mesh=lambda wildcards: LAYOUT.mesh(LAYOUT.table_scene(wildcards.table), "json"),
         code=code("picture_strip"),
     output:
-        png=f"{REPORTS}/{{table}}_pictures.png",
-        svg=f"{REPORTS}/{{table}}_pictures.svg",
+        png=f"{REPORTS}/{{figure}}.png",
+        svg=f"{REPORTS}/{{figure}}.svg",
     log:
-        f"{LOGS}/picture_strip/{{table}}.log",
+        f"{LOGS}/picture_strip/{{figure}}.log",
+    wildcard_constraints:
+        figure=layout.one_of(LAYOUT.figures_of("pictures")),
     conda:
         ENVIRONMENT
     threads: 1
@@ -67,10 +67,12 @@ rule picture_strip:
         mem_mb=4000,
         runtime=10,
     params:
-        title=lambda wildcards: CONFIG.tables[wildcards.table].title,
-        rows=lambda wildcards: LAYOUT.table_rows(wildcards.table),
+        title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
+        rows=lambda wildcards: LAYOUT.table_rows(
+            LAYOUT.pictures_table(wildcards.figure)
+        ),
         scale=CONFIG.scale,
     message:
-        "Drawing the pictures of {wildcards.table}"
+        "Drawing the pictures of {wildcards.figure}"
     script:
         "../scripts/picture_strip.py"

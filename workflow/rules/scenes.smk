@@ -17,8 +17,7 @@ rule generate_mesh:
         mem_mb=4000,
         runtime=10,
     params:
-        generate=lambda wildcards: CONFIG.scenes[wildcards.scene].mesh.generate,
-        cells=lambda wildcards: CONFIG.scenes[wildcards.scene].mesh.cells,
+        mesh=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "mesh"),
     message:
         "Making the mesh of scene {wildcards.scene}"
     script:

@@ -5,7 +5,7 @@ from neural_shadows.jobs import run_job
 
 
 def main(job):
-    generate_mesh(job.output.mesh, generate=job.params.generate, cells=job.params.cells)
+    generate_mesh(job.output.mesh, **job.params.mesh)
 
 
 if "snakemake" in globals():

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from neural_shadows.files import read_json
 from neural_shadows.jobs import run_job
-from neural_shadows.ray_files import RaySet
+from neural_shadows.ray_set import RaySet
 from neural_shadows.training import train
 
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from neural_shadows.jobs import run_job
-from neural_shadows.ray_files import make_directions
+from neural_shadows.view_directions import make_directions
 
 
 def main(job):
@@ -12,6 +12,8 @@ def main(job):
         sampler=job.params.sampler,
         directions=job.params.directions,
         seed=job.params.seed,
+        light=job.params.light,
+        up=job.params.up,
     )
 
 
