@@ -5,7 +5,6 @@
 """
 
 import json
-import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -21,17 +20,9 @@ from pydantic import (
 )
 
 from neural_shadows.errors import InputError
+from neural_shadows.methods import RAY_TRACED, SHADOW_MAP_PREFIX, is_shadow_map, shadow_map_key
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
-
-SHADOW_MAP_PREFIX = "shadow_map_"
-RAY_TRACED = "ray_traced"
-
-
-def is_shadow_map(method: str) -> bool:
-    """Whether a method's key is `shadow_map_N`."""
-    return re.fullmatch(rf"{SHADOW_MAP_PREFIX}[1-9]\d{{0,4}}", method) is not None
-
 
 # Folders below results/ and reports/, where an overlay's own folder of this name would mix with
 # the default's files.
@@ -618,7 +609,7 @@ class Config(Model):
             method
             for settings in (self.evaluations[name] for name in evaluations)
             for method in (
-                *(f"{SHADOW_MAP_PREFIX}{resolution}" for resolution in settings.shadow_maps),
+                *map(shadow_map_key, settings.shadow_maps),
                 *settings.networks,
             )
         ]

@@ -20,6 +20,7 @@ from neural_shadows.frames import (
 )
 from neural_shadows.light import axis_vector
 from neural_shadows.mesh import PreparedMesh, read_prepared
+from neural_shadows.methods import shadow_map_key
 from neural_shadows.metrics import Lpips, flip, psnr, shadow_error, ssim
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
@@ -41,7 +42,7 @@ def reference_of(
     if kind == "exact":
         return lambda points: reference_visibility(tracer, points)
     return lambda points: map_visibilities(mesh, tracer, [REFERENCE_MAP_RESOLUTION])(points)[
-        f"shadow_map_{REFERENCE_MAP_RESOLUTION}"
+        shadow_map_key(REFERENCE_MAP_RESOLUTION)
     ]
 
 
@@ -53,7 +54,7 @@ def map_visibilities(
     def visibilities(points: ShadingPoints) -> dict[str, np.ndarray]:
         receivers = receivers_of(shadow_map_frame(mesh.vertices, points.light), points)
         return {
-            f"shadow_map_{resolution}": shadow_map_lit(tracer, receivers, resolution)
+            shadow_map_key(resolution): shadow_map_lit(tracer, receivers, resolution)
             for resolution in resolutions
         }
 

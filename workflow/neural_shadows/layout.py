@@ -1,17 +1,20 @@
 """Where each result lies, and which part of the work each job does: all that rules look up."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from neural_shadows.config import Config, GeneratedMesh, MeshFile
+from neural_shadows.config import Config, GeneratedMesh, MeshFile, MethodFigure
+from neural_shadows.methods import is_shadow_map, resolution_of
 
 # A file name of each stage, in Snakemake's notation of wildcards.
 SCENE = "scenes/{scene}"
 RAYS = "rays/{scene}/{sampling}"
 NETWORK = "networks/{experiment}"
 EVALUATION = "evaluations/{evaluation}"
+METHOD_FIGURES = get_args(MethodFigure.model_fields["kind"].annotation)
+FRAME_TIMES = "frame_times/{table}/{scene}.json"
 
 
 def part_range(total: int, parts: int, part: int) -> tuple[int, int]:
@@ -103,7 +106,11 @@ class Layout:
     def networks(self, evaluation: str, file: str) -> list[str]:
         """A file (`weights.safetensors`, `training.json`) of each network of an evaluation."""
         names = self.config.evaluations[evaluation].networks
-        return [f"{self.results}/{NETWORK.format(experiment=name)}/{file}" for name in names]
+        return [self.network(name, file) for name in names]
+
+    def network(self, experiment: str, file: str) -> str:
+        """A file of a trained network: `weights.safetensors`, `loss.csv`, `training.json`."""
+        return f"{self.results}/{NETWORK.format(experiment=experiment)}/{file}"
 
     def batches(self, evaluation: str, ending: str) -> list[str]:
         """Files of all batches: shadow.000, shadow.001, …, surface.000, …"""
@@ -130,15 +137,93 @@ class Layout:
         names = self.config.tables[table].evaluations
         return [path for name in names for path in self.batches(name, ending)]
 
+    def table_experiments(self, table: str, scene: str | None = None) -> list[str]:
+        """The networks among a table's rows, or those of one scene."""
+        methods = [row.method for row in self.config.tables[table].rows]
+        return [
+            name
+            for name in methods
+            if name in self.config.experiments
+            and scene in (None, self.config.experiments[name].scene)
+        ]
+
     def table_networks(self, table: str, file: str) -> list[str]:
         """A file of each network among a table's rows."""
-        methods = [row.method for row in self.config.tables[table].rows]
-        names = [name for name in methods if name in self.config.experiments]
-        return [f"{self.results}/{NETWORK.format(experiment=name)}/{file}" for name in names]
+        return [self.network(name, file) for name in self.table_experiments(table)]
 
     def table_scene(self, table: str) -> str:
-        """The scene that a table is about."""
+        """The scene that a comparison is about."""
         return self.evaluation_scene(self.config.tables[table].evaluations[0])
+
+    def row_scenes(self, table: str) -> list[str]:
+        """The scene of each row of a table of frame times."""
+        return [
+            self.config.experiments[row.method].scene if row.scene is None else row.scene
+            for row in self.config.tables[table].rows
+        ]
+
+    def frame_times(self, table: str) -> list[str]:
+        """The files of a table's frame times, one a scene."""
+        scenes = dict.fromkeys(self.row_scenes(table))
+        return [
+            f"{self.results}/{FRAME_TIMES.format(table=table, scene=scene)}" for scene in scenes
+        ]
+
+    def timed_networks(self, table: str, scene: str) -> list[str]:
+        """The weights that are timed on a scene for a table."""
+        names = self.table_experiments(table, scene)
+        return [self.network(name, "weights.safetensors") for name in names]
+
+    def timed_shadow_maps(self, table: str, scene: str) -> list[int]:
+        """Resolutions of the shadow maps that are timed on a scene for a table."""
+        return [
+            resolution_of(row.method)
+            for row in self.config.tables[table].rows
+            if is_shadow_map(row.method) and row.scene == scene
+        ]
+
+    def timed_view_sets(self, table: str, scene: str) -> list[str]:
+        """The view sets whose viewpoints are timed: those of the table's evaluations, or all."""
+        return next(
+            (
+                list(self.config.evaluations[name].view_sets)
+                for name in self.config.tables[table].evaluations
+                if self.evaluation_scene(name) == scene
+            ),
+            ["surface"],
+        )
+
+    def batches_by_scene(self, table: str) -> dict[str, list[str]]:
+        """Files of per-view metrics of a table's evaluations, by scene."""
+        files: dict[str, list[str]] = {}
+        for name in self.config.tables[table].evaluations:
+            files.setdefault(self.evaluation_scene(name), []).extend(self.batches(name, "csv"))
+        return files
+
+    def memory_scene(self, table: str) -> str:
+        """The scene whose shadow maps a table of memory measures: its first network's."""
+        experiments = self.table_experiments(table)
+        if not experiments:
+            return next(iter(self.config.scenes))
+        return self.config.experiments[experiments[0]].scene
+
+    def figure_curves(self, figure: str) -> list[str]:
+        """The loss curves of a figure."""
+        curves = self.config.figures[figure].curves
+        return [self.network(curve.experiment, "loss.csv") for curve in curves]
+
+    def figure_table(self, figure: str) -> str:
+        """The table that a figure draws."""
+        return self.config.figures[figure].table
+
+    def figure_sampling(self, figure: str) -> dict[str, Any]:
+        """The sampling that a figure of the method shows."""
+        return plain(self.config.samplings[self.config.figures[figure].sampling])
+
+    def experiment_widths(self, figure: str) -> dict[str, int]:
+        """Neurons per layer of the networks of a figure's table."""
+        names = self.table_experiments(self.figure_table(figure))
+        return {name: self.network_param(name, "width") for name in names}
 
     def sampling_light(self, scene: str, sampling: str) -> dict[str, Any] | None:
         """The light domain that view directions are drawn from; None for the whole sphere."""
@@ -164,10 +249,6 @@ class Layout:
     def figures_of(self, *kinds: str) -> list[str]:
         """Names of the figures of some kinds."""
         return [name for name, figure in self.config.figures.items() if figure.kind in kinds]
-
-    def pictures_table(self, figure: str) -> str:
-        """The table whose rows a figure of pictures shows."""
-        return self.config.figures[figure].table
 
     def first_batches(self, figure: str, ending: str) -> list[str]:
         """Files of the first batches of a figure's view sets; their first frames are shown."""

@@ -194,16 +194,35 @@ def write_table(
     The Markdown is rounded, gives shares in per cent and the thesis's number beside ours, and
     ends with `notes` (scale, mesh, hardware, date, why LPIPS is missing), one a line.
     """
-    write_text(csv_path, frame.to_csv(index=False, float_format="%.6g"))
     columns = {"method": frame["method"].tolist()}
     for metric, (heading, factor, decimals) in READING.items():
         triples = frame[[metric, f"{metric}_low", f"{metric}_high"]].to_numpy(float) * factor
-        columns[heading] = [_interval(*triple, decimals) for triple in triples]
+        columns[heading] = [interval_text(*triple, decimals) for triple in triples]
         if metric in PRINTED and frame[f"thesis_{metric}"].notna().any():
-            columns[f"thesis {metric.upper()}"] = [
-                "" if np.isnan(value) else f"{value:.{decimals}f}"
-                for value in frame[f"thesis_{metric}"]
-            ]
+            columns[f"thesis {metric.upper()}"] = thesis_texts(frame[f"thesis_{metric}"], decimals)
+    legend = (
+        f"Mean over {frame['views'].iloc[0]} views [95 % bootstrap interval]; *thesis*: the "
+        "number that the thesis prints."
+    )
+    write_twins(frame, columns, csv_path, md_path, title=title, notes=[legend, *notes])
+
+
+def write_twins(
+    frame: pd.DataFrame,
+    columns: Mapping[str, Sequence[str]],
+    csv_path: str | Path,
+    md_path: str | Path,
+    *,
+    title: str,
+    notes: Sequence[str],
+) -> None:
+    """Write a table as CSV (`frame`, all digits) and as its Markdown twin for reading.
+
+    Args:
+        columns: the Markdown's cells by heading; the first column is aligned left.
+        notes: one a line, below the table.
+    """
+    write_text(csv_path, frame.to_csv(index=False, float_format="%.6g"))
     table = tabulate(
         columns,
         headers="keys",
@@ -211,15 +230,17 @@ def write_table(
         disable_numparse=True,
         colalign=["left"] + ["right"] * (len(columns) - 1),
     )
-    legend = (
-        f"Mean over {frame['views'].iloc[0]} views [95 % bootstrap interval]; *thesis*: the "
-        "number that the thesis prints."
-    )
-    items = "\n".join(f"- {note}" for note in [legend, *notes])
+    items = "\n".join(f"- {note}" for note in notes)
     write_text(md_path, f"# {title}\n\n{table}\n\n{items}\n")
 
 
-def _interval(mean: float, low: float, high: float, decimals: int) -> str:
-    if np.isnan(mean):
+def thesis_texts(values: Iterable[float], decimals: int) -> list[str]:
+    """Cells of printed numbers; empty where the thesis prints none."""
+    return ["" if np.isnan(value) else f"{value:.{decimals}f}" for value in values]
+
+
+def interval_text(value: float, low: float, high: float, decimals: int) -> str:
+    """A cell: value [low, high], or `not available` for NaN."""
+    if np.isnan(value):
         return "not available"
-    return f"{mean:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
+    return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"

@@ -77,3 +77,50 @@ rule evaluate:
         "Rendering {wildcards.evaluation}, {wildcards.view_set} viewpoints, batch {wildcards.batch}"
     script:
         "../scripts/evaluate.py"
+
+
+rule frame_times:
+    input:
+        mesh=f"{SCENE}/mesh.ply",
+        weights=lambda wildcards: LAYOUT.timed_networks(
+            wildcards.table, wildcards.scene
+        ),
+        code=code("frame_times"),
+    output:
+        times=f"{RESULTS}/{layout.FRAME_TIMES}",
+    log:
+        f"{LOGS}/frame_times/{{table}}.{{scene}}.log",
+    benchmark:
+        f"{BENCHMARKS}/frame_times/{{table}}.{{scene}}.tsv"
+    conda:
+        ENVIRONMENT
+    # All cores that there are, though it computes on one: nothing else of this run may disturb.
+    threads: workflow.cores or 1
+    resources:
+        mem_mb=4000,
+        runtime=120,
+        gpu=GPUS,
+    params:
+        networks=lambda wildcards: LAYOUT.table_experiments(
+            wildcards.table, wildcards.scene
+        ),
+        shadow_maps=lambda wildcards: LAYOUT.timed_shadow_maps(
+            wildcards.table, wildcards.scene
+        ),
+        view_sets=lambda wildcards: LAYOUT.timed_view_sets(
+            wildcards.table, wildcards.scene
+        ),
+        up=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "up"),
+        ground=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "ground"),
+        light=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "light"),
+        width=CONFIG.frame_times.width,
+        height=CONFIG.frame_times.height,
+        repeats=CONFIG.frame_times.repeats,
+        warm_up=CONFIG.frame_times.warm_up,
+        seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
+        device=CONFIG.compute.device,
+        precision=CONFIG.compute.precision,
+    message:
+        "Timing frames of {wildcards.scene} for {wildcards.table}"
+    script:
+        "../scripts/frame_times.py"

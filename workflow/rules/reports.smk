@@ -50,7 +50,7 @@ rule picture_strip:
         pictures=lambda wildcards: LAYOUT.first_batches(wildcards.figure, "npz"),
         metrics=lambda wildcards: LAYOUT.first_batches(wildcards.figure, "csv"),
         mesh=lambda wildcards: LAYOUT.mesh(
-            LAYOUT.table_scene(LAYOUT.pictures_table(wildcards.figure)), "json"
+            LAYOUT.table_scene(LAYOUT.figure_table(wildcards.figure)), "json"
         ),
         code=code("picture_strip"),
     output:
@@ -69,10 +69,178 @@ rule picture_strip:
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
         rows=lambda wildcards: LAYOUT.table_rows(
-            LAYOUT.pictures_table(wildcards.figure)
+            LAYOUT.figure_table(wildcards.figure)
         ),
         scale=CONFIG.scale,
     message:
         "Drawing the pictures of {wildcards.figure}"
     script:
         "../scripts/picture_strip.py"
+
+
+rule performance_table:
+    input:
+        times=lambda wildcards: LAYOUT.frame_times(wildcards.table),
+        metrics=lambda wildcards: LAYOUT.table_batches(wildcards.table, "csv"),
+        weights=lambda wildcards: LAYOUT.table_networks(
+            wildcards.table, "weights.safetensors"
+        ),
+        training=lambda wildcards: LAYOUT.table_networks(
+            wildcards.table, "training.json"
+        ),
+        published="config/published.csv",
+        code=code("performance_table"),
+    output:
+        csv=f"{REPORTS}/{{table}}.csv",
+        md=f"{REPORTS}/{{table}}.md",
+    log:
+        f"{LOGS}/table/{{table}}.log",
+    wildcard_constraints:
+        table=layout.one_of(LAYOUT.tables_of("frame_times")),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        title=lambda wildcards: CONFIG.tables[wildcards.table].title,
+        number=lambda wildcards: CONFIG.tables[wildcards.table].published,
+        rows=lambda wildcards: LAYOUT.table_rows(wildcards.table),
+        scenes=lambda wildcards: LAYOUT.row_scenes(wildcards.table),
+        batches=lambda wildcards: LAYOUT.batches_by_scene(wildcards.table),
+        experiments=lambda wildcards: LAYOUT.table_experiments(wildcards.table),
+        scale=CONFIG.scale,
+        seed=CONFIG.seed,
+    message:
+        "Writing {wildcards.table}"
+    script:
+        "../scripts/performance_table.py"
+
+
+rule memory_table:
+    input:
+        mesh=lambda wildcards: LAYOUT.mesh(LAYOUT.memory_scene(wildcards.table), "ply"),
+        weights=lambda wildcards: LAYOUT.table_networks(
+            wildcards.table, "weights.safetensors"
+        ),
+        published="config/published.csv",
+        code=code("memory_table"),
+    output:
+        csv=f"{REPORTS}/{{table}}.csv",
+        md=f"{REPORTS}/{{table}}.md",
+    log:
+        f"{LOGS}/table/{{table}}.log",
+    wildcard_constraints:
+        table=layout.one_of(LAYOUT.tables_of("memory")),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=10,
+    params:
+        title=lambda wildcards: CONFIG.tables[wildcards.table].title,
+        number=lambda wildcards: CONFIG.tables[wildcards.table].published,
+        rows=lambda wildcards: LAYOUT.table_rows(wildcards.table),
+        experiments=lambda wildcards: LAYOUT.table_experiments(wildcards.table),
+        scale=CONFIG.scale,
+    message:
+        "Writing {wildcards.table}"
+    script:
+        "../scripts/memory_table.py"
+
+
+rule loss_figure:
+    input:
+        losses=lambda wildcards: LAYOUT.figure_curves(wildcards.figure),
+        code=code("loss_figure"),
+    output:
+        png=f"{REPORTS}/{{figure}}.png",
+        svg=f"{REPORTS}/{{figure}}.svg",
+    log:
+        f"{LOGS}/loss_figure/{{figure}}.log",
+    wildcard_constraints:
+        figure=layout.one_of(LAYOUT.figures_of("loss")),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
+        labels=lambda wildcards: [
+            curve.label for curve in CONFIG.figures[wildcards.figure].curves
+        ],
+        scale=CONFIG.scale,
+    message:
+        "Drawing the loss curves of {wildcards.figure}"
+    script:
+        "../scripts/loss_figure.py"
+
+
+rule width_figure:
+    input:
+        table=lambda wildcards: f"{REPORTS}/{LAYOUT.figure_table(wildcards.figure)}.csv",
+        code=code("width_figure"),
+    output:
+        png=f"{REPORTS}/{{figure}}.png",
+        svg=f"{REPORTS}/{{figure}}.svg",
+    log:
+        f"{LOGS}/width_figure/{{figure}}.log",
+    wildcard_constraints:
+        figure=layout.one_of(LAYOUT.figures_of("widths")),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
+        rows=lambda wildcards: LAYOUT.table_rows(LAYOUT.figure_table(wildcards.figure)),
+        widths=lambda wildcards: LAYOUT.experiment_widths(wildcards.figure),
+        scale=CONFIG.scale,
+    message:
+        "Drawing {wildcards.figure}"
+    script:
+        "../scripts/width_figure.py"
+
+
+rule method_figure:
+    input:
+        mesh=lambda wildcards: LAYOUT.mesh(
+            CONFIG.figures[wildcards.figure].scene, "ply"
+        ),
+        report=lambda wildcards: LAYOUT.mesh(
+            CONFIG.figures[wildcards.figure].scene, "json"
+        ),
+        code=code("method_figure"),
+    output:
+        png=f"{REPORTS}/{{figure}}.png",
+        svg=f"{REPORTS}/{{figure}}.svg",
+    log:
+        f"{LOGS}/method_figure/{{figure}}.log",
+    wildcard_constraints:
+        figure=layout.one_of(LAYOUT.figures_of(*layout.METHOD_FIGURES)),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=10,
+    params:
+        kind=lambda wildcards: CONFIG.figures[wildcards.figure].kind,
+        title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
+        up=lambda wildcards: LAYOUT.scene_param(
+            CONFIG.figures[wildcards.figure].scene, "up"
+        ),
+        sampling=lambda wildcards: LAYOUT.figure_sampling(wildcards.figure),
+        seed=lambda wildcards: CONFIG.scene_seed(
+            CONFIG.figures[wildcards.figure].scene
+        ),
+    message:
+        "Drawing {wildcards.figure}"
+    script:
+        "../scripts/method_figure.py"

@@ -1,0 +1,181 @@
+"""How long a frame takes by each way of shadowing it, on one machine [4.4.1]."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from neural_shadows.compute import choose_device, choose_dtype
+from neural_shadows.files import write_json
+from neural_shadows.frames import (
+    ShadingPoints,
+    ground_height,
+    primary_hits,
+    reference_visibility,
+    shade,
+)
+from neural_shadows.hardware import describe_machine
+from neural_shadows.light import axis_vector
+from neural_shadows.mesh import PreparedMesh, read_prepared
+from neural_shadows.methods import RAY_TRACED, shadow_map_key
+from neural_shadows.network import ShadowNetwork
+from neural_shadows.network_file import load_network
+from neural_shadows.progress import progress_bar
+from neural_shadows.shadow_map import (
+    depth_test,
+    receivers_of,
+    shadow_map_frame,
+    texel_heights,
+    texels_of,
+)
+from neural_shadows.shadow_query import network_lit, sphere_rays
+from neural_shadows.tracing import Tracer
+from neural_shadows.viewpoints import draw_viewpoints
+
+# Lit (m,) bool of a frame's facing points.
+ShadowPass = Callable[[ShadingPoints], np.ndarray]
+
+
+def whole_map_lit(
+    mesh: PreparedMesh, tracer: Tracer, points: ShadingPoints, resolution: int
+) -> np.ndarray:
+    """Render a shadow map whole, as a renderer does before it knows its receivers, and look it up.
+
+    Returns lit (m,) bool, the same as `shadow_map_lit`, which traces only the texels in use.
+    """
+    frame = shadow_map_frame(mesh.vertices, points.light)
+    heights = texel_heights(tracer, frame, resolution, np.arange(resolution**2))
+    receivers = receivers_of(frame, points)
+    return depth_test(receivers, heights[texels_of(receivers, resolution)], resolution)
+
+
+def shadow_passes(
+    mesh: PreparedMesh,
+    tracer: Tracer,
+    networks: Mapping[str, ShadowNetwork],
+    shadow_maps: Sequence[int],
+    dtype: torch.dtype,
+) -> dict[str, ShadowPass]:
+    """The shadow pass of each method: `ray_traced`, `shadow_map_N`, then networks by name."""
+    passes: dict[str, ShadowPass] = {
+        RAY_TRACED: lambda points: reference_visibility(tracer, points)
+    }
+    for resolution in shadow_maps:
+        passes[shadow_map_key(resolution)] = lambda points, resolution=resolution: whole_map_lit(
+            mesh, tracer, points, resolution
+        )
+    for name, network in networks.items():
+        passes[name] = lambda points, network=network: network_lit(
+            network, points.p, points.light, dtype=dtype
+        )
+    return passes
+
+
+def shadow_times(passes: Mapping[str, ShadowPass], points: ShadingPoints) -> dict[str, float]:
+    """Milliseconds that shadowing and shading a frame takes, by each method in turn.
+
+    Turns spread a disturbance of the machine over all methods.
+    """
+    milliseconds = {}
+    for name, lit_of in passes.items():
+        started = time.perf_counter()
+        # A network's answer is copied to the CPU, which waits for a GPU to be done.
+        shade(points, lit_of(points))
+        milliseconds[name] = 1000 * (time.perf_counter() - started)
+    return milliseconds
+
+
+def measure_frame_times(
+    mesh_ply: Path,
+    weights: Mapping[str, Path],
+    times_json: Path,
+    *,
+    scene: str,
+    shadow_maps: Sequence[int],
+    up: str,
+    ground: bool,
+    light: dict[str, Any],
+    view_sets: Sequence[str],
+    width: int,
+    height: int,
+    repeats: int,
+    warm_up: int,
+    seed: int,
+    device: str = "auto",
+    precision: str = "auto",
+) -> None:
+    """Time frames of a scene, ray-traced, by whole shadow maps and by networks [4.4.1].
+
+    The frames are the first of the scene's evaluation viewpoints. CPU work has one thread,
+    whatever the method, so that times compare; networks run on a GPU where there is one.
+
+    Args:
+        weights: weight files by the name of their experiment.
+        repeats: timed frames of each method; `warm_up`: frames of each before those.
+
+    Raises:
+        InputError: an input file is not whole, or a setting does not fit the scene.
+    """
+    torch.set_num_threads(1)
+    mesh = read_prepared(mesh_ply)
+    tracer = Tracer(mesh.vertices, mesh.faces)
+    up_vector = axis_vector(up, "up")
+    ground_at = ground_height(mesh, up_vector) if ground else None
+    chosen = choose_device(device)
+    dtype = choose_dtype(precision, chosen)
+    networks = {name: load_network(path)[0].to(chosen) for name, path in weights.items()}
+    passes = shadow_passes(mesh, tracer, networks, shadow_maps, dtype)
+
+    per_set = -(-repeats // len(view_sets))
+    viewpoints = draw_viewpoints(
+        mesh,
+        tracer,
+        up=up_vector,
+        ground=ground,
+        light_domain=light,
+        view_sets=view_sets,
+        indices=range(per_set),
+        width=width,
+        height=height,
+        seed=seed,
+    )
+    viewpoints = sorted(viewpoints, key=lambda view: view.index)[:repeats]  # the sets in turn
+
+    milliseconds: dict[str, list[float]] = {name: [] for name in passes}
+    rays = []
+    with progress_bar(warm_up + repeats, "frames", f"frame times of {scene}") as bar:
+        for i in range(warm_up + repeats):
+            # Timed frames begin with the first viewpoint, whatever the number before them.
+            view = viewpoints[(i - warm_up) % len(viewpoints)]
+            started = time.perf_counter()
+            points = primary_hits(mesh, tracer, view, width, height, ground_at)
+            # The same work for every method, so timed once and counted for each.
+            primary = 1000 * (time.perf_counter() - started)
+            times = shadow_times(passes, points)
+            if i >= warm_up:
+                rays.append(len(sphere_rays(points.p, points.light).index))
+                for name, value in times.items():
+                    milliseconds[name].append(primary + value)
+            bar.update()
+    write_json(
+        times_json,
+        {
+            "scene": scene,
+            "width": width,
+            "height": height,
+            "view_sets": list(view_sets),
+            "views": len(viewpoints),
+            "repeats": repeats,
+            "warm_up": warm_up,
+            "seed": seed,
+            "device": chosen.type,
+            "precision": str(dtype).removeprefix("torch."),
+            "cpu_threads": 1,
+            "machine": describe_machine(),
+            "sphere_rays": float(np.median(rays)),  # of a frame: those that a network answers
+            "methods": {name: {"ms": values} for name, values in milliseconds.items()},
+        },
+    )

@@ -1,0 +1,21 @@
+"""Keys of the methods that are no networks; a network's key is its experiment's name."""
+
+import re
+
+RAY_TRACED = "ray_traced"
+SHADOW_MAP_PREFIX = "shadow_map_"
+
+
+def shadow_map_key(resolution: int) -> str:
+    """Key of the shadow map of resolution² texels."""
+    return f"{SHADOW_MAP_PREFIX}{resolution}"
+
+
+def is_shadow_map(method: str) -> bool:
+    """Whether a method's key is `shadow_map_N`."""
+    return re.fullmatch(rf"{SHADOW_MAP_PREFIX}[1-9]\d{{0,4}}", method) is not None
+
+
+def resolution_of(method: str) -> int:
+    """N of the key `shadow_map_N`."""
+    return int(method.removeprefix(SHADOW_MAP_PREFIX))

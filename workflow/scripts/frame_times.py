@@ -1,0 +1,32 @@
+"""Time frames of a scene by each method of a table."""
+
+from pathlib import Path
+
+from neural_shadows.frame_times import measure_frame_times
+from neural_shadows.jobs import run_job
+
+
+def main(job):
+    params = job.params
+    measure_frame_times(
+        Path(job.input.mesh),
+        dict(zip(params.networks, map(Path, job.input.weights), strict=True)),
+        Path(job.output.times),
+        scene=job.wildcards.scene,
+        shadow_maps=params.shadow_maps,
+        up=params.up,
+        ground=params.ground,
+        light=params.light,
+        view_sets=params.view_sets,
+        width=params.width,
+        height=params.height,
+        repeats=params.repeats,
+        warm_up=params.warm_up,
+        seed=params.seed,
+        device=params.device,
+        precision=params.precision,
+    )
+
+
+if "snakemake" in globals():
+    run_job(snakemake, main)
