@@ -178,6 +178,29 @@ MISTAKES = [
         "shadow_map_64",
         ["tables.table_4_3.rows", "'shadow_map_64'", "shadow_map_2048, shadow_map_1024"],
     ),
+    ("claims.sampling.kind", "best", ["claims.sampling", "best", "'better', 'more'"]),
+    ("claims.sampling.section", "IV", ["claims.sampling.section = 'IV'", "^[1-9]"]),
+    ("claims.sampling.evaluations", ["dog"], ["claims.sampling.evaluations", "'dog'", "dragon"]),
+    ("claims.sampling.pairs", [["dragon", "fence"]], ["claims.sampling", "'fence'", "dragon_uni"]),
+    ("claims.sampling.pairs", [["dragon"]], ["claims.sampling.pairs.0 = ['dragon']", "at least 2"]),
+    (
+        "claims.sampling.evaluations",
+        ["dragon", "dragon_sampling", "dragon"],
+        ["claims.sampling: 'dragon' is in more than one", "each method in one"],
+    ),
+    ("claims.learning_rate.pairs", [["dragon", "x"]], ["claims.learning_rate", "'x'", "fence"]),
+    ("claims.slower_than_shadow_maps.at_least", None, ["needs `at_least`, `at_most`, or both"]),
+    (
+        "claims.slower_than_shadow_maps.table",
+        "table_4_3",
+        ["claims.slower_than_shadow_maps.table: 'table_4_3'", "allowed: table_4_6"],
+    ),
+    (
+        "claims.slower_than_shadow_maps.pairs",
+        [["dragon", "landscape_axis"]],
+        ["'dragon' and 'landscape_axis' are timed together in 0 scenes", "of one scene"],
+    ),
+    ("claims.lower_bound_costs_more.methods", ["x"], ["claims.lower_bound", "'x'", "dragon"]),
     ("tables.table_4_3.rows.0.mehtod", "x", ["rows.0.mehtod: unknown key", "method, label"]),
 ]
 

@@ -416,6 +416,75 @@ Figure = Annotated[
 ]
 
 
+class AnyClaim(Model):
+    """What all claims have."""
+
+    section: str = Field(pattern=r"^[1-9](\.[1-9])*$", description="of the thesis, as 4.2.1")
+    statement: str = Field(min_length=1, description="one sentence, as the thesis draws it")
+
+
+Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
+Pairs = Annotated[
+    list[Pair], Field(min_length=1, description="comparisons, the claimed winner first")
+]
+
+
+class BetterClaim(AnyClaim):
+    """Methods compared by the mean over views of an image metric."""
+
+    kind: Literal["better"] = Field(description="`better`")
+    evaluations: list[Name] = Field(
+        min_length=1, description="names in `evaluations`, each method in one of them"
+    )
+    pairs: Pairs
+    metric: Literal["lpips", "psnr", "ssim", "flip", "shadow_error"] = Field(
+        "lpips", description="an image metric; FLIP takes LPIPS's place where its trunk is missing"
+    )
+
+
+class MoreClaim(AnyClaim):
+    """More of one kind of error than of another, for each method."""
+
+    kind: Literal["more"] = Field(description="`more`")
+    evaluations: list[Name] = Field(
+        min_length=1, description="names in `evaluations`, each method in one of them"
+    )
+    methods: list[str] = Field(min_length=1, description="methods of the evaluations")
+    more: Literal["false_shadow", "light_leak"] = Field(description="the larger error")
+    less: Literal["false_shadow", "light_leak"] = Field(description="the smaller error")
+
+
+class LowerLossClaim(AnyClaim):
+    """Networks compared by the end of their training loss."""
+
+    kind: Literal["lower_loss"] = Field(description="`lower_loss`")
+    pairs: Pairs
+
+
+class FrameTimeClaim(AnyClaim):
+    """The ratio of two methods' median frame times, within bounds."""
+
+    kind: Literal["frame_time"] = Field(description="`frame_time`")
+    table: str = Field(description="a table of `frame_times` in `tables`")
+    pairs: Annotated[
+        list[Pair],
+        Field(min_length=1, description="methods of one scene; the first's time over the second's"),
+    ]
+    at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
+    at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")
+
+    @model_validator(mode="after")
+    def _check_bounds(self):
+        if self.at_least is None and self.at_most is None:
+            raise ValueError("a claim on frame_time needs `at_least`, `at_most`, or both")
+        return self
+
+
+Claim = Annotated[
+    BetterClaim | MoreClaim | LowerLossClaim | FrameTimeClaim, Field(discriminator="kind")
+]
+
+
 class FrameTimes(Model):
     """How frame times are measured [4.4.1]."""
 
@@ -463,6 +532,7 @@ class Config(Model):
     figures: dict[Annotated[str, Field(pattern=r"^figure_[a-z0-9_]+$")], Figure] = Field(
         {}, description="figures to draw, by name: `figure_` and the thesis's number"
     )
+    claims: dict[Name, Claim] = Field({}, description="what the thesis concludes, by name")
 
     @model_validator(mode="after")
     def _check_names(self):
@@ -531,6 +601,8 @@ class Config(Model):
                         f"figures.{name}.view_sets: {missing[0]!r} is not rendered for "
                         f"{figure.table}; allowed: {', '.join(rendered)}"
                     )
+        for name, claim in self.claims.items():
+            self._check_claim(name, claim)
         for name, scene in self.scenes.items():
             if isinstance(scene.light, SingleAxisLight) and scene.light.axis == scene.up:
                 raise ValueError(
@@ -602,6 +674,60 @@ class Config(Model):
                 f"tables.{name}.rows: no such method: {row.method!r}; "
                 f"allowed: {RAY_TRACED}, shadow_map_N, {', '.join(networks)}"
             )
+
+    def _check_claim(
+        self, name: str, claim: "BetterClaim | MoreClaim | LowerLossClaim | FrameTimeClaim"
+    ) -> None:
+        for evaluation in getattr(claim, "evaluations", []):
+            if evaluation not in self.evaluations:
+                raise ValueError(
+                    f"claims.{name}.evaluations: no such name in `evaluations`: {evaluation!r}; "
+                    f"allowed: {', '.join(self.evaluations)}"
+                )
+        match claim:
+            case BetterClaim() | MoreClaim():
+                allowed = self.methods(claim.evaluations)
+            case LowerLossClaim():
+                allowed = list(self.experiments)
+            case FrameTimeClaim():
+                table = self.tables.get(claim.table)
+                if not isinstance(table, FrameTimesTable):
+                    tables = [
+                        key for key, value in self.tables.items() if value.kind == "frame_times"
+                    ]
+                    raise ValueError(
+                        f"claims.{name}.table: {claim.table!r} is no table of frame_times; "
+                        f"allowed: {', '.join(tables)}"
+                    )
+                allowed = [row.method for row in table.rows]
+        named = getattr(claim, "methods", None) or [m for pair in claim.pairs for m in pair]
+        for method in named:
+            if method not in allowed:
+                raise ValueError(
+                    f"claims.{name}: no such method: {method!r}; allowed: {', '.join(allowed)}"
+                )
+            if isinstance(claim, BetterClaim | MoreClaim) and allowed.count(method) > 1:
+                raise ValueError(
+                    f"claims.{name}: {method!r} is in more than one of its evaluations; "
+                    "allowed: each method in one"
+                )
+        if isinstance(claim, FrameTimeClaim):
+            for first, second in claim.pairs:
+                shared = self._timed_scenes(claim.table, first) & self._timed_scenes(
+                    claim.table, second
+                )
+                if len(shared) != 1:
+                    raise ValueError(
+                        f"claims.{name}.pairs: {first!r} and {second!r} are timed together in "
+                        f"{len(shared)} scenes; allowed: two methods of one scene"
+                    )
+
+    def _timed_scenes(self, table: str, method: str) -> set[str]:
+        return {
+            self.experiments[method].scene if row.scene is None else row.scene
+            for row in self.tables[table].rows
+            if row.method == method
+        }
 
     def methods(self, evaluations: Iterable[str]) -> list[str]:
         """Keys of the methods of evaluations: of each its shadow maps, then its networks."""

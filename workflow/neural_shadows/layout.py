@@ -261,6 +261,38 @@ class Layout:
             if path.endswith(f"/{view_set}.000.{ending}")
         ]
 
+    def claim_batches(self) -> dict[str, list[str]]:
+        """Files of per-view metrics by evaluation, of all evaluations that claims are about."""
+        names = [
+            name
+            for claim in self.config.claims.values()
+            for name in getattr(claim, "evaluations", [])
+        ]
+        return {name: self.batches(name, "csv") for name in dict.fromkeys(names)}
+
+    def claim_losses(self) -> dict[str, str]:
+        """The loss curve of each experiment whose loss a claim is about."""
+        names = [
+            name
+            for claim in self.config.claims.values()
+            if claim.kind == "lower_loss"
+            for pair in claim.pairs
+            for name in pair
+        ]
+        return {name: self.network(name, "loss.csv") for name in dict.fromkeys(names)}
+
+    def claim_times(self) -> dict[str, list[str]]:
+        """Files of frame times by table, of all tables that claims are about."""
+        claims = self.config.claims.values()
+        tables = [claim.table for claim in claims if claim.kind == "frame_time"]
+        return {table: self.frame_times(table) for table in dict.fromkeys(tables)}
+
+    def most_samples(self) -> int:
+        """Samples of the longest training."""
+        names = [experiment.training for experiment in self.config.experiments.values()]
+        trainings = [self.config.trainings[name] for name in names]
+        return max(training.steps * training.batch_size for training in trainings)
+
     def all_reports(self) -> list[str]:
         """Everything that `rule all` makes."""
         tables = [f"{name}{ending}" for name in self.config.tables for ending in (".csv", ".md")]

@@ -26,3 +26,43 @@ def mean_interval(
         rng=np.random.default_rng(seed),
     ).confidence_interval
     return mean, float(interval.low), float(interval.high)
+
+
+def difference_interval(
+    a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000, level: float = 0.95
+) -> tuple[float, float, float]:
+    """Difference of the means of two independent samples, (n,) and (m,): (a − b, low, high).
+
+    For values of the same views take `mean_interval` of their differences instead: what
+    the views have in common then cancels.
+    """
+    return _two_samples(a, b, _mean_difference, False, seed, resamples, level)
+
+
+def median_ratio_interval(
+    a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000, level: float = 0.95
+) -> tuple[float, float, float]:
+    """Ratio of the medians of two series (n,) taken in the same rounds: (a / b, low, high)."""
+    return _two_samples(a, b, _median_ratio, True, seed, resamples, level)
+
+
+def _mean_difference(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray:
+    return a.mean(axis) - b.mean(axis)
+
+
+def _median_ratio(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray:
+    return np.median(a, axis) / np.median(b, axis)
+
+
+def _two_samples(a, b, statistic, paired, seed, resamples, level):
+    interval = bootstrap(
+        (a, b),
+        statistic,
+        n_resamples=resamples,
+        confidence_level=level,
+        method="percentile",
+        paired=paired,
+        vectorized=True,
+        rng=np.random.default_rng(seed),
+    ).confidence_interval
+    return float(statistic(a, b)), float(interval.low), float(interval.high)

@@ -215,11 +215,13 @@ def write_twins(
     *,
     title: str,
     notes: Sequence[str],
+    text_columns: int = 1,
 ) -> None:
     """Write a table as CSV (`frame`, all digits) and as its Markdown twin for reading.
 
     Args:
-        columns: the Markdown's cells by heading; the first column is aligned left.
+        columns: the Markdown's cells by heading.
+        text_columns: how many columns from the left hold text; the others are aligned right.
         notes: one a line, below the table.
     """
     write_text(csv_path, frame.to_csv(index=False, float_format="%.6g"))
@@ -228,7 +230,7 @@ def write_twins(
         headers="keys",
         tablefmt="pipe",
         disable_numparse=True,
-        colalign=["left"] + ["right"] * (len(columns) - 1),
+        colalign=["left"] * text_columns + ["right"] * (len(columns) - text_columns),
     )
     items = "\n".join(f"- {note}" for note in notes)
     write_text(md_path, f"# {title}\n\n{table}\n\n{items}\n")

@@ -244,3 +244,35 @@ rule method_figure:
         "Drawing {wildcards.figure}"
     script:
         "../scripts/method_figure.py"
+
+
+rule claims:
+    input:
+        metrics=[path for paths in LAYOUT.claim_batches().values() for path in paths],
+        losses=list(LAYOUT.claim_losses().values()),
+        times=[path for paths in LAYOUT.claim_times().values() for path in paths],
+        code=code("write_claims"),
+    output:
+        csv=f"{REPORTS}/claims.csv",
+        md=f"{REPORTS}/claims.md",
+    log:
+        f"{LOGS}/claims.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        claims={name: layout.plain(claim) for name, claim in CONFIG.claims.items()},
+        metrics=LAYOUT.claim_batches(),
+        scenes={name: LAYOUT.evaluation_scene(name) for name in LAYOUT.claim_batches()},
+        losses=LAYOUT.claim_losses(),
+        times=LAYOUT.claim_times(),
+        scale=CONFIG.scale,
+        samples=LAYOUT.most_samples(),
+        seed=CONFIG.seed,
+    message:
+        "Testing the thesis's claims"
+    script:
+        "../scripts/write_claims.py"
