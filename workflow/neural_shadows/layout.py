@@ -254,12 +254,20 @@ class Layout:
         """Files of the first batches of a figure's view sets; their first frames are shown."""
         settings = self.config.figures[figure]
         return [
-            path
+            f"{self.results}/{EVALUATION.format(evaluation=evaluation)}/{view_set}.000.{ending}"
             for evaluation in self.config.tables[settings.table].evaluations
-            for path in self.batches(evaluation, ending)
             for view_set in settings.view_sets
-            if path.endswith(f"/{view_set}.000.{ending}")
         ]
+
+    def first_batches_by_scene(self, ending: str) -> dict[str, list[str]]:
+        """Files of the first batches of all evaluations, by scene."""
+        files: dict[str, list[str]] = {}
+        for name, evaluation in self.config.evaluations.items():
+            files.setdefault(evaluation.scene, []).extend(
+                f"{self.results}/{EVALUATION.format(evaluation=name)}/{view_set}.000.{ending}"
+                for view_set in evaluation.view_sets
+            )
+        return files
 
     def claim_batches(self) -> dict[str, list[str]]:
         """Files of per-view metrics by evaluation, of all evaluations that claims are about."""
@@ -287,6 +295,10 @@ class Layout:
         tables = [claim.table for claim in claims if claim.kind == "frame_time"]
         return {table: self.frame_times(table) for table in dict.fromkeys(tables)}
 
+    def report_claims(self) -> list[str]:
+        """The claims' Markdown, if there are claims."""
+        return [f"{self.reports}/claims.md"] if self.config.claims else []
+
     def most_samples(self) -> int:
         """Samples of the longest training."""
         names = [experiment.training for experiment in self.config.experiments.values()]
@@ -298,4 +310,6 @@ class Layout:
         tables = [f"{name}{ending}" for name in self.config.tables for ending in (".csv", ".md")]
         figures = [f"{name}{ending}" for name in self.config.figures for ending in (".png", ".svg")]
         previews = [f"scenes/{scene}.png" for scene in self.config.scenes]
-        return [f"{self.reports}/{name}" for name in tables + figures + previews]
+        claims = ["claims.csv", "claims.md"] if self.config.claims else []
+        names = tables + figures + previews + claims + ["index.html"]
+        return [f"{self.reports}/{name}" for name in names]

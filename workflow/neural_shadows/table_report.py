@@ -1,7 +1,6 @@
 """The stages that turn per-view metrics and frames into a table and its pictures."""
 
 import datetime
-from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -9,15 +8,11 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.files import read_json
+from neural_shadows.first_frames import read_first_frames
 from neural_shadows.published import read_published
 from neural_shadows.strips import picture_strip, write_strip
 from neural_shadows.tables import comparison_table, read_metrics, write_table
 
-CAPTIONS = {
-    "shadow": "aimed at the cast shadow",
-    "surface": "aimed at the object's surface (self-shadowing)",
-    "centre": "aimed at the object's centre",
-}
 REFERENCES = {
     "exact": "an exact shadow ray per pixel",
     "shadow_map": "a 32768² shadow map, as in the thesis",
@@ -132,25 +127,17 @@ def write_picture_strip(
         metrics: the metrics of the same batches, in the same order.
     """
     labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
-    frames, scores = defaultdict(dict), defaultdict(dict)  # by view set
-    for picture_path, metrics_path in zip(pictures, metrics, strict=True):
-        values = read_metrics([metrics_path])
-        values = values[values["view"] == values["view"].iloc[0]]
-        view_set = values["view_set"].iloc[0]
-        with np.load(picture_path, allow_pickle=False) as images:
-            shown = [key for key in images if key in labels]
-            frames[view_set] |= {key: images[key].astype(np.float32) / 255 for key in shown}
-        scores[view_set] |= {
-            method: dict(zip(group["metric"], group["value"]))
-            for method, group in values.groupby("method")
-        }
-    captions = [CAPTIONS[view_set] for view_set in frames]
+    frames = read_first_frames(pictures, metrics)
+    shown = [
+        {key: image.astype(np.float32) / 255 for key, image in frame.images.items()}
+        for frame in frames
+    ]
     mesh = read_json(mesh_json)["name"]
     figure = picture_strip(
-        [*frames.values()],
+        shown,
         labels,
-        captions,
+        [frame.caption for frame in frames],
         title=f"{title} ({mesh}, {scale} scale)",
-        scores=[*scores.values()],
+        scores=[frame.scores for frame in frames],
     )
     write_strip(figure, png, svg)

@@ -68,9 +68,7 @@ rule picture_strip:
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
-        rows=lambda wildcards: LAYOUT.table_rows(
-            LAYOUT.figure_table(wildcards.figure)
-        ),
+        rows=lambda wildcards: LAYOUT.table_rows(LAYOUT.figure_table(wildcards.figure)),
         scale=CONFIG.scale,
     message:
         "Drawing the pictures of {wildcards.figure}"
@@ -237,9 +235,7 @@ rule method_figure:
             CONFIG.figures[wildcards.figure].scene, "up"
         ),
         sampling=lambda wildcards: LAYOUT.figure_sampling(wildcards.figure),
-        seed=lambda wildcards: CONFIG.scene_seed(
-            CONFIG.figures[wildcards.figure].scene
-        ),
+        seed=lambda wildcards: CONFIG.scene_seed(CONFIG.figures[wildcards.figure].scene),
     message:
         "Drawing {wildcards.figure}"
     script:
@@ -276,3 +272,63 @@ rule claims:
         "Testing the thesis's claims"
     script:
         "../scripts/write_claims.py"
+
+
+rule html_report:
+    input:
+        tables=[f"{REPORTS}/{name}.md" for name in CONFIG.tables],
+        figures=[
+            f"{REPORTS}/{name}.{ending}"
+            for name in CONFIG.figures
+            for ending in ("svg", "png")
+        ],
+        claims=LAYOUT.report_claims(),
+        pictures=[
+            path
+            for paths in LAYOUT.first_batches_by_scene("npz").values()
+            for path in paths
+        ],
+        metrics=[
+            path
+            for paths in LAYOUT.first_batches_by_scene("csv").values()
+            for path in paths
+        ],
+        meshes=[LAYOUT.mesh(scene, "json") for scene in CONFIG.scenes],
+        trainings=[LAYOUT.network(name, "training.json") for name in CONFIG.experiments],
+        lpips=f"{RESULTS}/lpips.json",
+        page=[
+            "workflow/report/page/template.html",
+            "workflow/report/page/style.css",
+            "workflow/report/page/script.js",
+        ],
+        code=code("html_report"),
+    output:
+        html=f"{REPORTS}/index.html",
+    log:
+        f"{LOGS}/html_report.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=10,
+    params:
+        scale=CONFIG.scale,
+        seed=CONFIG.seed,
+        frames=(
+            f"{CONFIG.rendering.views_per_set} viewpoints a set at "
+            f"{CONFIG.rendering.width} × {CONFIG.rendering.height}"
+        ),
+        figures={
+            f"{REPORTS}/{name}": figure.title
+            for name, figure in CONFIG.figures.items()
+        },
+        pictures=LAYOUT.first_batches_by_scene("npz"),
+        metrics=LAYOUT.first_batches_by_scene("csv"),
+        scenes=list(CONFIG.scenes),
+        procedural={scene: LAYOUT.is_procedural(scene) for scene in CONFIG.scenes},
+        benchmarks=BENCHMARKS,
+    message:
+        "Writing the report of the run"
+    script:
+        "../scripts/html_report.py"

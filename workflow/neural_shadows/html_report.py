@@ -1,0 +1,251 @@
+"""The one page that shows a run: facts, claims, tables, figures, and frames to compare."""
+
+import base64
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import numpy as np
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+from markupsafe import Markup
+from PIL import Image
+
+from neural_shadows.errors import InputError
+from neural_shadows.files import read_json, write_text
+from neural_shadows.first_frames import FirstFrame, read_first_frames
+from neural_shadows.methods import is_shadow_map, resolution_of
+from neural_shadows.metrics import flip_map
+from neural_shadows.run_facts import run_facts
+from neural_shadows.table_report import describe_mesh
+
+LARGEST_SVG = 300_000  # bytes; a larger one is shown as PNG
+MAP_LEVELS = 64  # of a FLIP map: steps of 0.016, and files a third as large as of 256
+SCORES = {"lpips": "LPIPS {:.4f}", "psnr": "PSNR {:.2f} dB", "flip": "FLIP {:.4f}"}
+VERDICTS = ("supported", "contradicted", "undecided")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A part of the page with a heading: `key` is its anchor, `html` its content."""
+
+    key: str
+    title: str
+    html: Markup
+
+
+def method_name(method: str) -> str:
+    """What a method is called where no table gives it a label."""
+    if method == "reference":
+        return "Reference"
+    if is_shadow_map(method):
+        return f"{resolution_of(method)}² shadow map"
+    return f"network {method}"
+
+
+def table_block(path: Path) -> Block:
+    """A Markdown twin as HTML; the thesis's columns and verdicts get classes of their own.
+
+    Raises:
+        InputError: the file is missing, or holds no table under a heading.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); run the table") from error
+    markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
+    tokens = markdown.parse(text)
+    if [token.type for token in tokens[:1]] != ["heading_open"] or not any(
+        token.type == "table_open" for token in tokens
+    ):
+        raise InputError(f"{path}: holds no table under a heading: delete it and run again")
+    _mark_cells(tokens)
+    html = markdown.renderer.render(tokens[3:], markdown.options, {})
+    html = html.replace("<table>", '<div class="scroll"><table>')
+    html = html.replace("</table>", "</table></div>")
+    return Block(path.stem, tokens[1].content, Markup(html))
+
+
+def _mark_cells(tokens: Sequence[Token]) -> None:
+    """Set the classes of table cells by what their column or they say."""
+    thesis: set[int] = set()
+    column = 0
+    for token, inside in zip(tokens, tokens[1:]):
+        if token.type == "tr_open":
+            column = 0
+        elif token.type in ("th_open", "td_open"):
+            if token.type == "th_open" and inside.content.startswith("thesis"):
+                thesis.add(column)
+            verdict = inside.content.strip("*")
+            if column in thesis:
+                token.attrSet("class", "thesis")
+            elif token.type == "td_open" and verdict in VERDICTS:
+                token.attrSet("class", verdict)
+            column += 1
+
+
+def figure_block(title: str, svg: Path, png: Path) -> Block:
+    """A figure as an image: the SVG if it is small, or else the PNG."""
+    small = svg.stat().st_size <= LARGEST_SVG
+    source = _data_uri("svg+xml", svg.read_bytes()) if small else _data_uri("png", png.read_bytes())
+    html = Markup('<img loading="lazy" alt="{}" src="{}">').format(title, source)
+    return Block(svg.stem, title, html)
+
+
+def _data_uri(kind: str, content: bytes) -> str:
+    return f"data:image/{kind};base64,{base64.b64encode(content).decode()}"
+
+
+def _webp(image: Image.Image) -> str:
+    file = io.BytesIO()
+    image.save(file, "WEBP", lossless=True, quality=100, method=6)
+    return _data_uri("webp", file.getvalue())
+
+
+def map_picture(error: np.ndarray) -> Image.Image:
+    """A FLIP map (H, W) in [0, 1] in the colours of magma, black for none."""
+    from matplotlib import colormaps
+
+    level = np.round(np.clip(error, 0, 1) * (MAP_LEVELS - 1)) / (MAP_LEVELS - 1)
+    return Image.fromarray((255 * colormaps["magma"](level)[..., :3]).round().astype(np.uint8))
+
+
+def comparison(scene: str, title: str, frames: Sequence[FirstFrame]) -> dict[str, Any]:
+    """A scene's frames and FLIP maps as plain data for the page's script.
+
+    The maps show each method against the reference.
+    """
+    methods = list(frames[0].images)
+    methods.sort(key=lambda method: method != "reference")
+    views = []
+    for frame in frames:
+        reference = frame.images["reference"].astype(np.float32) / 255
+        height, width = reference.shape
+        pictures = {}
+        for method, image in frame.images.items():
+            scores = frame.scores.get(method, {})
+            error = flip_map(image.astype(np.float32) / 255, reference)
+            pictures[method] = {
+                "frame": _webp(Image.fromarray(image)),
+                "map": _webp(map_picture(error)),
+                "scores": ", ".join(
+                    text.format(scores[name]) for name, text in SCORES.items() if name in scores
+                ),
+            }
+        views.append(
+            {"caption": frame.caption, "width": width, "height": height, "pictures": pictures}
+        )
+    networks = [name for name in methods if name != "reference" and not is_shadow_map(name)]
+    return {
+        "scene": scene,
+        "title": title,
+        "methods": [{"key": method, "name": method_name(method)} for method in methods],
+        "left": (networks or methods[1:] or methods)[0],
+        "right": "reference",
+        "views": views,
+    }
+
+
+def render_page(
+    templates: Path,
+    *,
+    title: str,
+    facts: Sequence[tuple[str, str]],
+    claims: Block | None,
+    comparisons: Sequence[Mapping[str, Any]],
+    tables: Sequence[Block],
+    figures: Sequence[Block],
+) -> str:
+    """The page as one self-contained HTML text: no other file and no network is asked for.
+
+    Args:
+        templates: the folder of `template.html`, `style.css` and `script.js`.
+    """
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("template.html").render(
+        title=title,
+        style=Markup((templates / "style.css").read_text(encoding="utf-8")),
+        script=Markup((templates / "script.js").read_text(encoding="utf-8")),
+        facts=facts,
+        claims=claims,
+        comparisons=comparisons,
+        tables=tables,
+        figures=figures,
+    )
+
+
+def write_html_report(
+    html: Path,
+    templates: Path,
+    *,
+    scale: str,
+    seed: int,
+    frames: str,
+    tables: Sequence[Path],
+    figures: Mapping[str, str],
+    claims: Path | None,
+    pictures: Mapping[str, Sequence[Path]],
+    metrics: Mapping[str, Sequence[Path]],
+    meshes: Mapping[str, Path],
+    procedural: Mapping[str, bool],
+    trainings: Sequence[Path],
+    lpips_json: Path,
+    benchmarks: Path,
+    folder: Path,
+) -> None:
+    """Write the report of a run.
+
+    Args:
+        frames: what is rendered, as a phrase.
+        tables: Markdown twins, in order; `claims`: that of the claims.
+        figures: titles by path without ending; `.svg` and `.png` of each are there.
+        pictures, metrics: by scene, the first batches of its evaluations.
+        meshes: descriptions by scene; `procedural`: whether the pipeline made the mesh.
+        trainings: records of all trainings.
+        benchmarks: Snakemake's, a folder for each rule; `folder`: the checkout.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    described = {
+        scene: describe_mesh(read_json(path), procedural[scene]) for scene, path in meshes.items()
+    }
+    facts = run_facts(
+        scale=scale,
+        seed=seed,
+        frames=frames,
+        meshes=described,
+        records=[read_json(path) for path in trainings],
+        lpips=read_json(lpips_json),
+        benchmarks=benchmarks,
+        folder=folder,
+    )
+    page = render_page(
+        templates,
+        title=f"Neural Shadow Ray Queries: {scale} scale",
+        facts=facts,
+        claims=table_block(claims) if claims else None,
+        comparisons=[
+            comparison(
+                scene,
+                f"{scene}: {described[scene]}",
+                read_first_frames(pictures[scene], metrics[scene]),
+            )
+            for scene in pictures
+        ],
+        tables=[table_block(path) for path in tables],
+        figures=[
+            figure_block(title, Path(f"{name}.svg"), Path(f"{name}.png"))
+            for name, title in figures.items()
+        ],
+    )
+    write_text(html, page)

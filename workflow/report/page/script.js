@@ -1,0 +1,138 @@
+"use strict";
+
+// Light or dark: as the system has it, until the reader chooses.
+const theme = document.getElementById("theme");
+function setTheme(dark) {
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  theme.setAttribute("aria-pressed", String(dark));
+}
+setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
+theme.addEventListener("click", () => setTheme(theme.getAttribute("aria-pressed") !== "true"));
+
+const LARGEST_ZOOM = 16;
+
+for (const article of document.querySelectorAll("article.compare")) {
+  const data = JSON.parse(article.querySelector("script").textContent);
+  const find = (selector) => article.querySelector(selector);
+  const stage = find(".stage"), divider = find(".divider");
+  const over = find(".over"), images = article.querySelectorAll(".layer img");
+  const view = find(".view"), left = find(".left"), right = find(".right"), map = find(".map");
+  const names = Object.fromEntries(data.methods.map((method) => [method.key, method.name]));
+  // position: of the divider in per cent; x, y: of the picture's corner in stage widths.
+  const state = { position: 50, zoom: 1, x: 0, y: 0 };
+
+  data.views.forEach((item, i) => view.add(new Option(item.caption, String(i))));
+  for (const method of data.methods) {
+    left.add(new Option(method.name, method.key));
+    right.add(new Option(method.name, method.key));
+  }
+  left.value = data.left;
+  right.value = data.right;
+
+  function show() {
+    const item = data.views[Number(view.value)];
+    const maps = map.getAttribute("aria-pressed") === "true";
+    stage.style.aspectRatio = `${item.width} / ${item.height}`;
+    for (const [image, key, name] of [
+      [images[1], left.value, find(".name-left")],
+      [images[0], right.value, find(".name-right")],
+    ]) {
+      const picture = item.pictures[key];
+      image.src = maps ? picture.map : picture.frame;
+      image.alt = `${names[key]}${maps ? ", FLIP map" : ""}, ${item.caption}`;
+      name.textContent = picture.scores ? `${names[key]}: ${picture.scores}` : names[key];
+    }
+    find(".scale").hidden = !maps;
+  }
+
+  function place() {
+    const height = stage.clientHeight / stage.clientWidth || 2 / 3;
+    state.x = Math.min(0, Math.max(1 - state.zoom, state.x));
+    state.y = Math.min(0, Math.max((1 - state.zoom) * height, state.y));
+    const width = stage.clientWidth;
+    for (const image of images) {
+      image.style.transform =
+        `translate(${state.x * width}px, ${state.y * width}px) scale(${state.zoom})`;
+    }
+    stage.classList.toggle("zoomed", state.zoom > 1);
+    find("output").textContent = `${state.zoom}×`;
+    over.style.clipPath = `inset(0 ${100 - state.position}% 0 0)`;
+    divider.style.left = `${state.position}%`;
+    divider.setAttribute("aria-valuenow", String(Math.round(state.position)));
+  }
+
+  function moveDivider(position) {
+    state.position = Math.min(100, Math.max(0, position));
+    place();
+  }
+
+  // Zoom about a point of the stage, in stage widths.
+  function zoomBy(factor, x, y) {
+    const zoom = Math.min(LARGEST_ZOOM, Math.max(1, state.zoom * factor));
+    state.x = x - (x - state.x) * zoom / state.zoom;
+    state.y = y - (y - state.y) * zoom / state.zoom;
+    state.zoom = zoom;
+    place();
+  }
+  const zoomMiddle = (factor) =>
+    zoomBy(factor, 0.5, stage.clientHeight / stage.clientWidth / 2);
+  const pointOf = (event) => {
+    const box = stage.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.width];
+  };
+
+  for (const select of [view, left, right]) select.addEventListener("change", show);
+  map.addEventListener("click", () => {
+    map.setAttribute("aria-pressed", String(map.getAttribute("aria-pressed") !== "true"));
+    show();
+  });
+  find(".in").addEventListener("click", () => zoomMiddle(2));
+  find(".out").addEventListener("click", () => zoomMiddle(0.5));
+  find(".reset").addEventListener("click", () => {
+    Object.assign(state, { position: 50, zoom: 1, x: 0, y: 0 });
+    place();
+  });
+  stage.addEventListener("dblclick", (event) => zoomBy(2, ...pointOf(event)));
+  stage.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey) return; // without it the page scrolls
+    event.preventDefault();
+    zoomBy(event.deltaY < 0 ? 2 : 0.5, ...pointOf(event));
+  }, { passive: false });
+
+  let drag = null;
+  stage.addEventListener("pointerdown", (event) => {
+    const onDivider = event.target === divider || state.zoom === 1;
+    drag = { onDivider, at: pointOf(event) };
+    stage.setPointerCapture(event.pointerId);
+    if (onDivider) moveDivider(100 * drag.at[0]);
+  });
+  stage.addEventListener("pointermove", (event) => {
+    if (!drag) return;
+    const at = pointOf(event);
+    if (drag.onDivider) {
+      moveDivider(100 * at[0]);
+    } else {
+      state.x += at[0] - drag.at[0];
+      state.y += at[1] - drag.at[1];
+      drag.at = at;
+      place();
+    }
+  });
+  for (const end of ["pointerup", "pointercancel"]) {
+    stage.addEventListener(end, () => { drag = null; });
+  }
+  divider.addEventListener("keydown", (event) => {
+    const steps = { ArrowLeft: -2, ArrowRight: 2, PageDown: -10, PageUp: 10 };
+    if (event.key in steps) moveDivider(state.position + steps[event.key]);
+    else if (event.key === "Home") moveDivider(0);
+    else if (event.key === "End") moveDivider(100);
+    else if (event.key === "+") zoomMiddle(2);
+    else if (event.key === "-") zoomMiddle(0.5);
+    else return;
+    event.preventDefault();
+  });
+  addEventListener("resize", place);
+
+  show();
+  place();
+}
