@@ -218,7 +218,7 @@ HEAD = "view,view_set,method,metric,value\n"
 def test_a_broken_file_is_named(tmp_path, text):
     path = tmp_path / "batch_7.csv"
     path.write_text(text, encoding="latin-1")
-    with pytest.raises(InputError, match="delete it and run again") as caught:
+    with pytest.raises(InputError, match="moved to batch_7.csv.broken, run again") as caught:
         read_metrics([path])
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)

@@ -250,8 +250,8 @@ def write_claims(
     frame = judge(claims, data).assign(scale=scale, samples=samples, thesis_samples=THESIS_SAMPLES)
     columns = {
         "claim": frame["statement"].tolist(),
-        "section": frame["section"].tolist(),
         "verdict": [f"**{verdict}**" for verdict in frame["verdict"]],
+        "section": frame["section"].tolist(),
         "metric": frame["metric"].tolist(),
         "evidence": frame["evidence"].tolist(),
     }

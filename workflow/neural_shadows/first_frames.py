@@ -7,7 +7,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from neural_shadows.errors import InputError
+from neural_shadows.broken import broken
 from neural_shadows.tables import read_metrics
 
 CAPTIONS = {
@@ -34,7 +34,7 @@ def read_first_frames(pictures: Sequence[Path], metrics: Sequence[Path]) -> list
         metrics: the metrics of the same batches, in the same order.
 
     Raises:
-        InputError: a file is missing or not whole.
+        InputError: a file is missing; or not whole, and moved aside.
     """
     frames: dict[str, FirstFrame] = {}
     for picture_path, metrics_path in zip(pictures, metrics, strict=True):
@@ -43,13 +43,12 @@ def read_first_frames(pictures: Sequence[Path], metrics: Sequence[Path]) -> list
         view_set = values["view_set"].iloc[0]
         frame = frames.setdefault(view_set, FirstFrame(CAPTIONS[view_set]))
         try:
-            with np.load(picture_path, allow_pickle=False) as images:
+            # Opened here: np.load leaves its own file open where the archive is cut short.
+            with picture_path.open("rb") as file, np.load(file, allow_pickle=False) as images:
                 frame.images |= dict(images)
         except (OSError, ValueError, EOFError, BadZipFile) as error:
             reason = " ".join(str(error).split())
-            raise InputError(
-                f"{picture_path}: not a whole file of frames ({reason}): delete it and run again"
-            ) from error
+            raise broken(picture_path, f"not a whole file of frames ({reason})") from error
         frame.scores |= {
             method: dict(zip(group["metric"], group["value"]))
             for method, group in values.groupby("method")

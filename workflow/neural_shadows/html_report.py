@@ -88,11 +88,15 @@ def _mark_cells(tokens: Sequence[Token]) -> None:
 
 
 def figure_block(title: str, svg: Path, png: Path) -> Block:
-    """A figure as an image: the SVG if it is small, or else the PNG."""
+    """A figure as an image: the SVG if it is small, or else the PNG.
+
+    Its number comes from its name: `figure_4_3` is figure 4.3.
+    """
     small = svg.stat().st_size <= LARGEST_SVG
     source = _data_uri("svg+xml", svg.read_bytes()) if small else _data_uri("png", png.read_bytes())
-    html = Markup('<img loading="lazy" alt="{}" src="{}">').format(title, source)
-    return Block(svg.stem, title, html)
+    html = Markup('<img alt="{}" src="{}">').format(title, source)
+    number = svg.stem.removeprefix("figure_").replace("_", ".")
+    return Block(svg.stem, f"Figure {number}: {title}", html)
 
 
 def _data_uri(kind: str, content: bytes) -> str:

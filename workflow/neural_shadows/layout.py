@@ -242,6 +242,16 @@ class Layout:
         """The figures that are made beside a table."""
         return [f"{self.reports}/{name}.png" for name in self.config.tables[table].figures]
 
+    def table_labels(self, table: str) -> dict[str, str]:
+        """What Snakemake's report lists of a table: the thesis's number and the title."""
+        settings = self.config.tables[table]
+        return {"table": settings.published or table, "title": settings.title}
+
+    def figure_labels(self, figure: str) -> dict[str, str]:
+        """What Snakemake's report lists of a figure."""
+        number = figure.removeprefix("figure_").replace("_", ".")
+        return {"figure": number, "title": self.config.figures[figure].title}
+
     def tables_of(self, kind: str) -> list[str]:
         """Names of the tables of a kind."""
         return [name for name, table in self.config.tables.items() if table.kind == kind]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from neural_shadows.broken import broken
 from neural_shadows.errors import InputError
 from neural_shadows.strips import DPI, write_strip
 
@@ -25,9 +26,8 @@ def read_loss(path: str | Path) -> pd.DataFrame:
     """Read a training's loss curve: `step, samples, learning_rate, loss`, a row per point.
 
     Raises:
-        InputError: the file is missing, cut short, or no loss curve.
+        InputError: the file is missing; or cut short or no loss curve, and moved aside.
     """
-    again = "delete it and train again"
     try:
         whole = Path(path).read_bytes().endswith(b"\n")
         curve = pd.read_csv(path)
@@ -35,9 +35,9 @@ def read_loss(path: str | Path) -> pd.DataFrame:
         raise InputError(f"{path}: no such file; run the training") from error
     except (OSError, ValueError) as error:
         reason = " ".join(str(error).split())
-        raise InputError(f"{path}: not a whole loss curve ({reason}): {again}") from error
+        raise broken(path, f"not a whole loss curve ({reason})") from error
     if list(curve.columns) != COLUMNS or not whole or curve.empty or curve.isna().any(axis=None):
-        raise InputError(f"{path}: not a whole loss curve: {again}")
+        raise broken(path, "not a whole loss curve")
     return curve
 
 

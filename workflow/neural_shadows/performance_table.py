@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from neural_shadows.broken import broken
 from neural_shadows.errors import InputError
 from neural_shadows.files import read_json
 from neural_shadows.memory import network_bytes, shadow_map_bytes
@@ -30,7 +31,7 @@ def read_frame_times(paths: Sequence[Path]) -> dict[str, dict[str, Any]]:
     for path in paths:
         values = read_json(path)
         if not isinstance(values, dict) or not {"scene", "methods", "machine"} <= values.keys():
-            raise InputError(f"{path}: not a file of frame times; delete it and run again")
+            raise broken(path, "not a file of frame times")
         times[values["scene"]] = values
     return times
 

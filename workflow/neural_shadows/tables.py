@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from tabulate import tabulate
 
+from neural_shadows.broken import broken
 from neural_shadows.errors import InputError
 from neural_shadows.files import write_text
 from neural_shadows.published import printed
@@ -44,8 +45,8 @@ def read_metrics(paths: Iterable[str | Path]) -> pd.DataFrame:
     the path that the row came from.
 
     Raises:
-        InputError: a file is missing, cut short or not one of metrics, or repeats what it or
-            an earlier one holds.
+        InputError: a file is missing, cut short or not one of metrics (it is then moved aside),
+            or repeats what it or an earlier one holds.
     """
     metrics = pd.concat([_read_one(path) for path in paths], ignore_index=True)
     twice = metrics.duplicated(["view", "view_set", "method", "metric"])
@@ -59,7 +60,6 @@ def read_metrics(paths: Iterable[str | Path]) -> pd.DataFrame:
 
 
 def _read_one(path: str | Path) -> pd.DataFrame:
-    again = "delete it and run again"
     try:
         # A number cut in two is still a number: only the missing line break tells.
         whole = Path(path).read_bytes().endswith(b"\n")
@@ -68,14 +68,14 @@ def _read_one(path: str | Path) -> pd.DataFrame:
         raise InputError(f"{path}: no such file of metrics: run the evaluation") from error
     except (OSError, ValueError) as error:
         reason = " ".join(str(error).split())  # pandas ends some messages with a line break
-        raise InputError(f"{path}: not a whole file of metrics ({reason}): {again}") from error
+        raise broken(path, f"not a whole file of metrics ({reason})") from error
     if list(metrics.columns) != list(METRICS_DTYPES):
         expected = ",".join(METRICS_DTYPES)
-        raise InputError(f"{path}: no file of metrics, its columns are not {expected}: {again}")
+        raise broken(path, f"no file of metrics, its columns are not {expected}")
     if not whole or metrics.empty or metrics.isna().any(axis=None):
-        raise InputError(f"{path}: metrics are cut short: {again}")
+        raise broken(path, "metrics are cut short")
     if not np.isfinite(metrics["value"]).all():
-        raise InputError(f"{path}: a value is not finite: {again}")
+        raise broken(path, "a value is not finite")
     return metrics.assign(file=str(path))
 
 

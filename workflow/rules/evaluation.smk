@@ -94,8 +94,8 @@ rule frame_times:
         f"{BENCHMARKS}/frame_times/{{table}}.{{scene}}.tsv"
     conda:
         ENVIRONMENT
-    # All cores that there are, though it computes on one: nothing else of this run may disturb.
-    threads: workflow.cores or 1
+    # It computes on one: with all that a training takes, nothing disturbs it on a small machine.
+    threads: CONFIG.compute.threads
     resources:
         mem_mb=4000,
         runtime=120,

@@ -15,7 +15,12 @@ rule table:
         figures=lambda wildcards: LAYOUT.table_figures(wildcards.table),
         preview=lambda wildcards: f"{REPORTS}/scenes/{LAYOUT.table_scene(wildcards.table)}.png",
     output:
-        csv=f"{REPORTS}/{{table}}.csv",
+        csv=report(
+            f"{REPORTS}/{{table}}.csv",
+            caption="../report/table.rst",
+            category="Tables",
+            labels=lambda wildcards: LAYOUT.table_labels(wildcards.table),
+        ),
         md=f"{REPORTS}/{{table}}.md",
     log:
         f"{LOGS}/table/{{table}}.log",
@@ -54,7 +59,12 @@ rule picture_strip:
         ),
         code=code("picture_strip"),
     output:
-        png=f"{REPORTS}/{{figure}}.png",
+        png=report(
+            f"{REPORTS}/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: LAYOUT.figure_labels(wildcards.figure),
+        ),
         svg=f"{REPORTS}/{{figure}}.svg",
     log:
         f"{LOGS}/picture_strip/{{figure}}.log",
@@ -89,7 +99,12 @@ rule performance_table:
         published="config/published.csv",
         code=code("performance_table"),
     output:
-        csv=f"{REPORTS}/{{table}}.csv",
+        csv=report(
+            f"{REPORTS}/{{table}}.csv",
+            caption="../report/table.rst",
+            category="Tables",
+            labels=lambda wildcards: LAYOUT.table_labels(wildcards.table),
+        ),
         md=f"{REPORTS}/{{table}}.md",
     log:
         f"{LOGS}/table/{{table}}.log",
@@ -125,7 +140,12 @@ rule memory_table:
         published="config/published.csv",
         code=code("memory_table"),
     output:
-        csv=f"{REPORTS}/{{table}}.csv",
+        csv=report(
+            f"{REPORTS}/{{table}}.csv",
+            caption="../report/table.rst",
+            category="Tables",
+            labels=lambda wildcards: LAYOUT.table_labels(wildcards.table),
+        ),
         md=f"{REPORTS}/{{table}}.md",
     log:
         f"{LOGS}/table/{{table}}.log",
@@ -154,7 +174,12 @@ rule loss_figure:
         losses=lambda wildcards: LAYOUT.figure_curves(wildcards.figure),
         code=code("loss_figure"),
     output:
-        png=f"{REPORTS}/{{figure}}.png",
+        png=report(
+            f"{REPORTS}/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: LAYOUT.figure_labels(wildcards.figure),
+        ),
         svg=f"{REPORTS}/{{figure}}.svg",
     log:
         f"{LOGS}/loss_figure/{{figure}}.log",
@@ -183,7 +208,12 @@ rule width_figure:
         table=lambda wildcards: f"{REPORTS}/{LAYOUT.figure_table(wildcards.figure)}.csv",
         code=code("width_figure"),
     output:
-        png=f"{REPORTS}/{{figure}}.png",
+        png=report(
+            f"{REPORTS}/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: LAYOUT.figure_labels(wildcards.figure),
+        ),
         svg=f"{REPORTS}/{{figure}}.svg",
     log:
         f"{LOGS}/width_figure/{{figure}}.log",
@@ -216,7 +246,12 @@ rule method_figure:
         ),
         code=code("method_figure"),
     output:
-        png=f"{REPORTS}/{{figure}}.png",
+        png=report(
+            f"{REPORTS}/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: LAYOUT.figure_labels(wildcards.figure),
+        ),
         svg=f"{REPORTS}/{{figure}}.svg",
     log:
         f"{LOGS}/method_figure/{{figure}}.log",
@@ -249,7 +284,12 @@ rule claims:
         times=[path for paths in LAYOUT.claim_times().values() for path in paths],
         code=code("write_claims"),
     output:
-        csv=f"{REPORTS}/claims.csv",
+        csv=report(
+            f"{REPORTS}/claims.csv",
+            caption="../report/claims.rst",
+            category="Claims",
+            labels={"what": "claims of the thesis and their verdicts"},
+        ),
         md=f"{REPORTS}/claims.md",
     log:
         f"{LOGS}/claims.log",
@@ -303,7 +343,12 @@ rule html_report:
         ],
         code=code("html_report"),
     output:
-        html=f"{REPORTS}/index.html",
+        html=report(
+            f"{REPORTS}/index.html",
+            caption="../report/page.rst",
+            category="Report",
+            labels={"what": "everything on one page, with frames to compare"},
+        ),
     log:
         f"{LOGS}/html_report.log",
     conda:

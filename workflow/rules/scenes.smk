@@ -72,7 +72,12 @@ rule preview_scene:
         report=f"{SCENE}/mesh.json",
         code=code("preview_scene"),
     output:
-        picture=f"{REPORTS}/scenes/{{scene}}.png",
+        picture=report(
+            f"{REPORTS}/scenes/{{scene}}.png",
+            caption="../report/scene.rst",
+            category="Scenes",
+            labels={"scene": "{scene}"},
+        ),
     log:
         f"{LOGS}/preview_scene/{{scene}}.log",
     conda:
