@@ -98,7 +98,7 @@ class Checkout:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=600,
+            timeout=1200,
         )
 
     def run(self, *arguments: str, overlays: Sequence[Path] = ()) -> str:

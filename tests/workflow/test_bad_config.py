@@ -34,7 +34,7 @@ def test_mistake_on_the_command_line(fresh, setting, line):
         (
             {"samplings": {"poisson_quadtree": {"direction": 5}}},
             "config: samplings.poisson_quadtree.direction: unknown key; "
-            "allowed: sampler, directions, ",
+            "allowed: sampler, domain, directions, ",
         ),
         (
             {"trainings": {"base": {"steps": "100"}}},

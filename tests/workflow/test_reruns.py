@@ -5,7 +5,7 @@ import os
 import pytest
 from checkout import SMOKE, write_overlay
 
-# The stages that a scene's seed reaches.
+# The stages that a scene's seed reaches, and what the page takes from them.
 SEEDED = {
     "view_directions",
     "sample_rays",
@@ -13,20 +13,27 @@ SEEDED = {
     "describe_rays",
     "train",
     "evaluate",
-    "picture_strip",
     "table",
+    "html_report",
 }
+# Those that only the shipped scenes have.
+SEEDED_FIGURES = {"method_figure", "picture_strip", "loss_figure", "width_figure"}
+SEEDED_TABLES = {"frame_times", "performance_table", "memory_table", "claims"}
+
+# What shows the networks' pictures.
+SHOWN = {"picture_strip", "table", "performance_table", "width_figure", "claims", "html_report"}
+TRAINED = SHOWN | {"evaluate", "frame_times", "memory_table", "loss_figure"}
 
 
 @pytest.mark.parametrize(
     ("module", "rules"),
     [
-        ("tables.py", {"picture_strip", "table"}),
-        ("strips.py", {"picture_strip", "table"}),
+        ("tables.py", SHOWN | {"memory_table"}),
+        ("claims.py", {"claims", "html_report"}),
         # The table asks for the preview, so that one target makes all that belongs to it.
-        ("preview.py", {"preview_scene", "table"}),
-        ("shadow_map.py", {"evaluate", "picture_strip", "table"}),
-        ("training.py", {"train", "evaluate", "picture_strip", "table"}),
+        ("preview.py", {"preview_scene", "table", "html_report"}),
+        ("shadow_map.py", SHOWN | {"evaluate", "frame_times", "memory_table"}),
+        ("training.py", TRAINED | {"train"}),
     ],
 )
 def test_edited_module(finished, module, rules):
@@ -38,12 +45,9 @@ def test_edited_module(finished, module, rules):
 @pytest.mark.parametrize(
     ("edit", "rules"),
     [
-        ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table"}),
-        ({"evaluations": {"dragon": {"depth_bias": 0.01}}}, {"evaluate", "picture_strip", "table"}),
-        (
-            {"trainings": {"base": {"learning_rate": 0.002}}},
-            {"train", "evaluate", "picture_strip", "table"},
-        ),
+        ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "html_report"}),
+        ({"evaluations": {"dragon": {"depth_bias": 0.01}}}, SHOWN | {"evaluate"}),
+        ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train"}),
     ],
     ids=["title", "depth_bias", "learning_rate"],
 )
@@ -60,15 +64,30 @@ def test_touched_modules_and_an_edited_comment(finished):
     assert finished.pending() == {}
 
 
-@pytest.mark.parametrize(("edited", "other"), [("dragon", "torus"), ("torus", "dragon")])
-def test_seed_of_one_scene(second_scene, tmp_path, edited, other):
+@pytest.mark.parametrize(
+    ("edited", "others", "rules"),
+    [
+        ("dragon", ("torus", "fence"), SEEDED | SEEDED_FIGURES | SEEDED_TABLES),
+        ("torus", ("dragon", "fence", "table_4", "figure"), SEEDED),
+    ],
+)
+def test_seed_of_one_scene(second_scene, tmp_path, edited, others, rules):
     overlay = write_overlay(tmp_path / "seed.yaml", scenes={edited: {"seed": 7}})
     pending = second_scene.checkout.pending(overlays=[second_scene.overlay, overlay])
-    assert set(pending.values()) == SEEDED
-    names = {
-        "dragon": ("dragon", "table_4_1", "table_4_2", "table_4_3", "figure_4_4", "figure_4_5"),
-        "torus": ("torus",),
-    }
+    assert set(pending.values()) == rules
     for path in pending:
-        assert any(name in path for name in names[edited]), path
-        assert not any(name in path for name in names[other]), path
+        assert not any(other in path for other in others), path
+
+
+def test_truncated_metrics_are_named_and_made_again(finished):
+    metrics = finished.results / "evaluations" / "dragon_sampling" / "shadow.000.csv"
+    whole = metrics.read_bytes()
+    metrics.write_bytes(whole[: len(whole) // 2])
+    failed = finished.snakemake("reports/smoke/table_4_1.csv", "--forcerun", "table")
+    assert failed.returncode != 0
+    name = metrics.relative_to(finished.folder)
+    (line,) = {line for line in failed.stdout.splitlines() if line.startswith("table: ")}
+    assert f"{name}: " in line
+    assert "moved to shadow.000.csv.broken, run again" in line
+    finished.run("reports/smoke/table_4_1.csv")
+    assert metrics.read_bytes() == whole

@@ -23,9 +23,12 @@ def test_second_run_does_nothing(smoke):
 
 
 def test_everything_is_made_and_nothing_else_is_left(smoke):
-    for number in range(1, 6):
-        for ending in ("csv", "md"):
-            assert (smoke.reports / f"table_4_{number}.{ending}").stat().st_size > 0
+    names = [f"table_4_{n}.{ending}" for n in range(1, 8) for ending in ("csv", "md")]
+    figures = [f"3_{n}" for n in range(1, 7)] + [f"4_{n}" for n in range(1, 9)]
+    names += [f"figure_{number}.{ending}" for number in figures for ending in ("png", "svg")]
+    names += ["claims.csv", "claims.md", "index.html"]
+    for name in names:
+        assert (smoke.reports / name).stat().st_size > 0, name
     parts = [path for path in smoke.folder.glob("re*/**/*") if ".part" in path.name]
     assert parts == []
     assert list(smoke.results.glob("networks/unfinished/*")) == []
@@ -33,7 +36,7 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
 
 def test_each_job_left_its_log(smoke):
     logs = {row["log-file(s)"] for row in smoke.summary()}
-    assert len(logs) == 17  # one for each job, shards and batches counted
+    assert len(logs) == 94  # one for each job, shards and batches counted
     assert [name for name in logs if not (smoke.folder / name).is_file()] == []
     (training,) = [name for name in logs if name.endswith("/train/dragon.log")]
     assert "train dragon: 100%" in (smoke.folder / training).read_text()
@@ -95,6 +98,39 @@ def test_pictures_are_pictures(smoke, name):
         grey = np.asarray(image.convert("L"), dtype=float)
     assert grey.std() > 10  # not a blank sheet
     assert len(np.unique(grey)) > 50  # shading, not line art alone
+
+
+def test_each_network_is_trained_once(smoke):
+    trained = [path.name for path in smoke.results.glob("networks/*") if path.name != "unfinished"]
+    planned = [row["output_file"] for row in smoke.summary() if row["rule"] == "train"]
+    assert len(trained) == len({*trained}) == 17
+    assert sum(path.endswith("weights.safetensors") for path in planned) == 17
+
+
+def test_few_views_leave_claims_undecided(smoke):
+    claims = pd.read_csv(smoke.reports / "claims.csv").set_index("claim")
+    assert len(claims) >= 20
+    assert claims.loc["sampling", "verdict"] == "undecided"
+    assert "6 values are too few" in claims.loc["sampling", "evidence"]
+    assert (claims["scale"] == "smoke").all()
+
+
+def test_page_shows_every_table_and_figure(smoke):
+    page = (smoke.reports / "index.html").read_text(encoding="utf-8")
+    for number in range(1, 8):
+        assert f'id="table_4_{number}"' in page
+    for number in ("3_1", "3_6", "4_1", "4_8"):
+        assert f'id="figure_{number}"' in page
+    for scene in ("dragon", "fence", "landscape"):
+        assert f'id="compare-{scene}"' in page
+    assert len(page) < 6_000_000
+
+
+def test_snakemake_makes_its_own_report(smoke, tmp_path):
+    smoke.run("--report", str(tmp_path / "report.html"))
+    report = (tmp_path / "report.html").read_text(encoding="utf-8")
+    for part in ("Tables", "Figures", "Claims", "Depth of shadow in a slice of the dragon"):
+        assert part in report
 
 
 def test_strip_is_a_vector_file_too(smoke):
