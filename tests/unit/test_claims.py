@@ -15,9 +15,8 @@ from neural_shadows.claims import (
 from neural_shadows.errors import InputError
 
 VIEWS = 24
-RNG = np.random.default_rng(5)
 # What views have in common is far larger than what methods differ by.
-VIEW_LEVEL = RNG.uniform(0.0, 0.5, VIEWS)
+VIEW_LEVEL = np.random.default_rng(5).uniform(0.0, 0.5, VIEWS)
 
 
 def metrics_of(values):
@@ -32,15 +31,15 @@ def metrics_of(values):
     )
 
 
-def noise(scale=0.001):
-    return RNG.normal(0, scale, VIEWS)
+def noise(seed, scale=0.001, count=VIEWS):
+    return np.random.default_rng(seed).normal(0, scale, count)
 
 
 def one_scene(metric="lpips", views=VIEWS):
     values = {
-        ("good", metric): VIEW_LEVEL + noise(),
-        ("bad", metric): VIEW_LEVEL + 0.01 + noise(),
-        ("alike", metric): VIEW_LEVEL + noise(),
+        ("good", metric): VIEW_LEVEL + noise(1),
+        ("bad", metric): VIEW_LEVEL + 0.01 + noise(2),
+        ("alike", metric): VIEW_LEVEL + noise(3),
     }
     return metrics_of({key: series[:views] for key, series in values.items()})
 
@@ -70,6 +69,9 @@ def better(pairs, metric="lpips", evaluations=("e",)):
         ((1.3, 1.4), (-np.inf, 1.25), CONTRADICTED),
         ((2.1, 2.2), (2, 3), SUPPORTED),
         ((1.1, 1.2), (2, 3), CONTRADICTED),
+        ((0.0, 0.0), (0, np.inf), UNDECIDED),
+        ((0.0, 0.1), (0, np.inf), UNDECIDED),
+        ((-0.1, 0.0), (0, np.inf), UNDECIDED),
     ],
 )
 def test_verdict_of_an_interval(interval, bounds, verdict):
@@ -115,6 +117,19 @@ def test_flip_takes_the_place_of_missing_lpips():
     row = judged(data_of({"e": one_scene("flip")}), **better([["good", "bad"]]))
     assert row["metric"] == "flip"
     assert row["verdict"] == SUPPORTED
+    assert row["evidence"].startswith("FLIP for want of LPIPS: good")
+
+
+def test_equal_methods_decide_nothing():
+    metrics = metrics_of({(name, "lpips"): VIEW_LEVEL for name in ("one", "other")})
+    row = judged(data_of({"e": metrics}), **better([["one", "other"]]))
+    assert row["verdict"] == UNDECIDED
+
+
+def test_methods_of_different_views_are_not_compared():
+    metrics = one_scene().query("method != 'bad' or view != 7")
+    with pytest.raises(InputError, match="good and of bad differ in their views .surface view 7"):
+        judged(data_of({"e": metrics}), **better([["good", "bad"]]))
 
 
 def test_few_views_decide_nothing():
@@ -126,17 +141,19 @@ def test_few_views_decide_nothing():
 def test_evidence_gives_means_and_interval():
     row = judged(data_of({"e": one_scene()}), **better([["good", "bad"]]))
     assert row["evidence"].startswith("good 0.")
-    low, high = row["evidence"].split("[")[1].split("]")[0].split(", ")
-    assert 0.008 < float(low) < 0.0105 < float(high) < 0.012
+    low, high = map(float, row["evidence"].split("[")[1].split("]")[0].split(", "))
+    gain = 0.01 + noise(2) - noise(1)
+    half = 1.96 * gain.std() / np.sqrt(VIEWS)
+    assert (low, high) == pytest.approx((gain.mean() - half, gain.mean() + half), abs=0.2 * half)
 
 
 def test_more_compares_two_metrics_of_each_method():
     metrics = metrics_of(
         {
-            ("a", "false_shadow"): 0.02 + noise(),
-            ("a", "light_leak"): 0.01 + noise(),
-            ("b", "false_shadow"): 0.01 + noise(),
-            ("b", "light_leak"): 0.02 + noise(),
+            ("a", "false_shadow"): 0.02 + noise(1),
+            ("a", "light_leak"): 0.01 + noise(2),
+            ("b", "false_shadow"): 0.01 + noise(3),
+            ("b", "light_leak"): 0.02 + noise(4),
         }
     )
     claim = {"kind": "more", "evaluations": ["e"], "more": "false_shadow", "less": "light_leak"}
@@ -147,12 +164,12 @@ def test_more_compares_two_metrics_of_each_method():
 def test_loss_is_compared_at_its_end():
     steps = np.arange(1, 501)
 
-    def curve(start, end):
+    def curve(start, end, seed):
         # Loss falls to its end at nine tenths of the run and stays there.
-        level = np.interp(steps, [1, 450], [start, end]) + RNG.normal(0, 0.001, 500)
+        level = np.interp(steps, [1, 450], [start, end]) + noise(seed, count=500)
         return pd.DataFrame({"step": steps, "samples": steps, "learning_rate": 1, "loss": level})
 
-    data = data_of(losses={"slow": curve(1, 0.1), "fast": curve(0.5, 0.2)})
+    data = data_of(losses={"slow": curve(1, 0.1, 1), "fast": curve(0.5, 0.2, 2)})
     claim = {"kind": "lower_loss"}
     assert judged(data, **claim, pairs=[["slow", "fast"]])["verdict"] == SUPPORTED
     assert judged(data, **claim, pairs=[["fast", "slow"]])["verdict"] == CONTRADICTED
@@ -168,8 +185,8 @@ def test_loss_is_compared_at_its_end():
     ],
 )
 def test_frame_times_are_compared_as_a_ratio_of_medians(bounds, verdict):
-    faster = 10 + RNG.normal(0, 0.1, 15)
-    slower = 20 + RNG.normal(0, 0.3, 15)
+    faster = 10 + noise(1, 0.1, 15)
+    slower = 20 + noise(2, 0.3, 15)
     slower[3] = 400.0  # a disturbance, which a median does not see
     times = {
         "t": {

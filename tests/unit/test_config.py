@@ -200,6 +200,29 @@ MISTAKES = [
         [["dragon", "landscape_axis"]],
         ["'dragon' and 'landscape_axis' are timed together in 0 scenes", "of one scene"],
     ),
+    (
+        "claims.slower_than_shadow_maps.at_most",
+        0.5,
+        ["claims.slower_than_shadow_maps", "at_least = 1: must be less than at_most (0.5)"],
+    ),
+    (
+        "claims.learning_rate.pairs",
+        [["dragon", "dragon"]],
+        ["claims.learning_rate.pairs: 'dragon' is compared with itself"],
+    ),
+    (
+        "claims.lower_bound_costs_more.less",
+        "false_shadow",
+        ["claims.lower_bound_costs_more", "more = 'false_shadow': must be another"],
+    ),
+    (
+        "evaluations.dragon_widths.view_sets",
+        ["shadow"],
+        [
+            "claims.wider_is_better_on_the_dragon.evaluations: 'dragon' and 'dragon_widths'",
+            "differ in `view_sets`",
+        ],
+    ),
     ("claims.lower_bound_costs_more.methods", ["x"], ["claims.lower_bound", "'x'", "dragon"]),
     ("tables.table_4_3.rows.0.mehtod", "x", ["rows.0.mehtod: unknown key", "method, label"]),
 ]

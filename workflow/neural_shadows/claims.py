@@ -49,8 +49,11 @@ class Data:
 
 
 def verdict_of(low: float, high: float, least: float, most: float) -> str:
-    """Whether an interval lies wholly within [least, most], wholly outside, or neither."""
-    if low >= least and high <= most:
+    """Whether an interval lies wholly between the bounds, wholly outside, or neither.
+
+    A bound itself is neither side: methods that are alike in every view decide nothing.
+    """
+    if low > least and high < most:
         return SUPPORTED
     if high < least or low > most:
         return CONTRADICTED
@@ -88,6 +91,17 @@ def _values(data: Data, evaluations: Sequence[str], method: str, metric: str):
     )
 
 
+def _gains(a: pd.Series, b: pd.Series, what: str) -> np.ndarray:
+    """Differences a − b of values of the same views, (views,)."""
+    if not a.index.equals(b.index):
+        view_set, view = a.index.symmetric_difference(b.index)[0]
+        raise InputError(
+            f"claims: {what} differ in their views ({view_set} view {view} is missing in one): "
+            "delete the metrics of their evaluations and run again"
+        )
+    return (a - b).to_numpy()
+
+
 def _available(data: Data, evaluations: Sequence[str], metric: str) -> str:
     """The metric, or FLIP in the place of LPIPS where its trunk could not be had."""
     given = {name for key in evaluations for name in data.metrics[key]["metric"].unique()}
@@ -100,14 +114,15 @@ def better(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
     Methods of one scene are seen from the same views, and compared view by view.
     """
     metric = _available(data, claim["evaluations"], claim["metric"])
+    instead = "" if metric == claim["metric"] else f"{metric.upper()} for want of LPIPS: "
     sign = 1 if metric in HIGHER_IS_BETTER else -1
     findings = []
     for first, second in claim["pairs"]:
         a, scene = _values(data, claim["evaluations"], first, metric)
         b, other = _values(data, claim["evaluations"], second, metric)
-        text = f"{first} {a.mean():.4g}, {second} {b.mean():.4g}, advantage"
+        text = f"{instead}{first} {a.mean():.4g}, {second} {b.mean():.4g}, advantage"
         if scene == other:
-            gain = (sign * (a - b)).to_numpy()
+            gain = sign * _gains(a, b, f"{metric} of {first} and of {second}")
             interval = lambda gain=gain: mean_interval(gain, data.seed)  # noqa: E731
         else:
             a, b = sign * a.to_numpy(), sign * b.to_numpy()
@@ -123,7 +138,7 @@ def more(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
         a, _ = _values(data, claim["evaluations"], method, claim["more"])
         b, _ = _values(data, claim["evaluations"], method, claim["less"])
         text = f"{method}: {claim['more']} {a.mean():.4g}, {claim['less']} {b.mean():.4g}, excess"
-        gain = (a - b).to_numpy()
+        gain = _gains(a, b, f"{claim['more']} and {claim['less']} of {method}")
         findings.append(
             _judged(text, len(gain), lambda gain=gain: mean_interval(gain, data.seed), 0, np.inf)
         )
@@ -199,7 +214,7 @@ def judge(claims: Mapping[str, Mapping[str, Any]], data: Data) -> pd.DataFrame:
         claims: by name, as in the config: `kind`, `section`, `statement`, and what the kind needs.
 
     Raises:
-        InputError: data that a claim needs are missing.
+        InputError: data that a claim needs are missing, or not of the same views.
     """
     rows = []
     for name, claim in claims.items():

@@ -453,6 +453,12 @@ class MoreClaim(AnyClaim):
     more: Literal["false_shadow", "light_leak"] = Field(description="the larger error")
     less: Literal["false_shadow", "light_leak"] = Field(description="the smaller error")
 
+    @model_validator(mode="after")
+    def _check_errors(self):
+        if self.more == self.less:
+            raise ValueError(f"more = {self.more!r}: must be another error than `less`")
+        return self
+
 
 class LowerLossClaim(AnyClaim):
     """Networks compared by the end of their training loss."""
@@ -477,6 +483,10 @@ class FrameTimeClaim(AnyClaim):
     def _check_bounds(self):
         if self.at_least is None and self.at_most is None:
             raise ValueError("a claim on frame_time needs `at_least`, `at_most`, or both")
+        if None not in (self.at_least, self.at_most) and self.at_least >= self.at_most:
+            raise ValueError(
+                f"at_least = {self.at_least:g}: must be less than at_most ({self.at_most:g})"
+            )
         return self
 
 
@@ -711,6 +721,13 @@ class Config(Model):
                     f"claims.{name}: {method!r} is in more than one of its evaluations; "
                     "allowed: each method in one"
                 )
+        for first, second in getattr(claim, "pairs", []):
+            if first == second:
+                raise ValueError(
+                    f"claims.{name}.pairs: {first!r} is compared with itself; allowed: two methods"
+                )
+        if isinstance(claim, BetterClaim):
+            self._check_same_views(name, claim)
         if isinstance(claim, FrameTimeClaim):
             for first, second in claim.pairs:
                 shared = self._timed_scenes(claim.table, first) & self._timed_scenes(
@@ -720,6 +737,17 @@ class Config(Model):
                     raise ValueError(
                         f"claims.{name}.pairs: {first!r} and {second!r} are timed together in "
                         f"{len(shared)} scenes; allowed: two methods of one scene"
+                    )
+
+    def _check_same_views(self, name: str, claim: BetterClaim) -> None:
+        settings = {key: self.evaluations[key] for key in claim.evaluations}
+        for key, one in settings.items():
+            for other_key, other in settings.items():
+                if one.scene == other.scene and set(one.view_sets) != set(other.view_sets):
+                    raise ValueError(
+                        f"claims.{name}.evaluations: {key!r} and {other_key!r} differ in "
+                        f"`view_sets`: {one.view_sets!r} and {other.view_sets!r}; "
+                        "allowed: the same for one scene"
                     )
 
     def _timed_scenes(self, table: str, method: str) -> set[str]:
