@@ -120,7 +120,8 @@ def better(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
     for first, second in claim["pairs"]:
         a, scene = _values(data, claim["evaluations"], first, metric)
         b, other = _values(data, claim["evaluations"], second, metric)
-        text = f"{instead}{first} {a.mean():.4g}, {second} {b.mean():.4g}, advantage"
+        said = "" if findings else instead  # once a claim
+        text = f"{said}{first} {a.mean():.4g}, {second} {b.mean():.4g}, advantage"
         if scene == other:
             gain = sign * _gains(a, b, f"{metric} of {first} and of {second}")
             interval = lambda gain=gain: mean_interval(gain, data.seed)  # noqa: E731
@@ -281,7 +282,8 @@ def write_claims(
         "comparisons; contradicted: wholly on the other side in one of them; undecided: neither.",
         "An advantage is counted so that positive is in the claim's favour. Intervals are over "
         "views (the same ones for all methods of a scene), over the last tenth of the loss curve, "
-        "or over timed frames. They do not cover how trainings differ: each network was trained "
+        "or over timed frames. Neighbouring points of a loss curve are not independent, so that its "
+        "intervals are too narrow; and none covers how trainings differ: each network was trained "
         "once, from one seed.",
         f"Scale: {scale}, at most {samples:,} training samples a network. The thesis trained on "
         f"{THESIS_SAMPLES:,}, {THESIS_SAMPLES / samples:,.0f} times as many: what is contradicted "
