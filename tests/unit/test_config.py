@@ -12,6 +12,7 @@ from neural_shadows.config import (
     MeshFile,
     SphereLight,
     Wyrm,
+    check_duplicates,
     check_files,
     json_schema,
     read_config,
@@ -141,6 +142,16 @@ MISTAKES = [
     ("trainings.base.batch_size", 1, ["trainings.base.batch_size = 1", "equal to 16"]),
     ("trainings.base.schedule", "linear", ["schedule = 'linear'", "'constant' or 'cosine'"]),
     ("experiments.dragon.scene", "dog", ["experiments.dragon.scene", "'dog'", "allowed: dragon"]),
+    (
+        "experiments.copy",
+        {
+            "scene": "dragon",
+            "sampling": "poisson_quadtree",
+            "network": "thesis",
+            "training": "base",
+        },
+        ["experiments.copy: is the same as experiments.dragon", "train the same network twice"],
+    ),
     ("experiments.dragon.network", "big", ["experiments.dragon.network", "'big'", "thesis"]),
     ("evaluations.dragon.scene", "dog", ["evaluations.dragon.scene", "'dog'", "dragon"]),
     ("evaluations.dragon.networks", ["x"], ["evaluations.dragon.networks", "'x'", "dragon"]),
@@ -372,3 +383,12 @@ def test_schema_accepts_the_shipped_config(values):
     jsonschema.validate(values, json.loads(json_schema()))
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate({**values, "sceens": {}}, json.loads(json_schema()))
+
+
+def test_name_given_twice(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text("scale: mine\nexperiments:\n  one: {scene: a}\n  two: {scene: b}\n")
+    check_duplicates([ROOT / "config" / "config.yaml", path])
+    path.write_text("scale: mine\nexperiments:\n  one: {scene: a}\n  one: {scene: b}\n")
+    with pytest.raises(InputError, match=r"mine\.yaml, line 4: 'one' is there twice"):
+        check_duplicates([ROOT / "config" / "config.yaml", path])

@@ -57,6 +57,13 @@ def test_mistake_in_an_overlay(fresh, tmp_path, sections, line):
     assert not fresh.results.exists()
 
 
+def test_name_given_twice(fresh, tmp_path):
+    overlay = tmp_path / "twice.yaml"
+    overlay.write_text("networks:\n  small: {frequencies: 1}\n  small: {frequencies: 2}\n")
+    said = failed(fresh, overlays=[overlay])
+    assert "twice.yaml, line 3: 'small' is there twice; give each name once" in said
+
+
 @pytest.mark.parametrize("state", ["fresh", "smoke"])
 def test_missing_mesh_file(request, state):
     # In a finished checkout, too: an older mesh must not stand in for the missing one.

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import yaml
 from pydantic import (
     BaseModel,
     ConfigDict,
@@ -558,6 +559,7 @@ class Config(Model):
                 f"scale = {self.scale!r}: is the name of a folder of results or reports; "
                 f"allowed: any other than {', '.join(sorted(RESERVED_SCALES))}"
             )
+        settings: dict[tuple[str, ...], str] = {}
         for name, experiment in self.experiments.items():
             if name in ("reference", RAY_TRACED) or name.startswith(SHADOW_MAP_PREFIX):
                 raise ValueError(
@@ -566,6 +568,12 @@ class Config(Model):
                 )
             for key in ("scene", "sampling", "network", "training"):
                 known(f"{key}s", getattr(experiment, key), f"experiments.{name}.{key}")
+            same = settings.setdefault(tuple(experiment.model_dump().values()), name)
+            if same != name:
+                raise ValueError(
+                    f"experiments.{name}: is the same as experiments.{same}, and would train the "
+                    "same network twice; use that one, or change one of its four names"
+                )
         for name, evaluation in self.evaluations.items():
             known("scenes", evaluation.scene, f"evaluations.{name}.scene")
             for network in evaluation.networks:
@@ -875,6 +883,32 @@ def _locate(location: tuple[str | int, ...]) -> tuple[str, list[str]]:
             values = list(node.get("patternProperties", {}).values())
             node = values[0] if values else {}
     return ".".join(keys), allowed
+
+
+class _NoDuplicates(yaml.SafeLoader):
+    """Reads YAML, but refuses a key that is given twice, of which YAML keeps the last."""
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key, _ in node.value:
+            if str(key.value) in seen:
+                raise InputError(
+                    f"config: {key.start_mark.name}, line {key.start_mark.line + 1}: "
+                    f"{key.value!r} is there twice; give each name once"
+                )
+            seen.add(str(key.value))
+        return super().construct_mapping(node, deep)
+
+
+def check_duplicates(paths: Iterable[str | Path]) -> None:
+    """Check that no section of these config files gives a name twice.
+
+    Raises:
+        InputError: one does; one line with the file, the line and the name.
+    """
+    for path in paths:
+        with Path(path).open(encoding="utf-8") as file:
+            yaml.load(file, _NoDuplicates)
 
 
 def read_config(values: dict[str, Any]) -> Config:

@@ -12,6 +12,7 @@ import torch
 
 from neural_shadows.dead_zone_loss import dead_zone_loss
 from neural_shadows.direction_spectrum import angular_power_spectrum
+from neural_shadows.errors import InputError
 from neural_shadows.files import read_json
 from neural_shadows.light import axis_vector
 from neural_shadows.loss_figure import COLOURS
@@ -36,6 +37,9 @@ SHOWN_DIRECTIONS = 1000  # of the pattern: a hemisphere of them can still be tol
 SHOWN_POINTS = 3000  # on a silhouette
 DEGREES = 80  # of the spectra: 1000 Poisson-disk directions have their ring near degree 50
 FEW_RAYS = 25
+# Segments of a slice that an SVG holds as such, at 45 bytes each: the Stanford dragon at half its
+# resolution has 3,000; of the fence's 25,000 it gets a picture.
+DRAWN_SEGMENTS = 4000
 
 
 def draw_method_figure(
@@ -56,17 +60,18 @@ def draw_method_figure(
         kind: `overview`, `shadow_boundary`, `view_directions`, `quadtree`, `dual_bounds` or
             `dead_zone_loss`.
         up: the scene's axis that points up.
-        sampling: settings of a sampling; without silhouettes those of the default are shown.
+        sampling: settings of a sampling; its silhouette_resolution and min_quad are shown, also
+            of a sampler that does without.
 
     Raises:
-        InputError: an input file is not whole.
+        InputError: an unknown kind, or an input file is not whole.
     """
     from matplotlib.figure import Figure
 
     mesh = read_prepared(mesh_ply)
     tracer = Tracer(mesh.vertices, mesh.faces)
     cut = slice_mesh(mesh, tracer, axis_vector(up, "up"))
-    wide = {"overview": (16, 4.6), "dead_zone_loss": (9, 4.6), "view_directions": (11, 9.6)}
+    wide = {"overview": (13.3, 4), "dead_zone_loss": (9, 4.6), "view_directions": (11, 9.6)}
     figure = Figure(figsize=wide.get(kind, (12.5, 6.6)), dpi=DPI, layout="constrained")
     match kind:
         case "overview":
@@ -81,6 +86,8 @@ def draw_method_figure(
             _dual_bounds(figure, cut)
         case "dead_zone_loss":
             _dead_zone_loss(figure, cut)
+        case _:
+            raise InputError(f"figure kind {kind!r} is unknown; use one of those in the config")
     name = read_json(mesh_json)["name"]
     figure.suptitle(f"{title} ({name})", x=0.01, ha="left", weight="bold")
     write_strip(figure, png, svg)
@@ -106,9 +113,23 @@ def _segments(axes: Axes, starts: np.ndarray, ends: np.ndarray, **style) -> None
 
 
 def _outline(axes: Axes, cut: MeshSlice) -> None:
-    from matplotlib.collections import LineCollection
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path as Outline
 
-    axes.add_collection(LineCollection(cut.outline, colors=OUTLINE, linewidths=1.0, zorder=3))
+    # One path: as lines of their own the segments take three times the bytes in an SVG.
+    count = len(cut.outline)
+    path = Outline(cut.outline.reshape(-1, 2), [Outline.MOVETO, Outline.LINETO] * count)
+    axes.add_patch(
+        PathPatch(
+            path,
+            fill=False,
+            edgecolor=OUTLINE,
+            linewidth=1.0,
+            capstyle="round",
+            zorder=3,
+            rasterized=count > DRAWN_SEGMENTS,
+        )
+    )
 
 
 def _rays_with_bounds(axes: Axes, rays: SliceRays, width: float) -> None:
@@ -129,10 +150,10 @@ def _points_of(
 
     Offsets are turned so that (x, y) is (across, up), seen from the front.
     """
-    resolution = sampling["silhouette_resolution"] or 128
+    resolution = sampling["silhouette_resolution"]
     direction = np.cross(cut.up, cut.across)  # away from who sees `across` to the right
     covered = silhouette(cut.tracer, direction, resolution)
-    quads = build_quadtree(covered, sampling["min_quad"] or 1)
+    quads = build_quadtree(covered, sampling["min_quad"])
     rng = np.random.default_rng(seed)
     offsets = sample_quads(quads, resolution, count, rng, PatternBank(seed))
     return covered, quads, offsets, resolution
@@ -223,7 +244,15 @@ def _overview(figure: Figure, cut: MeshSlice, sampling: Mapping[str, Any], seed:
     side = 0.1 * np.array([-d[1], d[0]])
     for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", OUTLINE)):
         query.plot(*(o + t * d), "o", color=colour, zorder=4)
-        query.annotate(text, o + t * d + side, ha="center", va="center", fontsize=12, zorder=5)
+        query.annotate(
+            text,
+            o + t * d + side,
+            ha="center",
+            va="center",
+            fontsize=12,
+            zorder=5,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
+        )
 
 
 def _shadow_boundary(figure: Figure, cut: MeshSlice) -> None:
@@ -315,7 +344,7 @@ def _quadtree(figure: Figure, cut: MeshSlice, sampling: Mapping[str, Any], seed:
     _plane(left, f"silhouette of {resolution}² texels, quadtree of {len(quads):,} quads")
     _silhouette(left, cut, covered)
     _quads(left, cut, quads, resolution)
-    _plane(right, f"{SHOWN_POINTS:,} points, as many in each quad")
+    _plane(right, f"{SHOWN_POINTS:,} points, divided evenly over the quads")
     _silhouette(right, cut, covered)
     _points(right, cut, offsets, 3)
 
@@ -335,7 +364,7 @@ def _dual_bounds(figure: Figure, cut: MeshSlice) -> None:
         _outline(axes, cut)
     figure.legend(
         handles=[
-            Line2D([], [], color=ORANGE, label="lit: up to t$_{lb}$, the first hit"),
+            Line2D([], [], color=ORANGE, label="lit: up to t$_{lb}$, the first hit or the sphere"),
             Line2D([], [], color=BLUE, linewidth=4, label="t$_{lb}$ to t$_{ub}$, the second hit"),
             Line2D([], [], color=SHADE, label="in shadow"),
         ],

@@ -25,11 +25,12 @@ kernels = os.path.abspath(
 os.environ.update(NUMBA_CACHE_DIR=kernels)
 
 from neural_shadows import layout
-from neural_shadows.config import check_files, read_config
+from neural_shadows.config import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
 from neural_shadows.module_graph import modules_of
 
 try:
+    check_duplicates(workflow.configfiles)
     CONFIG = read_config(config)
     check_files(CONFIG)
 except InputError as error:
