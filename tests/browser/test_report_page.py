@@ -5,17 +5,20 @@ import shutil
 import pytest
 from report_page import write_page
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+CHROMIUM = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
 pytestmark = pytest.mark.skipif(
     CHROMIUM is None, reason="no Chromium on this machine: apt-get install chromium"
+)
+playwright_api = pytest.importorskip(
+    "playwright.sync_api", reason="no Playwright: pip install -r envs/requirements.txt"
 )
 
 
 @pytest.fixture(scope="module")
 def browser():
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
+    with playwright_api.sync_playwright() as playwright:
         # Without its sandbox, which containers do not allow; the page is our own.
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         yield browser
@@ -72,7 +75,7 @@ def test_nothing_is_logged_and_nothing_else_is_loaded(open_page, address):
 
 def test_every_image_loads(open_page):
     page = open_page()
-    page.wait_for_function("[...document.images].every(image => image.complete)")
+    page.evaluate("Promise.allSettled([...document.images].map(image => image.decode()))")
     widths = page.evaluate("[...document.images].map(image => image.naturalWidth)")
     assert len(widths) == 3
     assert min(widths) > 0
@@ -161,6 +164,30 @@ def test_zoomed_picture_can_be_moved(open_page):
     after = page.locator(".under img").bounding_box()
     assert after["x"] - before["x"] == pytest.approx(0.1 * box["width"], abs=3)
     assert divider_at(page) == 50
+
+
+def test_zoomed_picture_can_be_moved_by_the_keyboard(open_page):
+    page = open_page()
+    page.locator(".divider").focus()
+    page.keyboard.press("+")
+    before = page.locator(".under img").bounding_box()
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Shift+ArrowDown")
+    after = page.locator(".under img").bounding_box()
+    step = 0.1 * page.locator(".stage").bounding_box()["width"]
+    assert before["x"] - after["x"] == pytest.approx(step, abs=1)
+    assert before["y"] - after["y"] == pytest.approx(step, abs=1)
+    assert divider_at(page) == 50
+
+
+def test_contents_lead_to_every_table_and_figure(open_page):
+    page = open_page()
+    links = page.locator("details a, nav a").evaluate_all(
+        "links => links.map(link => link.getAttribute('href'))"
+    )
+    assert {"#table_4_3", "#figure_4_1", "#claims", "#compare"} <= set(links)
+    for link in links:
+        assert page.locator(link).count() == 1
 
 
 @pytest.mark.parametrize("width", [375, 768, 1280])

@@ -85,6 +85,15 @@ def test_cells_tell_the_thesis_from_ours_and_verdicts_apart(text):
     assert [None, "Our <b>method</b>"] in cells
 
 
+def test_keyboard_reaches_what_scrolls_in_its_own_box(text):
+    boxes = [attributes for _, attributes in Page(text).elements if "scroll" in attributes.values()]
+    assert [box["tabindex"] for box in boxes] == ["0", "0"]
+    assert [box["aria-label"] for box in boxes] == [
+        "What the thesis claims",
+        "Our method and shadow maps (table 4.3 of the thesis)",
+    ]
+
+
 def test_frames_are_stored_without_loss():
     data = comparison("dragon", "the dragon", frames())
     original = frames()[1].images["dragon"]
@@ -114,6 +123,11 @@ def test_large_drawings_are_shown_as_pixels(tmp_path):
         block = figure_block("How", svg, png)
         assert decoded(re.search('src="([^"]+)"', block.html)[1])[0] == kind
         assert (block.key, block.title) == ("figure_3_1", "Figure 3.1: How")
+
+
+def test_figure_that_is_missing_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"figure_3_1\.svg: cannot be read .*; run the figure"):
+        figure_block("How", tmp_path / "figure_3_1.svg", tmp_path / "figure_3_1.png")
 
 
 def test_methods_have_names():

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-BLUE, ORANGE, GREEN = COLOURS[:3]
+BLUE, ORANGE = COLOURS[:2]
 SHADE = "#b9c2cc"
 OUTLINE = "#222222"
 SHOWN_DIRECTIONS = 1000  # of the pattern: a hemisphere of them can still be told apart
@@ -93,12 +93,11 @@ def draw_method_figure(
     write_strip(figure, png, svg)
 
 
-def _plane(axes: Axes, title: str, outline: bool = True) -> None:
+def _plane(axes: Axes, title: str) -> None:
     """Prepare axes for the unit disk of a plane."""
     from matplotlib.patches import Circle
 
-    if outline:
-        axes.add_patch(Circle((0, 0), 1, fill=False, color=ORANGE, linewidth=1.2))
+    axes.add_patch(Circle((0, 0), 1, fill=False, color=ORANGE, linewidth=1.2))
     axes.set_xlim(-1.08, 1.08)
     axes.set_ylim(-1.08, 1.08)
     axes.set_aspect("equal")
@@ -125,7 +124,6 @@ def _outline(axes: Axes, cut: MeshSlice) -> None:
             fill=False,
             edgecolor=OUTLINE,
             linewidth=1.0,
-            capstyle="round",
             zorder=3,
             rasterized=count > DRAWN_SEGMENTS,
         )
@@ -215,6 +213,8 @@ def _points(axes: Axes, cut: MeshSlice, offsets: np.ndarray, size: float) -> Non
 
 
 def _overview(figure: Figure, cut: MeshSlice, sampling: Mapping[str, Any], seed: int) -> None:
+    from matplotlib.patheffects import withStroke
+
     directions, points, labels, query = figure.subplots(1, 4)
     _hemisphere(directions, _drawn("poisson_quadtree", seed), "a  view directions")
     covered, quads, offsets, resolution = _points_of(cut, sampling, seed, SHOWN_POINTS // 3)
@@ -241,7 +241,7 @@ def _overview(figure: Figure, cut: MeshSlice, sampling: Mapping[str, Any], seed:
     query.annotate("light", o - 0.26 * d, ha="center", va="center", color=ORANGE)
     query.set_xlim(-1.25, 1.25)
     query.set_ylim(-1.25, 1.25)
-    side = 0.1 * np.array([-d[1], d[0]])
+    side = 0.13 * np.array([-d[1], d[0]])
     for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", OUTLINE)):
         query.plot(*(o + t * d), "o", color=colour, zorder=4)
         query.annotate(
@@ -251,7 +251,7 @@ def _overview(figure: Figure, cut: MeshSlice, sampling: Mapping[str, Any], seed:
             va="center",
             fontsize=12,
             zorder=5,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
+            path_effects=[withStroke(linewidth=2.5, foreground="white")],
         )
 
 

@@ -122,8 +122,13 @@ for (const article of document.querySelectorAll("article.compare")) {
     stage.addEventListener(end, () => { drag = null; });
   }
   divider.addEventListener("keydown", (event) => {
+    const moves = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const steps = { ArrowLeft: -2, ArrowRight: 2, PageDown: -10, PageUp: 10 };
-    if (event.key in steps) moveDivider(state.position + steps[event.key]);
+    if (event.shiftKey && event.key in moves) {
+      state.x += 0.1 * moves[event.key][0];
+      state.y += 0.1 * moves[event.key][1];
+      place();
+    } else if (event.key in steps) moveDivider(state.position + steps[event.key]);
     else if (event.key === "Home") moveDivider(0);
     else if (event.key === "End") moveDivider(100);
     else if (event.key === "+") zoomMiddle(2);
