@@ -24,7 +24,7 @@ def test_running_mean_keeps_a_line_and_length():
     line = np.linspace(5, 1, 500)
     smooth = smoothed(line)
     assert smooth.shape == line.shape
-    np.testing.assert_allclose(smooth[20:-20], line[20:-20], rtol=5e-3)
+    np.testing.assert_allclose(smooth, line)  # its ends too, where the loss falls fastest
     noisy = np.ones(500) + np.random.default_rng(1).normal(0, 0.1, 500)
     assert smoothed(noisy).std() < 0.5 * noisy.std()
 
