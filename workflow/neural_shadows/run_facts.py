@@ -5,6 +5,7 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
+from platform import python_version
 from typing import Any
 
 import pandas as pd
@@ -61,13 +62,11 @@ def run_facts(
         lpips: what `lpips_stage` wrote.
         benchmarks: see `durations`; `folder`: the checkout.
     """
-    machines = {}
+    machines = []
     for record in records:
         machine = record["machine"]
         gpu = f", {machine['gpu']}" if machine["gpu"] else ""
-        name = f"{machine['cpu']}, {machine['cores']} cores{gpu}"
-        machines.setdefault(name, machine)
-    python = next(iter(machines.values()))["python"]
+        machines.append(f"{machine['cpu']}, {machine['cores']} cores{gpu}")
     samples = {record["samples"] for record in records}
     times = durations(benchmarks)
     return [
@@ -80,13 +79,16 @@ def run_facts(
         ),
         ("LPIPS", f"network {lpips['net']}" if lpips["available"] else "not available"),
         ("seed", str(seed)),
-        ("hardware", "; ".join(machines)),
-        ("versions", ", ".join([f"Python {python}", *(f"{p} {version(p)}" for p in PACKAGES)])),
+        ("hardware", "; ".join(dict.fromkeys(machines))),
+        (
+            "versions",
+            ", ".join([f"Python {python_version()}", *(f"{p} {version(p)}" for p in PACKAGES)]),
+        ),
         ("commit", commit_of(folder)),
         (
             "durations",
             "; ".join(
-                f"{rule.replace('_', ' ')} {_span(seconds)} ({count} jobs)"
+                f"{rule.replace('_', ' ')} {_span(seconds)} ({count} job{'s' if count > 1 else ''})"
                 for rule, (count, seconds) in times.items()
             ),
         ),
