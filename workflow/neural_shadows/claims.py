@@ -68,13 +68,21 @@ def verdict_of_all(verdicts: Iterable[str]) -> str:
     return SUPPORTED if verdicts == {SUPPORTED} else UNDECIDED
 
 
-def _judged(text: str, count: int, interval: Callable[[], Interval], least: float, most: float):
+def _judged(
+    text: str,
+    count: int,
+    interval: Callable[[], Interval],
+    least: float = 0,
+    most: float = np.inf,
+    form: str = "+.4g",
+) -> Finding:
     """The finding of an interval, or that there are too few values for one."""
     if count < FEWEST:
         return Finding(UNDECIDED, f"{text}: {count} values are too few: {UNDECIDED}")
     value, low, high = interval()
     verdict = verdict_of(low, high, least, most)
-    return Finding(verdict, f"{text} {value:+.4g} [{low:+.4g}, {high:+.4g}]: {verdict}")
+    numbers = f"{value:{form}} [{low:{form}}, {high:{form}}]"
+    return Finding(verdict, f"{text} {numbers}: {verdict}")
 
 
 def _values(data: Data, evaluations: Sequence[str], method: str, metric: str):
@@ -128,7 +136,7 @@ def better(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
         else:
             a, b = sign * a.to_numpy(), sign * b.to_numpy()
             interval = lambda a=a, b=b: difference_interval(a, b, data.seed)  # noqa: E731
-        findings.append(_judged(text, min(len(a), len(b)), interval, 0, np.inf))
+        findings.append(_judged(text, min(len(a), len(b)), interval))
     return metric, findings
 
 
@@ -140,9 +148,7 @@ def more(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
         b, _ = _values(data, claim["evaluations"], method, claim["less"])
         text = f"{method}: {claim['more']} {a.mean():.4g}, {claim['less']} {b.mean():.4g}, excess"
         gain = _gains(a, b, f"{claim['more']} and {claim['less']} of {method}")
-        findings.append(
-            _judged(text, len(gain), lambda gain=gain: mean_interval(gain, data.seed), 0, np.inf)
-        )
+        findings.append(_judged(text, len(gain), lambda gain=gain: mean_interval(gain, data.seed)))
     return f"{claim['more']} − {claim['less']}", findings
 
 
@@ -157,8 +163,6 @@ def lower_loss(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]
                 text,
                 min(len(a), len(b)),
                 lambda a=a, b=b: difference_interval(b, a, data.seed),
-                0,
-                np.inf,
             )
         )
     return "loss", findings
@@ -190,6 +194,7 @@ def frame_time(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]
                 lambda a=a, b=b: median_ratio_interval(a, b, data.seed),
                 least,
                 most,
+                "#.3g",
             )
         )
     return "frame time", findings

@@ -22,7 +22,7 @@ from neural_shadows.metrics import flip_map
 from neural_shadows.run_facts import run_facts
 from neural_shadows.table_report import describe_mesh
 
-LARGEST_SVG = 300_000  # bytes; a larger one is shown as PNG
+LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
 MAP_LEVELS = 64  # of a FLIP map: steps of 0.016, and files a third as large as of 256
 SCORES = {"lpips": "LPIPS {:.4f}", "psnr": "PSNR {:.2f} dB", "flip": "FLIP {:.4f}"}
 VERDICTS = ("supported", "contradicted", "undecided")
@@ -90,7 +90,7 @@ def _mark_cells(tokens: Sequence[Token]) -> None:
 
 
 def figure_block(title: str, svg: Path, png: Path) -> Block:
-    """A figure as an image: the SVG if it is small, or else the PNG.
+    """A figure as an image: the SVG if it is small, or else the PNG as WebP, half its size.
 
     Its number comes from its name: `figure_4_3` is figure 4.3.
 
@@ -98,13 +98,15 @@ def figure_block(title: str, svg: Path, png: Path) -> Block:
         InputError: a file is missing.
     """
     try:
-        small = svg.stat().st_size <= LARGEST_SVG
-        kind, content = ("svg+xml", svg.read_bytes()) if small else ("png", png.read_bytes())
+        if svg.stat().st_size <= LARGEST_SVG:
+            source = _data_uri("svg+xml", svg.read_bytes())
+        else:
+            with Image.open(png) as image:
+                source = _webp(image)
     except OSError as error:
         raise InputError(
             f"{error.filename}: cannot be read ({error.strerror}); run the figure"
         ) from error
-    source = _data_uri(kind, content)
     html = Markup('<img alt="{}" src="{}">').format(title, source)
     number = svg.stem.removeprefix("figure_").replace("_", ".")
     return Block(svg.stem, f"Figure {number}: {title}", html)
