@@ -7,7 +7,7 @@
 import json
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import yaml
 from pydantic import (
@@ -21,7 +21,15 @@ from pydantic import (
 )
 
 from neural_shadows.errors import InputError
-from neural_shadows.methods import RAY_TRACED, SHADOW_MAP_PREFIX, is_shadow_map, shadow_map_key
+from neural_shadows.methods import (
+    BIASED_SUFFIX,
+    RAY_TRACED,
+    SHADOW_MAP_PREFIX,
+    biased_key,
+    experiment_of,
+    is_shadow_map,
+    shadow_map_key,
+)
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
@@ -165,8 +173,12 @@ class Sampling(Model):
     sampler: Literal["poisson_quadtree", "uniform_quadtree", "uniform"] = Field(
         description="the sampling methods of table 4.1"
     )
-    domain: Literal["sphere", "light"] = Field(
-        "sphere", description="view directions: the whole sphere, or the scene's light domain alone"
+    domain: Literal["sphere", "hemisphere", "light"] = Field(
+        "sphere",
+        description=(
+            "view directions: the whole sphere, those of light above the horizon, or of the "
+            "scene's light domain alone"
+        ),
     )
     directions: int = Field(ge=1, le=1_000_000, description="view directions")
     points_per_direction: int = Field(
@@ -196,16 +208,119 @@ class Sampling(Model):
         return self
 
 
-class Network(Model):
+class FrequencyNetwork(Model):
     """The thesis's fully connected network [3.3, 4.1]."""
 
+    needs_mesh: ClassVar[bool] = False
+    encoding: Literal["frequency"] = Field("frequency", description="`frequency`, the default")
     frequencies: int = Field(ge=0, le=30, description="L of the frequency encoding; 0 is identity")
     width: int = Field(ge=8, le=4096, description="neurons per layer")
     hidden_layers: int = Field(ge=1, le=64, description="width × width layers")
 
 
+Stored = Literal["float32", "float16", "int8"]
+
+
+class RayGrid(Model):
+    """Features of points along the ray, from dense 3-D grids, into a small network."""
+
+    needs_mesh: ClassVar[bool] = False
+    encoding: Literal["ray_grid"] = Field(description="`ray_grid`: points on the whole chord")
+    points: int = Field(8, ge=1, le=256, description="K, points along the ray")
+    grids: list[Annotated[int, Field(ge=2, le=512)]] = Field(
+        [16, 32, 60], min_length=1, description="vertices along an axis of each grid"
+    )
+    channels: int = Field(4, ge=1, le=64, description="trained features of a grid's vertex")
+    width: int = Field(64, ge=8, le=4096, description="neurons per layer")
+    hidden_layers: int = Field(3, ge=1, le=64, description="layers before the output")
+    head: Literal["depth", "depth_confidence"] = Field(
+        "depth_confidence", description="whether a second output tells hit from miss"
+    )
+    stored: Stored = Field("float16", description="how the weight file holds the weights")
+
+
+class OccupancyRayGrid(RayGrid):
+    """A ray grid whose points lie between the first and the last occupied cell on the ray."""
+
+    needs_mesh: ClassVar[bool] = True
+    encoding: Literal["occupancy_ray_grid"] = Field(
+        description="`occupancy_ray_grid`: points where the ray is near the surface"
+    )
+    occupancy: int = Field(64, ge=2, le=512, description="cells along an axis of the occupancy")
+
+
+class HashGrid(OccupancyRayGrid):
+    """An occupancy-clipped ray grid whose large grids are hash tables (Instant-NGP)."""
+
+    encoding: Literal["hash_grid"] = Field(description="`hash_grid`: multiresolution hash tables")
+    table_size: int = Field(
+        65536, ge=16, le=1 << 24, description="entries of a grid's hash table, a power of two"
+    )
+
+    @model_validator(mode="after")
+    def _check(self):
+        _check_power_of_two(self.table_size, "table_size")
+        return self
+
+
+class OccupancyField(Model):
+    """One trained logit at each grid vertex near the surface; a ray marches through them."""
+
+    needs_mesh: ClassVar[bool] = True
+    encoding: Literal["occupancy_field"] = Field(
+        description="`occupancy_field`: inside or outside, without a direction"
+    )
+    resolution: int = Field(256, ge=8, le=1024, description="cells along an axis, a multiple of 4")
+    surface: Literal["solid", "sheet"] = Field(
+        "solid", description="`solid`: the object has an inside; `sheet`: one open surface"
+    )
+    stored: Stored = Field("int8", description="how the weight file holds the logits")
+
+    @model_validator(mode="after")
+    def _check(self):
+        if self.resolution % 4:
+            raise ValueError(f"resolution = {self.resolution}: must be a multiple of 4")
+        return self
+
+
+ENCODINGS = ("frequency", "ray_grid", "occupancy_ray_grid", "hash_grid", "occupancy_field")
+
+
+def _encoding(value: Any) -> str | None:
+    name = value.get("encoding", "frequency") if isinstance(value, dict) else "frequency"
+    return name if name in ENCODINGS else None
+
+
+Network = Annotated[
+    Annotated[FrequencyNetwork, Tag("frequency")]
+    | Annotated[RayGrid, Tag("ray_grid")]
+    | Annotated[OccupancyRayGrid, Tag("occupancy_ray_grid")]
+    | Annotated[HashGrid, Tag("hash_grid")]
+    | Annotated[OccupancyField, Tag("occupancy_field")],
+    Discriminator(
+        _encoding,
+        custom_error_type="encoding",
+        custom_error_message=f"`encoding` should be one of {', '.join(ENCODINGS)}",
+    ),
+]
+
+
+class Loss(Model):
+    """The dead-zone loss, and two changes to it [3.5, 5.1, 5.4.1]."""
+
+    false_shadow: float = Field(
+        1.0, ge=0, le=1000, description="weight of depths before the first hit (thesis: 1)"
+    )
+    light_leak: float = Field(
+        1.0, ge=0, le=1000, description="weight of depths behind the second hit (thesis: 1)"
+    )
+    middle_pull: float = Field(
+        0.0, ge=0, le=1000, description="weight of a pull to the middle between them (thesis: 0)"
+    )
+
+
 class Training(Model):
-    """Adam on the dead-zone loss [3.5, 4.1]."""
+    """Adam on the network's loss [3.5, 4.1]."""
 
     steps: int = Field(ge=1, description="optimiser steps")
     # From 16: in a batch of a few rays, equal predictions do not yet mean a dead network.
@@ -213,6 +328,9 @@ class Training(Model):
     learning_rate: float = Field(gt=0, le=1, description="Adam's learning rate (at its start)")
     schedule: Literal["constant", "cosine"] = Field(
         "constant", description="learning rate over the run: constant (thesis) or cosine to zero"
+    )
+    loss: Loss = Field(
+        Loss(), description="the loss of depths; an occupancy_field predicts none in training"
     )
 
 
@@ -223,6 +341,9 @@ class Experiment(Model):
     sampling: Name = Field(description="a name in `samplings`")
     network: Name = Field(description="a name in `networks`")
     training: Name = Field(description="a name in `trainings`")
+    seed: int | None = Field(
+        None, ge=0, lt=2**32, description="seed of this training; without it the scene's"
+    )
 
 
 class Evaluation(Model):
@@ -240,8 +361,12 @@ class Evaluation(Model):
         min_length=1,
         description="`shadow`: aimed at the cast shadow; `surface`: at the object; `centre`",
     )
-    depth_bias: float = Field(
-        0.0, ge=0, le=1, description="added to t_pred in the query, in sphere radii (thesis: 0)"
+    depth_bias: Annotated[float, Field(ge=0, le=1)] | Literal["held_out"] = Field(
+        0.0,
+        description=(
+            "added to t_pred in the query, in sphere radii (thesis: 0); `held_out`: each network's "
+            "best on views that are in no table, where its method is called NAME_biased"
+        ),
     )
 
     @model_validator(mode="after")
@@ -260,6 +385,9 @@ class Rendering(Model):
     height: int = Field(ge=64, le=8192, description="pixels")
     views_per_set: int = Field(ge=1, le=1_000_000, description="viewpoints in each view set")
     batch: int = Field(ge=1, description="viewpoints of a set that one job renders")
+    held_out_views: int = Field(
+        8, ge=1, le=10_000, description="further viewpoints of a set, to find depth biases on"
+    )
     reference: Literal["exact", "shadow_map"] = Field(
         "exact", description="a shadow ray per pixel, or the thesis's 32768² shadow map"
     )
@@ -338,6 +466,19 @@ class FrameTimesTable(AnyTable):
     rows: list[TimedRow] = Field(min_length=1, description="methods, in the table's order")
 
 
+class NetworksTable(AnyTable):
+    """A table of networks beside shadow maps: quality, bytes, training, speed; by scene."""
+
+    kind: Literal["networks"] = Field(description="`networks`")
+    evaluations: list[Name] = Field(
+        min_length=1, description="names in `evaluations`; rows are methods of theirs"
+    )
+    rows: list[TimedRow] = Field(min_length=1, description="methods, in the table's order")
+    on_request: bool = Field(
+        False, description="whether it is made only when asked for by name, and not by `all`"
+    )
+
+
 class MemoryTable(AnyTable):
     """A table of the memory that methods take [4.4.2]."""
 
@@ -347,17 +488,18 @@ class MemoryTable(AnyTable):
 
 def _table_kind(value: Any) -> str | None:
     kind = value.get("kind", "comparison") if isinstance(value, dict) else "comparison"
-    return kind if kind in ("comparison", "frame_times", "memory") else None
+    return kind if kind in ("comparison", "frame_times", "networks", "memory") else None
 
 
 AnyTableKind = Annotated[
     Annotated[Table, Tag("comparison")]
     | Annotated[FrameTimesTable, Tag("frame_times")]
+    | Annotated[NetworksTable, Tag("networks")]
     | Annotated[MemoryTable, Tag("memory")],
     Discriminator(
         _table_kind,
         custom_error_type="table_kind",
-        custom_error_message="`kind` should be comparison (the default), frame_times or memory",
+        custom_error_message="`kind` should be comparison (the default), frame_times, networks or memory",
     ),
 ]
 
@@ -367,7 +509,15 @@ class PicturesFigure(Model):
 
     kind: Literal["pictures"] = Field(description="`pictures`")
     title: str = Field(min_length=1, description="heading of the figure")
-    table: str = Field(description="a comparison in `tables`; its rows are drawn")
+    table: str = Field(
+        description="a table of `comparison` or `networks` in `tables`; its rows are drawn"
+    )
+    scene: Name | None = Field(
+        None, description="which scene of a table of `networks`; needed there alone"
+    )
+    methods: list[str] | None = Field(
+        None, min_length=1, description="which of the table's methods; without it all are drawn"
+    )
     view_sets: list[Literal["shadow", "surface", "centre"]] = Field(
         min_length=1, description="view sets of the table's evaluations; the first view of each"
     )
@@ -412,8 +562,26 @@ class MethodFigure(Model):
     sampling: Name = Field(description="a name in `samplings`")
 
 
+class FrontsFigure(Model):
+    """LPIPS over bytes, frame time and training time, with the best of each trade-off joined."""
+
+    kind: Literal["fronts"] = Field(description="`fronts`")
+    title: str = Field(min_length=1, description="heading of the figure")
+    table: str = Field(description="a table of `networks` in `tables`")
+    scene: Name = Field(description="a scene of that table")
+
+
+class FieldSliceFigure(Model):
+    """A slice through an occupancy field's logits, beside the mesh that it learned."""
+
+    kind: Literal["field_slice"] = Field(description="`field_slice`")
+    title: str = Field(min_length=1, description="heading of the figure")
+    experiment: Name = Field(description="an experiment whose network is an `occupancy_field`")
+
+
 Figure = Annotated[
-    PicturesFigure | LossFigure | WidthsFigure | MethodFigure, Field(discriminator="kind")
+    PicturesFigure | LossFigure | WidthsFigure | FrontsFigure | FieldSliceFigure | MethodFigure,
+    Field(discriminator="kind"),
 ]
 
 
@@ -537,8 +705,8 @@ class Config(Model):
     rendering: Rendering = Field(description="frames and viewpoints of all evaluations")
     metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
     frame_times: FrameTimes = Field(FrameTimes(), description="how frame times are measured")
-    tables: dict[Annotated[str, Field(pattern=r"^table_[a-z0-9_]+$")], AnyTableKind] = Field(
-        description="tables to write, by name: `table_` and the thesis's number"
+    tables: dict[Name, AnyTableKind] = Field(
+        description="tables to write, by name: of the thesis's, `table_` and its number"
     )
     figures: dict[Annotated[str, Field(pattern=r"^figure_[a-z0-9_]+$")], Figure] = Field(
         {}, description="figures to draw, by name: `figure_` and the thesis's number"
@@ -554,6 +722,11 @@ class Config(Model):
                     f"allowed: {', '.join(sorted(getattr(self, section)))}"
                 )
 
+        for name in self.tables:
+            if name in ("claims", "index"):
+                raise ValueError(
+                    f"tables.{name}: a report has this name; allowed: any other than claims, index"
+                )
         if self.scale in RESERVED_SCALES:
             raise ValueError(
                 f"scale = {self.scale!r}: is the name of a folder of results or reports; "
@@ -566,13 +739,18 @@ class Config(Model):
                     f"experiments.{name}: tables and pictures have a method of this name; allowed: "
                     f"any other than 'reference', '{RAY_TRACED}' and '{SHADOW_MAP_PREFIX}…'"
                 )
+            if name.endswith(BIASED_SUFFIX):
+                raise ValueError(
+                    f"experiments.{name}: tables call a network with its depth bias so; allowed: a "
+                    f"name that does not end in '{BIASED_SUFFIX}'"
+                )
             for key in ("scene", "sampling", "network", "training"):
                 known(f"{key}s", getattr(experiment, key), f"experiments.{name}.{key}")
             same = settings.setdefault(tuple(experiment.model_dump().values()), name)
             if same != name:
                 raise ValueError(
                     f"experiments.{name}: is the same as experiments.{same}, and would train the "
-                    "same network twice; use that one, or change one of its four names"
+                    "same network twice; use that one, or change a name or the seed"
                 )
         for name, evaluation in self.evaluations.items():
             known("scenes", evaluation.scene, f"evaluations.{name}.scene")
@@ -597,13 +775,27 @@ class Config(Model):
             self._check_table(name, table)
         for name, figure in self.figures.items():
             match figure:
-                case PicturesFigure() | WidthsFigure():
+                case PicturesFigure() | WidthsFigure() | FrontsFigure():
                     known("tables", figure.table, f"figures.{name}.table")
-                    wanted = "comparison" if figure.kind == "pictures" else "frame_times"
-                    if self.tables[figure.table].kind != wanted:
+                    wanted = {
+                        "pictures": ("comparison", "networks"),
+                        "widths": ("frame_times",),
+                        "fronts": ("networks",),
+                    }[figure.kind]
+                    if self.tables[figure.table].kind not in wanted:
                         raise ValueError(
                             f"figures.{name}.table: {figure.table!r} is a table of "
-                            f"{self.tables[figure.table].kind}; allowed: one of {wanted}"
+                            f"{self.tables[figure.table].kind}; "
+                            f"allowed: one of {' or '.join(wanted)}"
+                        )
+                    self._check_figure_scene(name, figure)
+                case FieldSliceFigure():
+                    known("experiments", figure.experiment, f"figures.{name}.experiment")
+                    network = self.experiments[figure.experiment].network
+                    if self.networks[network].encoding != "occupancy_field":
+                        raise ValueError(
+                            f"figures.{name}.experiment: {figure.experiment!r} is a network of "
+                            f"{self.networks[network].encoding}; allowed: one of occupancy_field"
                         )
                 case LossFigure():
                     for curve in figure.curves:
@@ -612,7 +804,21 @@ class Config(Model):
                     known("scenes", figure.scene, f"figures.{name}.scene")
                     known("samplings", figure.sampling, f"figures.{name}.sampling")
             if isinstance(figure, PicturesFigure):
-                rendered = self.evaluations[self.tables[figure.table].evaluations[0]].view_sets
+                rows = [row.method for row in self.tables[figure.table].rows]
+                for method in figure.methods or []:
+                    if method not in rows or method == RAY_TRACED:
+                        raise ValueError(
+                            f"figures.{name}.methods: {method!r} has no pictures in "
+                            f"{figure.table}; allowed: "
+                            f"{', '.join(row for row in rows if row != RAY_TRACED)}"
+                        )
+                rendered = next(
+                    evaluation.view_sets
+                    for evaluation in map(
+                        self.evaluations.get, self.tables[figure.table].evaluations
+                    )
+                    if figure.scene in (None, evaluation.scene)
+                )
                 missing = [view_set for view_set in figure.view_sets if view_set not in rendered]
                 if missing:
                     raise ValueError(
@@ -629,7 +835,26 @@ class Config(Model):
                 )
         return self
 
-    def _check_table(self, name: str, table: "Table | FrameTimesTable | MemoryTable") -> None:
+    def _check_figure_scene(
+        self, name: str, figure: "PicturesFigure | WidthsFigure | FrontsFigure"
+    ) -> None:
+        table = self.tables[figure.table]
+        scene = getattr(figure, "scene", None)
+        if table.kind == "networks":
+            scenes = [self.evaluations[key].scene for key in table.evaluations]
+            if scene not in scenes:
+                raise ValueError(
+                    f"figures.{name}.scene: {scene!r} is not in {figure.table}; "
+                    f"allowed: {', '.join(dict.fromkeys(scenes))}"
+                )
+        elif scene is not None:
+            raise ValueError(
+                f"figures.{name}.scene: {figure.table!r} has one scene; leave `scene` out"
+            )
+
+    def _check_table(
+        self, name: str, table: "Table | FrameTimesTable | NetworksTable | MemoryTable"
+    ) -> None:
         keys = [(row.method, getattr(row, "scene", None)) for row in table.rows]
         for key in keys:
             if keys.count(key) > 1:
@@ -637,9 +862,11 @@ class Config(Model):
         match table:
             case Table():
                 self._check_comparison(name, table)
-            case FrameTimesTable():
+            case FrameTimesTable() | NetworksTable():
                 for row in table.rows:
                     self._check_timed_row(name, table, row)
+                if isinstance(table, NetworksTable):
+                    self._check_same_scene_views(f"tables.{name}.evaluations", table.evaluations)
             case MemoryTable():
                 for row in table.rows:
                     if row.method not in self.experiments and not is_shadow_map(row.method):
@@ -672,10 +899,11 @@ class Config(Model):
                     f"{', '.join(table.evaluations)}: {row.method!r}; allowed: {', '.join(methods)}"
                 )
 
-    def _check_timed_row(self, name: str, table: FrameTimesTable, row: TimedRow) -> None:
-        networks = [
-            network for key in table.evaluations for network in self.evaluations[key].networks
-        ]
+    def _check_timed_row(
+        self, name: str, table: "FrameTimesTable | NetworksTable", row: TimedRow
+    ) -> None:
+        methods = self.methods(table.evaluations)
+        networks = [method for method in methods if not is_shadow_map(method)]
         if row.method in networks:
             if row.scene is not None:
                 raise ValueError(
@@ -735,7 +963,7 @@ class Config(Model):
                     f"claims.{name}.pairs: {first!r} is compared with itself; allowed: two methods"
                 )
         if isinstance(claim, BetterClaim):
-            self._check_same_views(name, claim)
+            self._check_same_scene_views(f"claims.{name}.evaluations", claim.evaluations)
         if isinstance(claim, FrameTimeClaim):
             for first, second in claim.pairs:
                 shared = self._timed_scenes(claim.table, first) & self._timed_scenes(
@@ -747,20 +975,20 @@ class Config(Model):
                         f"{len(shared)} scenes; allowed: two methods of one scene"
                     )
 
-    def _check_same_views(self, name: str, claim: BetterClaim) -> None:
-        settings = {key: self.evaluations[key] for key in claim.evaluations}
-        for key, one in settings.items():
-            for other_key, other in settings.items():
+    def _check_same_scene_views(self, key: str, evaluations: Iterable[str]) -> None:
+        settings = {name: self.evaluations[name] for name in evaluations}
+        for name, one in settings.items():
+            for other_name, other in settings.items():
                 if one.scene == other.scene and set(one.view_sets) != set(other.view_sets):
                     raise ValueError(
-                        f"claims.{name}.evaluations: {key!r} and {other_key!r} differ in "
-                        f"`view_sets`: {one.view_sets!r} and {other.view_sets!r}; "
+                        f"{key}: {name!r} and {other_name!r} differ in `view_sets`: "
+                        f"{one.view_sets!r} and {other.view_sets!r}; "
                         "allowed: the same for one scene"
                     )
 
     def _timed_scenes(self, table: str, method: str) -> set[str]:
         return {
-            self.experiments[method].scene if row.scene is None else row.scene
+            self.experiments[experiment_of(method)].scene if row.scene is None else row.scene
             for row in self.tables[table].rows
             if row.method == method
         }
@@ -772,9 +1000,15 @@ class Config(Model):
             for settings in (self.evaluations[name] for name in evaluations)
             for method in (
                 *map(shadow_map_key, settings.shadow_maps),
-                *settings.networks,
+                *self.network_methods(settings),
             )
         ]
+
+    def network_methods(self, evaluation: Evaluation) -> list[str]:
+        """Keys of the networks of an evaluation, which tell whether it seeks their depth bias."""
+        if evaluation.depth_bias == "held_out":
+            return [biased_key(name) for name in evaluation.networks]
+        return list(evaluation.networks)
 
     def scene_seed(self, scene: str) -> int:
         """The seed of everything drawn for a scene."""
@@ -843,7 +1077,12 @@ def _is_number(text: Any) -> bool:
     return True
 
 
-TAGS = ("domain", "generate", "kind")  # keys whose value tells which section of a union it is
+TAGS = (
+    "domain",
+    "generate",
+    "kind",
+    "encoding",
+)  # keys whose value tells which section of a union it is
 
 
 def _locate(location: tuple[str | int, ...]) -> tuple[str, list[str]]:
@@ -863,6 +1102,8 @@ def _locate(location: tuple[str | int, ...]) -> tuple[str, list[str]]:
         if part == "[key]":
             break
         node = resolve(node)
+        if "anyOf" in node and isinstance(part, str):
+            break  # which of the types of one value: no key
         if "oneOf" in node:
             kinds = [resolve(kind) for kind in node["oneOf"]]
             tagged = [

@@ -62,16 +62,18 @@ def map_visibilities(
 
 
 def network_visibilities(
-    weights: Mapping[str, Path], *, device: str, precision: str, depth_bias: float
+    weights: Mapping[str, Path], depth_biases: Mapping[str, float], *, device: str, precision: str
 ) -> Visibilities:
-    """Trained networks by the name of their experiment."""
+    """Trained networks, and the depth bias of each, by the method's key."""
     chosen = choose_device(device)
     dtype = choose_dtype(precision, chosen)
     networks = {name: load_network(path)[0].to(chosen) for name, path in weights.items()}
 
     def visibilities(points: ShadingPoints) -> dict[str, np.ndarray]:
         return {
-            name: network_lit(network, points.p, points.light, dtype=dtype, depth_bias=depth_bias)
+            name: network_lit(
+                network, points.p, points.light, dtype=dtype, depth_bias=depth_biases[name]
+            )
             for name, network in networks.items()
         }
 
@@ -96,6 +98,7 @@ def evaluate(
     mesh_ply: Path,
     lpips_json: Path,
     weights: Mapping[str, Path],
+    depth_biases: Mapping[str, float],
     metrics_csv: Path,
     pictures_npz: Path,
     *,
@@ -109,7 +112,6 @@ def evaluate(
     width: int,
     height: int,
     reference: str,
-    depth_bias: float,
     seed: int,
     device: str = "auto",
     precision: str = "auto",
@@ -123,10 +125,10 @@ def evaluate(
 
     Args:
         lpips_json: what `lpips_stage` wrote.
-        weights: weight files by the name of their experiment.
+        weights: weight files by the key of the method.
+        depth_biases: of the network query, in sphere radii, by the same keys.
         light: the scene's light domain.
         reference: `exact` or `shadow_map`.
-        depth_bias: of the network query, in sphere radii.
 
     Raises:
         InputError: an input file is not whole, or a setting does not fit the scene.
@@ -139,7 +141,7 @@ def evaluate(
     reference_lit = reference_of(mesh, tracer, reference)
     methods = [
         map_visibilities(mesh, tracer, shadow_maps),
-        network_visibilities(weights, device=device, precision=precision, depth_bias=depth_bias),
+        network_visibilities(weights, depth_biases, device=device, precision=precision),
     ]
     found = read_json(lpips_json)
     lpips = None

@@ -21,7 +21,6 @@ from neural_shadows.hardware import describe_machine
 from neural_shadows.light import axis_vector
 from neural_shadows.mesh import PreparedMesh, read_prepared
 from neural_shadows.methods import RAY_TRACED, shadow_map_key
-from neural_shadows.network import ShadowNetwork
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
 from neural_shadows.shadow_map import (
@@ -31,6 +30,7 @@ from neural_shadows.shadow_map import (
     texel_heights,
     texels_of,
 )
+from neural_shadows.shadow_network import ShadowNetwork
 from neural_shadows.shadow_query import network_lit, sphere_rays
 from neural_shadows.tracing import Tracer
 from neural_shadows.viewpoints import draw_viewpoints
@@ -52,10 +52,25 @@ def whole_map_lit(
     return depth_test(receivers, heights[texels_of(receivers, resolution)], resolution)
 
 
+class StopwatchNetwork:
+    """A network whose last query was timed: how many rays, in how many seconds."""
+
+    def __init__(self, network: ShadowNetwork):
+        self.network = network
+        self.rays, self.seconds = 0, 0.0
+
+    def depths(self, origins: np.ndarray, d: np.ndarray, dtype: torch.dtype) -> np.ndarray:
+        """See `ShadowNetwork.depths`; the answer is on the CPU, so that a GPU is done."""
+        started = time.perf_counter()
+        depths = self.network.depths(origins, d, dtype)
+        self.rays, self.seconds = len(origins), time.perf_counter() - started
+        return depths
+
+
 def shadow_passes(
     mesh: PreparedMesh,
     tracer: Tracer,
-    networks: Mapping[str, ShadowNetwork],
+    networks: Mapping[str, StopwatchNetwork],
     shadow_maps: Sequence[int],
     dtype: torch.dtype,
 ) -> dict[str, ShadowPass]:
@@ -113,7 +128,7 @@ def measure_frame_times(
     whatever the method, so that times compare; networks run on a GPU where there is one.
 
     Args:
-        weights: weight files by the name of their experiment.
+        weights: weight files by the key of the method. A depth bias, one addition, is left out.
         repeats: timed frames of each method; `warm_up`: frames of each before those.
 
     Raises:
@@ -126,7 +141,9 @@ def measure_frame_times(
     ground_at = ground_height(mesh, up_vector) if ground else None
     chosen = choose_device(device)
     dtype = choose_dtype(precision, chosen)
-    networks = {name: load_network(path)[0].to(chosen) for name, path in weights.items()}
+    networks = {
+        name: StopwatchNetwork(load_network(path)[0].to(chosen)) for name, path in weights.items()
+    }
     passes = shadow_passes(mesh, tracer, networks, shadow_maps, dtype)
 
     per_set = -(-repeats // len(view_sets))
@@ -145,6 +162,7 @@ def measure_frame_times(
     viewpoints = sorted(viewpoints, key=lambda view: view.index)[:repeats]  # the sets in turn
 
     milliseconds: dict[str, list[float]] = {name: [] for name in passes}
+    rates: dict[str, list[float]] = {name: [] for name in networks}
     rays = []
     with progress_bar(warm_up + repeats, "frames", f"frame times of {scene}") as bar:
         for i in range(warm_up + repeats):
@@ -159,6 +177,8 @@ def measure_frame_times(
                 rays.append(len(sphere_rays(points.p, points.light).index))
                 for name, value in times.items():
                     milliseconds[name].append(primary + value)
+                for name, network in networks.items():
+                    rates[name].append(network.rays / network.seconds)
             bar.update()
     write_json(
         times_json,
@@ -177,5 +197,6 @@ def measure_frame_times(
             "machine": describe_machine(),
             "sphere_rays": float(np.median(rays)),  # of a frame: those that a network answers
             "methods": {name: {"ms": values} for name, values in milliseconds.items()},
+            "rays_per_second": rates,  # of a network's query alone, by frame
         },
     )

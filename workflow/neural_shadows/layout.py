@@ -6,7 +6,7 @@ from typing import Any, get_args
 from pydantic import BaseModel
 
 from neural_shadows.config import Config, GeneratedMesh, MeshFile, MethodFigure
-from neural_shadows.methods import is_shadow_map, resolution_of
+from neural_shadows.methods import RAY_TRACED, experiment_of, is_shadow_map, resolution_of
 
 # A file name of each stage, in Snakemake's notation of wildcards.
 SCENE = "scenes/{scene}"
@@ -91,17 +91,45 @@ class Layout:
             "bounds": self.ray_shards(*names, "bounds"),
         }
 
-    def network_param(self, experiment: str, key: str) -> Any:
-        """A value of an experiment's network."""
-        return getattr(self.config.networks[self.config.experiments[experiment].network], key)
+    def training_mesh(self, experiment: str) -> list[str]:
+        """The mesh that a training needs beside its rays, if its network does."""
+        settings = self.config.experiments[experiment]
+        needed = self.config.networks[settings.network].needs_mesh
+        return [self.mesh(settings.scene, "ply")] if needed else []
+
+    def network_settings(self, experiment: str) -> dict[str, Any]:
+        """The settings of an experiment's network."""
+        return plain(self.config.networks[self.config.experiments[experiment].network])
 
     def training_param(self, experiment: str, key: str) -> Any:
         """A value of an experiment's training."""
-        return getattr(self.config.trainings[self.config.experiments[experiment].training], key)
+        training = self.config.trainings[self.config.experiments[experiment].training]
+        return plain(getattr(training, key))
 
     def experiment_seed(self, experiment: str) -> int:
-        """Seed of an experiment: its scene's."""
-        return self.config.scene_seed(self.config.experiments[experiment].scene)
+        """Seed of an experiment: its own, or its scene's."""
+        settings = self.config.experiments[experiment]
+        return self.config.scene_seed(settings.scene) if settings.seed is None else settings.seed
+
+    def depth_biases(self, evaluation: str) -> list[str]:
+        """The file of the depth biases that an evaluation uses, if it has them found."""
+        if self.config.evaluations[evaluation].depth_bias != "held_out":
+            return []
+        return [f"{self.results}/{EVALUATION.format(evaluation=evaluation)}/depth_biases.json"]
+
+    def export_biases(self, experiment: str) -> list[str]:
+        """The file of the first depth biases that name an experiment, if any do."""
+        names = [
+            name
+            for name, evaluation in self.config.evaluations.items()
+            if experiment in evaluation.networks and self.depth_biases(name)
+        ]
+        return self.depth_biases(names[0]) if names else []
+
+    def held_out_range(self) -> tuple[int, int]:
+        """First and last (exclusive) viewpoint of a set that no evaluation renders."""
+        rendering = self.config.rendering
+        return rendering.views_per_set, rendering.views_per_set + rendering.held_out_views
 
     def networks(self, evaluation: str, file: str) -> list[str]:
         """A file (`weights.safetensors`, `training.json`) of each network of an evaluation."""
@@ -137,19 +165,31 @@ class Layout:
         names = self.config.tables[table].evaluations
         return [path for name in names for path in self.batches(name, ending)]
 
-    def table_experiments(self, table: str, scene: str | None = None) -> list[str]:
-        """The networks among a table's rows, or those of one scene."""
+    def table_networks(self, table: str, scene: str | None = None) -> list[str]:
+        """Methods of networks among a table's rows, or those of one scene."""
         methods = [row.method for row in self.config.tables[table].rows]
         return [
-            name
-            for name in methods
-            if name in self.config.experiments
-            and scene in (None, self.config.experiments[name].scene)
+            method
+            for method in methods
+            if experiment_of(method) in self.config.experiments
+            and scene in (None, self.config.experiments[experiment_of(method)].scene)
         ]
 
-    def table_networks(self, table: str, file: str) -> list[str]:
-        """A file of each network among a table's rows."""
-        return [self.network(name, file) for name in self.table_experiments(table)]
+    def table_files(self, table: str, file: str, scene: str | None = None) -> list[str]:
+        """A file of each network that `table_networks` names, in its order."""
+        return [
+            self.network(experiment_of(method), file)
+            for method in self.table_networks(table, scene)
+        ]
+
+    def table_trainings(self, table: str) -> list[str]:
+        """The training record of each network among a table's rows, each once."""
+        return list(dict.fromkeys(self.table_files(table, "training.json")))
+
+    def table_biases(self, table: str) -> list[str]:
+        """The files of depth biases of a table's evaluations."""
+        names = self.config.tables[table].evaluations
+        return [path for name in names for path in self.depth_biases(name)]
 
     def table_scene(self, table: str) -> str:
         """The scene that a comparison is about."""
@@ -158,7 +198,9 @@ class Layout:
     def row_scenes(self, table: str) -> list[str]:
         """The scene of each row of a table of frame times."""
         return [
-            self.config.experiments[row.method].scene if row.scene is None else row.scene
+            self.config.experiments[experiment_of(row.method)].scene
+            if row.scene is None
+            else row.scene
             for row in self.config.tables[table].rows
         ]
 
@@ -168,11 +210,6 @@ class Layout:
         return [
             f"{self.results}/{FRAME_TIMES.format(table=table, scene=scene)}" for scene in scenes
         ]
-
-    def timed_networks(self, table: str, scene: str) -> list[str]:
-        """The weights that are timed on a scene for a table."""
-        names = self.table_experiments(table, scene)
-        return [self.network(name, "weights.safetensors") for name in names]
 
     def timed_shadow_maps(self, table: str, scene: str) -> list[int]:
         """Resolutions of the shadow maps that are timed on a scene for a table."""
@@ -202,10 +239,14 @@ class Layout:
 
     def memory_scene(self, table: str) -> str:
         """The scene whose shadow maps a table of memory measures: its first network's."""
-        experiments = self.table_experiments(table)
-        if not experiments:
+        networks = self.table_networks(table)
+        if not networks:
             return next(iter(self.config.scenes))
-        return self.config.experiments[experiments[0]].scene
+        return self.config.experiments[experiment_of(networks[0])].scene
+
+    def table_meshes(self, table: str) -> list[str]:
+        """The description of the mesh of each scene of a table, each once."""
+        return [self.mesh(scene, "json") for scene in dict.fromkeys(self.row_scenes(table))]
 
     def figure_curves(self, figure: str) -> list[str]:
         """The loss curves of a figure."""
@@ -222,13 +263,17 @@ class Layout:
 
     def experiment_widths(self, figure: str) -> dict[str, int]:
         """Neurons per layer of the networks of a figure's table."""
-        names = self.table_experiments(self.figure_table(figure))
-        return {name: self.network_param(name, "width") for name in names}
+        methods = self.table_networks(self.figure_table(figure))
+        return {method: self.network_settings(experiment_of(method))["width"] for method in methods}
 
     def sampling_light(self, scene: str, sampling: str) -> dict[str, Any] | None:
         """The light domain that view directions are drawn from; None for the whole sphere."""
-        only_light = self.config.samplings[sampling].domain == "light"
-        return self.scene_param(scene, "light") if only_light else None
+        match self.config.samplings[sampling].domain:
+            case "light":
+                return self.scene_param(scene, "light")
+            case "hemisphere":
+                return {"domain": "sphere", "min_elevation_deg": 0}
+        return None
 
     def is_procedural(self, scene: str) -> bool:
         """Whether the pipeline makes a scene's mesh itself."""
@@ -266,13 +311,38 @@ class Layout:
         return [
             f"{self.results}/{EVALUATION.format(evaluation=evaluation)}/{view_set}.000.{ending}"
             for evaluation in self.config.tables[settings.table].evaluations
+            if settings.scene in (None, self.evaluation_scene(evaluation))
             for view_set in settings.view_sets
         ]
+
+    def figure_scene(self, figure: str) -> str:
+        """The scene of a figure of pictures or of fronts."""
+        settings = self.config.figures[figure]
+        return settings.scene or self.table_scene(settings.table)
+
+    def field_scene(self, figure: str) -> str:
+        """The scene of a figure of an occupancy field."""
+        return self.config.experiments[self.config.figures[figure].experiment].scene
+
+    def figure_rows(self, figure: str) -> list[dict[str, Any]]:
+        """The rows of a figure's table that are of its scene, and named by it if it names any."""
+        table = self.figure_table(figure)
+        rows = self.table_rows(table)
+        if self.config.tables[table].kind == "networks":
+            scene = self.figure_scene(figure)
+            rows = [row for row, at in zip(rows, self.row_scenes(table)) if at == scene]
+        named = getattr(self.config.figures[figure], "methods", None)
+        return [row for row in rows if named is None or row["method"] in named]
+
+    def picture_rows(self, figure: str) -> list[dict[str, Any]]:
+        """The rows of a figure of pictures; ray tracing's is the reference, which is there anyway."""
+        return [row for row in self.figure_rows(figure) if row["method"] != RAY_TRACED]
 
     def first_batches_by_scene(self, ending: str) -> dict[str, list[str]]:
         """Files of the first batches of all evaluations, by scene."""
         files: dict[str, list[str]] = {}
-        for name, evaluation in self.config.evaluations.items():
+        for name in self.usual_evaluations():
+            evaluation = self.config.evaluations[name]
             files.setdefault(evaluation.scene, []).extend(
                 f"{self.results}/{EVALUATION.format(evaluation=name)}/{view_set}.000.{ending}"
                 for view_set in evaluation.view_sets
@@ -311,14 +381,54 @@ class Layout:
 
     def most_samples(self) -> int:
         """Samples of the longest training."""
-        names = [experiment.training for experiment in self.config.experiments.values()]
-        trainings = [self.config.trainings[name] for name in names]
+        names = self.usual_experiments()
+        trainings = [
+            self.config.trainings[self.config.experiments[name].training] for name in names
+        ]
         return max(training.steps * training.batch_size for training in trainings)
+
+    def usual_tables(self) -> list[str]:
+        """Names of the tables that `rule all` makes and the page shows."""
+        tables = self.config.tables.items()
+        return [name for name, table in tables if not getattr(table, "on_request", False)]
+
+    def usual_figures(self) -> list[str]:
+        """Names of the figures that `rule all` makes and the page shows."""
+        tables = self.usual_tables()
+        return [
+            name
+            for name, figure in self.config.figures.items()
+            if getattr(figure, "table", tables[0]) in tables
+        ]
+
+    def usual_evaluations(self) -> list[str]:
+        """Names of the evaluations of those tables and of claims, or of no table at all."""
+        tables = self.config.tables.items()
+        usual, asked = (
+            {
+                evaluation
+                for name, table in tables
+                if getattr(table, "on_request", False) == on_request
+                for evaluation in getattr(table, "evaluations", [])
+            }
+            for on_request in (False, True)
+        )
+        return [name for name in self.config.evaluations if name in usual or name not in asked]
+
+    def usual_experiments(self) -> list[str]:
+        """Names of the networks of `usual_evaluations` and of figures, each once."""
+        named = [
+            *(n for e in self.usual_evaluations() for n in self.config.evaluations[e].networks),
+            *(c.experiment for f in self.config.figures.values() for c in getattr(f, "curves", [])),
+        ]
+        return list(dict.fromkeys(named))
 
     def all_reports(self) -> list[str]:
         """Everything that `rule all` makes."""
-        tables = [f"{name}{ending}" for name in self.config.tables for ending in (".csv", ".md")]
-        figures = [f"{name}{ending}" for name in self.config.figures for ending in (".png", ".svg")]
+        tables = [f"{name}{ending}" for name in self.usual_tables() for ending in (".csv", ".md")]
+        figures = [
+            f"{name}{ending}" for name in self.usual_figures() for ending in (".png", ".svg")
+        ]
         previews = [f"scenes/{scene}.png" for scene in self.config.scenes]
         claims = ["claims.csv", "claims.md"] if self.config.claims else []
         names = tables + figures + previews + claims + ["index.html"]

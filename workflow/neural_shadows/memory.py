@@ -17,13 +17,13 @@ FLOAT_BYTES = 4
 
 
 def network_bytes(weights: Path) -> int:
-    """4 bytes for each weight of the trained network in this file [4.4.2].
+    """Bytes of all that the network in this file stores; 4 for each weight of the thesis's [4.4.2].
 
     Raises:
-        InputError: the file's tensors take another size: it is not whole, or not of float32.
+        InputError: the file's tensors take another size: it is not whole, or of another precision.
     """
     network, _ = load_network(weights)
-    formula = FLOAT_BYTES * network.parameter_count()
+    formula = sum(tensor.nbytes for tensor in network.stored().values())
     # safetensors: 8 bytes with the length of the header, the header, then the tensors alone.
     with weights.open("rb") as file:
         header = int.from_bytes(file.read(8), "little")

@@ -35,7 +35,7 @@ def write_memory_table(
 
     Args:
         mesh_ply: of the scene that the maps are traced of.
-        weights: weight files by the name of their experiment.
+        weights: weight files by the key of the method.
 
     Raises:
         InputError: a file's real size is not what the formula says.

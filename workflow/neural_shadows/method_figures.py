@@ -111,7 +111,8 @@ def _segments(axes: Axes, starts: np.ndarray, ends: np.ndarray, **style) -> None
     axes.add_collection(LineCollection(np.stack([starts, ends], axis=1), **style))
 
 
-def _outline(axes: Axes, cut: MeshSlice) -> None:
+def draw_outline(axes: Axes, cut: MeshSlice) -> None:
+    """Draw the mesh's section."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path as Outline
 
@@ -224,9 +225,9 @@ def _overview(figure: Figure, cut: MeshSlice, sampling: Mapping[str, Any], seed:
     _points(points, cut, offsets, 2)
     _plane(labels, "c  labels: bounds along the rays")
     _rays_with_bounds(labels, slice_rays(cut, FEW_RAYS), 1.0)
-    _outline(labels, cut)
+    draw_outline(labels, cut)
     _plane(query, "d  a query: p is in shadow, as s > t$_s$")
-    _outline(query, cut)
+    draw_outline(query, cut)
     rays = slice_rays(cut, 401)
     # The ray whose parts before, in and behind the object are all long enough to be seen.
     end = np.minimum(rays.t_ub, rays.chord)
@@ -280,7 +281,7 @@ def _shadow_boundary(figure: Figure, cut: MeshSlice) -> None:
         linewidths=width,
         rasterized=True,
     )
-    _outline(plane, cut)
+    draw_outline(plane, cut)
     few = slice_rays(cut, 12)
     _segments(plane, few.at(np.zeros(12)), few.at(few.t_lb), colors=ORANGE, linewidths=1)
     graph.fill_between(rays.offset, rays.chord, np.where(hit, end, rays.chord), color=SHADE)
@@ -361,7 +362,7 @@ def _dual_bounds(figure: Figure, cut: MeshSlice) -> None:
     part.set_ylim(-0.4, 0.4)
     for axes, shown in ((whole, rays), (part, dense)):
         _rays_with_bounds(axes, shown, 1.2)
-        _outline(axes, cut)
+        draw_outline(axes, cut)
     figure.legend(
         handles=[
             Line2D([], [], color=ORANGE, label="lit: up to t$_{lb}$, the first hit or the sphere"),

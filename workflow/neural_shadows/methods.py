@@ -1,4 +1,4 @@
-"""Keys of the methods that are no networks; a network's key is its experiment's name."""
+"""Keys of methods: a network's is its experiment's name, the others' are made here."""
 
 import re
 
@@ -19,3 +19,16 @@ def is_shadow_map(method: str) -> bool:
 def resolution_of(method: str) -> int:
     """N of the key `shadow_map_N`."""
     return int(method.removeprefix(SHADOW_MAP_PREFIX))
+
+
+BIASED_SUFFIX = "_biased"
+
+
+def biased_key(experiment: str) -> str:
+    """Key of a network with the depth bias that was found for it on held-out views."""
+    return f"{experiment}{BIASED_SUFFIX}"
+
+
+def experiment_of(method: str) -> str:
+    """The experiment whose network a method's key names."""
+    return method.removesuffix(BIASED_SUFFIX)

@@ -9,7 +9,8 @@ from safetensors.torch import save
 
 from neural_shadows.errors import InputError
 from neural_shadows.files import whole_file
-from neural_shadows.network import ShadowNetwork
+from neural_shadows.network_kinds import make_network
+from neural_shadows.shadow_network import ShadowNetwork
 
 
 def save_tensors(path: Path, tensors: dict[str, torch.Tensor], header: dict) -> None:
@@ -47,8 +48,8 @@ def load_tensors(path: Path) -> tuple[dict[str, torch.Tensor], dict]:
 
 
 def save_network(path: Path, network: ShadowNetwork, header: dict) -> None:
-    """Write a network; `header["network"]` must hold the arguments of its class."""
-    save_tensors(path, network.state_dict(), header)
+    """Write a network; `header["network"]` must hold what `make_network` makes it from."""
+    save_tensors(path, network.stored(), header)
 
 
 def load_network(path: Path) -> tuple[ShadowNetwork, dict]:
@@ -60,9 +61,9 @@ def load_network(path: Path) -> tuple[ShadowNetwork, dict]:
     """
     tensors, header = load_tensors(path)
     try:
-        network = ShadowNetwork(**header["network"])
-        network.load_state_dict(tensors)
-    except (KeyError, TypeError, RuntimeError) as error:
+        network = make_network(header["network"])
+        network.restore(tensors)
+    except (KeyError, TypeError, ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())
         raise InputError(
             f"{path}: weights do not fit the header ({reason}); delete it and train again"

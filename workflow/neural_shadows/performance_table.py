@@ -55,7 +55,7 @@ def performance_table(
         times: as `read_frame_times` gives them.
         metrics: as `read_metrics` gives them, by scene; a method that is not in them has no
             LPIPS.
-        sizes: bytes by the name of the experiment.
+        sizes: bytes of networks by the key of the method.
 
     Returns:
         Columns `method, scene, frame_ms, frame_ms_q1, frame_ms_q3, repeats, lpips, lpips_low,
@@ -122,7 +122,7 @@ def write_performance_table(
 
     Args:
         metrics: files of per-view metrics by scene.
-        weights: weight files by the name of their experiment; their size is measured.
+        weights: weight files by the key of the method; their size is measured.
 
     Raises:
         InputError: a file is missing or cut short.

@@ -1,15 +1,17 @@
 """Which points a shadow network calls lit [3.6]."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import torch
 
-from neural_shadows.network import ShadowNetwork
 
-# Rays per forward pass: on a CPU one layer's activations of 256 × bfloat16 are then 2 MiB and
-# stay in the cache; on a GPU a whole frame goes at once.
-CHUNKS = {"cpu": 4096, "cuda": 1 << 20}
+class DepthQuery(Protocol):
+    """What the depth test needs of a network."""
+
+    def depths(self, origins: np.ndarray, d: np.ndarray, dtype: torch.dtype) -> np.ndarray:
+        """t_pred of parallel rays, from entry points (k, 3) along d (3,): (k,) float32."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,20 +52,8 @@ def sphere_rays(p: np.ndarray, light: np.ndarray) -> SphereRays:
     )
 
 
-def predict_depths(
-    network: ShadowNetwork, origins: np.ndarray, light: np.ndarray, dtype: torch.dtype
-) -> np.ndarray:
-    """t_pred of rays from the entry points (k, 3) along d = −l: (k,) float32."""
-    device = network.output.device
-    d = torch.from_numpy(-np.asarray(light, np.float32)).to(device)
-    with torch.inference_mode():
-        chunks = torch.from_numpy(origins).to(device).split(CHUNKS[device.type])
-        depths = [network(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks]
-        return torch.cat(depths).cpu().numpy()
-
-
 def network_lit(
-    network: ShadowNetwork,
+    network: DepthQuery,
     p: np.ndarray,
     light: np.ndarray,
     *,
@@ -82,7 +72,12 @@ def network_lit(
         depth_bias: in units of the sphere's radius.
     """
     rays = sphere_rays(p, light)
-    t_pred = predict_depths(network, rays.origins, light, dtype)
-    lit = np.ones(len(p), bool)
+    t_pred = network.depths(rays.origins, -np.asarray(light, np.float32), dtype)
+    return lit_points(rays, t_pred, len(p), depth_bias)
+
+
+def lit_points(rays: SphereRays, t_pred: np.ndarray, count: int, depth_bias: float) -> np.ndarray:
+    """The depth test of `network_lit` on depths t_pred (k,) of the rays to `count` points."""
+    lit = np.ones(count, bool)
     lit[rays.index] = np.minimum(rays.s, rays.chord) <= t_pred + np.float32(depth_bias)
     return lit

@@ -13,20 +13,17 @@ import numpy as np
 import pandas as pd
 import torch
 
-from neural_shadows import dead_zone_loss as dead_zone_loss_module
-from neural_shadows import network as network_module
 from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.dead_zone_loss import dead_zone_loss
+from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.errors import InputError
 from neural_shadows.files import write_json, write_text
 from neural_shadows.hardware import describe_machine
-from neural_shadows.network import ShadowNetwork
+from neural_shadows.mesh import PreparedMesh
+from neural_shadows.module_graph import modules_of
 from neural_shadows.network_file import load_tensors, save_network, save_tensors
+from neural_shadows.network_kinds import make_network
 from neural_shadows.progress import progress_bar
-
-# Rays per forward and backward pass on a CPU, at most: at 256 wide one layer's activations are
-# then 1 MiB and stay in a core's cache.
-CPU_CHUNK = 2048
+from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork
 
 # Points of the loss curve, each the mean loss since the point before.
 CURVE_POINTS = 500
@@ -67,8 +64,8 @@ def state_digest(description: dict) -> str:
     state that they did not make.
     """
     digest = hashlib.sha256(json.dumps(description, sort_keys=True).encode())
-    for module in (__file__, network_module.__file__, dead_zone_loss_module.__file__):
-        digest.update(Path(module).read_bytes())
+    for module in (Path(__file__), *modules_of(Path(__file__))):
+        digest.update(module.read_bytes())
     return digest.hexdigest()[:16]
 
 
@@ -120,8 +117,9 @@ class TrainingRun:
         rays: LabelledRays,
         indices: np.ndarray,
         rate: float,
+        dead_zone: DeadZone,
         dtype: torch.dtype,
-        chunk: int,
+        seed: int,
         pool: Executor,
     ) -> tuple[torch.Tensor, torch.Tensor]:
         """One step of Adam on the mean loss of the samples `indices`.
@@ -129,21 +127,26 @@ class TrainingRun:
         Gradients of chunks are computed in the pool's threads and added in the chunks' order,
         so that the result does not depend on the number of threads.
 
-        Returns:
-            The batch's mean loss, and the spread (max − min) of its t_pred.
-        """
-        device = self.network.output.device
-        weights = list(self.network.parameters())
+        Args:
+            seed: of what a network's loss draws; the draws depend on it, the step and the chunk.
 
-        def gradients(part: tuple[torch.Tensor, ...]):
-            origins, directions, t_lb, t_ub = part
-            t = self.network(origins, directions, dtype)
-            loss = dead_zone_loss(t, t_lb, t_ub).sum() / len(indices)
-            return loss.detach(), t.detach(), torch.autograd.grad(loss, weights)
+        Returns:
+            The batch's mean loss, and the spread (max − min) of the network's outputs.
+        """
+        weights = list(self.network.parameters())
+        device = weights[0].device
+
+        def gradients(number: int, part: LabelledBatch):
+            state = np.random.SeedSequence([seed, self.step, number]).generate_state(1, np.uint64)
+            generator = torch.Generator(device).manual_seed(int(state[0]))
+            losses, outputs = self.network.losses(part, dead_zone, dtype, generator)
+            loss = losses.sum() / len(indices)
+            return loss.detach(), outputs.detach(), torch.autograd.grad(loss, weights)
 
         batch = [torch.from_numpy(part).to(device) for part in rays.gather(indices)]
-        chunks = zip(*(part.split(chunk) for part in batch))
-        losses, predictions, parts = zip(*pool.map(gradients, chunks))
+        chunk = chunk_size(len(indices), device, self.network.training_chunk)
+        chunks = [LabelledBatch(*parts) for parts in zip(*(part.split(chunk) for part in batch))]
+        losses, outputs, parts = zip(*pool.map(gradients, range(len(chunks)), chunks))
         for weight, *terms in zip(weights, *parts):
             weight.grad = terms[0]
             for term in terms[1:]:
@@ -152,7 +155,7 @@ class TrainingRun:
             group["lr"] = rate
         self.optimiser.step()
         self.step += 1
-        low, high = torch.cat(predictions).aminmax()
+        low, high = torch.cat(outputs).aminmax()
         return torch.stack(losses).sum(), high - low
 
 
@@ -167,11 +170,11 @@ def gradient_pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, initializer=torch.set_num_threads, initargs=(1,))
 
 
-def chunk_size(batch_size: int, device: torch.device) -> int:
-    """Rays that one thread takes at once: a CPU's cache full, and no more than half a batch."""
+def chunk_size(batch_size: int, device: torch.device, most: int) -> int:
+    """Rays that one thread takes at once: on a CPU `most`, and no more than half a batch."""
     if device.type == "cuda":
         return batch_size
-    return min(CPU_CHUNK, -(-batch_size // 2))
+    return min(most, -(-batch_size // 2))
 
 
 def check_alive(name: str, step: int, loss: float, spread: float) -> None:
@@ -184,7 +187,7 @@ def check_alive(name: str, step: int, loss: float, spread: float) -> None:
     if not math.isfinite(loss):
         problem = f"the loss is {loss}"
     elif not spread > 0:
-        problem = "the network predicts the same depth for every ray (its output died)"
+        problem = "the network answers the same for every ray (its output died)"
     if problem:
         raise InputError(
             f"training {name}: {problem} at step {step}; lower its `learning_rate` in the "
@@ -204,7 +207,9 @@ def train(
     batch_size: int,
     learning_rate: float,
     schedule: str,
+    loss: dict[str, float],
     seed: int,
+    mesh: PreparedMesh | None,
     data: dict[str, Any],
     state_folder: Path,
     state_interval_s: float = 30.0,
@@ -212,7 +217,7 @@ def train(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Train one network with Adam on the dead-zone loss [3.5, 4.1].
+    """Train one network with Adam on its loss, the thesis's on the dead-zone loss [3.5, 4.1].
 
     Writes the weights, the loss curve and a record of the run (seconds, rate, machine). A
     run that was killed continues from its last saved state when it is called again with the
@@ -222,8 +227,10 @@ def train(
         rays: labelled rays.
         weights, loss_csv, record_json: files to write.
         name: of the experiment, for messages.
-        network: arguments of `ShadowNetwork`.
+        network: what `make_network` makes it from.
         schedule: `constant` or `cosine`.
+        loss: weights of `DeadZone`.
+        mesh: of the object; may be None for a network that does not need it.
         data: description of the rays (their digests and seeds); goes into the weights' header
             and into the name of the saved state.
         state_folder: where states of running trainings live; this run's is removed at its end.
@@ -242,13 +249,16 @@ def train(
         "batch_size": batch_size,
         "learning_rate": learning_rate,
         "schedule": schedule,
+        "loss": loss,
         "seed": seed,
         "device": chosen.type,
         "precision": str(dtype).removeprefix("torch."),
     }
     header = {"name": name, "network": network, "training": settings, "data": data}
 
-    model = ShadowNetwork(**network)
+    model = make_network(network)
+    if mesh is not None:
+        model.prepare(mesh)
     model.initialise(seed)
     run = TrainingRun(model, chosen, learning_rate)
     run_folder = Path(state_folder) / f"{name}-{state_digest(header)}"
@@ -256,7 +266,7 @@ def train(
     if state_file.exists():
         run.restore(state_file)
 
-    chunk = chunk_size(batch_size, chosen)
+    dead_zone = DeadZone(**loss)
     point_interval = max(1, steps // CURVE_POINTS)
     interval_loss = torch.zeros((), device=chosen)
     started = last_saved = time.monotonic()
@@ -271,8 +281,8 @@ def train(
                 run.step, steps=steps, learning_rate=learning_rate, schedule=schedule
             )
             indices = batch_indices(run.step, seed=seed, batch_size=batch_size, count=rays.count)
-            loss, spread = run.train_step(rays, indices, rate, dtype, chunk, pool)
-            interval_loss += loss
+            mean, spread = run.train_step(rays, indices, rate, dead_zone, dtype, seed, pool)
+            interval_loss += mean
             bar.update(batch_size)
             # States are saved at points of the curve only, so that a restored run has no
             # half-summed loss to carry along.

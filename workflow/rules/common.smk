@@ -57,7 +57,7 @@ wildcard_constraints:
     experiment="[a-z][a-z0-9_]*",
     evaluation="[a-z][a-z0-9_]*",
     view_set="[a-z]+",
-    table="table_[a-z0-9_]+",
+    table=layout.one_of(list(CONFIG.tables)),
     shard="[0-9]+",
     batch="[0-9]+",
 

@@ -24,6 +24,56 @@ rule find_lpips:
         "../scripts/find_lpips.py"
 
 
+rule find_depth_biases:
+    input:
+        mesh=lambda wildcards: LAYOUT.mesh(
+            LAYOUT.evaluation_scene(wildcards.evaluation), "ply"
+        ),
+        weights=lambda wildcards: LAYOUT.networks(
+            wildcards.evaluation, "weights.safetensors"
+        ),
+        code=code("find_depth_biases"),
+    output:
+        found=f"{EVALUATION}/depth_biases.json",
+    log:
+        f"{LOGS}/find_depth_biases/{{evaluation}}.log",
+    benchmark:
+        f"{BENCHMARKS}/find_depth_biases/{{evaluation}}.tsv"
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=60,
+        gpu=GPUS,
+    params:
+        networks=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].networks,
+        view_sets=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].view_sets,
+        first=LAYOUT.held_out_range()[0],
+        last=LAYOUT.held_out_range()[1],
+        up=lambda wildcards: LAYOUT.scene_param(
+            LAYOUT.evaluation_scene(wildcards.evaluation), "up"
+        ),
+        ground=lambda wildcards: LAYOUT.scene_param(
+            LAYOUT.evaluation_scene(wildcards.evaluation), "ground"
+        ),
+        light=lambda wildcards: LAYOUT.scene_param(
+            LAYOUT.evaluation_scene(wildcards.evaluation), "light"
+        ),
+        width=CONFIG.rendering.width,
+        height=CONFIG.rendering.height,
+        reference=CONFIG.rendering.reference,
+        seed=lambda wildcards: CONFIG.scene_seed(
+            LAYOUT.evaluation_scene(wildcards.evaluation)
+        ),
+        device=CONFIG.compute.device,
+        precision=CONFIG.compute.precision,
+    message:
+        "Finding depth biases for {wildcards.evaluation}"
+    script:
+        "../scripts/find_depth_biases.py"
+
+
 rule evaluate:
     input:
         mesh=lambda wildcards: LAYOUT.mesh(
@@ -33,6 +83,7 @@ rule evaluate:
             wildcards.evaluation, "weights.safetensors"
         ),
         lpips=f"{RESULTS}/lpips.json",
+        depth_biases=lambda wildcards: LAYOUT.depth_biases(wildcards.evaluation),
         code=code("evaluate"),
     output:
         metrics=f"{EVALUATION}/{{view_set}}.{{batch}}.csv",
@@ -82,8 +133,8 @@ rule evaluate:
 rule frame_times:
     input:
         mesh=f"{SCENE}/mesh.ply",
-        weights=lambda wildcards: LAYOUT.timed_networks(
-            wildcards.table, wildcards.scene
+        weights=lambda wildcards: LAYOUT.table_files(
+            wildcards.table, "weights.safetensors", wildcards.scene
         ),
         code=code("frame_times"),
     output:
@@ -101,7 +152,7 @@ rule frame_times:
         runtime=120,
         gpu=GPUS,
     params:
-        networks=lambda wildcards: LAYOUT.table_experiments(
+        networks=lambda wildcards: LAYOUT.table_networks(
             wildcards.table, wildcards.scene
         ),
         shadow_maps=lambda wildcards: LAYOUT.timed_shadow_maps(

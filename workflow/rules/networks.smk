@@ -1,9 +1,10 @@
-"""One training job for each network [4.1]."""
+"""One training job for each network [4.1], and its export for renderers."""
 
 
 rule train:
     input:
         unpack(lambda wildcards: LAYOUT.training_rays(wildcards.experiment)),
+        mesh=lambda wildcards: LAYOUT.training_mesh(wildcards.experiment),
         code=code("train"),
     output:
         weights=f"{NETWORK}/weights.safetensors",
@@ -21,13 +22,7 @@ rule train:
         runtime=600,
         gpu=GPUS,
     params:
-        frequencies=lambda wildcards: LAYOUT.network_param(
-            wildcards.experiment, "frequencies"
-        ),
-        width=lambda wildcards: LAYOUT.network_param(wildcards.experiment, "width"),
-        hidden_layers=lambda wildcards: LAYOUT.network_param(
-            wildcards.experiment, "hidden_layers"
-        ),
+        network=lambda wildcards: LAYOUT.network_settings(wildcards.experiment),
         steps=lambda wildcards: LAYOUT.training_param(wildcards.experiment, "steps"),
         batch_size=lambda wildcards: LAYOUT.training_param(
             wildcards.experiment, "batch_size"
@@ -38,6 +33,7 @@ rule train:
         schedule=lambda wildcards: LAYOUT.training_param(
             wildcards.experiment, "schedule"
         ),
+        loss=lambda wildcards: LAYOUT.training_param(wildcards.experiment, "loss"),
         seed=lambda wildcards: LAYOUT.experiment_seed(wildcards.experiment),
         device=CONFIG.compute.device,
         precision=CONFIG.compute.precision,
@@ -45,3 +41,28 @@ rule train:
         "Training {wildcards.experiment}"
     script:
         "../scripts/train.py"
+
+
+rule export_network:
+    input:
+        weights=f"{NETWORK}/weights.safetensors",
+        mesh=lambda wildcards: LAYOUT.mesh(
+            CONFIG.experiments[wildcards.experiment].scene, "json"
+        ),
+        depth_biases=lambda wildcards: LAYOUT.export_biases(wildcards.experiment),
+        code=code("export_network"),
+    output:
+        onnx=f"{NETWORK}/network.onnx",
+        conventions=f"{NETWORK}/network.json",
+    log:
+        f"{LOGS}/export_network/{{experiment}}.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=30,
+    message:
+        "Exporting {wildcards.experiment} as ONNX"
+    script:
+        "../scripts/export_network.py"

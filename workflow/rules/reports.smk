@@ -5,9 +5,7 @@ rule table:
     input:
         metrics=lambda wildcards: LAYOUT.table_batches(wildcards.table, "csv"),
         mesh=lambda wildcards: LAYOUT.mesh(LAYOUT.table_scene(wildcards.table), "json"),
-        training=lambda wildcards: LAYOUT.table_networks(
-            wildcards.table, "training.json"
-        ),
+        training=lambda wildcards: LAYOUT.table_trainings(wildcards.table),
         lpips=f"{RESULTS}/lpips.json",
         published="config/published.csv",
         code=code("write_table"),
@@ -55,7 +53,7 @@ rule picture_strip:
         pictures=lambda wildcards: LAYOUT.first_batches(wildcards.figure, "npz"),
         metrics=lambda wildcards: LAYOUT.first_batches(wildcards.figure, "csv"),
         mesh=lambda wildcards: LAYOUT.mesh(
-            LAYOUT.table_scene(LAYOUT.figure_table(wildcards.figure)), "json"
+            LAYOUT.figure_scene(wildcards.figure), "json"
         ),
         code=code("picture_strip"),
     output:
@@ -78,7 +76,7 @@ rule picture_strip:
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
-        rows=lambda wildcards: LAYOUT.table_rows(LAYOUT.figure_table(wildcards.figure)),
+        rows=lambda wildcards: LAYOUT.picture_rows(wildcards.figure),
         scale=CONFIG.scale,
     message:
         "Drawing the pictures of {wildcards.figure}"
@@ -90,12 +88,10 @@ rule performance_table:
     input:
         times=lambda wildcards: LAYOUT.frame_times(wildcards.table),
         metrics=lambda wildcards: LAYOUT.table_batches(wildcards.table, "csv"),
-        weights=lambda wildcards: LAYOUT.table_networks(
+        weights=lambda wildcards: LAYOUT.table_files(
             wildcards.table, "weights.safetensors"
         ),
-        training=lambda wildcards: LAYOUT.table_networks(
-            wildcards.table, "training.json"
-        ),
+        training=lambda wildcards: LAYOUT.table_trainings(wildcards.table),
         published="config/published.csv",
         code=code("performance_table"),
     output:
@@ -122,7 +118,7 @@ rule performance_table:
         rows=lambda wildcards: LAYOUT.table_rows(wildcards.table),
         scenes=lambda wildcards: LAYOUT.row_scenes(wildcards.table),
         batches=lambda wildcards: LAYOUT.batches_by_scene(wildcards.table),
-        experiments=lambda wildcards: LAYOUT.table_experiments(wildcards.table),
+        networks=lambda wildcards: LAYOUT.table_networks(wildcards.table),
         scale=CONFIG.scale,
         seed=CONFIG.seed,
     message:
@@ -131,10 +127,58 @@ rule performance_table:
         "../scripts/performance_table.py"
 
 
+rule networks_table:
+    input:
+        times=lambda wildcards: LAYOUT.frame_times(wildcards.table),
+        metrics=lambda wildcards: LAYOUT.table_batches(wildcards.table, "csv"),
+        weights=lambda wildcards: LAYOUT.table_files(
+            wildcards.table, "weights.safetensors"
+        ),
+        training=lambda wildcards: LAYOUT.table_trainings(wildcards.table),
+        depth_biases=lambda wildcards: LAYOUT.table_biases(wildcards.table),
+        meshes=lambda wildcards: LAYOUT.table_meshes(wildcards.table),
+        lpips=f"{RESULTS}/lpips.json",
+        code=code("networks_table"),
+    output:
+        csv=report(
+            f"{REPORTS}/{{table}}.csv",
+            caption="../report/table.rst",
+            category="Tables",
+            labels=lambda wildcards: LAYOUT.table_labels(wildcards.table),
+        ),
+        md=f"{REPORTS}/{{table}}.md",
+    log:
+        f"{LOGS}/table/{{table}}.log",
+    wildcard_constraints:
+        table=layout.one_of(LAYOUT.tables_of("networks")),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=10,
+    params:
+        title=lambda wildcards: CONFIG.tables[wildcards.table].title,
+        rows=lambda wildcards: LAYOUT.table_rows(wildcards.table),
+        scenes=lambda wildcards: LAYOUT.row_scenes(wildcards.table),
+        batches=lambda wildcards: LAYOUT.batches_by_scene(wildcards.table),
+        networks=lambda wildcards: LAYOUT.table_networks(wildcards.table),
+        procedural={scene: LAYOUT.is_procedural(scene) for scene in CONFIG.scenes},
+        seeds={scene: CONFIG.scene_seed(scene) for scene in CONFIG.scenes},
+        scale=CONFIG.scale,
+        width=CONFIG.rendering.width,
+        height=CONFIG.rendering.height,
+        reference=CONFIG.rendering.reference,
+    message:
+        "Writing {wildcards.table}"
+    script:
+        "../scripts/networks_table.py"
+
+
 rule memory_table:
     input:
         mesh=lambda wildcards: LAYOUT.mesh(LAYOUT.memory_scene(wildcards.table), "ply"),
-        weights=lambda wildcards: LAYOUT.table_networks(
+        weights=lambda wildcards: LAYOUT.table_files(
             wildcards.table, "weights.safetensors"
         ),
         published="config/published.csv",
@@ -161,7 +205,7 @@ rule memory_table:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
         number=lambda wildcards: CONFIG.tables[wildcards.table].published,
         rows=lambda wildcards: LAYOUT.table_rows(wildcards.table),
-        experiments=lambda wildcards: LAYOUT.table_experiments(wildcards.table),
+        networks=lambda wildcards: LAYOUT.table_networks(wildcards.table),
         scale=CONFIG.scale,
     message:
         "Writing {wildcards.table}"
@@ -234,6 +278,77 @@ rule width_figure:
         "Drawing {wildcards.figure}"
     script:
         "../scripts/width_figure.py"
+
+
+rule fronts_figure:
+    input:
+        table=lambda wildcards: f"{REPORTS}/{LAYOUT.figure_table(wildcards.figure)}.csv",
+        code=code("fronts_figure"),
+    output:
+        png=report(
+            f"{REPORTS}/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: LAYOUT.figure_labels(wildcards.figure),
+        ),
+        svg=f"{REPORTS}/{{figure}}.svg",
+    log:
+        f"{LOGS}/fronts_figure/{{figure}}.log",
+    wildcard_constraints:
+        figure=layout.one_of(LAYOUT.figures_of("fronts")),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
+        scene=lambda wildcards: CONFIG.figures[wildcards.figure].scene,
+        rows=lambda wildcards: LAYOUT.figure_rows(wildcards.figure),
+        scale=CONFIG.scale,
+    message:
+        "Drawing {wildcards.figure}"
+    script:
+        "../scripts/fronts_figure.py"
+
+
+rule field_slice:
+    input:
+        mesh=lambda wildcards: LAYOUT.mesh(
+            LAYOUT.field_scene(wildcards.figure), "ply"
+        ),
+        weights=lambda wildcards: LAYOUT.network(
+            CONFIG.figures[wildcards.figure].experiment, "weights.safetensors"
+        ),
+        code=code("field_slice"),
+    output:
+        png=report(
+            f"{REPORTS}/{{figure}}.png",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: LAYOUT.figure_labels(wildcards.figure),
+        ),
+        svg=f"{REPORTS}/{{figure}}.svg",
+    log:
+        f"{LOGS}/field_slice/{{figure}}.log",
+    wildcard_constraints:
+        figure=layout.one_of(LAYOUT.figures_of("field_slice")),
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=10,
+    params:
+        title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
+        up=lambda wildcards: LAYOUT.scene_param(
+            LAYOUT.field_scene(wildcards.figure), "up"
+        ),
+    message:
+        "Drawing {wildcards.figure}"
+    script:
+        "../scripts/field_slice.py"
 
 
 rule method_figure:
@@ -316,10 +431,10 @@ rule claims:
 
 rule html_report:
     input:
-        tables=[f"{REPORTS}/{name}.md" for name in CONFIG.tables],
+        tables=[f"{REPORTS}/{name}.md" for name in LAYOUT.usual_tables()],
         figures=[
             f"{REPORTS}/{name}.{ending}"
-            for name in CONFIG.figures
+            for name in LAYOUT.usual_figures()
             for ending in ("svg", "png")
         ],
         claims=LAYOUT.report_claims(),
@@ -334,7 +449,10 @@ rule html_report:
             for path in paths
         ],
         meshes=[LAYOUT.mesh(scene, "json") for scene in CONFIG.scenes],
-        trainings=[LAYOUT.network(name, "training.json") for name in CONFIG.experiments],
+        trainings=[
+            LAYOUT.network(name, "training.json")
+            for name in LAYOUT.usual_experiments()
+        ],
         lpips=f"{RESULTS}/lpips.json",
         page=[
             "workflow/report/page/template.html",
@@ -365,8 +483,8 @@ rule html_report:
             f"{CONFIG.rendering.width} × {CONFIG.rendering.height}"
         ),
         figures={
-            f"{REPORTS}/{name}": figure.title
-            for name, figure in CONFIG.figures.items()
+            f"{REPORTS}/{name}": CONFIG.figures[name].title
+            for name in LAYOUT.usual_figures()
         },
         pictures=LAYOUT.first_batches_by_scene("npz"),
         metrics=LAYOUT.first_batches_by_scene("csv"),

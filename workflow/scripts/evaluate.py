@@ -2,16 +2,24 @@
 
 from pathlib import Path
 
+from neural_shadows.depth_bias import read_depth_biases
 from neural_shadows.evaluation import evaluate
 from neural_shadows.jobs import run_job
+from neural_shadows.methods import biased_key
 
 
 def main(job):
     params = job.params
+    if job.input.depth_biases:
+        found = read_depth_biases(Path(job.input.depth_biases[0]))
+        depth_biases = {biased_key(name): found[name] for name in params.networks}
+    else:
+        depth_biases = dict.fromkeys(params.networks, params.depth_bias)
     evaluate(
         Path(job.input.mesh),
         Path(job.input.lpips),
-        dict(zip(params.networks, map(Path, job.input.weights), strict=True)),
+        dict(zip(depth_biases, map(Path, job.input.weights), strict=True)),
+        depth_biases,
         Path(job.output.metrics),
         Path(job.output.pictures),
         shadow_maps=params.shadow_maps,
@@ -24,7 +32,6 @@ def main(job):
         width=params.width,
         height=params.height,
         reference=params.reference,
-        depth_bias=params.depth_bias,
         seed=params.seed,
         device=params.device,
         precision=params.precision,

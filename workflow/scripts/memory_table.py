@@ -10,7 +10,7 @@ def main(job):
     params = job.params
     write_memory_table(
         Path(job.input.mesh),
-        dict(zip(params.experiments, map(Path, job.input.weights), strict=True)),
+        dict(zip(params.networks, map(Path, job.input.weights), strict=True)),
         Path(job.input.published),
         Path(job.output.csv),
         Path(job.output.md),

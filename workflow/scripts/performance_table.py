@@ -11,7 +11,7 @@ def main(job):
     write_performance_table(
         [Path(path) for path in job.input.times],
         {scene: [Path(path) for path in paths] for scene, paths in params.batches.items()},
-        dict(zip(params.experiments, map(Path, job.input.weights), strict=True)),
+        dict(zip(params.networks, map(Path, job.input.weights), strict=True)),
         [Path(path) for path in job.input.training],
         Path(job.input.published),
         Path(job.output.csv),

@@ -5,6 +5,8 @@ import math
 import torch
 from torch import Tensor, nn
 
+from neural_shadows.shadow_network import ShadowNetwork
+
 
 class FrequencyEncoding(nn.Module):
     """γ(x) = (x, sin 2⁰πx, cos 2⁰πx, …, sin 2^(L−1)πx, cos 2^(L−1)πx) of six scalars [3.3.2].
@@ -27,7 +29,7 @@ class FrequencyEncoding(nn.Module):
         return torch.cat([x, phase.sin(), phase.cos()], dim=1)
 
 
-class ShadowNetwork(nn.Module):
+class FrequencyNetwork(ShadowNetwork):
     """t_pred(o, d): encoding, a layer into `width`, hidden layers, one output; no biases.
 
     ReLU follows every layer, the last one too [4.1]. The output is t/2, in [0, 1] for rays
@@ -67,20 +69,10 @@ class ShadowNetwork(nn.Module):
             )
 
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
-        """Predicted shadow depth t_pred, (n,) float32, in units of the sphere's radius.
-
-        Args:
-            origins: (n, 3) float32, on the unit sphere.
-            directions: (n, 3) float32, unit, pointing inward.
-            dtype: of the matrix products, float32 or bfloat16.
-        """
+        """See `ShadowNetwork.forward`."""
         x = (torch.cat([origins, directions], dim=1) + 1) / 2
         h = self.encoding(x).to(dtype)
         for weight in self.layers:
             h = nn.functional.linear(h, weight.to(dtype)).relu_()
         # The last product in float32: a depth rounded to bfloat16 would be off by up to 1/256.
         return 2 * nn.functional.linear(h.float(), self.output).relu_().squeeze(1)
-
-    def parameter_count(self) -> int:
-        """Number of trained weights: 556,800 at width 256 and L = 10 [4.4.2]."""
-        return sum(weight.numel() for weight in self.parameters())

@@ -1,0 +1,124 @@
+"""The depth bias with which a network errs least, found on views that no table shows.
+
+Shadow maps have one for the same reason: a depth that is a little short puts lit points in the
+shadow of the very surface they lie on.
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from neural_shadows.broken import broken
+from neural_shadows.compute import choose_device, choose_dtype
+from neural_shadows.evaluation import reference_of
+from neural_shadows.files import read_json, write_json
+from neural_shadows.frames import ground_height, primary_hits, visibility
+from neural_shadows.light import axis_vector
+from neural_shadows.mesh import read_prepared
+from neural_shadows.metrics import shadow_error
+from neural_shadows.network_file import load_network
+from neural_shadows.progress import progress_bar
+from neural_shadows.shadow_query import lit_points, sphere_rays
+from neural_shadows.tracing import Tracer
+from neural_shadows.viewpoints import draw_viewpoints
+
+# In sphere radii: none, and three an octave from half the shading offset to an eighth.
+BIASES = (0.0, *(float(b) for b in np.round(0.0005 * 2 ** (np.arange(25) / 3), 5)))
+
+
+def find_depth_biases(
+    mesh_ply: Path,
+    weights: Mapping[str, Path],
+    found_json: Path,
+    *,
+    view_sets: Sequence[str],
+    first: int,
+    last: int,
+    up: str,
+    ground: bool,
+    light: dict[str, Any],
+    width: int,
+    height: int,
+    reference: str,
+    seed: int,
+    device: str = "auto",
+    precision: str = "auto",
+) -> None:
+    """Write the bias of `BIASES` with the least shadow error for each network, and all errors.
+
+    Args:
+        weights: weight files by the name of their experiment.
+        view_sets, first, last: viewpoints `first` to `last` (exclusive) of each set.
+        reference: `exact` or `shadow_map`.
+
+    Raises:
+        InputError: an input file is not whole, or a setting does not fit the scene.
+    """
+    torch.set_num_threads(1)
+    mesh = read_prepared(mesh_ply)
+    tracer = Tracer(mesh.vertices, mesh.faces)
+    up_vector = axis_vector(up, "up")
+    ground_at = ground_height(mesh, up_vector) if ground else None
+    reference_lit = reference_of(mesh, tracer, reference)
+    chosen = choose_device(device)
+    dtype = choose_dtype(precision, chosen)
+    networks = {name: load_network(path)[0].to(chosen) for name, path in weights.items()}
+    viewpoints = draw_viewpoints(
+        mesh,
+        tracer,
+        up=up_vector,
+        ground=ground,
+        light_domain=light,
+        view_sets=view_sets,
+        indices=range(first, last),
+        width=width,
+        height=height,
+        seed=seed,
+    )
+    # Sums over views of (false shadow, light leak) by bias.
+    errors = {name: np.zeros((len(BIASES), 2)) for name in networks}
+    with progress_bar(len(viewpoints), "views", "depth biases") as bar:
+        for view in viewpoints:
+            points = primary_hits(mesh, tracer, view, width, height, ground_at)
+            truth = visibility(points, reference_lit(points))
+            everything = np.ones(len(points.pixel), bool)
+            rays = sphere_rays(points.p, points.light)
+            for name, network in networks.items():
+                t_pred = network.depths(rays.origins, -points.light.astype(np.float32), dtype)
+                for i, bias in enumerate(BIASES):
+                    lit = lit_points(rays, t_pred, len(points.p), bias)
+                    error = shadow_error(visibility(points, lit), truth, everything)
+                    errors[name][i] += error.false_shadow, error.light_leak
+            bar.update()
+    write_json(
+        found_json,
+        {
+            name: {
+                "depth_bias": BIASES[int(sums.sum(1).argmin())],
+                "views": len(viewpoints),
+                "errors": [
+                    {"depth_bias": bias, "false_shadow": false_shadow, "light_leak": light_leak}
+                    for bias, (false_shadow, light_leak) in zip(
+                        BIASES, (sums / len(viewpoints)).tolist(), strict=True
+                    )
+                ],
+            }
+            for name, sums in errors.items()
+        },
+    )
+
+
+def read_depth_biases(path: Path) -> dict[str, float]:
+    """The depth bias of each experiment that `find_depth_biases` found.
+
+    Raises:
+        InputError: the file is missing, or not whole.
+    """
+    found = read_json(path)
+    try:
+        return {name: float(values["depth_bias"]) for name, values in found.items()}
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise broken(path, "not a file of depth biases") from error

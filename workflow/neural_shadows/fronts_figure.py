@@ -1,0 +1,173 @@
+"""Quality over what it costs: bytes, frame time, training time [5.4.1]."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.errors import InputError
+from neural_shadows.loss_figure import COLOURS
+from neural_shadows.methods import RAY_TRACED, is_shadow_map
+from neural_shadows.strips import DPI, write_strip
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+COSTS = {
+    "bytes": ("size, KiB", 1 / 1024),
+    "frame_ms": ("frame time, ms", 1),
+    "training_seconds": ("training, s", 1),
+}
+# A kind of method: its colour and marker.
+STYLES = {
+    "shadow map": ("#777777", "s"),
+    "ray traced": ("#000000", "*"),
+    "frequency": (COLOURS[1], "o"),
+    "ray_grid": (COLOURS[3], "v"),
+    "occupancy_ray_grid": (COLOURS[2], "^"),
+    "hash_grid": (COLOURS[4], "D"),
+    "occupancy_field": (COLOURS[0], "P"),
+}
+UNNAMED = {"frequency": "thesis's network"}
+
+
+def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Indices of the points that no other undercuts in both, by rising cost."""
+    order = np.lexsort((error, cost))
+    best = np.minimum.accumulate(error[order])
+    return order[np.r_[True, best[1:] < best[:-1]]]
+
+
+def fronts_figure(table: pd.DataFrame, kinds: Sequence[str], quality: str, *, title: str) -> Figure:
+    """Draw a scene's methods, a panel for each cost.
+
+    Args:
+        table: rows of `networks_table` of one scene.
+        kinds: of each row, a key of `STYLES`.
+        quality: `lpips`, or `flip` where there is no LPIPS.
+    """
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+
+    figure = Figure(figsize=(14, 5.2), dpi=DPI, layout="constrained")
+    panels = figure.subplots(1, 3, sharey=True)
+    for axes, (column, (label, factor)) in zip(panels, COSTS.items()):
+        _panel(axes, table, kinds, quality, column, factor)
+        axes.set_xlabel(label)
+    panels[0].set_ylabel(f"{quality.upper()}, mean [95 % interval]")
+    shown = [kind for kind in STYLES if kind in kinds]
+    figure.legend(
+        handles=[
+            Line2D(
+                [],
+                [],
+                color=STYLES[kind][0],
+                marker=STYLES[kind][1],
+                linestyle="",
+                label=UNNAMED.get(kind, kind.replace("_", " ")),
+            )
+            for kind in shown
+        ],
+        loc="outside lower center",
+        ncols=len(shown),
+    )
+    figure.suptitle(title, x=0.01, ha="left", weight="bold")
+    return figure
+
+
+def _panel(
+    axes: Axes,
+    table: pd.DataFrame,
+    kinds: Sequence[str],
+    quality: str,
+    column: str,
+    factor: float,
+) -> None:
+    cost = table[column].to_numpy(float) * factor
+    error = table[quality].to_numpy(float)
+    # Of the whole table, so that all panels share their heights.
+    floor = np.nanmin(table[f"{quality}_low"]) / 2
+    known = np.isfinite(cost) & np.isfinite(error)
+    for i in np.flatnonzero(known):
+        colour, marker = STYLES[kinds[i]]
+        spread = [[error[i] - table[f"{quality}_low"].iloc[i]]]
+        spread.append([table[f"{quality}_high"].iloc[i] - error[i]])
+        axes.errorbar(cost[i], error[i], spread, color=colour, marker=marker, capsize=2)
+    if column == "training_seconds":
+        # A map trains nothing: a line that a network must come below.
+        for i in np.flatnonzero(np.isfinite(error)):
+            if kinds[i] == "shadow map":
+                axes.axhline(error[i], color="#777777", linewidth=0.7, linestyle=":")
+                text = table["method"].iloc[i]
+                axes.annotate(
+                    text, (1, error[i]), xycoords=("axes fraction", "data"), fontsize=7, ha="right"
+                )
+    for i in np.flatnonzero(np.isfinite(cost) & np.isnan(error)):
+        # Ray tracing is the reference: no error, below any height of a logarithmic axis.
+        colour, marker = STYLES[kinds[i]]
+        axes.plot(cost[i], floor, color=colour, marker=marker, markersize=11, clip_on=False)
+        axes.annotate(
+            "ray traced: 0",
+            (cost[i], floor),
+            fontsize=7,
+            xytext=(8, -2),
+            textcoords="offset points",
+        )
+    indices = np.flatnonzero(known)
+    best = indices[front(cost[indices], error[indices])]
+    axes.plot(cost[best], error[best], color="#bbbbbb", linewidth=1, zorder=0)
+    for i in best:
+        axes.annotate(
+            table["method"].iloc[i],
+            (cost[i], error[i]),
+            fontsize=7,
+            xytext=(5, 4),
+            textcoords="offset points",
+        )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.grid(linewidth=0.4, alpha=0.4)
+
+
+def kind_of(method: str, encoding: str) -> str:
+    """The key of `STYLES` of a method with this key and this network's encoding."""
+    if method == RAY_TRACED:
+        return "ray traced"
+    return "shadow map" if is_shadow_map(method) else encoding
+
+
+def write_fronts_figure(
+    table_csv: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    scene: str,
+    rows: Sequence[Mapping[str, str | None]],
+    scale: str,
+) -> None:
+    """Draw the figure of a scene of a table of networks.
+
+    Args:
+        table_csv: as `write_networks_table` wrote it.
+        rows: the table's rows of that scene: `method` and `label`.
+
+    Raises:
+        InputError: the table is not whole.
+    """
+    try:
+        table = pd.read_csv(table_csv, keep_default_na=True)
+        table = table[table["scene"] == scene].set_index("method", drop=False)
+        table = table.loc[[row["label"] for row in rows]]
+    except (OSError, ValueError, KeyError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(f"{table_csv}: cannot be read ({reason}): delete it") from error
+    kinds = [kind_of(row["method"], table.loc[row["label"], "encoding"]) for row in rows]
+    quality = "lpips" if table["lpips"].notna().any() else "flip"
+    figure = fronts_figure(table, kinds, quality, title=f"{title} ({scale} scale)")
+    write_strip(figure, png, svg)

@@ -1,0 +1,100 @@
+"""What every shadow network can do, whatever it is made of [3.1, 3.3]."""
+
+from abc import ABC, abstractmethod
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from neural_shadows.dead_zone_loss import DeadZone
+from neural_shadows.mesh import PreparedMesh
+
+# Rays per forward pass: on a CPU one layer's activations of 256 × bfloat16 are then 2 MiB and
+# stay in the cache; on a GPU a whole frame goes at once.
+QUERY_CHUNKS = {"cpu": 4096, "cuda": 1 << 20}
+
+# Rays per forward and backward pass on a CPU, at most: at 256 wide one layer's activations are
+# then 1 MiB and stay in a core's cache.
+TRAINING_CHUNK = 2048
+
+
+class LabelledBatch(NamedTuple):
+    """Rays with their labels, all float32 and on one device, in normalised space."""
+
+    origins: Tensor  # (n, 3), on the unit sphere
+    directions: Tensor  # (n, 3), unit, pointing inward
+    t_lb: Tensor  # (n,)
+    t_ub: Tensor  # (n,), may be ∞
+
+
+class ShadowNetwork(nn.Module, ABC):
+    """A function t_pred(o, d) with trained weights: behind that depth, all is in shadow.
+
+    A kind of network is a subclass in a module of its own, its arguments a model in
+    `config.py`, and both are listed in `network_kinds.py`.
+    """
+
+    needs_mesh: ClassVar[bool] = False
+    """Whether `prepare` must be given the mesh before training."""
+
+    training_chunk: ClassVar[int] = TRAINING_CHUNK
+    query_chunks: ClassVar[dict[str, int]] = QUERY_CHUNKS
+
+    def prepare(self, mesh: PreparedMesh) -> None:
+        """Lay out what depends on the object and is not trained."""
+
+    @abstractmethod
+    def initialise(self, seed: int) -> None:
+        """Set the weights that a training starts from."""
+
+    @abstractmethod
+    def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
+        """Predicted shadow depth t_pred, (n,) float32, in units of the sphere's radius.
+
+        Args:
+            origins: (n, 3) float32, on the unit sphere.
+            directions: (n, 3) float32, unit, pointing inward.
+            dtype: of the matrix products, float32 or bfloat16.
+        """
+
+    def losses(
+        self,
+        batch: LabelledBatch,
+        dead_zone: DeadZone,
+        dtype: torch.dtype,
+        generator: torch.Generator,
+    ) -> tuple[Tensor, Tensor]:
+        """Loss of each ray (n,), and outputs whose spread tells a living network from a dead one.
+
+        Args:
+            dead_zone: the loss of a depth.
+            generator: for a loss that draws points; on the CPU.
+        """
+        t = self(batch.origins, batch.directions, dtype)
+        return dead_zone(t, batch.t_lb, batch.t_ub), t
+
+    def depths(self, origins: np.ndarray, d: np.ndarray, dtype: torch.dtype) -> np.ndarray:
+        """t_pred of parallel rays, from entry points (k, 3) float32 along d (3,): (k,) float32."""
+        device = next(self.parameters()).device
+        d = torch.from_numpy(np.asarray(d, np.float32)).to(device)
+        with torch.inference_mode():
+            chunks = torch.from_numpy(origins).to(device).split(self.query_chunks[device.type])
+            depths = [self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks]
+            return torch.cat(depths).cpu().numpy() if depths else np.empty(0, np.float32)
+
+    def parameter_count(self) -> int:
+        """Number of trained weights: 556,800 for the thesis's network at width 256 [4.4.2]."""
+        return sum(weight.numel() for weight in self.parameters())
+
+    def stored(self) -> dict[str, Tensor]:
+        """The tensors of a weight file; a network made from them answers as the file will."""
+        return dict(self.state_dict())
+
+    def restore(self, tensors: dict[str, Any]) -> None:
+        """Take the tensors that `stored` gave.
+
+        Raises:
+            RuntimeError, KeyError, ValueError: they are not of this network.
+        """
+        self.load_state_dict(tensors)

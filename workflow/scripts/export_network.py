@@ -1,0 +1,20 @@
+"""Export one trained network as ONNX."""
+
+from pathlib import Path
+
+from neural_shadows.export import export_network
+from neural_shadows.jobs import run_job
+
+
+def main(job):
+    export_network(
+        Path(job.input.weights),
+        Path(job.input.mesh),
+        next(map(Path, job.input.depth_biases), None),
+        Path(job.output.onnx),
+        Path(job.output.conventions),
+    )
+
+
+if "snakemake" in globals():
+    run_job(snakemake, main)

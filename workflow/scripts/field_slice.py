@@ -1,0 +1,22 @@
+"""Draw a slice through an occupancy field."""
+
+from pathlib import Path
+
+from neural_shadows.field_slice import write_field_slice
+from neural_shadows.jobs import run_job
+
+
+def main(job):
+    params = job.params
+    write_field_slice(
+        Path(job.input.mesh),
+        Path(job.input.weights),
+        Path(job.output.png),
+        Path(job.output.svg),
+        title=params.title,
+        up=params.up,
+    )
+
+
+if "snakemake" in globals():
+    run_job(snakemake, main)
