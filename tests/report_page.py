@@ -6,7 +6,7 @@ import numpy as np
 
 from neural_shadows.files import write_text
 from neural_shadows.first_frames import FirstFrame
-from neural_shadows.html_report import comparison, figure_block, render_page, table_block
+from neural_shadows.html_report import Block, comparison, figure_block, render_page, table_block
 from neural_shadows.loss_figure import loss_figure
 from neural_shadows.strips import write_strip
 
@@ -66,6 +66,7 @@ def write_page(folder: Path) -> Path:
         comparisons=[comparison("dragon", f"dragon {HOSTILE}", frames())],
         tables=[table_block(folder / "table_4_3.md")],
         figures=[figure_block(HOSTILE, svg, png)],
+        beyond=[Block("beyond", f"Past {HOSTILE}", table_block(folder / "claims.md").html)],
     )
     write_text(folder / "index.html", page)
     return folder / "index.html"

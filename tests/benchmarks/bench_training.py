@@ -16,8 +16,10 @@ import numpy as np
 import torch
 
 from neural_shadows.compute import choose_dtype
+from neural_shadows.dead_zone_loss import DeadZone
+from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.hardware import describe_machine
-from neural_shadows.network import ShadowNetwork
+from neural_shadows.shadow_network import TRAINING_CHUNK
 from neural_shadows.training import TrainingRun, chunk_size, gradient_pool
 
 DESK_BATCH = 1024
@@ -45,7 +47,7 @@ class RandomRays:
         )
 
 
-def product_seconds(network: ShadowNetwork, dtype: torch.dtype, batch: int) -> float:
+def product_seconds(network: FrequencyNetwork, dtype: torch.dtype, batch: int) -> float:
     """Seconds of one batch's matrix products: forward, and both of the backward pass."""
     pairs = []
     rows = min(batch, 4096)  # 2 MiB of activations, where the products were fastest
@@ -72,9 +74,9 @@ def main() -> None:
     arguments = parser.parse_args()
     dtype = choose_dtype("auto", torch.device("cpu"))
     rays = RandomRays()
-    network = ShadowNetwork(frequencies=10, width=arguments.width, hidden_layers=8)
+    network = FrequencyNetwork(frequencies=10, width=arguments.width, hidden_layers=8)
     network.initialise(0)
-    run = TrainingRun(network, torch.device("cpu"), 1e-3)
+    run = TrainingRun(network, torch.device("cpu"), 1e-3, DeadZone(), 0)
 
     pool = gradient_pool(arguments.threads)
     serial = gradient_pool(1)
@@ -86,7 +88,7 @@ def main() -> None:
         run.train_step(rays, indices, 1e-4, step_dtype, chunk, workers)
         return time.perf_counter() - started
 
-    ours = dtype, chunk_size(arguments.batch, torch.device("cpu")), pool
+    ours = dtype, chunk_size(arguments.batch, torch.device("cpu"), TRAINING_CHUNK), pool
     plain = torch.float32, arguments.batch, serial
     seconds: dict[str, list[float]] = {"ours": [], "plain": [], "ceiling": []}
     for number in range(arguments.rounds + 1):  # the first round warms up

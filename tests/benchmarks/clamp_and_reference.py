@@ -18,7 +18,7 @@ from neural_shadows.frames import ground_height, primary_hits, shade
 from neural_shadows.mesh import read_prepared
 from neural_shadows.metrics import psnr
 from neural_shadows.network_file import load_network
-from neural_shadows.shadow_query import predict_depths, sphere_rays
+from neural_shadows.shadow_query import sphere_rays
 from neural_shadows.tracing import Tracer
 from neural_shadows.viewpoints import draw_viewpoints
 
@@ -57,7 +57,7 @@ def main() -> None:
         reference = shade(points, exact(points))
         values["map"].append(psnr(shade(points, large_map(points)), reference))
         rays = sphere_rays(points.p, points.light)
-        t_pred = predict_depths(network, rays.origins, points.light, dtype)
+        t_pred = network.depths(rays.origins, -points.light, dtype)
         for name, s in (("clamped", np.minimum(rays.s, rays.chord)), ("not clamped", rays.s)):
             lit = np.ones(len(points.p), bool)
             lit[rays.index] = s <= t_pred

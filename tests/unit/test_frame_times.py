@@ -7,13 +7,19 @@ import trimesh
 from shapes import bumpy_sphere, looking, prepared, unit
 
 from neural_shadows import frame_times
-from neural_shadows.frame_times import measure_frame_times, shadow_passes, shadow_times
+from neural_shadows.frame_times import (
+    StopwatchNetwork,
+    measure_frame_times,
+    shadow_passes,
+    shadow_times,
+)
 from neural_shadows.frames import primary_hits, reference_visibility
-from neural_shadows.network import ShadowNetwork
+from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.network_file import save_network
 from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
 from neural_shadows.shadow_query import network_lit
 
+KIND = {"encoding": "frequency"}
 TINY = {"frequencies": 2, "width": 16, "hidden_layers": 1}
 
 
@@ -26,9 +32,11 @@ def frame():
 
 def test_passes_answer_as_the_evaluation_does(frame):
     mesh, tracer, points = frame
-    network = ShadowNetwork(**TINY)
+    network = FrequencyNetwork(**TINY)
     network.initialise(1)
-    passes = shadow_passes(mesh, tracer, {"net": network}, [64, 200], torch.float32)
+    passes = shadow_passes(
+        mesh, tracer, {"net": StopwatchNetwork(network)}, [64, 200], torch.float32
+    )
     assert list(passes) == ["ray_traced", "shadow_map_64", "shadow_map_200", "net"]
     answers = {name: lit_of(points) for name, lit_of in passes.items()}
     receivers = receivers_of(shadow_map_frame(mesh.vertices, points.light), points)
@@ -61,9 +69,9 @@ def test_times_are_milliseconds_of_each_pass(frame, monkeypatch):
 def test_file_of_times_names_methods_views_and_machine(tmp_path):
     shape = trimesh.creation.icosphere(3)
     shape.export(tmp_path / "mesh.ply")
-    network = ShadowNetwork(**TINY)
+    network = FrequencyNetwork(**TINY)
     network.initialise(1)
-    save_network(tmp_path / "net.safetensors", network, {"network": TINY})
+    save_network(tmp_path / "net.safetensors", network, {"network": KIND | TINY})
     measure_frame_times(
         tmp_path / "mesh.ply",
         {"net": tmp_path / "net.safetensors"},

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from neural_shadows.network import FrequencyEncoding, ShadowNetwork
+from neural_shadows.frequency_network import FrequencyEncoding, FrequencyNetwork
 
 WIDTHS = (256, 128, 64)  # of the thesis [4.4.2]
 
@@ -26,8 +26,8 @@ def sphere_rays(count: int) -> tuple[torch.Tensor, torch.Tensor]:
     return torch.from_numpy(origins).float(), torch.from_numpy(directions).float()
 
 
-def thesis_network(width: int, seed: int = 0) -> ShadowNetwork:
-    network = ShadowNetwork(frequencies=10, width=width, hidden_layers=8)
+def thesis_network(width: int, seed: int = 0) -> FrequencyNetwork:
+    network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
     network.initialise(seed)
     return network
 
@@ -88,7 +88,7 @@ def test_output_is_never_negative(dtype):
 
 
 def test_output_is_twice_the_last_layer():
-    network = ShadowNetwork(frequencies=0, width=8, hidden_layers=1)
+    network = FrequencyNetwork(frequencies=0, width=8, hidden_layers=1)
     with torch.no_grad():
         for weight in network.layers:
             weight.copy_(torch.eye(8, weight.shape[1]))

@@ -4,11 +4,12 @@ import trimesh
 from shapes import prepared
 
 from neural_shadows.errors import InputError
+from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.memory import network_bytes, shadow_map_bytes, shadow_map_file_bytes
 from neural_shadows.methods import is_shadow_map, resolution_of, shadow_map_key
-from neural_shadows.network import ShadowNetwork
 from neural_shadows.network_file import save_network, save_tensors
 
+KIND = {"encoding": "frequency"}
 THESIS = {"frequencies": 10, "width": 256, "hidden_layers": 8}
 
 
@@ -17,17 +18,17 @@ THESIS = {"frequencies": 10, "width": 256, "hidden_layers": 8}
     ("width", "size", "kib"), [(256, 2_227_200, 2175), (128, 589_312, 575.5), (64, 163_584, 159.75)]
 )
 def test_network_takes_the_bytes_that_the_thesis_prints(tmp_path, width, size, kib):
-    network = ShadowNetwork(**THESIS | {"width": width})
+    network = FrequencyNetwork(**THESIS | {"width": width})
     path = tmp_path / "weights.safetensors"
-    save_network(path, network, {"network": THESIS | {"width": width}})
+    save_network(path, network, {"network": KIND | THESIS | {"width": width}})
     assert network_bytes(path) == size == 1024 * kib
 
 
 def test_network_of_another_number_format_is_refused(tmp_path):
     small = {"frequencies": 1, "width": 8, "hidden_layers": 1}
-    halves = {name: value.half() for name, value in ShadowNetwork(**small).state_dict().items()}
+    halves = {name: value.half() for name, value in FrequencyNetwork(**small).state_dict().items()}
     path = tmp_path / "weights.safetensors"
-    save_tensors(path, halves, {"network": small})
+    save_tensors(path, halves, {"network": KIND | small})
     with pytest.raises(InputError, match=r"weights\.safetensors: holds \d+ bytes"):
         network_bytes(path)
     assert halves["output"].dtype == torch.float16

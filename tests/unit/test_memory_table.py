@@ -4,10 +4,11 @@ import trimesh
 
 from neural_shadows import memory_table
 from neural_shadows.errors import InputError
+from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.memory_table import write_memory_table
-from neural_shadows.network import ShadowNetwork
 from neural_shadows.network_file import save_network
 
+KIND = {"encoding": "frequency"}
 THESIS = {"frequencies": 10, "width": 256, "hidden_layers": 8}
 ROWS = [
     {"method": "shadow_map_128", "label": "128² shadow map", "published": None},
@@ -20,7 +21,7 @@ ROWS = [
 def write(tmp_path):
     trimesh.creation.icosphere(2).export(tmp_path / "mesh.ply")
     weights = tmp_path / "weights.safetensors"
-    save_network(weights, ShadowNetwork(**THESIS), {"network": THESIS})
+    save_network(weights, FrequencyNetwork(**THESIS), {"network": KIND | THESIS})
 
     def write():
         write_memory_table(

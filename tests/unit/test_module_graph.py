@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from neural_shadows.module_graph import PACKAGE, modules_of
+from neural_shadows.config import ENCODINGS
+from neural_shadows.module_graph import PACKAGE, kind_module, modules_of
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
 
@@ -36,23 +37,33 @@ def test_imports_exist(script):
 
 def test_training_depends_on_what_decides_the_weights():
     names = names_of("train")
-    assert {"training", "network", "dead_zone_loss", "network_file", "ray_set"} <= names
+    assert {"training", "shadow_network", "dead_zone_loss", "network_file", "ray_set"} <= names
     assert not names & {
         *("tables", "table_report", "strips", "preview", "wyrm", "metrics", "frames"),
         *("config", "layout", "shadow_query", "shadow_map", "evaluation", "published"),
         *("mesh", "ray_files", "view_directions", "ray_sampling", "light"),
+        # A kind of network is an input of the trainings of that kind alone.
+        *("frequency_network", "ray_grid_network", "occupancy_field_network"),
     }
+
+
+def test_a_kind_of_network_is_found_by_its_name():
+    for encoding in ENCODINGS:
+        assert kind_module(encoding).is_file()
+    names = {path.stem for path in modules_of(kind_module("hash_grid"))}
+    assert {"ray_grid_network", "occupancy", "mesh"} <= names
+    assert not names & {"frequency_network", "occupancy_field_network", "training"}
 
 
 def test_rays_know_nothing_of_networks():
     for script in ("view_directions", "sample_rays", "label_rays", "prepare_mesh"):
-        assert not names_of(script) & {"network", "training", "compute", "metrics"}, script
+        assert not names_of(script) & {"shadow_network", "training", "compute", "metrics"}, script
 
 
 def test_tables_do_not_depend_on_training():
     names = names_of("write_table")
     assert "tables" in names
-    assert not names & {"training", "network", "wyrm", "mesh", "ray_files"}
+    assert not names & {"training", "shadow_network", "wyrm", "mesh", "ray_files"}
 
 
 def test_all_forms_of_import_are_followed(tmp_path):

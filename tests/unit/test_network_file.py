@@ -8,16 +8,17 @@ import pytest
 import torch
 
 from neural_shadows.errors import InputError
-from neural_shadows.network import ShadowNetwork
+from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.network_file import load_network, load_tensors, save_network, save_tensors
 
+KIND = {"encoding": "frequency"}
 SETTINGS = {"frequencies": 2, "width": 8, "hidden_layers": 2}
-HEADER = {"name": "dragon", "network": SETTINGS, "training": {"learning_rate": 0.1}}
+HEADER = {"name": "dragon", "network": KIND | SETTINGS, "training": {"learning_rate": 0.1}}
 
 
 @pytest.fixture
-def network() -> ShadowNetwork:
-    network = ShadowNetwork(**SETTINGS)
+def network() -> FrequencyNetwork:
+    network = FrequencyNetwork(**SETTINGS)
     network.initialise(3)
     return network
 
@@ -110,14 +111,17 @@ def test_a_file_of_others_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("network_header", "reason"),
     [
-        ({**SETTINGS, "width": 16}, "size mismatch"),
-        ({**SETTINGS, "frequencies": 3}, "size mismatch"),
-        ({**SETTINGS, "hidden_layers": 3}, "Missing key"),
-        ({**SETTINGS, "hidden_layers": 1}, "Unexpected key"),
-        ({"width": 8}, "missing"),
-        ({**SETTINGS, "bias": True}, "bias"),
-        ({**SETTINGS, "width": -8}, "negative"),
-        ({**SETTINGS, "width": "8"}, ""),
+        ({**KIND, **SETTINGS, "width": 16}, "size mismatch"),
+        ({**KIND, **SETTINGS, "frequencies": 3}, "size mismatch"),
+        ({**KIND, **SETTINGS, "hidden_layers": 3}, "Missing key"),
+        ({**KIND, **SETTINGS, "hidden_layers": 1}, "Unexpected key"),
+        ({**KIND, "width": 8}, "missing"),
+        ({**KIND, **SETTINGS, "bias": True}, "bias"),
+        ({**KIND, **SETTINGS, "width": -8}, "negative"),
+        ({**KIND, **SETTINGS, "width": "8"}, ""),
+        (SETTINGS, "encoding"),
+        ({**SETTINGS, "encoding": "wavelet"}, "wavelet"),
+        ({**SETTINGS, "encoding": "../../evil"}, "evil"),
         ([8, 2, 2], ""),
         (None, ""),
     ],

@@ -4,25 +4,37 @@ import numpy as np
 import pytest
 import torch
 
-from neural_shadows.network import ShadowNetwork
-from neural_shadows.shadow_query import CHUNKS, network_lit, predict_depths, sphere_rays
+from neural_shadows.frequency_network import FrequencyNetwork
+from neural_shadows.shadow_network import QUERY_CHUNKS, ShadowNetwork
+from neural_shadows.shadow_query import network_lit, sphere_rays
 
 BALL = 0.5  # radius of the occluder about the origin
 BORDER = 1e-5  # points this near to a border of the shadow may go either way: float32 at |p| = 8
 
 
-class BallOracle:
-    """Stands in for a network: the exact t_lb of rays at the ball.
+class Oracle(ShadowNetwork):
+    """Stands in for a network."""
+
+    def __init__(self):
+        super().__init__()
+        self.output = torch.nn.Parameter(torch.zeros(1))
+
+    def initialise(self, seed):
+        raise NotImplementedError
+
+
+class BallOracle(Oracle):
+    """The exact t_lb of rays at the ball.
 
     A ray that misses gets ℓ, what training asks for. The 5e-6 on top are what float32 costs
     ℓ = −2 o·d at |p| = 8; a network is as good with anything above ℓ.
     """
 
     def __init__(self):
-        self.output = torch.zeros(1)
+        super().__init__()
         self.calls = []
 
-    def __call__(self, origins, directions, dtype):
+    def forward(self, origins, directions, dtype):
         assert origins.dtype == directions.dtype == torch.float32
         self.calls.append((origins.numpy(), directions.numpy(), dtype))
         b = (origins.double() * directions.double()).sum(1)
@@ -35,14 +47,14 @@ class BallOracle:
         return sum(len(origins) for origins, _, _ in self.calls)
 
 
-class Constant:
+class Constant(Oracle):
     """A network that predicts one depth."""
 
     def __init__(self, t: float):
-        self.output = torch.zeros(1)
+        super().__init__()
         self.t = t
 
-    def __call__(self, origins, directions, dtype):
+    def forward(self, origins, directions, dtype):
         return torch.full((len(origins),), self.t)
 
 
@@ -139,7 +151,7 @@ def test_clamp_to_the_chord():
 
     rays = sphere_rays(p, light)
     assert (rays.s > rays.chord).sum() > 9000
-    unclamped = rays.s > predict_depths(oracle, rays.origins, light, torch.float32)
+    unclamped = rays.s > oracle.depths(rays.origins, -light, torch.float32)
     assert unclamped.mean() > 0.9  # what would be in shadow without it
 
 
@@ -175,7 +187,7 @@ def test_batches_fit_the_cache():
     oracle = BallOracle()
     network_lit(oracle, p, light, dtype=torch.bfloat16)
     sizes = [len(origins) for origins, _, _ in oracle.calls]
-    assert sizes == [CHUNKS["cpu"]] * 2 + [10_000 - 2 * CHUNKS["cpu"]]
+    assert sizes == [QUERY_CHUNKS["cpu"]] * 2 + [10_000 - 2 * QUERY_CHUNKS["cpu"]]
     assert {dtype for _, _, dtype in oracle.calls} == {torch.bfloat16}
 
 
@@ -228,13 +240,13 @@ def test_depth_bias():
 
 @pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
 def test_with_a_network(dtype):
-    network = ShadowNetwork(frequencies=2, width=16, hidden_layers=1)
+    network = FrequencyNetwork(frequencies=2, width=16, hidden_layers=1)
     network.initialise(0)
     light = np.array(LIGHTS[1])
     rng = np.random.default_rng(8)
     p = points_at(light, rng.uniform(0, 1.2, 5000), rng.uniform(-2, 2, 5000))
     rays = sphere_rays(p, light)
-    t = predict_depths(network, rays.origins, light, dtype)
+    t = network.depths(rays.origins, -light, dtype)
     assert t.shape == rays.s.shape and t.dtype == np.float32
     with torch.inference_mode():  # one by one what the batches give
         directions = torch.from_numpy(-light.astype(np.float32)).expand(10, 3)

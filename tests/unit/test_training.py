@@ -11,12 +11,16 @@ import numpy as np
 import pandas as pd
 import pytest
 import torch
+from rays import ball_rays
 from scipy import stats
 
 from neural_shadows import training
+from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.errors import InputError
-from neural_shadows.network import ShadowNetwork
+from neural_shadows.frequency_network import FrequencyNetwork
+from neural_shadows.module_graph import kind_module
 from neural_shadows.network_file import load_network, load_tensors
+from neural_shadows.network_kinds import make_network
 from neural_shadows.training import (
     TrainingRun,
     batch_indices,
@@ -30,19 +34,21 @@ POOL = gradient_pool(1)
 
 SETTINGS = {
     "name": "ball",
-    "network": {"frequencies": 3, "width": 64, "hidden_layers": 2},
+    "network": {"encoding": "frequency", "frequencies": 3, "width": 64, "hidden_layers": 2},
     "steps": 400,
     "batch_size": 512,
     "learning_rate": 5e-3,
     "schedule": "cosine",
+    "loss": {"false_shadow": 1.0, "light_leak": 1.0, "middle_pull": 0.0},
     "seed": 1,
+    "mesh_ply": None,
     "data": {"rays": 20_000},
     "precision": "float32",
     "device": "cpu",
     "threads": 1,
 }
 TINY = SETTINGS | {
-    "network": {"frequencies": 1, "width": 8, "hidden_layers": 1},
+    "network": {"encoding": "frequency", "frequencies": 1, "width": 8, "hidden_layers": 1},
     "steps": 20,
     "batch_size": 32,
 }
@@ -56,20 +62,7 @@ class BallRays:
     """
 
     def __init__(self, count: int = 20_000, stop_after: int | None = None):
-        rng = np.random.default_rng(0)
-        d = rng.normal(size=(count, 3))
-        d /= np.linalg.norm(d, axis=1, keepdims=True)
-        across = rng.normal(size=(count, 3))
-        across -= np.sum(across * d, axis=1, keepdims=True) * d
-        across /= np.linalg.norm(across, axis=1, keepdims=True)
-        radius = np.where(rng.random(count) < 0.5, 0.5, 1.0) * np.sqrt(rng.random(count))
-        half_chord = np.sqrt(1 - radius**2)
-        inside = np.sqrt(np.maximum(0.25 - radius**2, 0))
-        hit = radius < 0.5
-        o = radius[:, None] * across - half_chord[:, None] * d
-        t_lb = np.where(hit, half_chord - inside, 2 * half_chord)
-        t_ub = np.where(hit, half_chord + inside, math.inf)
-        self.arrays = [array.astype(np.float32) for array in (o, d, t_lb, t_ub)]
+        self.arrays = ball_rays(count)
         self.count = count
         self.gathers = 0
         self.stop_after = stop_after
@@ -122,8 +115,9 @@ def test_threads_do_not_change_the_weights(tmp_path):
 
 
 def test_chunks_fill_a_cache_and_leave_work_for_two():
-    assert [chunk_size(batch, torch.device("cpu")) for batch in (16, 1023, 65536)] == [8, 512, 2048]
-    assert chunk_size(65536, torch.device("cuda")) == 65536
+    cpu, cuda = torch.device("cpu"), torch.device("cuda")
+    assert [chunk_size(batch, cpu, 2048) for batch in (16, 1023, 65536)] == [8, 512, 2048]
+    assert chunk_size(65536, cuda, 2048) == 65536
 
 
 def test_rays_of_this_file_are_right():
@@ -161,6 +155,7 @@ def test_files_of_a_run(trained):
         "batch_size": 512,
         "learning_rate": 5e-3,
         "schedule": "cosine",
+        "loss": SETTINGS["loss"],
         "seed": 1,
         "device": "cpu",
         "precision": "float32",
@@ -208,7 +203,7 @@ def test_another_seed_gives_other_weights(tmp_path):
 def test_the_seed_decides_the_first_weights(tmp_path):
     run_training(tmp_path, **TINY | {"seed": 7, "steps": 1, "learning_rate": 1e-12})
     network, _ = load_network(tmp_path / "weights.safetensors")
-    expected = ShadowNetwork(**TINY["network"])
+    expected = make_network(TINY["network"])
     expected.initialise(7)
     for ours, theirs in zip(network.parameters(), expected.parameters(), strict=True):
         torch.testing.assert_close(ours, theirs, rtol=0, atol=1e-9)
@@ -300,7 +295,7 @@ def test_the_same_settings_resume(tmp_path, capsys):
     "change",
     [
         {"name": "balls"},
-        {"network": {"frequencies": 1, "width": 8, "hidden_layers": 2}},
+        {"network": {"encoding": "frequency", "frequencies": 1, "width": 8, "hidden_layers": 2}},
         {"steps": 21},
         {"batch_size": 33},
         {"learning_rate": 2e-3},
@@ -322,8 +317,8 @@ def test_changed_settings_start_anew(tmp_path, change):
 def test_changed_code_starts_anew(tmp_path, monkeypatch):
     interrupt(tmp_path, 12)
     edited = tmp_path / "network.py"
-    edited.write_text(Path(training.network_module.__file__).read_text() + "# edited\n")
-    monkeypatch.setattr(training.network_module, "__file__", str(edited))
+    edited.write_text(kind_module("frequency").read_text() + "# edited\n")
+    monkeypatch.setattr(training, "kind_module", lambda encoding: edited)
     assert run_training(tmp_path, **TINY).gathers == 20
 
 
@@ -354,9 +349,9 @@ def test_restored_state_is_the_saved_one(tmp_path):
     rays = BallRays()
 
     def new_run(seed: int) -> TrainingRun:
-        network = ShadowNetwork(**TINY["network"])
+        network = make_network(TINY["network"])
         network.initialise(seed)
-        return TrainingRun(network, torch.device("cpu"), 1e-3)
+        return TrainingRun(network, torch.device("cpu"), 1e-3, DeadZone(), 0)
 
     run = new_run(1)
     for step in range(5):
@@ -378,14 +373,14 @@ def test_restored_state_is_the_saved_one(tmp_path):
 
 
 def set_weights(monkeypatch, change) -> None:
-    initialise = ShadowNetwork.initialise
+    initialise = FrequencyNetwork.initialise
 
     def changed(self, seed):
         initialise(self, seed)
         with torch.no_grad():
             change(self)
 
-    monkeypatch.setattr(ShadowNetwork, "initialise", changed)
+    monkeypatch.setattr(FrequencyNetwork, "initialise", changed)
 
 
 def assert_stops(folder: Path, reason: str, **changes) -> None:
@@ -399,7 +394,7 @@ def assert_stops(folder: Path, reason: str, **changes) -> None:
 
 def test_a_dead_output_stops(tmp_path, monkeypatch):
     set_weights(monkeypatch, lambda network: network.output.zero_())
-    assert_stops(tmp_path, "the same depth for every ray (its output died) at step 1;")
+    assert_stops(tmp_path, "the same for every ray (its output died) at step 1;")
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
@@ -414,9 +409,9 @@ def test_a_rate_that_is_too_high_stops(tmp_path):
 
 
 def first_run(seed: int = 0) -> TrainingRun:
-    network = ShadowNetwork(frequencies=3, width=16, hidden_layers=2)
+    network = FrequencyNetwork(frequencies=3, width=16, hidden_layers=2)
     network.initialise(seed)
-    return TrainingRun(network, torch.device("cpu"), 1e-3)
+    return TrainingRun(network, torch.device("cpu"), 1e-3, DeadZone(), 0)
 
 
 @pytest.mark.parametrize("chunk", [100, 64, 7])

@@ -17,8 +17,18 @@ TINY = {
             "shards": 1,
         }
     },
-    "trainings": {"base": {"steps": 20, "batch_size": 256}},
-    "rendering": {"width": 64, "height": 64, "views_per_set": 1, "batch": 1},
+    "networks": {"field_256": {"resolution": 16}},
+    "trainings": {
+        "base": {"steps": 20, "batch_size": 256},
+        "field": {"steps": 20, "batch_size": 256},
+    },
+    "rendering": {
+        "width": 64,
+        "height": 64,
+        "views_per_set": 1,
+        "batch": 1,
+        "held_out_views": 1,
+    },
 }
 
 

@@ -18,11 +18,20 @@ SEEDED = {
 }
 # Those that only the shipped scenes have.
 SEEDED_FIGURES = {"method_figure", "picture_strip", "loss_figure", "width_figure"}
-SEEDED_TABLES = {"frame_times", "performance_table", "memory_table", "claims"}
+SEEDED_TABLES = {
+    *("frame_times", "performance_table", "memory_table", "claims"),
+    *("find_depth_biases", "networks_table", "fronts_figure", "field_slice"),
+}
 
 # What shows the networks' pictures.
-SHOWN = {"picture_strip", "table", "performance_table", "width_figure", "claims", "html_report"}
-TRAINED = SHOWN | {"evaluate", "frame_times", "memory_table", "loss_figure"}
+SHOWN = {
+    *("picture_strip", "table", "performance_table", "width_figure", "claims", "html_report"),
+    *("networks_table", "fronts_figure"),
+}
+TRAINED = SHOWN | {
+    *("evaluate", "frame_times", "memory_table", "loss_figure"),
+    *("find_depth_biases", "field_slice"),
+}
 
 
 @pytest.mark.parametrize(
@@ -32,7 +41,7 @@ TRAINED = SHOWN | {"evaluate", "frame_times", "memory_table", "loss_figure"}
         ("claims.py", {"claims", "html_report"}),
         # The table asks for the preview, so that one target makes all that belongs to it.
         ("preview.py", {"preview_scene", "table", "html_report"}),
-        ("shadow_map.py", SHOWN | {"evaluate", "frame_times", "memory_table"}),
+        ("shadow_map.py", SHOWN | {"evaluate", "frame_times", "memory_table", "find_depth_biases"}),
         ("training.py", TRAINED | {"train"}),
     ],
 )
@@ -43,11 +52,23 @@ def test_edited_module(finished, module, rules):
 
 
 @pytest.mark.parametrize(
+    ("module", "trained"),
+    [("occupancy_field_network.py", "field"), ("hash_grid_network.py", "hash_grid")],
+)
+def test_edited_kind_of_network(finished, module, trained):
+    """Only networks of that kind are trained again; adding one trains none of the others."""
+    with finished.module(module).open("a") as file:
+        file.write("\nEDITED = True\n")
+    networks = [path for path, rule in finished.pending().items() if rule == "train"]
+    assert networks and all(trained in path for path in networks)
+
+
+@pytest.mark.parametrize(
     ("edit", "rules"),
     [
         ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "html_report"}),
         ({"evaluations": {"dragon": {"depth_bias": 0.01}}}, SHOWN | {"evaluate"}),
-        ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train"}),
+        ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED - {"field_slice"} | {"train"}),
     ],
     ids=["title", "depth_bias", "learning_rate"],
 )
@@ -67,7 +88,7 @@ def test_touched_modules_and_an_edited_comment(finished):
 @pytest.mark.parametrize(
     ("edited", "others", "rules"),
     [
-        ("dragon", ("torus", "fence"), SEEDED | SEEDED_FIGURES | SEEDED_TABLES),
+        ("dragon", ("torus", "/fence"), SEEDED | SEEDED_FIGURES | SEEDED_TABLES),
         ("torus", ("dragon", "fence", "table_4", "figure"), SEEDED),
     ],
 )

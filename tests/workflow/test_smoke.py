@@ -1,13 +1,16 @@
 """One run of the smoke workflow makes every report, and a second does nothing."""
 
+import json
 import xml.etree.ElementTree
 
 import numpy as np
+import onnxruntime
 import pandas as pd
 import pytest
 from PIL import Image
 
 MAPS = ["2048² shadow map", "1024² shadow map", "512² shadow map", "256² shadow map"]
+OURS = "256³ occupancy field (this project's)"
 METRICS = ["psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak"]
 
 
@@ -26,7 +29,9 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
     names = [f"table_4_{n}.{ending}" for n in range(1, 8) for ending in ("csv", "md")]
     figures = [f"3_{n}" for n in range(1, 7)] + [f"4_{n}" for n in range(1, 9)]
     names += [f"figure_{number}.{ending}" for number in figures for ending in ("png", "svg")]
-    names += ["claims.csv", "claims.md", "index.html"]
+    beyond = ("dragon", "fence", "landscape", "slice", "pictures_landscape")
+    names += [f"figure_beyond_{part}.{ending}" for part in beyond for ending in ("png", "svg")]
+    names += ["claims.csv", "claims.md", "index.html", "beyond.csv", "beyond.md"]
     for name in names:
         assert (smoke.reports / name).stat().st_size > 0, name
     parts = [path for path in smoke.folder.glob("re*/**/*") if ".part" in path.name]
@@ -36,7 +41,7 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
 
 def test_each_job_left_its_log(smoke):
     logs = {row["log-file(s)"] for row in smoke.summary()}
-    assert len(logs) == 94  # one for each job, shards and batches counted
+    assert len(logs) == 137  # one for each job, shards and batches counted
     assert [name for name in logs if not (smoke.folder / name).is_file()] == []
     (training,) = [name for name in logs if name.endswith("/train/dragon.log")]
     assert "train dragon: 100%" in (smoke.folder / training).read_text()
@@ -44,17 +49,18 @@ def test_each_job_left_its_log(smoke):
 
 def test_columns_and_rows_are_the_thesis_s(table):
     assert list(table.columns[:4]) == ["method", "lpips", "psnr", "ssim"]
-    assert sorted(table["method"]) == sorted([*MAPS, "128² shadow map", "Our method"])
+    assert sorted(table["method"]) == sorted([*MAPS, "128² shadow map", "Our method", OURS])
     printed = dict(zip(table["method"], table["thesis_psnr"]))
     assert printed["2048² shadow map"] == 38.50
     assert printed["Our method"] == 27.39
+    assert np.isnan(printed[OURS])
 
 
 def test_finer_shadow_maps_are_better(table):
     psnr = table.set_index("method")["psnr"][[*MAPS, "128² shadow map"]]
     assert psnr.is_monotonic_decreasing and psnr.is_unique
     # Of the rows as they are written, too.
-    maps = table["method"][table["method"] != "Our method"]
+    maps = table["method"][~table["method"].isin(["Our method", OURS])]
     assert list(maps) == [*MAPS, "128² shadow map"]
 
 
@@ -103,8 +109,8 @@ def test_pictures_are_pictures(smoke, name):
 def test_each_network_is_trained_once(smoke):
     trained = [path.name for path in smoke.results.glob("networks/*") if path.name != "unfinished"]
     planned = [row["output_file"] for row in smoke.summary() if row["rule"] == "train"]
-    assert len(trained) == len({*trained}) == 17
-    assert sum(path.endswith("weights.safetensors") for path in planned) == 17
+    assert len(trained) == len({*trained}) == 34
+    assert sum(path.endswith("weights.safetensors") for path in planned) == 34
 
 
 def test_few_views_leave_claims_undecided(smoke):
@@ -136,3 +142,42 @@ def test_snakemake_makes_its_own_report(smoke, tmp_path):
 def test_strip_is_a_vector_file_too(smoke):
     root = xml.etree.ElementTree.parse(smoke.reports / "figure_4_5.svg").getroot()
     assert root.tag == "{http://www.w3.org/2000/svg}svg"
+
+
+def test_networks_past_the_thesis_are_in_one_table(smoke):
+    table = pd.read_csv(smoke.reports / "beyond.csv")
+    assert set(table["scene"]) == {"dragon", "fence", "landscape"}
+    networks = table[table["encoding"].notna()]
+    assert set(networks["encoding"]) == {
+        *("frequency", "ray_grid", "occupancy_ray_grid", "hash_grid", "occupancy_field")
+    }
+    facts = ["bytes", "parameters", "training_seconds", "samples", "depth_bias"]
+    assert np.isfinite(networks[[*facts, "rays_per_second", "frame_ms", "psnr", "flip"]]).all(
+        axis=None
+    )
+    unbiased = networks["method"] == "Thesis's network, no bias"
+    assert (networks["depth_bias"][unbiased] == 0).all() and unbiased.sum() == 3
+    # A field of 20 steps has learned more than the thesis's network in 200, with fewer bytes.
+    dragon = table[table["scene"] == "dragon"].set_index("method")
+    field, thesis = dragon.loc["256³ occupancy field"], dragon.loc["Thesis's network"]
+    assert field["psnr"] > thesis["psnr"] + 3 and field["bytes"] < thesis["bytes"]
+
+
+def test_page_has_a_part_of_its_own_for_them(smoke):
+    page = (smoke.reports / "index.html").read_text(encoding="utf-8")
+    start = page.index('<section id="beyond">')
+    for name in ("beyond", "figure_beyond_dragon", "figure_beyond_slice"):
+        assert page.index(f'<article id="{name}">') > start
+    assert 'id="ablations"' not in page
+
+
+def test_a_network_is_exported(smoke):
+    smoke.run("results/smoke/networks/dragon_field/network.onnx")
+    folder = smoke.results / "networks" / "dragon_field"
+    conventions = json.loads((folder / "network.json").read_text(encoding="utf-8"))
+    assert conventions["query"]["depth_bias"] > 0
+    assert conventions["sphere"]["radius"] == pytest.approx(1.245, abs=0.05)
+    session = onnxruntime.InferenceSession(folder / "network.onnx")
+    rays = np.array([[0, 0, 1]], np.float32)
+    (t_pred,) = session.run(None, {"origins": rays, "directions": -rays})
+    assert 0 < t_pred[0] <= 2

@@ -5,20 +5,12 @@ from dataclasses import dataclass
 from torch import Tensor
 
 
-def dead_zone_loss(t: Tensor, t_lb: Tensor, t_ub: Tensor) -> Tensor:
-    """L(t) = max(t_lb − t, 0) + max(t − t_ub, 0) of each sample, (n,).
-
-    Zero between the first and the second hit, the distance to the nearer bound outside;
-    t_ub may be ∞.
-    """
-    return DeadZone()(t, t_lb, t_ub)
-
-
 @dataclass(frozen=True)
 class DeadZone:
     """a max(t_lb − t, 0) + b max(t − t_ub, 0) + c |t − (t_lb + t_ub)/2| of each sample.
 
-    The thesis's loss is a = b = 1, c = 0. The pull c counts between the bounds only, and only
+    The thesis's loss is a = b = 1, c = 0: zero between the first and the second hit, the distance
+    to the nearer bound outside. The pull c counts between the bounds only, and only
     where both are finite.
     """
 

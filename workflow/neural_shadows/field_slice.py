@@ -14,7 +14,7 @@ from neural_shadows.mesh import read_prepared
 from neural_shadows.mesh_slice import MeshSlice, slice_mesh
 from neural_shadows.method_figures import OUTLINE, draw_outline
 from neural_shadows.network_file import load_network
-from neural_shadows.occupancy_field import LIMIT, OccupancyField
+from neural_shadows.occupancy_field_network import LIMIT, OccupancyFieldNetwork
 from neural_shadows.strips import DPI, write_strip
 from neural_shadows.tracing import Tracer
 
@@ -27,7 +27,7 @@ EMPTY_COLOUR, ENCLOSED_COLOUR = "#f4f4f4", "#5b6b7b"
 
 
 def slice_logits(
-    field: OccupancyField, cut: MeshSlice, centre: np.ndarray, half: float
+    field: OccupancyFieldNetwork, cut: MeshSlice, centre: np.ndarray, half: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Logits (PIXELS, PIXELS) of a square of the slice, NaN where no brick is, and `grid` there.
 
@@ -46,7 +46,9 @@ def slice_logits(
     return logits.view(PIXELS, PIXELS).numpy(), bricks.view(PIXELS, PIXELS).numpy()
 
 
-def _show(axes: Axes, field: OccupancyField, cut: MeshSlice, centre: np.ndarray, half: float):
+def _show(
+    axes: Axes, field: OccupancyFieldNetwork, cut: MeshSlice, centre: np.ndarray, half: float
+):
     from matplotlib.colors import ListedColormap
 
     logits, bricks = slice_logits(field, cut, centre, half)

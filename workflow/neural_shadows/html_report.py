@@ -2,6 +2,7 @@
 
 import base64
 import io
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -92,7 +93,7 @@ def _mark_cells(tokens: Sequence[Token]) -> None:
 def figure_block(title: str, svg: Path, png: Path) -> Block:
     """A figure as an image: the SVG if it is small, or else the PNG as WebP, half its size.
 
-    Its number comes from its name: `figure_4_3` is figure 4.3.
+    The number of a figure of the thesis comes from its name: `figure_4_3` is figure 4.3.
 
     Raises:
         InputError: a file is missing.
@@ -108,8 +109,9 @@ def figure_block(title: str, svg: Path, png: Path) -> Block:
             f"{error.filename}: cannot be read ({error.strerror}); run the figure"
         ) from error
     html = Markup('<img alt="{}" src="{}">').format(title, source)
-    number = svg.stem.removeprefix("figure_").replace("_", ".")
-    return Block(svg.stem, f"Figure {number}: {title}", html)
+    if number := re.fullmatch(r"figure_(\d)_(\d+)", svg.stem):
+        title = f"Figure {number[1]}.{number[2]}: {title}"
+    return Block(svg.stem, title, html)
 
 
 def _data_uri(kind: str, content: bytes) -> str:
@@ -176,11 +178,13 @@ def render_page(
     comparisons: Sequence[Mapping[str, Any]],
     tables: Sequence[Block],
     figures: Sequence[Block],
+    beyond: Sequence[Block],
 ) -> str:
     """The page as one self-contained HTML text: no other file and no network is asked for.
 
     Args:
         templates: the folder of `template.html`, `style.css` and `script.js`.
+        beyond: tables and figures of what is not the thesis's.
     """
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates),
@@ -198,6 +202,7 @@ def render_page(
         comparisons=comparisons,
         tables=tables,
         figures=figures,
+        beyond=beyond,
     )
 
 
@@ -210,6 +215,7 @@ def write_html_report(
     frames: str,
     tables: Sequence[Path],
     figures: Mapping[str, str],
+    beyond: Sequence[str],
     claims: Path | None,
     pictures: Mapping[str, Sequence[Path]],
     metrics: Mapping[str, Sequence[Path]],
@@ -226,6 +232,7 @@ def write_html_report(
         frames: what is rendered, as a phrase.
         tables: Markdown twins, in order; `claims`: that of the claims.
         figures: titles by path without ending; `.svg` and `.png` of each are there.
+        beyond: names of the tables and figures that are not the thesis's.
         pictures, metrics: by scene, the first batches of its evaluations.
         meshes: descriptions by scene; `procedural`: whether the pipeline made the mesh.
         trainings: records of all trainings.
@@ -247,6 +254,11 @@ def write_html_report(
         benchmarks=benchmarks,
         folder=folder,
     )
+    table_blocks = [table_block(path) for path in tables]
+    figure_blocks = [
+        figure_block(title, Path(f"{name}.svg"), Path(f"{name}.png"))
+        for name, title in figures.items()
+    ]
     page = render_page(
         templates,
         title=f"Neural Shadow Ray Queries: {scale} scale",
@@ -260,10 +272,8 @@ def write_html_report(
             )
             for scene in pictures
         ],
-        tables=[table_block(path) for path in tables],
-        figures=[
-            figure_block(title, Path(f"{name}.svg"), Path(f"{name}.png"))
-            for name, title in figures.items()
-        ],
+        tables=[block for block in table_blocks if block.key not in beyond],
+        figures=[block for block in figure_blocks if block.key not in beyond],
+        beyond=[block for block in table_blocks + figure_blocks if block.key in beyond],
     )
     write_text(html, page)

@@ -175,6 +175,10 @@ class Layout:
             and scene in (None, self.config.experiments[experiment_of(method)].scene)
         ]
 
+    def table_experiments(self, table: str) -> list[str]:
+        """The experiments of `table_networks`, each once."""
+        return list(dict.fromkeys(map(experiment_of, self.table_networks(table))))
+
     def table_files(self, table: str, file: str, scene: str | None = None) -> list[str]:
         """A file of each network that `table_networks` names, in its order."""
         return [
@@ -399,6 +403,15 @@ class Layout:
             name
             for name, figure in self.config.figures.items()
             if getattr(figure, "table", tables[0]) in tables
+        ]
+
+    def beyond(self) -> list[str]:
+        """Names of the tables and figures that are not the thesis's: those of other networks."""
+        tables = self.tables_of("networks")
+        return tables + [
+            name
+            for name, figure in self.config.figures.items()
+            if figure.kind == "field_slice" or getattr(figure, "table", None) in tables
         ]
 
     def usual_evaluations(self) -> list[str]:

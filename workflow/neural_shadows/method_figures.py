@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import torch
 
-from neural_shadows.dead_zone_loss import dead_zone_loss
+from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.direction_spectrum import angular_power_spectrum
 from neural_shadows.errors import InputError
 from neural_shadows.files import read_json
@@ -386,7 +386,7 @@ def _dead_zone_loss(figure: Figure, cut: MeshSlice) -> None:
         chosen.append(("misses", int(np.argmax(np.where(rays.hit, -1, rays.chord))), ORANGE))
     for name, i, colour in chosen:
         low, high = float(rays.t_lb[i]), float(rays.t_ub[i])
-        loss = dead_zone_loss(t, torch.tensor(low), torch.tensor(high))
+        loss = DeadZone()(t, torch.tensor(low), torch.tensor(high))
         bounds = f"t$_{{lb}}$ = {low:.2f}, t$_{{ub}}$ = " + (
             "∞" if np.isinf(high) else f"{high:.2f}"
         )

@@ -32,3 +32,8 @@ def modules_of(script: Path) -> list[Path]:
         found |= new
         queue += new
     return sorted(found)
+
+
+def kind_module(encoding: str) -> Path:
+    """The module of a kind of network: `ray_grid_network.py` for the encoding `ray_grid`."""
+    return PACKAGE / f"{encoding}_network.py"

@@ -1,14 +1,14 @@
 """What every shadow network can do, whatever it is made of [3.1, 3.3]."""
 
 from abc import ABC, abstractmethod
-from typing import Any, ClassVar, NamedTuple
+from pathlib import Path
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import torch
 from torch import Tensor, nn
 
 from neural_shadows.dead_zone_loss import DeadZone
-from neural_shadows.mesh import PreparedMesh
 
 # Rays per forward pass: on a CPU one layer's activations of 256 × bfloat16 are then 2 MiB and
 # stay in the cache; on a GPU a whole frame goes at once.
@@ -28,21 +28,36 @@ class LabelledBatch(NamedTuple):
     t_ub: Tensor  # (n,), may be ∞
 
 
+def chords(origins: Tensor, directions: Tensor) -> Tensor:
+    """ℓ = −2 o·d of each ray, the length of its chord of the unit sphere: (n,)."""
+    return -2 * (origins * directions).sum(1)
+
+
+def hits(batch: LabelledBatch) -> Tensor:
+    """Which rays meet the object, (n,) bool: of a miss t_lb is ℓ itself, up to rounding."""
+    return batch.t_lb < chords(batch.origins, batch.directions) - 1e-5
+
+
 class ShadowNetwork(nn.Module, ABC):
     """A function t_pred(o, d) with trained weights: behind that depth, all is in shadow.
 
-    A kind of network is a subclass in a module of its own, its arguments a model in
-    `config.py`, and both are listed in `network_kinds.py`.
+    A kind of network is a subclass in a module of its own, named for the config's `encoding`
+    (see `network_kinds`), and its arguments a model in `config.py`.
     """
-
-    needs_mesh: ClassVar[bool] = False
-    """Whether `prepare` must be given the mesh before training."""
 
     training_chunk: ClassVar[int] = TRAINING_CHUNK
     query_chunks: ClassVar[dict[str, int]] = QUERY_CHUNKS
 
-    def prepare(self, mesh: PreparedMesh) -> None:
-        """Lay out what depends on the object and is not trained."""
+    def prepare(self, mesh_ply: Path) -> None:
+        """Lay out what depends on the object and is not trained; called before training.
+
+        Args:
+            mesh_ply: the prepared mesh.
+
+        Raises:
+            InputError: the file is not whole.
+        """
+        raise NotImplementedError(f"{type(self).__name__} needs no mesh")
 
     @abstractmethod
     def initialise(self, seed: int) -> None:
@@ -91,7 +106,7 @@ class ShadowNetwork(nn.Module, ABC):
         """The tensors of a weight file; a network made from them answers as the file will."""
         return dict(self.state_dict())
 
-    def restore(self, tensors: dict[str, Any]) -> None:
+    def restore(self, tensors: dict[str, Tensor]) -> None:
         """Take the tensors that `stored` gave.
 
         Raises:

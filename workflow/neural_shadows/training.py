@@ -18,8 +18,7 @@ from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.errors import InputError
 from neural_shadows.files import write_json, write_text
 from neural_shadows.hardware import describe_machine
-from neural_shadows.mesh import PreparedMesh
-from neural_shadows.module_graph import modules_of
+from neural_shadows.module_graph import kind_module, modules_of
 from neural_shadows.network_file import load_tensors, save_network, save_tensors
 from neural_shadows.network_kinds import make_network
 from neural_shadows.progress import progress_bar
@@ -64,16 +63,28 @@ def state_digest(description: dict) -> str:
     state that they did not make.
     """
     digest = hashlib.sha256(json.dumps(description, sort_keys=True).encode())
-    for module in (Path(__file__), *modules_of(Path(__file__))):
-        digest.update(module.read_bytes())
+    for module in (Path(__file__), kind_module(description["network"]["encoding"])):
+        for path in (module, *modules_of(module)):
+            digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 
 class TrainingRun:
-    """The changing state of one run: weights, Adam's means, step, loss curve, seconds."""
+    """The changing state of one run: weights, Adam's means, step, loss curve, seconds.
 
-    def __init__(self, network: ShadowNetwork, device: torch.device, learning_rate: float):
-        self.network = network.to(device)
+    Args:
+        seed: of what a network's loss draws.
+    """
+
+    def __init__(
+        self,
+        network: ShadowNetwork,
+        device: torch.device,
+        learning_rate: float,
+        dead_zone: DeadZone,
+        seed: int,
+    ):
+        self.network, self.dead_zone, self.seed = network.to(device), dead_zone, seed
         self.optimiser = torch.optim.Adam(network.parameters(), lr=learning_rate, fused=True)
         self.step = 0
         self.seconds = 0.0
@@ -117,9 +128,8 @@ class TrainingRun:
         rays: LabelledRays,
         indices: np.ndarray,
         rate: float,
-        dead_zone: DeadZone,
         dtype: torch.dtype,
-        seed: int,
+        chunk: int,
         pool: Executor,
     ) -> tuple[torch.Tensor, torch.Tensor]:
         """One step of Adam on the mean loss of the samples `indices`.
@@ -127,8 +137,7 @@ class TrainingRun:
         Gradients of chunks are computed in the pool's threads and added in the chunks' order,
         so that the result does not depend on the number of threads.
 
-        Args:
-            seed: of what a network's loss draws; the draws depend on it, the step and the chunk.
+        What a network's loss draws depends on the seed, the step and the chunk's number.
 
         Returns:
             The batch's mean loss, and the spread (max − min) of the network's outputs.
@@ -137,14 +146,15 @@ class TrainingRun:
         device = weights[0].device
 
         def gradients(number: int, part: LabelledBatch):
-            state = np.random.SeedSequence([seed, self.step, number]).generate_state(1, np.uint64)
+            state = np.random.SeedSequence([self.seed, self.step, number]).generate_state(
+                1, np.uint64
+            )
             generator = torch.Generator(device).manual_seed(int(state[0]))
-            losses, outputs = self.network.losses(part, dead_zone, dtype, generator)
+            losses, outputs = self.network.losses(part, self.dead_zone, dtype, generator)
             loss = losses.sum() / len(indices)
             return loss.detach(), outputs.detach(), torch.autograd.grad(loss, weights)
 
         batch = [torch.from_numpy(part).to(device) for part in rays.gather(indices)]
-        chunk = chunk_size(len(indices), device, self.network.training_chunk)
         chunks = [LabelledBatch(*parts) for parts in zip(*(part.split(chunk) for part in batch))]
         losses, outputs, parts = zip(*pool.map(gradients, range(len(chunks)), chunks))
         for weight, *terms in zip(weights, *parts):
@@ -209,7 +219,7 @@ def train(
     schedule: str,
     loss: dict[str, float],
     seed: int,
-    mesh: PreparedMesh | None,
+    mesh_ply: Path | None,
     data: dict[str, Any],
     state_folder: Path,
     state_interval_s: float = 30.0,
@@ -230,7 +240,7 @@ def train(
         network: what `make_network` makes it from.
         schedule: `constant` or `cosine`.
         loss: weights of `DeadZone`.
-        mesh: of the object; may be None for a network that does not need it.
+        mesh_ply: prepared mesh of the object, for a network that needs it; None for others.
         data: description of the rays (their digests and seeds); goes into the weights' header
             and into the name of the saved state.
         state_folder: where states of running trainings live; this run's is removed at its end.
@@ -257,16 +267,16 @@ def train(
     header = {"name": name, "network": network, "training": settings, "data": data}
 
     model = make_network(network)
-    if mesh is not None:
-        model.prepare(mesh)
+    if mesh_ply is not None:
+        model.prepare(mesh_ply)
     model.initialise(seed)
-    run = TrainingRun(model, chosen, learning_rate)
+    run = TrainingRun(model, chosen, learning_rate, DeadZone(**loss), seed)
     run_folder = Path(state_folder) / f"{name}-{state_digest(header)}"
     state_file = run_folder / "state.safetensors"
     if state_file.exists():
         run.restore(state_file)
 
-    dead_zone = DeadZone(**loss)
+    chunk = chunk_size(batch_size, chosen, model.training_chunk)
     point_interval = max(1, steps // CURVE_POINTS)
     interval_loss = torch.zeros((), device=chosen)
     started = last_saved = time.monotonic()
@@ -281,7 +291,7 @@ def train(
                 run.step, steps=steps, learning_rate=learning_rate, schedule=schedule
             )
             indices = batch_indices(run.step, seed=seed, batch_size=batch_size, count=rays.count)
-            mean, spread = run.train_step(rays, indices, rate, dead_zone, dtype, seed, pool)
+            mean, spread = run.train_step(rays, indices, rate, dtype, chunk, pool)
             interval_loss += mean
             bar.update(batch_size)
             # States are saved at points of the curve only, so that a restored run has no

@@ -27,7 +27,7 @@ os.environ.update(NUMBA_CACHE_DIR=kernels)
 from neural_shadows import layout
 from neural_shadows.config import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
-from neural_shadows.module_graph import modules_of
+from neural_shadows.module_graph import kind_module, modules_of
 
 try:
     check_duplicates(workflow.configfiles)
@@ -62,9 +62,13 @@ wildcard_constraints:
     batch="[0-9]+",
 
 
-def code(name):
-    """The package's modules that the result of a script depends on."""
-    return [
-        os.path.relpath(path)
-        for path in modules_of(WORKFLOW / "scripts" / f"{name}.py")
-    ]
+def code(name, experiments=()):
+    """The package's modules that the result of a script depends on.
+
+    A network's module is imported by its kind's name, so that it is among them only for the
+    jobs that use such a network.
+    """
+    kinds = {kind_module(LAYOUT.network_settings(e)["encoding"]) for e in experiments}
+    sources = [WORKFLOW / "scripts" / f"{name}.py", *kinds]
+    modules = kinds.union(*map(modules_of, sources))
+    return sorted(os.path.relpath(path) for path in modules)

@@ -32,7 +32,9 @@ rule find_depth_biases:
         weights=lambda wildcards: LAYOUT.networks(
             wildcards.evaluation, "weights.safetensors"
         ),
-        code=code("find_depth_biases"),
+        code=lambda wildcards: code(
+            "find_depth_biases", CONFIG.evaluations[wildcards.evaluation].networks
+        ),
     output:
         found=f"{EVALUATION}/depth_biases.json",
     log:
@@ -84,7 +86,9 @@ rule evaluate:
         ),
         lpips=f"{RESULTS}/lpips.json",
         depth_biases=lambda wildcards: LAYOUT.depth_biases(wildcards.evaluation),
-        code=code("evaluate"),
+        code=lambda wildcards: code(
+            "evaluate", CONFIG.evaluations[wildcards.evaluation].networks
+        ),
     output:
         metrics=f"{EVALUATION}/{{view_set}}.{{batch}}.csv",
         pictures=f"{EVALUATION}/{{view_set}}.{{batch}}.npz",
@@ -136,7 +140,9 @@ rule frame_times:
         weights=lambda wildcards: LAYOUT.table_files(
             wildcards.table, "weights.safetensors", wildcards.scene
         ),
-        code=code("frame_times"),
+        code=lambda wildcards: code(
+            "frame_times", LAYOUT.table_experiments(wildcards.table)
+        ),
     output:
         times=f"{RESULTS}/{layout.FRAME_TIMES}",
     log:

@@ -5,7 +5,7 @@ rule train:
     input:
         unpack(lambda wildcards: LAYOUT.training_rays(wildcards.experiment)),
         mesh=lambda wildcards: LAYOUT.training_mesh(wildcards.experiment),
-        code=code("train"),
+        code=lambda wildcards: code("train", [wildcards.experiment]),
     output:
         weights=f"{NETWORK}/weights.safetensors",
         loss=f"{NETWORK}/loss.csv",
@@ -50,7 +50,7 @@ rule export_network:
             CONFIG.experiments[wildcards.experiment].scene, "json"
         ),
         depth_biases=lambda wildcards: LAYOUT.export_biases(wildcards.experiment),
-        code=code("export_network"),
+        code=lambda wildcards: code("export_network", [wildcards.experiment]),
     output:
         onnx=f"{NETWORK}/network.onnx",
         conventions=f"{NETWORK}/network.json",

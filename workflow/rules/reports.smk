@@ -93,7 +93,9 @@ rule performance_table:
         ),
         training=lambda wildcards: LAYOUT.table_trainings(wildcards.table),
         published="config/published.csv",
-        code=code("performance_table"),
+        code=lambda wildcards: code(
+            "performance_table", LAYOUT.table_experiments(wildcards.table)
+        ),
     output:
         csv=report(
             f"{REPORTS}/{{table}}.csv",
@@ -138,7 +140,9 @@ rule networks_table:
         depth_biases=lambda wildcards: LAYOUT.table_biases(wildcards.table),
         meshes=lambda wildcards: LAYOUT.table_meshes(wildcards.table),
         lpips=f"{RESULTS}/lpips.json",
-        code=code("networks_table"),
+        code=lambda wildcards: code(
+            "networks_table", LAYOUT.table_experiments(wildcards.table)
+        ),
     output:
         csv=report(
             f"{REPORTS}/{{table}}.csv",
@@ -182,7 +186,9 @@ rule memory_table:
             wildcards.table, "weights.safetensors"
         ),
         published="config/published.csv",
-        code=code("memory_table"),
+        code=lambda wildcards: code(
+            "memory_table", LAYOUT.table_experiments(wildcards.table)
+        ),
     output:
         csv=report(
             f"{REPORTS}/{{table}}.csv",
@@ -315,13 +321,13 @@ rule fronts_figure:
 
 rule field_slice:
     input:
-        mesh=lambda wildcards: LAYOUT.mesh(
-            LAYOUT.field_scene(wildcards.figure), "ply"
-        ),
+        mesh=lambda wildcards: LAYOUT.mesh(LAYOUT.field_scene(wildcards.figure), "ply"),
         weights=lambda wildcards: LAYOUT.network(
             CONFIG.figures[wildcards.figure].experiment, "weights.safetensors"
         ),
-        code=code("field_slice"),
+        code=lambda wildcards: code(
+            "field_slice", [CONFIG.figures[wildcards.figure].experiment]
+        ),
     output:
         png=report(
             f"{REPORTS}/{{figure}}.png",
@@ -486,6 +492,7 @@ rule html_report:
             f"{REPORTS}/{name}": CONFIG.figures[name].title
             for name in LAYOUT.usual_figures()
         },
+        beyond=LAYOUT.beyond(),
         pictures=LAYOUT.first_batches_by_scene("npz"),
         metrics=LAYOUT.first_batches_by_scene("csv"),
         scenes=list(CONFIG.scenes),

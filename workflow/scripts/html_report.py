@@ -20,6 +20,7 @@ def main(job):
         frames=params.frames,
         tables=[Path(path) for path in job.input.tables],
         figures=params.figures,
+        beyond=params.beyond,
         claims=Path(job.input.claims[0]) if job.input.claims else None,
         pictures=paths_of(params.pictures),
         metrics=paths_of(params.metrics),

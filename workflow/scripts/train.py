@@ -4,14 +4,12 @@ from pathlib import Path
 
 from neural_shadows.files import read_json
 from neural_shadows.jobs import run_job
-from neural_shadows.mesh import read_prepared
 from neural_shadows.ray_set import RaySet
 from neural_shadows.training import train
 
 
 def main(job):
     params = job.params
-    mesh = next(map(read_prepared, job.input.mesh), None)
     train(
         RaySet(job.input.directions, job.input.origins, job.input.bounds),
         Path(job.output.weights),
@@ -25,7 +23,7 @@ def main(job):
         schedule=params.schedule,
         loss=params.loss,
         seed=params.seed,
-        mesh=mesh,
+        mesh_ply=next(map(Path, job.input.mesh), None),
         data=read_json(job.input.description),
         state_folder=Path(job.output.weights).parents[1] / "unfinished",
         device=params.device,

@@ -4,10 +4,12 @@ A network of one layer, trilinear interpolation, and no direction: where the sur
 depend on the ray. The cube [−1, 1]³ is divided into bricks of 4³ cells. Only bricks that the
 surface touches hold values; the others are empty, or enclosed and so in shadow. t_pred is the
 first sample on the ray with a positive logit, or on an open sheet, which has no inside, the
-first change of sign. The field is trained on points of the labelled rays by cross-entropy:
+first change of sign. (Around the border of a sheet its shadow then reaches to its bricks' end,
+where the signs of both sides meet.) The field is trained on points of the labelled rays by cross-entropy:
 points before the first hit are outside, those between the two hits inside.
 """
 
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +18,10 @@ from torch import Tensor, nn
 
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.field_query import BRICK, BRICK_VERTICES, SOLID, first_crossings, skips
-from neural_shadows.mesh import PreparedMesh
+from neural_shadows.mesh import read_prepared
 from neural_shadows.occupancy import enclosed_cells, surface_cells
 from neural_shadows.precision import pack_bits, quantise, restore_values, unpack_bits
-from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork
+from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork, chords, hits
 from neural_shadows.tracing import Tracer
 
 # Logits end here: smoothly, so that int8 holds them. At 8 the surface blurs (−1.1 dB at 128³),
@@ -60,7 +62,7 @@ def lay_out(surface: np.ndarray, solid: bool) -> Layout:
     return Layout(grid, table.reshape(-1, BRICK_VERTICES).astype(np.int32), len(used))
 
 
-class OccupancyField(ShadowNetwork):
+class OccupancyFieldNetwork(ShadowNetwork):
     """t_pred(o, d) by marching through a field of logits.
 
     Args:
@@ -70,7 +72,6 @@ class OccupancyField(ShadowNetwork):
         stored: how values are written: `float32`, `float16` or `int8`.
     """
 
-    needs_mesh = True
     # Gradients of all values are added for each chunk: few, large ones.
     training_chunk = 1 << 15
     # The torch form looks at all samples of all rays at once.
@@ -91,8 +92,9 @@ class OccupancyField(ShadowNetwork):
         self.values = nn.Parameter(torch.zeros(layout.count))
         self._bricks: tuple[int, np.ndarray] | None = None
 
-    def prepare(self, mesh: PreparedMesh) -> None:
+    def prepare(self, mesh_ply: Path) -> None:
         """Lay out the bricks that the surface touches."""
+        mesh = read_prepared(mesh_ply)
         surface = surface_cells(mesh.vertices, mesh.faces, self.resolution // BRICK)
         self._use(lay_out(surface, self.surface == "solid"))
         if self.surface == "sheet":
@@ -140,8 +142,7 @@ class OccupancyField(ShadowNetwork):
     ) -> tuple[Tensor, Tensor]:
         """Cross-entropy of points on the rays; there is no depth for the dead zone to judge."""
         origins, directions, t_lb, t_ub = batch
-        chord = -2 * (origins * directions).sum(1)
-        hit = t_lb < chord - 1e-5  # of a miss t_lb is ℓ itself, up to rounding
+        chord, hit = chords(origins, directions), hits(batch)
         cell = 2 / self.resolution
         half = POINTS_PER_RAY // 2
         shape = (len(origins), half)
@@ -189,7 +190,7 @@ class OccupancyField(ShadowNetwork):
         steps = SAMPLES_PER_CELL * self.resolution
         step = 2 / steps
         t = (torch.arange(steps, device=origins.device) + 0.5) * step
-        chord = -2 * (origins * directions).sum(1)
+        chord = chords(origins, directions)
         p = (origins[:, None] + t[:, None] * directions[:, None]).flatten(0, 1)
         bricks = self.bricks_at(p)
         value = self.logits_at(p, bricks.clamp(min=0), self.logits()).view(-1, steps)

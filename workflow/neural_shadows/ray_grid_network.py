@@ -1,26 +1,19 @@
 """Ray grid: features of points along a ray, from 3-D grids, into a small network.
 
-Instead of (o, d) alone, the network sees what grids of trained features hold at K points of the
-ray: dense grids, or hashed ones (Müller et al. 2022, Instant-NGP). With an occupancy the points
-lie between the first and the last cell on the ray that the surface touches, and a ray that
-meets none is lit without any network.
+Instead of (o, d) alone, the network sees what dense grids of trained features hold at K points,
+evenly spread over the ray's chord.
 """
 
 import torch
 from torch import Tensor, nn
 
 from neural_shadows.dead_zone_loss import DeadZone
-from neural_shadows.mesh import PreparedMesh
-from neural_shadows.occupancy import surface_cells
-from neural_shadows.precision import pack_bits, quantise, restore_values, unpack_bits
-from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork
+from neural_shadows.precision import quantise, restore_values
+from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork, chords, hits
 
 # Of the cross-entropy of hit or miss, beside the dead-zone loss: a depth is wrong by some 0.01
 # in training and an answer by some 0.1.
 CONFIDENCE_WEIGHT = 0.1
-
-# The primes of Instant-NGP's hash of a grid vertex.
-PRIMES = (1, 2654435761, 805459861)
 
 
 class FeatureGrid(nn.Module):
@@ -29,38 +22,37 @@ class FeatureGrid(nn.Module):
     Args:
         resolution: vertices along an axis.
         channels: features of a vertex.
-        table_size: of the hash table, a power of two; 0 for a dense grid. A grid with no more
-            vertices than that is dense too.
     """
 
-    def __init__(self, resolution: int, channels: int, table_size: int):
+    def __init__(self, resolution: int, channels: int):
         super().__init__()
         self.resolution, self.channels = resolution, channels
-        count = resolution**3
-        self.hashed = 0 < table_size < count
-        self.values = nn.Parameter(torch.empty(table_size if self.hashed else count, channels))
+        self.values = nn.Parameter(torch.empty(self.size(), channels))
         corners = torch.cartesian_prod(*[torch.arange(2)] * 3)
         self.register_buffer("corners", corners, persistent=False)
+
+    def size(self) -> int:
+        """Number of vertices that have features of their own."""
+        return self.resolution**3
+
+    def index(self, vertices: Tensor) -> Tensor:
+        """Where the features of vertices (..., 3) int64 are: (...)."""
+        x, y, z = vertices.unbind(-1)
+        return (x * self.resolution + y) * self.resolution + z
 
     def forward(self, p: Tensor) -> Tensor:
         """Features (n, channels) float32 at points (n, 3) float32; clamped to the cube."""
         u = ((p + 1) * ((self.resolution - 1) / 2)).clamp(0, self.resolution - 1)
         cell = u.floor().clamp(max=self.resolution - 2)
         w = u - cell
-        vertices = cell.long()[:, None] + self.corners  # (n, 8, 3)
-        if self.hashed:
-            x, y, z = (vertices * vertices.new_tensor(PRIMES)).unbind(-1)
-            index = (x ^ y ^ z) & (len(self.values) - 1)
-        else:
-            x, y, z = vertices.unbind(-1)
-            index = (x * self.resolution + y) * self.resolution + z
+        index = self.index(cell.long()[:, None] + self.corners)  # (n, 8)
         # One index_select: its backward pass takes half the time of that of values[index].
         features = self.values.index_select(0, index.flatten()).unflatten(0, (-1, 8))
         weights = torch.where(self.corners.bool(), w[:, None], 1 - w[:, None]).prod(-1)
         return (features * weights[:, :, None]).sum(1)
 
 
-class GridNetwork(ShadowNetwork):
+class RayGridNetwork(ShadowNetwork):
     """t_pred(o, d) from the features of points along the ray.
 
     Args:
@@ -71,8 +63,6 @@ class GridNetwork(ShadowNetwork):
         head: `depth`, or `depth_confidence`: a second output says hit or miss, the depth is
             trained on hits alone, and only a ray with confidence > 0.5 casts shadow.
         stored: how weights are written: `float32`, `float16` or `int8`.
-        occupancy: cells along an axis of the occupancy; 0: the points are spread over the chord.
-        table_size: of each grid's hash table; 0 for dense grids.
     """
 
     training_chunk = 4096
@@ -87,29 +77,21 @@ class GridNetwork(ShadowNetwork):
         hidden_layers: int,
         head: str,
         stored: str,
-        occupancy: int = 0,
-        table_size: int = 0,
     ):
         super().__init__()
         self.points, self.head, self.precision = points, head, stored
-        self.grids = nn.ModuleList(FeatureGrid(n, channels, table_size) for n in grids)
+        self.grids = nn.ModuleList(self.feature_grid(n, channels) for n in grids)
         # Features of all points, o, d, and the depths t_a and t_b between which they lie.
         sizes = [points * channels * len(grids) + 8] + [width] * hidden_layers
         outputs = 2 if head == "depth_confidence" else 1
         self.layers = nn.ModuleList(nn.Linear(a, b) for a, b in zip(sizes, sizes[1:]))
         self.output = nn.Linear(width, outputs)
-        self.needs_mesh = occupancy > 0
-        cells = torch.zeros(occupancy**3, dtype=torch.bool)
-        self.register_buffer("cells", cells, persistent=False)
-        self.resolution = occupancy
         fractions = (torch.arange(points, dtype=torch.float32) + 0.5) / points
         self.register_buffer("fractions", fractions, persistent=False)
 
-    def prepare(self, mesh: PreparedMesh) -> None:
-        """Mark the occupied cells."""
-        if self.resolution:
-            cells = surface_cells(mesh.vertices, mesh.faces, self.resolution)
-            self.cells = torch.from_numpy(cells.reshape(-1)).to(self.cells.device)
+    def feature_grid(self, resolution: int, channels: int) -> FeatureGrid:
+        """One of the grids."""
+        return FeatureGrid(resolution, channels)
 
     def initialise(self, seed: int) -> None:
         """Nearly nothing in the grids, He initialisation behind them."""
@@ -127,23 +109,8 @@ class GridNetwork(ShadowNetwork):
         Returns:
             t_a, t_b (n,) float32, and whether there is anything to hit (n,) bool.
         """
-        chord = -2 * (origins * directions).sum(1)
-        if not self.resolution:
-            return torch.zeros_like(chord), chord, torch.ones_like(chord, dtype=torch.bool)
-        n = self.resolution
-        # Two steps a cell; a corner cut in between is of no account.
-        steps = 2 * n
-        t = (torch.arange(steps, device=chord.device) + 0.5) * (2 / steps)
-        p = origins[:, None] + t[:, None] * directions[:, None]
-        cell = ((p + 1) * (n / 2)).long().clamp(0, n - 1)
-        x, y, z = cell.unbind(-1)
-        occupied = self.cells[(x * n + y) * n + z] & (t < chord[:, None])
-        first = torch.where(occupied, t, torch.inf).amin(1)
-        last = torch.where(occupied, t, -torch.inf).amax(1)
-        meets = last >= first
-        half = 1 / steps
-        t_a = torch.where(meets, (first - half).clamp(min=0), 0)
-        return t_a, torch.where(meets, torch.minimum(last + half, chord), chord), meets
+        chord = chords(origins, directions)
+        return torch.zeros_like(chord), chord, torch.ones_like(chord, dtype=torch.bool)
 
     def outputs(
         self, origins: Tensor, directions: Tensor, t_a: Tensor, t_b: Tensor, dtype: torch.dtype
@@ -161,7 +128,7 @@ class GridNetwork(ShadowNetwork):
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
         """See `ShadowNetwork.forward`; ℓ, which is lit, for rays without shadow."""
         t_a, t_b, meets = self.span(origins, directions)
-        chord = -2 * (origins * directions).sum(1)
+        chord = chords(origins, directions)
         if torch.compiler.is_exporting():
             return torch.where(meets, self._depth(origins, directions, t_a, t_b, dtype), chord)
         rays = meets.nonzero().squeeze(1)
@@ -172,7 +139,7 @@ class GridNetwork(ShadowNetwork):
         outputs = self.outputs(origins, directions, t_a, t_b, dtype)
         depth = t_a + outputs[:, 0]
         if self.head == "depth_confidence":
-            chord = -2 * (origins * directions).sum(1)
+            chord = chords(origins, directions)
             # A confidence of more than 0.5 is a logit of more than zero.
             depth = torch.where(outputs[:, 1] > 0, depth, chord)
         return depth
@@ -184,7 +151,7 @@ class GridNetwork(ShadowNetwork):
         dtype: torch.dtype,
         generator: torch.Generator,
     ) -> tuple[Tensor, Tensor]:
-        """See `ShadowNetwork.losses`; rays that the occupancy settles have none."""
+        """See `ShadowNetwork.losses`; rays with nothing to hit have none."""
         t_a, t_b, meets = self.span(batch.origins, batch.directions)
         rays = meets.nonzero().squeeze(1)
         batch = LabelledBatch(*(part[rays] for part in batch))
@@ -193,9 +160,7 @@ class GridNetwork(ShadowNetwork):
         t = t_a + outputs[:, 0]
         loss = dead_zone(t, batch.t_lb, batch.t_ub)
         if self.head == "depth_confidence":
-            chord = -2 * (batch.origins * batch.directions).sum(1)
-            # Of a miss t_lb is ℓ itself, up to rounding.
-            hit = (batch.t_lb < chord - 1e-5).float()
+            hit = hits(batch).float()
             error = nn.functional.binary_cross_entropy_with_logits(
                 outputs[:, 1], hit, reduction="none"
             )
@@ -203,11 +168,9 @@ class GridNetwork(ShadowNetwork):
         return loss, t
 
     def stored(self) -> dict[str, Tensor]:
-        """Weights in the chosen precision, and a bit for each cell of the occupancy."""
-        return quantise(self.state_dict(), self.precision) | {"cells": pack_bits(self.cells)}
+        """Weights in the chosen precision."""
+        return quantise(self.state_dict(), self.precision)
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
         """See `ShadowNetwork.restore`."""
-        tensors = dict(tensors)
-        self.cells = unpack_bits(tensors.pop("cells"), len(self.cells))
         self.load_state_dict(restore_values(tensors, self.precision))

@@ -1,0 +1,26 @@
+"""Rays with exact labels for the tests of networks."""
+
+import math
+
+import numpy as np
+
+
+def ball_rays(count: int, seed: int = 0) -> tuple[np.ndarray, ...]:
+    """Rays at a ball of radius 0.5 about the origin, half of them hits, with exact labels.
+
+    Returns origins (n, 3), directions (n, 3), t_lb (n,), t_ub (n,), all float32.
+    """
+    rng = np.random.default_rng(seed)
+    d = rng.normal(size=(count, 3))
+    d /= np.linalg.norm(d, axis=1, keepdims=True)
+    across = rng.normal(size=(count, 3))
+    across -= np.sum(across * d, axis=1, keepdims=True) * d
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    radius = np.where(rng.random(count) < 0.5, 0.5, 1.0) * np.sqrt(rng.random(count))
+    half_chord = np.sqrt(1 - radius**2)
+    inside = np.sqrt(np.maximum(0.25 - radius**2, 0))
+    hit = radius < 0.5
+    o = radius[:, None] * across - half_chord[:, None] * d
+    t_lb = np.where(hit, half_chord - inside, 2 * half_chord)
+    t_ub = np.where(hit, half_chord + inside, math.inf)
+    return tuple(array.astype(np.float32) for array in (o, d, t_lb, t_ub))
