@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+from markupsafe import Markup
 
 from neural_shadows.files import write_text
 from neural_shadows.first_frames import FirstFrame
@@ -66,7 +67,7 @@ def write_page(folder: Path) -> Path:
         comparisons=[comparison("dragon", f"dragon {HOSTILE}", frames())],
         tables=[table_block(folder / "table_4_3.md")],
         figures=[figure_block(HOSTILE, svg, png)],
-        beyond=[Block("beyond", f"Past {HOSTILE}", table_block(folder / "claims.md").html)],
+        beyond=[Block("fronts", HOSTILE, Markup("<p>Other networks</p>"))],
     )
     write_text(folder / "index.html", page)
     return folder / "index.html"

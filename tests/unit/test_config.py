@@ -197,6 +197,11 @@ MISTAKES = [
         ["tables.beyond.rows", "'dragon_field'", "dragon_field_biased"],
     ),
     (
+        "tables.beyond.rows.7.label",
+        "384³ occupancy field",
+        ["tables.beyond.rows: dragon has two rows with the label '384³ occupancy field'"],
+    ),
+    (
         "evaluations.fence_beyond.view_sets",
         ["surface"],
         ["tables.beyond.evaluations: ", "differ in `view_sets`"],

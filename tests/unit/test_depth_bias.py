@@ -7,7 +7,8 @@ import torch
 import trimesh
 
 from neural_shadows import depth_bias
-from neural_shadows.depth_bias import BIASES, find_depth_biases, read_depth_biases
+from neural_shadows.depth_bias import BIASES, find_depth_biases
+from neural_shadows.depth_bias_file import biases_by_method, read_depth_biases
 from neural_shadows.errors import InputError
 from neural_shadows.shadow_network import ShadowNetwork
 
@@ -66,6 +67,7 @@ def test_a_short_depth_gets_the_bias_that_it_lacks(find, tmp_path):
     assert read_depth_biases(tmp_path / "found.json") == {
         name: found[name]["depth_bias"] for name in ("a", "b")
     }
+    assert list(biases_by_method([tmp_path / "found.json"])) == ["a_biased", "b_biased"]
     # A ball of 20,480 triangles is up to 3e-4 within the exact one; behind it nothing is near.
     assert 0.04 <= found["b"]["depth_bias"] <= 0.13
     assert found["a"]["depth_bias"] < found["b"]["depth_bias"]

@@ -57,6 +57,7 @@ def export(tmp_path):
             tmp_path / "weights.safetensors",
             tmp_path / "mesh.json",
             tmp_path / "biases.json" if biased else None,
+            0.125,
             tmp_path / "network.onnx",
             tmp_path / "network.json",
         )
@@ -101,7 +102,7 @@ def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
 
 
 def test_any_number_of_rays(tmp_path, export):
-    assert export(KINDS[0], biased=False)["query"]["depth_bias"] == 0
+    assert export(KINDS[0], biased=False)["query"]["depth_bias"] == 0.125
     session = onnxruntime.InferenceSession(tmp_path / "network.onnx")
     for count in (1, 7, 3000):
         rays = np.tile(np.array([[0, 0, 1]], np.float32), (count, 1))

@@ -141,3 +141,20 @@ def test_what_is_no_table_is_named(tmp_path, text):
     path.write_text(text)
     with pytest.raises(InputError, match=r"table_4_1\.md: holds no table"):
         table_block(path)
+
+
+def test_what_is_past_the_thesis_has_a_heading_of_its_own(text):
+    section = text[text.index('<section id="beyond">') :]
+    assert "<h2>Past the thesis</h2>" in section and "<p>Other networks</p>" in section
+    assert '<article id="fronts">' in section
+    assert text.count('href="#fronts"') == 1 and 'href="#beyond"' in text
+
+
+def test_only_figures_of_the_thesis_have_numbers(tmp_path):
+    for name in ("figure_4_3", "figure_beyond_dragon"):
+        (tmp_path / f"{name}.svg").write_text("<svg/>")
+    titles = [
+        figure_block("Loss", tmp_path / f"{name}.svg", tmp_path / "none.png").title
+        for name in ("figure_4_3", "figure_beyond_dragon")
+    ]
+    assert titles == ["Figure 4.3: Loss", "Loss"]

@@ -94,7 +94,7 @@ def test_what_is_made_on_request_is_no_part_of_the_page(layout):
     assert "dragon_ablations" not in evaluations and "dragon_field" in evaluations
     experiments = layout.usual_experiments()
     assert not [name for name in experiments if name.startswith("ablation")]
-    assert len(set(experiments)) == len(experiments) == 34
+    assert len(set(experiments)) == len(experiments) == 37
     pictures = [path for paths in layout.first_batches_by_scene("npz").values() for path in paths]
     assert not [path for path in pictures if "ablations" in path]
 
@@ -108,7 +108,14 @@ def test_biases_come_from_views_that_no_evaluation_renders(layout):
         "results/evaluations/dragon_field/depth_biases.json"
     ]
     assert layout.export_biases("dragon_field") == layout.depth_biases("dragon_field")
-    assert layout.export_biases("dragon_uniform") == []
+    assert layout.export_biases("dragon_uniform") == layout.export_biases("dragon") == []
+    assert layout.export_bias("dragon") == 0
+    given = layout.given_biases("beyond")
+    assert given["dragon"] == 0 and "dragon_biased" not in given
+
+
+def test_claims_are_judged_by_the_samples_of_their_own_networks(layout):
+    assert layout.most_samples() == 20_000 * 1024
 
 
 def test_the_mesh_is_an_input_only_of_trainings_that_need_it(layout):

@@ -9,6 +9,7 @@ import trimesh
 from rays import ball_rays
 from shapes import bumpy_sphere, prepared, sheet
 
+from neural_shadows import field_query
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.field_query import SOLID, skips
 from neural_shadows.labels import dual_bounds
@@ -252,3 +253,21 @@ def test_what_a_file_keeps(tmp_path, stored, step):
     save_network(tmp_path / "again.safetensors", loaded, {"network": settings})
     again, _ = load_network(tmp_path / "again.safetensors")
     assert torch.allclose(again.logits(), loaded.logits(), atol=1e-3)
+
+
+@pytest.mark.parametrize("d", [[1.0, 0, 0], [0.6, -0.8, 0], [0, 0, -1]])
+def test_empty_bricks_are_skipped_along_an_axis_too(monkeypatch, tmp_path, d):
+    """A component of exactly zero must not end the skip: a light on one axis has one always."""
+    reads = []
+
+    class Counting(np.ndarray):
+        def __getitem__(self, index):
+            reads.append(index)
+            return super().__getitem__(index)
+
+    grid = np.full((64, 64, 64), -64, np.int32).view(Counting)
+    d = np.array(d, np.float32)
+    o = -d[None]
+    t = np.empty(1, np.float32)
+    field_query._march.py_func(o, d, grid, np.zeros((1, 125), np.float32), 512, False, t)
+    assert len(reads) <= 2 and t[0] == pytest.approx(2, abs=1e-5)

@@ -874,6 +874,7 @@ class Config(Model):
                 for row in table.rows:
                     self._check_timed_row(name, table, row)
                 if isinstance(table, NetworksTable):
+                    self._check_labels(name, table)
                     self._check_same_scene_views(f"tables.{name}.evaluations", table.evaluations)
             case MemoryTable():
                 for row in table.rows:
@@ -982,6 +983,19 @@ class Config(Model):
                         f"claims.{name}.pairs: {first!r} and {second!r} are timed together in "
                         f"{len(shared)} scenes; allowed: two methods of one scene"
                     )
+
+    def _check_labels(self, name: str, table: NetworksTable) -> None:
+        scenes = [
+            self.experiments[experiment_of(row.method)].scene if row.scene is None else row.scene
+            for row in table.rows
+        ]
+        labels = [(scene, row.label) for scene, row in zip(scenes, table.rows)]
+        for scene, label in labels:
+            if labels.count((scene, label)) > 1:
+                raise ValueError(
+                    f"tables.{name}.rows: {scene} has two rows with the label {label!r}; "
+                    "allowed: one of each"
+                )
 
     def _check_same_scene_views(self, key: str, evaluations: Iterable[str]) -> None:
         settings = {name: self.evaluations[name] for name in evaluations}

@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 import torch
 
-from neural_shadows.broken import broken
 from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.evaluation import reference_of
-from neural_shadows.files import read_json, write_json
+from neural_shadows.files import write_json
 from neural_shadows.frames import ground_height, primary_hits, visibility
 from neural_shadows.light import axis_vector
 from neural_shadows.mesh import read_prepared
@@ -109,16 +108,3 @@ def find_depth_biases(
             for name, sums in errors.items()
         },
     )
-
-
-def read_depth_biases(path: Path) -> dict[str, float]:
-    """The depth bias of each experiment that `find_depth_biases` found.
-
-    Raises:
-        InputError: the file is missing, or not whole.
-    """
-    found = read_json(path)
-    try:
-        return {name: float(values["depth_bias"]) for name, values in found.items()}
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
-        raise broken(path, "not a file of depth biases") from error

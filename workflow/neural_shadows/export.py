@@ -7,7 +7,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from neural_shadows.depth_bias import read_depth_biases
+from neural_shadows.depth_bias_file import read_depth_biases
 from neural_shadows.errors import InputError
 from neural_shadows.files import read_json, whole_file, write_json
 from neural_shadows.frames import SHADING_OFFSET
@@ -77,13 +77,19 @@ def largest_difference(network: ShadowNetwork, path: Path) -> float:
 
 
 def export_network(
-    weights: Path, mesh_json: Path, bias_json: Path | None, onnx_path: Path, json_path: Path
+    weights: Path,
+    mesh_json: Path,
+    bias_json: Path | None,
+    given_bias: float,
+    onnx_path: Path,
+    json_path: Path,
 ) -> None:
     """Write a trained network as ONNX, check it, and write its conventions.
 
     Args:
         mesh_json: description of the mesh that it was trained on.
-        bias_json: depth biases that name the network, if any were found.
+        bias_json: depth biases that name the network, if any were to be found.
+        given_bias: the depth bias otherwise.
 
     Raises:
         InputError: an input file is not whole, or ONNX Runtime answers otherwise than PyTorch.
@@ -91,7 +97,7 @@ def export_network(
     network, header = load_network(weights)
     name = header["name"]
     mesh = read_json(mesh_json)
-    depth_bias = read_depth_biases(bias_json)[name] if bias_json else 0.0
+    depth_bias = read_depth_biases(bias_json)[name] if bias_json else given_bias
     export_onnx(network, onnx_path)
     difference = largest_difference(network, onnx_path)
     if difference > TOLERANCE:

@@ -67,13 +67,13 @@ def _march(origins, d, grid, bricks, steps, sheet, t_pred):
     size = len(grid)
     scale = np.float32(size / 2)  # bricks a radius
     step = np.float32(2 / steps)
-    # Bricks along each axis for a step of t, and its inverse; an axis the ray does not move on
-    # never ends a brick.
+    # Bricks along each axis for a step of t, and its inverse: 0 for an axis that the ray does
+    # not move on, which is set apart below since it never ends a brick.
     dx, dy, dz = d[0] * scale, d[1] * scale, d[2] * scale
-    far = np.float32(1e9)
-    ix = 1 / dx if abs(dx) > 1e-9 else far
-    iy = 1 / dy if abs(dy) > 1e-9 else far
-    iz = 1 / dz if abs(dz) > 1e-9 else far
+    ix = 1 / dx if abs(dx) > 1e-9 else np.float32(0)
+    iy = 1 / dy if abs(dy) > 1e-9 else np.float32(0)
+    iz = 1 / dz if abs(dz) > 1e-9 else np.float32(0)
+    far = np.float32(4)  # beyond any chord
     ahead_x, ahead_y, ahead_z = d[0] > 0, d[1] > 0, d[2] > 0
     zero, half, brick_cells = np.float32(0), np.float32(0.5), np.float32(BRICK)
     for ray in range(len(origins)):
@@ -92,16 +92,17 @@ def _march(origins, d, grid, bricks, steps, sheet, t_pred):
             bz = min(max(int(z), 0), size - 1)
             brick = grid[bx, by, bz]
             if brick == SOLID:
-                if not sheet:
-                    found = t
-                    break
-                brick = -1
+                found = t
+                break
             # Where the ray leaves the brick, or the empty cube of bricks around it.
             free = -brick if brick < 0 else 1
             ex = (bx + free if ahead_x else bx + 1 - free) - x
             ey = (by + free if ahead_y else by + 1 - free) - y
             ez = (bz + free if ahead_z else bz + 1 - free) - z
-            leave = t + max(min(ex * ix, ey * iy, ez * iz), zero)
+            tx = ex * ix if ix != 0 else far
+            ty = ey * iy if iy != 0 else far
+            tz = ez * iz if iz != 0 else far
+            leave = t + max(min(tx, ty, tz), zero)
             if brick < 0:
                 i = max(i + 1, int(np.ceil(leave / step - half)))
                 t = (i + half) * step

@@ -33,6 +33,7 @@ STYLES = {
     "hash_grid": (COLOURS[4], "D"),
     "occupancy_field": (COLOURS[0], "P"),
 }
+OTHER = (COLOURS[5], "X")
 UNNAMED = {"frequency": "thesis's network"}
 
 
@@ -48,7 +49,7 @@ def fronts_figure(table: pd.DataFrame, kinds: Sequence[str], quality: str, *, ti
 
     Args:
         table: rows of `networks_table` of one scene.
-        kinds: of each row, a key of `STYLES`.
+        kinds: of each row, as `kind_of` gives them.
         quality: `lpips`, or `flip` where there is no LPIPS.
     """
     from matplotlib.figure import Figure
@@ -60,14 +61,14 @@ def fronts_figure(table: pd.DataFrame, kinds: Sequence[str], quality: str, *, ti
         _panel(axes, table, kinds, quality, column, factor)
         axes.set_xlabel(label)
     panels[0].set_ylabel(f"{quality.upper()}, mean [95 % interval]")
-    shown = [kind for kind in STYLES if kind in kinds]
+    shown = sorted(set(kinds), key=lambda kind: [*STYLES, kind].index(kind))
     figure.legend(
         handles=[
             Line2D(
                 [],
                 [],
-                color=STYLES[kind][0],
-                marker=STYLES[kind][1],
+                color=STYLES.get(kind, OTHER)[0],
+                marker=STYLES.get(kind, OTHER)[1],
                 linestyle="",
                 label=UNNAMED.get(kind, kind.replace("_", " ")),
             )
@@ -94,7 +95,7 @@ def _panel(
     floor = np.nanmin(table[f"{quality}_low"]) / 2
     known = np.isfinite(cost) & np.isfinite(error)
     for i in np.flatnonzero(known):
-        colour, marker = STYLES[kinds[i]]
+        colour, marker = STYLES.get(kinds[i], OTHER)
         spread = [[error[i] - table[f"{quality}_low"].iloc[i]]]
         spread.append([table[f"{quality}_high"].iloc[i] - error[i]])
         axes.errorbar(cost[i], error[i], spread, color=colour, marker=marker, capsize=2)
@@ -109,7 +110,7 @@ def _panel(
                 )
     for i in np.flatnonzero(np.isfinite(cost) & np.isnan(error)):
         # Ray tracing is the reference: no error, below any height of a logarithmic axis.
-        colour, marker = STYLES[kinds[i]]
+        colour, marker = STYLES.get(kinds[i], OTHER)
         axes.plot(cost[i], floor, color=colour, marker=marker, markersize=11, clip_on=False)
         axes.annotate(
             "ray traced: 0",
@@ -135,7 +136,7 @@ def _panel(
 
 
 def kind_of(method: str, encoding: str) -> str:
-    """The key of `STYLES` of a method with this key and this network's encoding."""
+    """What a method with this key is: a map, ray traced, or a network of this encoding."""
     if method == RAY_TRACED:
         return "ray traced"
     return "shadow map" if is_shadow_map(method) else encoding

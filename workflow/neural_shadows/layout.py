@@ -117,14 +117,31 @@ class Layout:
             return []
         return [f"{self.results}/{EVALUATION.format(evaluation=evaluation)}/depth_biases.json"]
 
+    def export_evaluation(self, experiment: str) -> str | None:
+        """The first evaluation of an experiment, whose depth bias its export names, if any."""
+        evaluations = self.config.evaluations.items()
+        return next((name for name, e in evaluations if experiment in e.networks), None)
+
     def export_biases(self, experiment: str) -> list[str]:
-        """The file of the first depth biases that name an experiment, if any do."""
-        names = [
-            name
-            for name, evaluation in self.config.evaluations.items()
-            if experiment in evaluation.networks and self.depth_biases(name)
-        ]
-        return self.depth_biases(names[0]) if names else []
+        """The file of the depth bias of an export, if it is one that was found."""
+        evaluation = self.export_evaluation(experiment)
+        return self.depth_biases(evaluation) if evaluation else []
+
+    def export_bias(self, experiment: str) -> float:
+        """The depth bias of an export where none was to be found."""
+        evaluation = self.export_evaluation(experiment)
+        given = self.config.evaluations[evaluation].depth_bias if evaluation else 0.0
+        return 0.0 if given == "held_out" else given
+
+    def given_biases(self, table: str) -> dict[str, float]:
+        """The depth bias of each of a table's networks that has one given as a number."""
+        evaluations = [self.config.evaluations[n] for n in self.config.tables[table].evaluations]
+        return {
+            name: evaluation.depth_bias
+            for evaluation in evaluations
+            if evaluation.depth_bias != "held_out"
+            for name in evaluation.networks
+        }
 
     def held_out_range(self) -> tuple[int, int]:
         """First and last (exclusive) viewpoint of a set that no evaluation renders."""
@@ -175,9 +192,9 @@ class Layout:
             and scene in (None, self.config.experiments[experiment_of(method)].scene)
         ]
 
-    def table_experiments(self, table: str) -> list[str]:
+    def table_experiments(self, table: str, scene: str | None = None) -> list[str]:
         """The experiments of `table_networks`, each once."""
-        return list(dict.fromkeys(map(experiment_of, self.table_networks(table))))
+        return list(dict.fromkeys(map(experiment_of, self.table_networks(table, scene))))
 
     def table_files(self, table: str, file: str, scene: str | None = None) -> list[str]:
         """A file of each network that `table_networks` names, in its order."""
@@ -248,9 +265,13 @@ class Layout:
             return next(iter(self.config.scenes))
         return self.config.experiments[experiment_of(networks[0])].scene
 
+    def table_scenes(self, table: str) -> list[str]:
+        """The scenes of a table's rows, each once."""
+        return list(dict.fromkeys(self.row_scenes(table)))
+
     def table_meshes(self, table: str) -> list[str]:
-        """The description of the mesh of each scene of a table, each once."""
-        return [self.mesh(scene, "json") for scene in dict.fromkeys(self.row_scenes(table))]
+        """The description of the mesh of each of `table_scenes`."""
+        return [self.mesh(scene, "json") for scene in self.table_scenes(table)]
 
     def figure_curves(self, figure: str) -> list[str]:
         """The loss curves of a figure."""
@@ -362,6 +383,16 @@ class Layout:
         ]
         return {name: self.batches(name, "csv") for name in dict.fromkeys(names)}
 
+    def claim_experiments(self) -> list[str]:
+        """The networks that claims are about, each once."""
+        named = [
+            method
+            for claim in self.config.claims.values()
+            for method in [*getattr(claim, "methods", []), *sum(getattr(claim, "pairs", []), [])]
+        ]
+        experiments = dict.fromkeys(map(experiment_of, named))
+        return [name for name in experiments if name in self.config.experiments]
+
     def claim_losses(self) -> dict[str, str]:
         """The loss curve of each experiment whose loss a claim is about."""
         names = [
@@ -384,10 +415,10 @@ class Layout:
         return [f"{self.reports}/claims.md"] if self.config.claims else []
 
     def most_samples(self) -> int:
-        """Samples of the longest training."""
-        names = self.usual_experiments()
+        """Samples of the longest training of a network that claims are about."""
         trainings = [
-            self.config.trainings[self.config.experiments[name].training] for name in names
+            self.config.trainings[self.config.experiments[name].training]
+            for name in self.claim_experiments()
         ]
         return max(training.steps * training.batch_size for training in trainings)
 
@@ -402,7 +433,7 @@ class Layout:
         return [
             name
             for name, figure in self.config.figures.items()
-            if getattr(figure, "table", tables[0]) in tables
+            if not hasattr(figure, "table") or figure.table in tables
         ]
 
     def beyond(self) -> list[str]:
@@ -426,13 +457,16 @@ class Layout:
             }
             for on_request in (False, True)
         )
+        usual |= set(self.claim_batches())
         return [name for name in self.config.evaluations if name in usual or name not in asked]
 
     def usual_experiments(self) -> list[str]:
-        """Names of the networks of `usual_evaluations` and of figures, each once."""
+        """Names of the networks of `usual_evaluations` and `usual_figures`, each once."""
+        figures = [self.config.figures[name] for name in self.usual_figures()]
         named = [
             *(n for e in self.usual_evaluations() for n in self.config.evaluations[e].networks),
-            *(c.experiment for f in self.config.figures.values() for c in getattr(f, "curves", [])),
+            *(curve.experiment for figure in figures for curve in getattr(figure, "curves", [])),
+            *(figure.experiment for figure in figures if hasattr(figure, "experiment")),
         ]
         return list(dict.fromkeys(named))
 

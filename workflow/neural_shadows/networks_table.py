@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.depth_bias import read_depth_biases
+from neural_shadows.depth_bias_file import biases_by_method
 from neural_shadows.files import read_json
 from neural_shadows.memory import network_bytes, shadow_map_bytes
-from neural_shadows.methods import RAY_TRACED, biased_key, experiment_of
+from neural_shadows.methods import RAY_TRACED, experiment_of
 from neural_shadows.performance_table import describe_times, read_frame_times
 from neural_shadows.published import COLUMNS
 from neural_shadows.table_report import REFERENCES, describe_mesh, describe_training
@@ -51,7 +51,7 @@ def method_facts(
         times: of the method's scene, as `read_frame_times` gives them.
         sizes: bytes of networks by method.
         records: what trainings wrote, by experiment.
-        depth_biases: by method; a network that is not in them has none.
+        depth_biases: of networks by method.
     """
     first, median, third = np.quantile(times["methods"][method]["ms"], (0.25, 0.5, 0.75))
     facts = dict.fromkeys(FACTS, np.nan) | {
@@ -68,7 +68,7 @@ def method_facts(
             "parameters": record["parameters"],
             "training_seconds": record["seconds"],
             "samples": record["samples"],
-            "depth_bias": depth_biases.get(method, 0.0),
+            "depth_bias": depth_biases[method],
             "rays_per_second": float(np.median(times["rays_per_second"][method])),
         }
     elif method != RAY_TRACED:
@@ -134,6 +134,8 @@ def write_networks_table(
     height: int,
     reference: str,
     seeds: Mapping[str, int],
+    given_biases: Mapping[str, float],
+    seed: int,
 ) -> None:
     """Write the table as CSV and Markdown.
 
@@ -144,7 +146,8 @@ def write_networks_table(
         scenes: the scene of each row.
         width, height: of the frames, in pixels.
         reference: `exact` or `shadow_map`.
-        seeds: by scene.
+        seeds: of the viewpoints, by scene; `seed`: of the bootstrap.
+        given_biases: depth biases of methods that are in no file of `bias_jsons`.
 
     Raises:
         InputError: a file is missing or not whole.
@@ -154,11 +157,7 @@ def write_networks_table(
     lpips = read_json(lpips_json)
     records = {record["name"]: record for record in map(read_json, training_jsons)}
     sizes = {method: network_bytes(path) for method, path in weights.items()}
-    depth_biases = {
-        biased_key(name): bias
-        for path in bias_jsons
-        for name, bias in read_depth_biases(path).items()
-    }
+    depth_biases = dict(given_biases) | biases_by_method(bias_jsons)
     frame = networks_table(
         rows,
         scenes,
@@ -178,13 +177,15 @@ def write_networks_table(
             }
             for scene, report in described.items()
         },
-        next(iter(seeds.values())),
+        seed,
     )
     notes = [
         "Mean over a scene's views [95 % bootstrap interval]; size: what the weight file stores, "
-        "4 N² bytes for a shadow map; bias: of the depth test, in sphere radii, the best on views "
-        "that are not in this table; rays/s: of the network alone; frame: median of whole frames, "
-        "primary visibility and shading included.",
+        "which may be more once it is laid out for queries, and 4 N² bytes for a shadow map; "
+        "training: preparation included; rays/s: of the network alone; frame: median of whole "
+        "frames, primary visibility and shading included.",
+        "bias: of the depth test, in sphere radii; each network's best on held-out views, save "
+        "where `no bias` is said. Shadow maps keep their slope-scaled bias, which is not tuned.",
         f"Scale: {scale}; frames of {width} × {height} for quality; "
         f"made on {datetime.date.today().isoformat()}.",
         *(

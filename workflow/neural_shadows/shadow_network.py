@@ -80,7 +80,10 @@ class ShadowNetwork(nn.Module, ABC):
         dtype: torch.dtype,
         generator: torch.Generator,
     ) -> tuple[Tensor, Tensor]:
-        """Loss of each ray (n,), and outputs whose spread tells a living network from a dead one.
+        """Losses whose sum is the batch's, and outputs that differ as long as the network lives.
+
+        Here a loss for each ray (n,); a kind may leave out rays that need no network, or judge
+        points on them.
 
         Args:
             dead_zone: the loss of a depth.

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.depth_bias_file import biases_by_method
 from neural_shadows.files import read_json
 from neural_shadows.first_frames import read_first_frames
 from neural_shadows.published import read_published
@@ -43,6 +44,7 @@ def write_table_report(
     metrics: Sequence[Path],
     mesh_json: Path,
     training_jsons: Sequence[Path],
+    bias_jsons: Sequence[Path],
     lpips_json: Path,
     published_csv: Path,
     csv_path: Path,
@@ -61,6 +63,7 @@ def write_table_report(
     """Write a comparison table as CSV and Markdown, with what a reader must know below it.
 
     Args:
+        bias_jsons: depth biases that were found for methods of the table.
         number: the thesis's number of the table, "4.3"; None for one that is not in it.
         rows: see `comparison_table`.
         width, height: of the frames, in pixels.
@@ -93,6 +96,13 @@ def write_table_report(
         f"Mesh: {describe_mesh(mesh, procedural)}.",
         f"Reference: {REFERENCES[reference]}.",
         *(f"Network {describe_training(record)}." for record in records),
+    ]
+    biases = biases_by_method(bias_jsons)
+    notes += [
+        f"{row['label']}: with a depth bias of {biases[row['method']]:g} sphere radii, its best on "
+        "held-out views; the thesis's network has none, and maps their slope-scaled one."
+        for row in rows
+        if row["method"] in biases
     ]
     if lpips["available"]:
         notes.append(

@@ -165,7 +165,10 @@ class TrainingRun:
             group["lr"] = rate
         self.optimiser.step()
         self.step += 1
-        low, high = torch.cat(outputs).aminmax()
+        outputs = torch.cat(outputs)
+        if not len(outputs):  # no ray of the batch needed the network: that is not its death
+            return torch.stack(losses).sum(), outputs.new_tensor(math.inf)
+        low, high = outputs.aminmax()
         return torch.stack(losses).sum(), high - low
 
 
@@ -231,7 +234,8 @@ def train(
 
     Writes the weights, the loss curve and a record of the run (seconds, rate, machine). A
     run that was killed continues from its last saved state when it is called again with the
-    same arguments, and ends in the same weights as an undisturbed one.
+    same arguments, and on a CPU ends in the same weights as an undisturbed one (a GPU adds the
+    gradients of grids in any order).
 
     Args:
         rays: labelled rays.
@@ -266,6 +270,7 @@ def train(
     }
     header = {"name": name, "network": network, "training": settings, "data": data}
 
+    started = last_saved = time.monotonic()  # what is laid out before training counts too
     model = make_network(network)
     if mesh_ply is not None:
         model.prepare(mesh_ply)
@@ -279,7 +284,6 @@ def train(
     chunk = chunk_size(batch_size, chosen, model.training_chunk)
     point_interval = max(1, steps // CURVE_POINTS)
     interval_loss = torch.zeros((), device=chosen)
-    started = last_saved = time.monotonic()
     seconds_before = run.seconds
     total = steps * batch_size
     with (

@@ -141,7 +141,7 @@ rule frame_times:
             wildcards.table, "weights.safetensors", wildcards.scene
         ),
         code=lambda wildcards: code(
-            "frame_times", LAYOUT.table_experiments(wildcards.table)
+            "frame_times", LAYOUT.table_experiments(wildcards.table, wildcards.scene)
         ),
     output:
         times=f"{RESULTS}/{layout.FRAME_TIMES}",

@@ -62,6 +62,8 @@ rule export_network:
     resources:
         mem_mb=4000,
         runtime=30,
+    params:
+        depth_bias=lambda wildcards: LAYOUT.export_bias(wildcards.experiment),
     message:
         "Exporting {wildcards.experiment} as ONNX"
     script:

@@ -6,6 +6,7 @@ rule table:
         metrics=lambda wildcards: LAYOUT.table_batches(wildcards.table, "csv"),
         mesh=lambda wildcards: LAYOUT.mesh(LAYOUT.table_scene(wildcards.table), "json"),
         training=lambda wildcards: LAYOUT.table_trainings(wildcards.table),
+        depth_biases=lambda wildcards: LAYOUT.table_biases(wildcards.table),
         lpips=f"{RESULTS}/lpips.json",
         published="config/published.csv",
         code=code("write_table"),
@@ -167,8 +168,16 @@ rule networks_table:
         scenes=lambda wildcards: LAYOUT.row_scenes(wildcards.table),
         batches=lambda wildcards: LAYOUT.batches_by_scene(wildcards.table),
         networks=lambda wildcards: LAYOUT.table_networks(wildcards.table),
-        procedural={scene: LAYOUT.is_procedural(scene) for scene in CONFIG.scenes},
-        seeds={scene: CONFIG.scene_seed(scene) for scene in CONFIG.scenes},
+        procedural=lambda wildcards: {
+            scene: LAYOUT.is_procedural(scene)
+            for scene in LAYOUT.table_scenes(wildcards.table)
+        },
+        seeds=lambda wildcards: {
+            scene: CONFIG.scene_seed(scene)
+            for scene in LAYOUT.table_scenes(wildcards.table)
+        },
+        given_biases=lambda wildcards: LAYOUT.given_biases(wildcards.table),
+        seed=CONFIG.seed,
         scale=CONFIG.scale,
         width=CONFIG.rendering.width,
         height=CONFIG.rendering.height,

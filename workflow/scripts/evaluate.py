@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from neural_shadows.depth_bias import read_depth_biases
+from neural_shadows.depth_bias_file import biases_by_method
 from neural_shadows.evaluation import evaluate
 from neural_shadows.jobs import run_job
 from neural_shadows.methods import biased_key
@@ -11,8 +11,8 @@ from neural_shadows.methods import biased_key
 def main(job):
     params = job.params
     if job.input.depth_biases:
-        found = read_depth_biases(Path(job.input.depth_biases[0]))
-        depth_biases = {biased_key(name): found[name] for name in params.networks}
+        found = biases_by_method(map(Path, job.input.depth_biases))
+        depth_biases = {method: found[method] for method in map(biased_key, params.networks)}
     else:
         depth_biases = dict.fromkeys(params.networks, params.depth_bias)
     evaluate(

@@ -11,6 +11,7 @@ def main(job):
         Path(job.input.weights),
         Path(job.input.mesh),
         next(map(Path, job.input.depth_biases), None),
+        job.params.depth_bias,
         Path(job.output.onnx),
         Path(job.output.conventions),
     )

@@ -28,6 +28,8 @@ def main(job):
         height=params.height,
         reference=params.reference,
         seeds=params.seeds,
+        given_biases=params.given_biases,
+        seed=params.seed,
     )
 
 

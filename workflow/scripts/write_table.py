@@ -12,6 +12,7 @@ def main(job):
         [Path(path) for path in job.input.metrics],
         Path(job.input.mesh),
         [Path(path) for path in job.input.training],
+        [Path(path) for path in job.input.depth_biases],
         Path(job.input.lpips),
         Path(job.input.published),
         Path(job.output.csv),

@@ -1,0 +1,32 @@
+"""The depth biases that `depth_bias` found, read from their files."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from neural_shadows.broken import broken
+from neural_shadows.files import read_json
+from neural_shadows.methods import biased_key
+
+
+def biases_by_method(paths: Iterable[Path]) -> dict[str, float]:
+    """The depth bias of each method that has one found, from files of `find_depth_biases`.
+
+    Raises:
+        InputError: a file is missing, or not whole.
+    """
+    return {
+        biased_key(name): bias for path in paths for name, bias in read_depth_biases(path).items()
+    }
+
+
+def read_depth_biases(path: Path) -> dict[str, float]:
+    """The depth bias of each experiment that `find_depth_biases` found.
+
+    Raises:
+        InputError: the file is missing, or not whole.
+    """
+    found = read_json(path)
+    try:
+        return {name: float(values["depth_bias"]) for name, values in found.items()}
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise broken(path, "not a file of depth biases") from error
