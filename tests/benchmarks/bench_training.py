@@ -76,7 +76,7 @@ def main() -> None:
     rays = RandomRays()
     network = FrequencyNetwork(frequencies=10, width=arguments.width, hidden_layers=8)
     network.initialise(0)
-    run = TrainingRun(network, torch.device("cpu"), 1e-3, DeadZone(), 0)
+    run = TrainingRun(network, torch.device("cpu"), DeadZone(), 0)
 
     pool = gradient_pool(arguments.threads)
     serial = gradient_pool(1)

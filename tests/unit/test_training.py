@@ -221,12 +221,6 @@ undisturbed, killed = map(Path, sys.argv[1:])
 settings = tests.TINY | {"steps": 800, "batch_size": 64, "state_interval_s": 0.02}
 random.seed(4)
 
-# Adam's first step loads modules for seconds: here once, without a gradient that forks forbid.
-run = tests.first_run()
-for weight in run.network.parameters():
-    weight.grad = tests.torch.zeros_like(weight)
-run.optimiser.step()
-
 def start(folder):
     child = os.fork()
     if not child:
@@ -351,7 +345,7 @@ def test_restored_state_is_the_saved_one(tmp_path):
     def new_run(seed: int) -> TrainingRun:
         network = make_network(TINY["network"])
         network.initialise(seed)
-        return TrainingRun(network, torch.device("cpu"), 1e-3, DeadZone(), 0)
+        return TrainingRun(network, torch.device("cpu"), DeadZone(), 0)
 
     run = new_run(1)
     for step in range(5):
@@ -411,7 +405,7 @@ def test_a_rate_that_is_too_high_stops(tmp_path):
 def first_run(seed: int = 0) -> TrainingRun:
     network = FrequencyNetwork(frequencies=3, width=16, hidden_layers=2)
     network.initialise(seed)
-    return TrainingRun(network, torch.device("cpu"), 1e-3, DeadZone(), 0)
+    return TrainingRun(network, torch.device("cpu"), DeadZone(), 0)
 
 
 @pytest.mark.parametrize("chunk", [100, 64, 7])

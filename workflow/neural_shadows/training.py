@@ -12,6 +12,8 @@ from typing import Any, Protocol
 import numpy as np
 import pandas as pd
 import torch
+from torch import Tensor
+from torch.optim.adam import adam
 
 from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.dead_zone_loss import DeadZone
@@ -80,28 +82,24 @@ class TrainingRun:
         self,
         network: ShadowNetwork,
         device: torch.device,
-        learning_rate: float,
         dead_zone: DeadZone,
         seed: int,
     ):
         self.network, self.dead_zone, self.seed = network.to(device), dead_zone, seed
-        self.optimiser = torch.optim.Adam(network.parameters(), lr=learning_rate, fused=True)
         self.step = 0
         self.seconds = 0.0
         self.curve: list[list[float]] = []  # [step, learning rate, mean loss since the last]
-        # Adam makes its means on its first step; made here, so that a state can be restored.
-        for weight in network.parameters():
-            self.optimiser.state[weight] = {
-                "step": torch.zeros((), dtype=torch.float32, device=device),
-                **{name: torch.zeros_like(weight) for name in ADAM_STATE},
-            }
+        self.means = {
+            mean: {name: torch.zeros_like(weight) for name, weight in network.named_parameters()}
+            for mean in ADAM_STATE
+        }
 
     def save(self, path: Path) -> None:
         """Write the whole state."""
         tensors = dict(self.network.state_dict())
-        for name, weight in self.network.named_parameters():
-            for mean in ADAM_STATE:
-                tensors[f"{mean}.{name}"] = self.optimiser.state[weight][mean]
+        for mean, values in self.means.items():
+            for name in values:
+                tensors[f"{mean}.{name}"] = self.means[mean][name]
         header = {"step": self.step, "seconds": self.seconds, "curve": self.curve}
         save_tensors(path, tensors, header)
 
@@ -109,11 +107,9 @@ class TrainingRun:
         """Continue from a state that `save` wrote."""
         tensors, header = load_tensors(path)
         for name, weight in self.network.named_parameters():
-            state = self.optimiser.state[weight]
             weight.data.copy_(tensors[name])
-            state["step"].fill_(header["step"])
             for mean in ADAM_STATE:
-                state[mean].copy_(tensors[f"{mean}.{name}"])
+                self.means[mean][name].copy_(tensors[f"{mean}.{name}"])
         self.step, self.seconds, self.curve = header["step"], header["seconds"], header["curve"]
 
     def curve_csv(self, batch_size: int) -> str:
@@ -122,6 +118,26 @@ class TrainingRun:
         curve = curve.astype({"step": int})
         curve.insert(1, "samples", curve["step"] * batch_size)
         return curve.to_csv(index=False, lineterminator="\n")
+
+    def _adam(self, weights: list[Tensor], rate: float) -> None:
+        """Change the weights by Adam's functional form, whose class loads a compiler for 1.7 s."""
+        steps = [torch.full((), float(self.step), device=weight.device) for weight in weights]
+        with torch.no_grad():
+            adam(
+                weights,
+                [weight.grad for weight in weights],
+                *(list(self.means[mean].values()) for mean in ADAM_STATE),
+                [],
+                steps,
+                fused=True,
+                amsgrad=False,
+                beta1=0.9,
+                beta2=0.999,
+                lr=rate,
+                weight_decay=0.0,
+                eps=1e-8,
+                maximize=False,
+            )
 
     def train_step(
         self,
@@ -161,9 +177,7 @@ class TrainingRun:
             weight.grad = terms[0]
             for term in terms[1:]:
                 weight.grad += term
-        for group in self.optimiser.param_groups:
-            group["lr"] = rate
-        self.optimiser.step()
+        self._adam(weights, rate)
         self.step += 1
         outputs = torch.cat(outputs)
         if not len(outputs):  # no ray of the batch needed the network: that is not its death
@@ -275,7 +289,7 @@ def train(
     if mesh_ply is not None:
         model.prepare(mesh_ply)
     model.initialise(seed)
-    run = TrainingRun(model, chosen, learning_rate, DeadZone(**loss), seed)
+    run = TrainingRun(model, chosen, DeadZone(**loss), seed)
     run_folder = Path(state_folder) / f"{name}-{state_digest(header)}"
     state_file = run_folder / "state.safetensors"
     if state_file.exists():
