@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import torch
+import trimesh
 from rays import ball_rays
 from scipy import stats
 
@@ -329,6 +330,43 @@ def test_a_state_that_is_complete_is_not_trained_further(tmp_path, monkeypatch):
     assert run_training(tmp_path / "killed", **TINY).gathers == 0
     run_training(tmp_path / "undisturbed", **TINY)
     assert contents(tmp_path / "killed") == contents(tmp_path / "undisturbed")
+
+
+@pytest.mark.parametrize(
+    "network",
+    [
+        {"encoding": "occupancy_field", "resolution": 16, "surface": "solid", "stored": "int8"},
+        {"encoding": "occupancy_field", "resolution": 16, "surface": "sheet", "stored": "int8"},
+        {
+            "encoding": "hash_grid",
+            "points": 2,
+            "grids": [4, 8],
+            "channels": 2,
+            "width": 8,
+            "hidden_layers": 1,
+            "head": "depth_confidence",
+            "stored": "float32",
+            "occupancy": 8,
+            "table_size": 64,
+        },
+    ],
+    ids=lambda network: f"{network['encoding']}-{network.get('surface')}",
+)
+def test_other_kinds_resume_and_do_not_depend_on_threads(tmp_path, network):
+    """What their losses draw depends on the seed, the step and the chunk, and on nothing else."""
+    trimesh.creation.icosphere(3, radius=0.5).export(tmp_path / "mesh.ply")
+    settings = TINY | {"network": network, "mesh_ply": tmp_path / "mesh.ply", "batch_size": 128}
+    run_training(tmp_path / "whole", **settings)
+    with pytest.raises(KeyboardInterrupt):
+        stopped = BallRays(stop_after=12)
+        run_training(tmp_path / "killed", stopped, **settings, state_interval_s=0.0)
+    assert run_training(tmp_path / "killed", **settings).gathers == 20 - 12
+    run_training(tmp_path / "threads", **settings | {"threads": 2})
+    other = settings | {"seed": settings["seed"] + 1}
+    run_training(tmp_path / "other", **other)
+    whole = contents(tmp_path / "whole")
+    assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
+    assert contents(tmp_path / "other") != whole
 
 
 def test_a_damaged_state_is_named(tmp_path):

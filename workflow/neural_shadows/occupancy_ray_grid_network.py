@@ -41,7 +41,7 @@ class OccupancyRayGridNetwork(RayGridNetwork):
         """See `RayGridNetwork.span`."""
         chord = chords(origins, directions)
         n = self.occupancy
-        # Two steps a cell; a corner cut in between is of no account.
+        # Two steps a cell: a corner that is cut in between loses half a cell of the span.
         steps = 2 * n
         t = (torch.arange(steps, device=chord.device) + 0.5) * (2 / steps)
         p = origins[:, None] + t[:, None] * directions[:, None]

@@ -11,8 +11,8 @@ from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.precision import quantise, restore_values
 from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork, chords, hits
 
-# Of the cross-entropy of hit or miss, beside the dead-zone loss: a depth is wrong by some 0.01
-# in training and an answer by some 0.1.
+# Of the cross-entropy of hit or miss, beside the dead-zone loss, which is in sphere radii and so
+# the smaller of the two. Not tuned.
 CONFIDENCE_WEIGHT = 0.1
 
 
