@@ -15,16 +15,12 @@ import numpy as np
 import torch
 
 from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.frames import ground_height, primary_hits
 from neural_shadows.hardware import processor_name
-from neural_shadows.light import axis_vector
-from neural_shadows.mesh import read_prepared
 from neural_shadows.network_file import load_network
 from neural_shadows.occupancy_field_network import OccupancyFieldNetwork
+from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_network import ShadowNetwork
 from neural_shadows.shadow_query import sphere_rays
-from neural_shadows.tracing import Tracer
-from neural_shadows.viewpoints import draw_viewpoints
 
 LIGHT = {"domain": "sphere", "min_elevation_deg": 20}
 PLAIN_RAYS = 4096
@@ -39,23 +35,16 @@ def main() -> None:
     arguments = parser.parse_args()
     torch.set_num_threads(1)
     dtype = choose_dtype("auto", choose_device("cpu"))
-    mesh = read_prepared(arguments.mesh)
-    tracer = Tracer(mesh.vertices, mesh.faces)
-    up = axis_vector("y", "up")
-    ground = None if arguments.no_ground else ground_height(mesh, up)
-    networks = {path.parent.name: load_network(path)[0] for path in arguments.weights}
-    viewpoints = draw_viewpoints(
-        mesh,
-        tracer,
-        up=up,
-        ground=ground is not None,
-        light_domain=LIGHT,
-        view_sets=["surface"],
-        indices=range(arguments.views + 1),
+    scene = open_scene(
+        arguments.mesh,
+        up="y",
+        ground=not arguments.no_ground,
+        light=LIGHT,
         width=1200,
         height=800,
         seed=2026,
     )
+    networks = {path.parent.name: load_network(path)[0] for path in arguments.weights}
     rates: dict[str, list[float]] = {}
 
     def timed(name: str, rays: int, work, *inputs) -> None:
@@ -63,8 +52,8 @@ def main() -> None:
         work(*inputs)
         rates.setdefault(name, []).append(rays / (time.perf_counter() - started))
 
-    for view in viewpoints:  # the first one warms up
-        points = primary_hits(mesh, tracer, view, 1200, 800, ground)
+    for view in scene.viewpoints(["surface"], range(arguments.views + 1)):  # the first one warms up
+        points = scene.points(view)
         origins = sphere_rays(points.p, points.light).origins
         d = -points.light.astype(np.float32)
         for name, network in networks.items():

@@ -16,16 +16,13 @@ import numpy as np
 import torch
 
 from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.frames import ground_height, primary_hits, reference_visibility, shade
+from neural_shadows.frames import reference_visibility, shade
 from neural_shadows.hardware import processor_name
-from neural_shadows.light import axis_vector
-from neural_shadows.mesh import read_prepared
 from neural_shadows.metrics import Lpips, flip, psnr, ssim
 from neural_shadows.network_file import load_network
+from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
 from neural_shadows.shadow_query import network_lit
-from neural_shadows.tracing import Tracer
-from neural_shadows.viewpoints import draw_viewpoints
 
 MAPS = (2048, 1024, 512, 256, 128)
 LIGHT = {"domain": "sphere", "min_elevation_deg": 20}
@@ -49,14 +46,14 @@ def main() -> None:
         spent[part][-1] += time.perf_counter() - started
         return result
 
-    mesh = read_prepared(arguments.mesh)
-    tracer = Tracer(mesh.vertices, mesh.faces)
-    up = axis_vector("y", "up")
-    ground = ground_height(mesh, up)
+    size = arguments.width, arguments.height
+    scene = open_scene(
+        arguments.mesh, up="y", ground=True, light=LIGHT, width=size[0], height=size[1], seed=2026
+    )
+    tracer = scene.tracer
     network = load_network(arguments.weights)[0]
     dtype = choose_dtype("auto", choose_device("cpu"))
     lpips = Lpips("squeeze", arguments.trunk, device="cpu") if arguments.trunk else None
-    size = arguments.width, arguments.height
     for view_set in ("shadow", "surface"):
         for index in range(-1, arguments.views):  # the first one warms up
             parts = ("viewpoint", "primary rays", "reference", "5 shadow maps", "network")
@@ -64,22 +61,13 @@ def main() -> None:
                 spent[part].append(0.0)
             (view,) = timed(
                 "viewpoint",
-                lambda index=index, view_set=view_set: draw_viewpoints(
-                    mesh,
-                    tracer,
-                    up=up,
-                    ground=True,
-                    light_domain=LIGHT,
-                    view_sets=[view_set],
-                    indices=[max(index, 0)],
-                    width=size[0],
-                    height=size[1],
-                    seed=2026,
+                lambda index=index, view_set=view_set: scene.viewpoints(
+                    [view_set], [max(index, 0)]
                 ),
             )
-            points = timed("primary rays", primary_hits, mesh, tracer, view, *size, ground)
+            points = timed("primary rays", scene.points, view)
             lit = [timed("reference", reference_visibility, tracer, points)]
-            frame = timed("5 shadow maps", shadow_map_frame, mesh.vertices, points.light)
+            frame = timed("5 shadow maps", shadow_map_frame, scene.mesh.vertices, points.light)
             receivers = timed("5 shadow maps", receivers_of, frame, points)
             lit += [timed("5 shadow maps", shadow_map_lit, tracer, receivers, n) for n in MAPS]
             lit.append(

@@ -14,13 +14,11 @@ import torch
 
 from neural_shadows.compute import choose_dtype
 from neural_shadows.evaluation import REFERENCE_MAP_RESOLUTION, reference_of
-from neural_shadows.frames import ground_height, primary_hits, shade
-from neural_shadows.mesh import read_prepared
+from neural_shadows.frames import shade
 from neural_shadows.metrics import psnr
 from neural_shadows.network_file import load_network
+from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_query import sphere_rays
-from neural_shadows.tracing import Tracer
-from neural_shadows.viewpoints import draw_viewpoints
 
 
 def main() -> None:
@@ -31,29 +29,24 @@ def main() -> None:
     parser.add_argument("--height", type=int, default=400)
     parser.add_argument("--seed", type=int, default=2026)
     arguments = parser.parse_args()
-    mesh = read_prepared(arguments.results / "scenes/dragon/mesh.ply")
-    network, _ = load_network(arguments.results / "networks/dragon/weights.safetensors")
-    tracer = Tracer(mesh.vertices, mesh.faces)
-    up = np.array([0.0, 1.0, 0.0])
-    dtype = choose_dtype("auto", torch.device("cpu"))
-    exact, large_map = (reference_of(mesh, tracer, kind) for kind in ("exact", "shadow_map"))
-
-    values: dict[str, list[float]] = {"map": [], "clamped": [], "not clamped": []}
-    for view in draw_viewpoints(
-        mesh,
-        tracer,
-        up=up,
+    scene = open_scene(
+        arguments.results / "scenes/dragon/mesh.ply",
+        up="y",
         ground=True,
-        light_domain={"domain": "sphere", "min_elevation_deg": 20},
-        view_sets=["shadow", "surface"],
-        indices=range(arguments.views),
+        light={"domain": "sphere", "min_elevation_deg": 20},
         width=arguments.width,
         height=arguments.height,
         seed=arguments.seed,
-    ):
-        points = primary_hits(
-            mesh, tracer, view, arguments.width, arguments.height, ground_height(mesh, up)
-        )
+    )
+    network, _ = load_network(arguments.results / "networks/dragon/weights.safetensors")
+    dtype = choose_dtype("auto", torch.device("cpu"))
+    exact, large_map = (
+        reference_of(scene.mesh, scene.tracer, kind) for kind in ("exact", "shadow_map")
+    )
+
+    values: dict[str, list[float]] = {"map": [], "clamped": [], "not clamped": []}
+    for view in scene.viewpoints(["shadow", "surface"], range(arguments.views)):
+        points = scene.points(view)
         reference = shade(points, exact(points))
         values["map"].append(psnr(shade(points, large_map(points)), reference))
         rays = sphere_rays(points.p, points.light)

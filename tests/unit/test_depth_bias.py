@@ -47,13 +47,15 @@ def find(tmp_path, monkeypatch):
                 "view_sets": ["surface"],
                 "first": 3,
                 "last": 5,
-                "up": "y",
-                "ground": True,
-                "light": {"domain": "sphere", "min_elevation_deg": 30},
-                "width": 150,
-                "height": 100,
+                "frames": {
+                    "up": "y",
+                    "ground": True,
+                    "light": {"domain": "sphere", "min_elevation_deg": 30},
+                    "width": 150,
+                    "height": 100,
+                    "seed": 1,
+                },
                 "reference": "exact",
-                "seed": 1,
             }
             | settings,
         )

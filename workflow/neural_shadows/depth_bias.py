@@ -14,15 +14,12 @@ import torch
 from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.evaluation import reference_of
 from neural_shadows.files import write_json
-from neural_shadows.frames import ground_height, primary_hits, visibility
-from neural_shadows.light import axis_vector
-from neural_shadows.mesh import read_prepared
+from neural_shadows.frames import visibility
 from neural_shadows.metrics import shadow_error
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
+from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_query import lit_points, sphere_rays
-from neural_shadows.tracing import Tracer
-from neural_shadows.viewpoints import draw_viewpoints
 
 # In sphere radii: none, and three an octave from half the shading offset to an eighth.
 BIASES = (0.0, *(float(b) for b in np.round(0.0005 * 2 ** (np.arange(25) / 3), 5)))
@@ -36,13 +33,8 @@ def find_depth_biases(
     view_sets: Sequence[str],
     first: int,
     last: int,
-    up: str,
-    ground: bool,
-    light: dict[str, Any],
-    width: int,
-    height: int,
+    frames: Mapping[str, Any],
     reference: str,
-    seed: int,
     device: str = "auto",
     precision: str = "auto",
 ) -> None:
@@ -51,37 +43,24 @@ def find_depth_biases(
     Args:
         weights: weight files by the name of their experiment.
         view_sets, first, last: viewpoints `first` to `last` (exclusive) of each set.
+        frames: how they are drawn and rendered, see `open_scene`.
         reference: `exact` or `shadow_map`.
 
     Raises:
         InputError: an input file is not whole, or a setting does not fit the scene.
     """
     torch.set_num_threads(1)
-    mesh = read_prepared(mesh_ply)
-    tracer = Tracer(mesh.vertices, mesh.faces)
-    up_vector = axis_vector(up, "up")
-    ground_at = ground_height(mesh, up_vector) if ground else None
-    reference_lit = reference_of(mesh, tracer, reference)
+    scene = open_scene(mesh_ply, **frames)
+    reference_lit = reference_of(scene.mesh, scene.tracer, reference)
     chosen = choose_device(device)
     dtype = choose_dtype(precision, chosen)
     networks = {name: load_network(path)[0].to(chosen) for name, path in weights.items()}
-    viewpoints = draw_viewpoints(
-        mesh,
-        tracer,
-        up=up_vector,
-        ground=ground,
-        light_domain=light,
-        view_sets=view_sets,
-        indices=range(first, last),
-        width=width,
-        height=height,
-        seed=seed,
-    )
+    viewpoints = scene.viewpoints(view_sets, range(first, last))
     # Sums over views of (false shadow, light leak) by bias.
     errors = {name: np.zeros((len(BIASES), 2)) for name in networks}
     with progress_bar(len(viewpoints), "views", "depth biases") as bar:
         for view in viewpoints:
-            points = primary_hits(mesh, tracer, view, width, height, ground_at)
+            points = scene.points(view)
             truth = visibility(points, reference_lit(points))
             everything = np.ones(len(points.pixel), bool)
             rays = sphere_rays(points.p, points.light)

@@ -12,22 +12,19 @@ from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.files import read_json, whole_file, write_text
 from neural_shadows.frames import (
     ShadingPoints,
-    ground_height,
-    primary_hits,
     reference_visibility,
     shade,
     visibility,
 )
-from neural_shadows.light import axis_vector
-from neural_shadows.mesh import PreparedMesh, read_prepared
+from neural_shadows.mesh import PreparedMesh
 from neural_shadows.methods import shadow_map_key
 from neural_shadows.metrics import Lpips, flip, psnr, shadow_error, ssim
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
+from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
 from neural_shadows.shadow_query import network_lit
 from neural_shadows.tracing import Tracer
-from neural_shadows.viewpoints import draw_viewpoints
 
 REFERENCE_MAP_RESOLUTION = 32768  # the thesis's reference [4.1]
 
@@ -106,13 +103,8 @@ def evaluate(
     view_set: str,
     first: int,
     last: int,
-    up: str,
-    ground: bool,
-    light: dict[str, Any],
-    width: int,
-    height: int,
+    frames: Mapping[str, Any],
     reference: str,
-    seed: int,
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
@@ -127,20 +119,17 @@ def evaluate(
         lpips_json: what `lpips_stage` wrote.
         weights: weight files by the key of the method.
         depth_biases: of the network query, in sphere radii, by the same keys.
-        light: the scene's light domain.
+        frames: how they are drawn and rendered, see `open_scene`.
         reference: `exact` or `shadow_map`.
 
     Raises:
         InputError: an input file is not whole, or a setting does not fit the scene.
     """
     torch.set_num_threads(threads)
-    mesh = read_prepared(mesh_ply)
-    tracer = Tracer(mesh.vertices, mesh.faces)
-    up_vector = axis_vector(up, "up")
-    ground_at = ground_height(mesh, up_vector) if ground else None
-    reference_lit = reference_of(mesh, tracer, reference)
+    scene = open_scene(mesh_ply, **frames)
+    reference_lit = reference_of(scene.mesh, scene.tracer, reference)
     methods = [
-        map_visibilities(mesh, tracer, shadow_maps),
+        map_visibilities(scene.mesh, scene.tracer, shadow_maps),
         network_visibilities(weights, depth_biases, device=device, precision=precision),
     ]
     found = read_json(lpips_json)
@@ -151,21 +140,10 @@ def evaluate(
 
     rows: list[dict[str, Any]] = []
     pictures: dict[str, np.ndarray] = {}
-    viewpoints = draw_viewpoints(
-        mesh,
-        tracer,
-        up=up_vector,
-        ground=ground,
-        light_domain=light,
-        view_sets=[view_set],
-        indices=range(first, last),
-        width=width,
-        height=height,
-        seed=seed,
-    )
+    viewpoints = scene.viewpoints([view_set], range(first, last))
     with progress_bar(len(viewpoints), "views", f"{view_set} {first}–{last - 1}") as bar:
         for view in viewpoints:
-            points = primary_hits(mesh, tracer, view, width, height, ground_at)
+            points = scene.points(view)
             lit = reference_lit(points)
             truth = shade(points, lit)
             features = lpips.features(truth) if lpips else None

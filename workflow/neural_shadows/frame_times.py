@@ -10,19 +10,13 @@ import torch
 
 from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.files import write_json
-from neural_shadows.frames import (
-    ShadingPoints,
-    ground_height,
-    primary_hits,
-    reference_visibility,
-    shade,
-)
+from neural_shadows.frames import ShadingPoints, reference_visibility, shade
 from neural_shadows.hardware import describe_machine
-from neural_shadows.light import axis_vector
-from neural_shadows.mesh import PreparedMesh, read_prepared
+from neural_shadows.mesh import PreparedMesh
 from neural_shadows.methods import RAY_TRACED, shadow_map_key
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
+from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_map import (
     depth_test,
     receivers_of,
@@ -33,7 +27,6 @@ from neural_shadows.shadow_map import (
 from neural_shadows.shadow_network import ShadowNetwork
 from neural_shadows.shadow_query import network_lit, sphere_rays
 from neural_shadows.tracing import Tracer
-from neural_shadows.viewpoints import draw_viewpoints
 
 # Lit (m,) bool of a frame's facing points.
 ShadowPass = Callable[[ShadingPoints], np.ndarray]
@@ -108,17 +101,12 @@ def measure_frame_times(
     weights: Mapping[str, Path],
     times_json: Path,
     *,
-    scene: str,
+    scene_name: str,
     shadow_maps: Sequence[int],
-    up: str,
-    ground: bool,
-    light: dict[str, Any],
     view_sets: Sequence[str],
-    width: int,
-    height: int,
+    frames: Mapping[str, Any],
     repeats: int,
     warm_up: int,
-    seed: int,
     device: str = "auto",
     precision: str = "auto",
 ) -> None:
@@ -129,47 +117,34 @@ def measure_frame_times(
 
     Args:
         weights: weight files by the key of the method. A depth bias, one addition, is left out.
+        frames: how they are drawn and rendered, see `open_scene`.
         repeats: timed frames of each method; `warm_up`: frames of each before those.
 
     Raises:
         InputError: an input file is not whole, or a setting does not fit the scene.
     """
     torch.set_num_threads(1)
-    mesh = read_prepared(mesh_ply)
-    tracer = Tracer(mesh.vertices, mesh.faces)
-    up_vector = axis_vector(up, "up")
-    ground_at = ground_height(mesh, up_vector) if ground else None
+    scene = open_scene(mesh_ply, **frames)
     chosen = choose_device(device)
     dtype = choose_dtype(precision, chosen)
     networks = {
         name: StopwatchNetwork(load_network(path)[0].to(chosen)) for name, path in weights.items()
     }
-    passes = shadow_passes(mesh, tracer, networks, shadow_maps, dtype)
+    passes = shadow_passes(scene.mesh, scene.tracer, networks, shadow_maps, dtype)
 
     per_set = -(-repeats // len(view_sets))
-    viewpoints = draw_viewpoints(
-        mesh,
-        tracer,
-        up=up_vector,
-        ground=ground,
-        light_domain=light,
-        view_sets=view_sets,
-        indices=range(per_set),
-        width=width,
-        height=height,
-        seed=seed,
-    )
+    viewpoints = scene.viewpoints(view_sets, range(per_set))
     viewpoints = sorted(viewpoints, key=lambda view: view.index)[:repeats]  # the sets in turn
 
     milliseconds: dict[str, list[float]] = {name: [] for name in passes}
     rates: dict[str, list[float]] = {name: [] for name in networks}
     rays = []
-    with progress_bar(warm_up + repeats, "frames", f"frame times of {scene}") as bar:
+    with progress_bar(warm_up + repeats, "frames", f"frame times of {scene_name}") as bar:
         for i in range(warm_up + repeats):
             # Timed frames begin with the first viewpoint, whatever the number before them.
             view = viewpoints[(i - warm_up) % len(viewpoints)]
             started = time.perf_counter()
-            points = primary_hits(mesh, tracer, view, width, height, ground_at)
+            points = scene.points(view)
             # The same work for every method, so timed once and counted for each.
             primary = 1000 * (time.perf_counter() - started)
             times = shadow_times(passes, points)
@@ -183,14 +158,14 @@ def measure_frame_times(
     write_json(
         times_json,
         {
-            "scene": scene,
-            "width": width,
-            "height": height,
+            "scene": scene_name,
+            "width": scene.width,
+            "height": scene.height,
             "view_sets": list(view_sets),
             "views": len(viewpoints),
             "repeats": repeats,
             "warm_up": warm_up,
-            "seed": seed,
+            "seed": scene.seed,
             "device": chosen.type,
             "precision": str(dtype).removeprefix("torch."),
             "cpu_threads": 1,

@@ -5,7 +5,14 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from neural_shadows.config import Config, GeneratedMesh, MeshFile, MethodFigure
+from neural_shadows.config import (
+    Config,
+    FrameTimes,
+    GeneratedMesh,
+    MeshFile,
+    MethodFigure,
+    Rendering,
+)
 from neural_shadows.methods import RAY_TRACED, experiment_of, is_shadow_map, resolution_of
 
 # A file name of each stage, in Snakemake's notation of wildcards.
@@ -65,6 +72,15 @@ class Layout:
     def scene_param(self, scene: str, key: str) -> Any:
         """A value of a scene."""
         return plain(getattr(self.config.scenes[scene], key))
+
+    def scene_frames(self, scene: str, size: Rendering | FrameTimes) -> dict[str, Any]:
+        """How frames of a scene are drawn and rendered, as `open_scene` takes it."""
+        return {
+            **{key: self.scene_param(scene, key) for key in ("up", "ground", "light")},
+            "width": size.width,
+            "height": size.height,
+            "seed": self.config.scene_seed(scene),
+        }
 
     def ray_folder(self, scene: str, sampling: str) -> str:
         """The folder of a ray set."""

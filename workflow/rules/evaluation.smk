@@ -53,21 +53,10 @@ rule find_depth_biases:
         view_sets=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].view_sets,
         first=LAYOUT.held_out_range()[0],
         last=LAYOUT.held_out_range()[1],
-        up=lambda wildcards: LAYOUT.scene_param(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "up"
+        frames=lambda wildcards: LAYOUT.scene_frames(
+            LAYOUT.evaluation_scene(wildcards.evaluation), CONFIG.rendering
         ),
-        ground=lambda wildcards: LAYOUT.scene_param(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "ground"
-        ),
-        light=lambda wildcards: LAYOUT.scene_param(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "light"
-        ),
-        width=CONFIG.rendering.width,
-        height=CONFIG.rendering.height,
         reference=CONFIG.rendering.reference,
-        seed=lambda wildcards: CONFIG.scene_seed(
-            LAYOUT.evaluation_scene(wildcards.evaluation)
-        ),
         device=CONFIG.compute.device,
         precision=CONFIG.compute.precision,
     message:
@@ -111,21 +100,10 @@ rule evaluate:
         depth_bias=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].depth_bias,
         first=lambda wildcards: LAYOUT.view_range(wildcards.batch)[0],
         last=lambda wildcards: LAYOUT.view_range(wildcards.batch)[1],
-        up=lambda wildcards: LAYOUT.scene_param(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "up"
+        frames=lambda wildcards: LAYOUT.scene_frames(
+            LAYOUT.evaluation_scene(wildcards.evaluation), CONFIG.rendering
         ),
-        ground=lambda wildcards: LAYOUT.scene_param(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "ground"
-        ),
-        light=lambda wildcards: LAYOUT.scene_param(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "light"
-        ),
-        width=CONFIG.rendering.width,
-        height=CONFIG.rendering.height,
         reference=CONFIG.rendering.reference,
-        seed=lambda wildcards: CONFIG.scene_seed(
-            LAYOUT.evaluation_scene(wildcards.evaluation)
-        ),
         device=CONFIG.compute.device,
         precision=CONFIG.compute.precision,
     message:
@@ -167,14 +145,11 @@ rule frame_times:
         view_sets=lambda wildcards: LAYOUT.timed_view_sets(
             wildcards.table, wildcards.scene
         ),
-        up=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "up"),
-        ground=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "ground"),
-        light=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "light"),
-        width=CONFIG.frame_times.width,
-        height=CONFIG.frame_times.height,
+        frames=lambda wildcards: LAYOUT.scene_frames(
+            wildcards.scene, CONFIG.frame_times
+        ),
         repeats=CONFIG.frame_times.repeats,
         warm_up=CONFIG.frame_times.warm_up,
-        seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
         device=CONFIG.compute.device,
         precision=CONFIG.compute.precision,
     message:
