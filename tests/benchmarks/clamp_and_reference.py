@@ -18,7 +18,7 @@ from neural_shadows.frames import shade
 from neural_shadows.metrics import psnr
 from neural_shadows.network_file import load_network
 from neural_shadows.scene_frames import open_scene
-from neural_shadows.shadow_query import sphere_rays
+from neural_shadows.shadow_query import on_device, sphere_rays
 
 
 def main() -> None:
@@ -49,12 +49,13 @@ def main() -> None:
         points = scene.points(view)
         reference = shade(points, exact(points))
         values["map"].append(psnr(shade(points, large_map(points)), reference))
-        rays = sphere_rays(points.p, points.light)
-        t_pred = network.depths(rays.origins, -points.light, dtype)
-        for name, s in (("clamped", np.minimum(rays.s, rays.chord)), ("not clamped", rays.s)):
-            lit = np.ones(len(points.p), bool)
+        p, light = on_device(points.p, points.light, network.device)
+        rays = sphere_rays(p, light)
+        t_pred = network.depths(rays.origins, -light, dtype)
+        for name, s in (("clamped", torch.minimum(rays.s, rays.chord)), ("not clamped", rays.s)):
+            lit = torch.ones(len(p), dtype=torch.bool)
             lit[rays.index] = s <= t_pred
-            values[name].append(psnr(shade(points, lit), reference))
+            values[name].append(psnr(shade(points, lit.numpy()), reference))
     print(f"mean PSNR in dB over {2 * arguments.views} views:")
     print(f"{REFERENCE_MAP_RESOLUTION}² map against exact rays: {np.mean(values['map']):.1f}")
     print(f"  lowest of a view: {np.min(values['map']):.1f}")

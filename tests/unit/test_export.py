@@ -13,7 +13,7 @@ from neural_shadows.export import export_network
 from neural_shadows.frames import primary_hits
 from neural_shadows.network_file import load_network, save_network
 from neural_shadows.network_kinds import make_network
-from neural_shadows.shadow_query import network_lit
+from neural_shadows.shadow_query import network_lit, on_device
 
 GRID = {
     "points": 3,
@@ -89,7 +89,8 @@ def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
     bias = conventions["query"]["depth_bias"]
     lit[asked] = np.minimum(s[asked], 2 * h[asked]) <= t_pred + bias
 
-    expected = network_lit(network, points.p, light, dtype=torch.float32, depth_bias=bias)
+    tensors = on_device(points.p, light, network.device)
+    expected = network_lit(network, *tensors, dtype=torch.float32, depth_bias=bias).numpy()
     assert 0 < (~expected).sum() < len(p)
     assert (lit == expected).mean() > 0.995  # rounding turns points on the border
     assert conventions["sphere"] == {

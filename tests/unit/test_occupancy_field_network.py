@@ -119,33 +119,33 @@ def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored):
     network, _ = load_network(tmp_path / "weights.safetensors")
     rng = np.random.default_rng(0)
     for d in (*rng.normal(size=(6, 3)), [0, 0, 1], [0, -1, 0], [1, 1e-7, 0]):
-        d = (d / np.linalg.norm(d)).astype(np.float32)
-        o = rng.normal(size=(700, 3))
-        o = (o / np.linalg.norm(o, axis=1, keepdims=True)).astype(np.float32)
+        d = torch.tensor(d / np.linalg.norm(d), dtype=torch.float32)
+        o = torch.from_numpy(rng.normal(size=(700, 3))).float()
+        o /= o.norm(dim=1, keepdim=True)
         o = o[o @ d < -0.01]
         found = network.depths(o, d, torch.float32)
         with torch.inference_mode():
-            expected = network(torch.from_numpy(o), torch.from_numpy(d).expand(len(o), 3), None)
+            expected = network(o, d.expand(len(o), 3), None)
         # A sample on a brick's border may be counted to either side.
-        same = np.abs(found - expected.numpy()) < 1e-4
-        assert same.mean() > 0.99
-        assert (found < -2 * o @ d - 1e-3).mean() > 0.3
+        same = (found - expected).abs() < 1e-4
+        assert same.float().mean() > 0.99
+        assert (found < -2 * o @ d - 1e-3).float().mean() > 0.3
 
 
 def test_new_weights_are_seen_by_the_next_query(tmp_path):
     network = made(trimesh.creation.icosphere(3, radius=0.5), tmp_path, SOLID_32)
-    o, d = np.array([[-1.0, 0, 0]], np.float32), np.array([1.0, 0, 0])
+    o, d = torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0])
     set_logits(network, ball)
-    assert network.depths(o, d, torch.float32) == pytest.approx([0.5], abs=0.01)
+    assert network.depths(o, d, torch.float32).item() == pytest.approx(0.5, abs=0.01)
     set_logits(network, lambda p: -ball(p) - 100)
-    assert network.depths(o, d, torch.float32)[0] > 0.5
+    assert network.depths(o, d, torch.float32).item() > 0.5
 
 
 def test_a_ray_into_an_enclosed_brick_ends_there(tmp_path):
     network = made(trimesh.creation.icosphere(4, radius=0.9), tmp_path, SOLID_32)
     with torch.no_grad():
         network.values.fill_(-10.0)  # all that is held says outside
-    t = network.depths(np.array([[-1.0, 0, 0]], np.float32), np.array([1.0, 0, 0]), None)
+    t = network.depths(torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0]), None)
     size = 2 / 8
     assert 0.1 < t[0] < 0.1 + 2 * size
 

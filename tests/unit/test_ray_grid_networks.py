@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 import torch
 import trimesh
@@ -179,11 +178,11 @@ def test_what_a_file_keeps(tmp_path, ball_ply, kind, stored, error):
 
 def test_bfloat16_products_are_near(ball_ply):
     network = made("ray_grid", ball_ply)
-    o, d = ball_rays(300)[:2]
+    o, d = (torch.from_numpy(part) for part in ball_rays(300)[:2])
     direction = d[0]
-    near = np.sum(o * direction, axis=1) < 0
+    near = o @ direction < 0
     float32, bfloat16 = (
         network.depths(o[near], direction, dtype) for dtype in (torch.float32, torch.bfloat16)
     )
-    assert float32.shape == (near.sum(),) and float32.dtype == np.float32
-    assert bfloat16 == pytest.approx(float32, abs=0.03)
+    assert float32.shape == (near.sum(),) and float32.dtype == torch.float32
+    torch.testing.assert_close(bfloat16, float32, rtol=0, atol=0.03)

@@ -6,7 +6,7 @@ import torch
 
 from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.shadow_network import QUERY_CHUNKS, ShadowNetwork
-from neural_shadows.shadow_query import network_lit, sphere_rays
+from neural_shadows.shadow_query import network_lit, on_device, sphere_rays
 
 BALL = 0.5  # radius of the occluder about the origin
 BORDER = 1e-5  # points this near to a border of the shadow may go either way: float32 at |p| = 8
@@ -59,7 +59,11 @@ class Constant(Oracle):
 
 
 def lit(network, p, light, **settings) -> np.ndarray:
-    return network_lit(network, p, light, dtype=torch.float32, **settings)
+    return network_lit(network, *tensors(p, light), dtype=torch.float32, **settings).numpy()
+
+
+def tensors(p: np.ndarray, light: np.ndarray) -> tuple[torch.Tensor, torch.Tensor]:
+    return on_device(p, light, torch.device("cpu"))
 
 
 def frame_of(light: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -149,10 +153,11 @@ def test_clamp_to_the_chord():
     oracle = BallOracle()
     assert lit(oracle, p, light).all()
 
+    p, light = tensors(p, light)
     rays = sphere_rays(p, light)
     assert (rays.s > rays.chord).sum() > 9000
     unclamped = rays.s > oracle.depths(rays.origins, -light, torch.float32)
-    assert unclamped.mean() > 0.9  # what would be in shadow without it
+    assert unclamped.float().mean() > 0.9  # what would be in shadow without it
 
 
 def test_rays_that_pass_the_sphere_never_reach_the_network():
@@ -167,7 +172,7 @@ def test_rays_that_pass_the_sphere_never_reach_the_network():
     lit(oracle, p, light)
     assert abs(oracle.rays - passing.sum()) <= border.sum() < 10
     assert 5000 < oracle.rays < 25_000
-    index = sphere_rays(p, light).index
+    index = sphere_rays(*tensors(p, light)).index
     assert (np.isin(np.arange(30_000), index) == passing)[~border].all()
 
     outside = p[~passing & ~border]
@@ -185,7 +190,7 @@ def test_batches_fit_the_cache():
     light = np.array(LIGHTS[0])
     p = points_at(light, np.full(10_000, 0.7), np.full(10_000, -2.0))
     oracle = BallOracle()
-    network_lit(oracle, p, light, dtype=torch.bfloat16)
+    network_lit(oracle, *tensors(p, light), dtype=torch.bfloat16)
     sizes = [len(origins) for origins, _, _ in oracle.calls]
     assert sizes == [QUERY_CHUNKS["cpu"]] * 2 + [10_000 - 2 * QUERY_CHUNKS["cpu"]]
     assert {dtype for _, _, dtype in oracle.calls} == {torch.bfloat16}
@@ -198,20 +203,20 @@ def test_entry_points(distance):
     rng = np.random.default_rng(7)
     radius, height = 0.99 * np.sqrt(rng.random(20_000)), rng.uniform(-distance, 1, 20_000)
     p = points_at(light, radius, height)
-    rays = sphere_rays(p, light)
-    assert rays.origins.dtype == rays.s.dtype == rays.chord.dtype == np.float32
+    rays = sphere_rays(*tensors(p, light))
+    assert rays.origins.dtype == rays.s.dtype == rays.chord.dtype == torch.float32
     assert len(rays.index) > 15_000
 
     # At |p| = 8 a coordinate is rounded by 5e-7.
     tolerance = 1e-6 if distance <= 2 else 3e-6
     d = -light
-    o = rays.origins.astype(float)
+    o, s, chord = (part.double().numpy() for part in (rays.origins, rays.s, rays.chord))
     assert np.abs(np.linalg.norm(o, axis=1) - 1).max() < tolerance
     assert (o @ d).max() < -0.1
-    assert np.abs(rays.chord + 2 * o @ d).max() < 2 * tolerance
-    assert 0 < rays.chord.min() and rays.chord.max() <= 2
-    assert 0 < rays.s.min()
-    met = o + rays.s[:, None].astype(float) * d
+    assert np.abs(chord + 2 * o @ d).max() < 2 * tolerance
+    assert 0 < chord.min() and chord.max() <= 2
+    assert 0 < s.min()
+    met = o + s[:, None] * d
     assert np.abs(met - p[rays.index]).max() < 2 * tolerance
 
 
@@ -245,14 +250,14 @@ def test_with_a_network(dtype):
     light = np.array(LIGHTS[1])
     rng = np.random.default_rng(8)
     p = points_at(light, rng.uniform(0, 1.2, 5000), rng.uniform(-2, 2, 5000))
+    p, light = tensors(p, light)
     rays = sphere_rays(p, light)
     t = network.depths(rays.origins, -light, dtype)
-    assert t.shape == rays.s.shape and t.dtype == np.float32
+    assert t.shape == rays.s.shape and t.dtype == torch.float32
     with torch.inference_mode():  # one by one what the batches give
-        directions = torch.from_numpy(-light.astype(np.float32)).expand(10, 3)
-        alone = network(torch.from_numpy(rays.origins[:10]), directions, dtype)
-    assert t[:10] == pytest.approx(alone.numpy(), rel=0.01)
+        alone = network(rays.origins[:10], -light.expand(10, 3), dtype)
+    torch.testing.assert_close(t[:10], alone, rtol=0.01, atol=0)
     found = network_lit(network, p, light, dtype=dtype)
-    expected = np.ones(5000, bool)
-    expected[rays.index] = np.minimum(rays.s, rays.chord) <= t
-    assert np.array_equal(found, expected)
+    expected = torch.ones(5000, dtype=torch.bool)
+    expected[rays.index] = torch.minimum(rays.s, rays.chord) <= t
+    assert torch.equal(found, expected)

@@ -13,9 +13,8 @@ import pytest
 import torch
 import trimesh
 from rays import ball_rays
-from scipy import stats
 
-from neural_shadows import training
+from neural_shadows import recorded_step, training
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.errors import InputError
 from neural_shadows.frequency_network import FrequencyNetwork
@@ -24,12 +23,13 @@ from neural_shadows.network_file import load_network, load_tensors
 from neural_shadows.network_kinds import make_network
 from neural_shadows.training import (
     TrainingRun,
-    batch_indices,
     chunk_size,
     gradient_pool,
     learning_rate_at,
+    may_be_recorded,
     train,
 )
+from neural_shadows.training_data import DeviceRays, HostRays
 
 POOL = gradient_pool(1)
 
@@ -387,7 +387,7 @@ def test_restored_state_is_the_saved_one(tmp_path):
 
     run = new_run(1)
     for step in range(5):
-        run.train_step(rays, np.arange(64) + step, 1e-3, torch.float32, 64, POOL)
+        take_step(run, rays, np.arange(64) + step)
     run.curve, run.seconds = [[5, 1e-3, 1 / 3]], 0.1 + 0.2
     run.save(tmp_path / "state.safetensors")
     other = new_run(2)
@@ -399,7 +399,7 @@ def test_restored_state_is_the_saved_one(tmp_path):
     tensors, _ = load_tensors(tmp_path / "state.safetensors")
     assert len(tensors) == 3 * 3  # weights and both of Adam's means
     for one in (run, other):  # and Adam's own count of steps, for its bias correction
-        one.train_step(rays, np.arange(64), 1e-3, torch.float32, 64, POOL)
+        take_step(one, rays, np.arange(64))
     for ours, theirs in zip(run.network.parameters(), other.network.parameters(), strict=True):
         assert torch.equal(ours, theirs)
 
@@ -440,6 +440,16 @@ def test_a_rate_that_is_too_high_stops(tmp_path):
     assert_stops(tmp_path, "(its output died)", learning_rate=1.0, steps=200, schedule="constant")
 
 
+def take_step(
+    run: TrainingRun, rays: BallRays, indices: np.ndarray, rate: float = 1e-3, chunk: int = 1000
+) -> tuple[float, float]:
+    """A step on these rays; gives the batch's mean loss and the spread of the outputs."""
+    before = run.loss_sum.item()
+    batch = HostRays(rays, torch.device("cpu")).gather(torch.from_numpy(indices))
+    run.train_step(batch, torch.tensor(rate, dtype=torch.float64), torch.float32, chunk, POOL)
+    return run.loss_sum.item() - before, run.spread.item()
+
+
 def first_run(seed: int = 0) -> TrainingRun:
     network = FrequencyNetwork(frequencies=3, width=16, hidden_layers=2)
     network.initialise(seed)
@@ -450,12 +460,10 @@ def first_run(seed: int = 0) -> TrainingRun:
 def test_chunks_add_up_to_the_batch(chunk):
     whole, chunked = first_run(), first_run()
     indices = np.arange(100)
-    loss, spread = whole.train_step(BallRays(), indices, 1e-3, torch.float32, 100, POOL)
-    parts_loss, parts_spread = chunked.train_step(
-        BallRays(), indices, 1e-3, torch.float32, chunk, POOL
-    )
-    assert parts_loss.item() == pytest.approx(loss.item(), rel=1e-6)
-    assert parts_spread.item() == pytest.approx(spread.item(), rel=1e-6)
+    loss, spread = take_step(whole, BallRays(), indices, chunk=100)
+    parts_loss, parts_spread = take_step(chunked, BallRays(), indices, chunk=chunk)
+    assert parts_loss == pytest.approx(loss, rel=1e-6)
+    assert parts_spread == pytest.approx(spread, rel=1e-6)
     for ours, theirs in zip(chunked.network.parameters(), whole.network.parameters(), strict=True):
         torch.testing.assert_close(ours.grad, theirs.grad, rtol=1e-5, atol=1e-7)
         assert theirs.grad.abs().max() > 1e-3
@@ -463,7 +471,7 @@ def test_chunks_add_up_to_the_batch(chunk):
 
 def test_spread_is_that_of_the_whole_batch():
     """A last chunk of one ray has none of its own, which is no dead network."""
-    _, spread = first_run().train_step(BallRays(), np.arange(65), 1e-3, torch.float32, 64, POOL)
+    _, spread = take_step(first_run(), BallRays(), np.arange(65), chunk=64)
     assert spread > 0.01
 
 
@@ -471,7 +479,7 @@ def test_gradient_against_differences():
     """The step's gradient is that of the mean loss: central differences in float64's stead."""
     run, rays = first_run(), BallRays()
     indices = np.arange(200)
-    run.train_step(rays, indices, 0.0, torch.float32, 200, POOL)  # rate 0: the weights stay
+    take_step(run, rays, indices, rate=0.0)  # the weights stay
     weight = run.network.output
     step = 1e-2  # the loss is piecewise linear in it: the step may be large beside rounding
     differences = []
@@ -481,7 +489,7 @@ def test_gradient_against_differences():
             other = first_run()
             with torch.no_grad():
                 other.network.output[0, i] += sign * step
-            losses.append(other.train_step(rays, indices, 0.0, torch.float32, 200, POOL)[0].item())
+            losses.append(take_step(other, rays, indices, rate=0.0)[0])
         differences.append((losses[0] - losses[1]) / (2 * step))
     assert weight.grad[0].tolist() == pytest.approx(differences, abs=0.02)
     assert max(map(abs, differences)) > 0.2
@@ -491,45 +499,53 @@ def test_gradient_against_differences():
 def test_a_step_moves_by_its_rate(rate):
     """Adam's first step moves a weight by the rate, whatever its gradient."""
     run, before = first_run(), first_run()
-    run.train_step(BallRays(), np.arange(200), rate, torch.float32, 200, POOL)
+    take_step(run, BallRays(), np.arange(200), rate)
     assert run.step == 1
     moved = (run.network.output - before.network.output).abs().max().item()
     assert moved == pytest.approx(rate, rel=0.01)
 
 
 def test_learning_rates():
-    constant = {"steps": 100, "learning_rate": 0.01, "schedule": "constant"}
-    assert [learning_rate_at(step, **constant) for step in (0, 50, 99)] == [0.01] * 3
-    cosine = constant | {"schedule": "cosine"}
-    rates = [learning_rate_at(step, **cosine) for step in range(101)]
-    assert rates[0] == 0.01
-    assert rates[25] == pytest.approx(0.01 * (1 + math.sqrt(0.5)) / 2)
-    assert rates[50] == pytest.approx(0.005)
-    assert rates[100] == pytest.approx(0, abs=1e-12)
-    assert (np.diff(rates) < 0).all()
+    def rates(steps, **settings) -> list[float]:
+        return [
+            learning_rate_at(torch.tensor(step), steps=100, learning_rate=0.01, **settings).item()
+            for step in steps
+        ]
+
+    assert rates((0, 50, 99), schedule="constant") == [0.01] * 3
+    cosine = rates(range(101), schedule="cosine")
+    assert cosine[0] == 0.01
+    assert cosine[25] == pytest.approx(0.01 * (1 + math.sqrt(0.5)) / 2)
+    assert cosine[50] == pytest.approx(0.005)
+    assert cosine[100] == pytest.approx(0, abs=1e-12)
+    assert (np.diff(cosine) < 0).all()
 
 
-def test_batches_are_uniform_and_in_range():
-    batches = [batch_indices(step, seed=3, batch_size=500, count=50) for step in range(40)]
-    counts = np.bincount(np.concatenate(batches), minlength=50)
-    assert len(counts) == 50  # 0 to 49, each of them
-    assert stats.chisquare(counts).pvalue > 1e-3
-    assert batches[0].shape == (500,) and batches[0].dtype == np.int64
+def test_a_recorded_step_gives_the_same_bytes(tmp_path, monkeypatch):
+    """The loop that a GPU runs, with a recording that does the step instead of replaying it."""
+
+    class Replaying:
+        def __init__(self, step):
+            self.replay = step
+
+    aside = []
+    monkeypatch.setattr(recorded_step, "aside", lambda step: (aside.append(1), step()))
+    monkeypatch.setattr(recorded_step, "capture", Replaying)
+    run_training(tmp_path / "plain", **TINY)
+    monkeypatch.setattr(training, "may_be_recorded", lambda *_: True)
+    run_training(tmp_path / "recorded", **TINY)
+    assert len(aside) == recorded_step.WARM_UP
+    assert contents(tmp_path / "recorded") == contents(tmp_path / "plain")
 
 
-def test_batches_depend_on_seed_and_step_alone():
-    def batch(step: int, seed: int) -> np.ndarray:
-        return batch_indices(step, seed=seed, batch_size=64, count=1_000_000)
-
-    drawn = {(step, seed): batch(step, seed) for step in range(5) for seed in range(5)}
-    for key, indices in drawn.items():
-        assert np.array_equal(indices, batch(*key))
-        for other, others in drawn.items():
-            # 64 of a million, twice: about 0.004 common ones by chance
-            assert other == key or np.isin(indices, others).sum() <= 2
-
-
-def test_batches_of_the_largest_seed_and_of_late_steps():
-    """Seeds go to 2^32 − 1 in the config, steps beyond a million."""
-    last = batch_indices(10**7, seed=2**32 - 1, batch_size=16, count=2**31)
-    assert ((last >= 0) & (last < 2**31)).all()
+def test_only_steps_of_fixed_shape_on_a_gpu_are_recorded(tmp_path):
+    cuda, cpu = torch.device("cuda"), torch.device("cpu")
+    network = make_network(TINY["network"])
+    other = make_network(
+        {"encoding": "occupancy_field", "resolution": 8, "surface": "solid", "stored": "int8"}
+    )
+    on_device, on_host = DeviceRays.__new__(DeviceRays), HostRays(BallRays(10), cpu)
+    assert may_be_recorded(network, cuda, on_device)
+    assert not may_be_recorded(network, cpu, on_device)
+    assert not may_be_recorded(network, cuda, on_host)
+    assert not may_be_recorded(other, cuda, on_device)

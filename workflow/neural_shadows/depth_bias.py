@@ -19,7 +19,7 @@ from neural_shadows.metrics import shadow_error
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
 from neural_shadows.scene_frames import open_scene
-from neural_shadows.shadow_query import lit_points, sphere_rays
+from neural_shadows.shadow_query import lit_points, on_device, sphere_rays
 
 # In sphere radii: none, and three an octave from half the shading offset to an eighth.
 BIASES = (0.0, *(float(b) for b in np.round(0.0005 * 2 ** (np.arange(25) / 3), 5)))
@@ -63,11 +63,12 @@ def find_depth_biases(
             points = scene.points(view)
             truth = visibility(points, reference_lit(points))
             everything = np.ones(len(points.pixel), bool)
-            rays = sphere_rays(points.p, points.light)
+            p, light = on_device(points.p, points.light, chosen)
+            rays = sphere_rays(p, light)
             for name, network in networks.items():
-                t_pred = network.depths(rays.origins, -points.light.astype(np.float32), dtype)
+                t_pred = network.depths(rays.origins, -light, dtype)
                 for i, bias in enumerate(BIASES):
-                    lit = lit_points(rays, t_pred, len(points.p), bias)
+                    lit = lit_points(rays, t_pred, len(p), bias).cpu().numpy()
                     error = shadow_error(visibility(points, lit), truth, everything)
                     errors[name][i] += error.false_shadow, error.light_leak
             bar.update()

@@ -23,7 +23,7 @@ from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
 from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
-from neural_shadows.shadow_query import network_lit
+from neural_shadows.shadow_query import network_lit, on_device
 from neural_shadows.tracing import Tracer
 
 REFERENCE_MAP_RESOLUTION = 32768  # the thesis's reference [4.1]
@@ -67,10 +67,11 @@ def network_visibilities(
     networks = {name: load_network(path)[0].to(chosen) for name, path in weights.items()}
 
     def visibilities(points: ShadingPoints) -> dict[str, np.ndarray]:
+        p, light = on_device(points.p, points.light, chosen)
         return {
-            name: network_lit(
-                network, points.p, points.light, dtype=dtype, depth_bias=depth_biases[name]
-            )
+            name: network_lit(network, p, light, dtype=dtype, depth_bias=depth_biases[name])
+            .cpu()
+            .numpy()
             for name, network in networks.items()
         }
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.files import write_json
@@ -25,7 +26,7 @@ from neural_shadows.shadow_map import (
     texels_of,
 )
 from neural_shadows.shadow_network import ShadowNetwork
-from neural_shadows.shadow_query import network_lit, sphere_rays
+from neural_shadows.shadow_query import network_lit, on_device, sphere_rays
 from neural_shadows.tracing import Tracer
 
 # Lit (m,) bool of a frame's facing points.
@@ -52,10 +53,17 @@ class StopwatchNetwork:
         self.network = network
         self.rays, self.seconds = 0, 0.0
 
-    def depths(self, origins: np.ndarray, d: np.ndarray, dtype: torch.dtype) -> np.ndarray:
-        """See `ShadowNetwork.depths`; the answer is on the CPU, so that a GPU is done."""
+    @property
+    def device(self) -> torch.device:
+        """See `DepthQuery.device`."""
+        return self.network.device
+
+    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
+        """See `ShadowNetwork.depths`; a GPU is waited for."""
         started = time.perf_counter()
         depths = self.network.depths(origins, d, dtype)
+        if self.device.type == "cuda":
+            torch.cuda.synchronize()
         self.rays, self.seconds = len(origins), time.perf_counter() - started
         return depths
 
@@ -76,8 +84,10 @@ def shadow_passes(
             mesh, tracer, points, resolution
         )
     for name, network in networks.items():
-        passes[name] = lambda points, network=network: network_lit(
-            network, points.p, points.light, dtype=dtype
+        passes[name] = lambda points, network=network: (
+            network_lit(network, *on_device(points.p, points.light, network.device), dtype=dtype)
+            .cpu()
+            .numpy()
         )
     return passes
 
@@ -149,7 +159,7 @@ def measure_frame_times(
             primary = 1000 * (time.perf_counter() - started)
             times = shadow_times(passes, points)
             if i >= warm_up:
-                rays.append(len(sphere_rays(points.p, points.light).index))
+                rays.append(len(sphere_rays(*on_device(points.p, points.light, chosen)).index))
                 for name, value in times.items():
                     milliseconds[name].append(primary + value)
                 for name, network in networks.items():

@@ -41,6 +41,8 @@ class FrequencyNetwork(ShadowNetwork):
         hidden_layers: number of width × width layers.
     """
 
+    recordable = True
+
     def __init__(self, *, frequencies: int, width: int, hidden_layers: int):
         super().__init__()
         self.encoding = FrequencyEncoding(frequencies)

@@ -139,7 +139,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         batch: LabelledBatch,
         dead_zone: DeadZone,
         dtype: torch.dtype,
-        generator: torch.Generator,
+        generator: torch.Generator | None,
     ) -> tuple[Tensor, Tensor]:
         """Cross-entropy of points on the rays; there is no depth for the dead zone to judge."""
         origins, directions, t_lb, t_ub = batch
@@ -211,19 +211,20 @@ class OccupancyFieldNetwork(ShadowNetwork):
         depth = (t[first] - step * back).squeeze(1)
         return torch.where(crossing.any(1), depth, chord)
 
-    def depths(self, origins: np.ndarray, d: np.ndarray, dtype: torch.dtype) -> np.ndarray:
+    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
         """See `ShadowNetwork.depths`."""
-        if self.values.device.type != "cpu":
+        if self.device.type != "cpu":
             return super().depths(origins, d, dtype)
         size = self.resolution // BRICK
-        return first_crossings(
-            origins,
-            np.asarray(d, np.float32),
+        t_pred = first_crossings(
+            origins.numpy(),
+            d.numpy(),
             self.grid.view(size, size, size).numpy(),
             self._brick_values(),
             SAMPLES_PER_CELL * self.resolution,
             self.surface == "sheet",
         )
+        return torch.from_numpy(t_pred)
 
     def _brick_values(self) -> np.ndarray:
         """The values of each brick, (bricks, 125), in int8 if they are stored so, on any scale.

@@ -151,7 +151,7 @@ class RayGridNetwork(ShadowNetwork):
         batch: LabelledBatch,
         dead_zone: DeadZone,
         dtype: torch.dtype,
-        generator: torch.Generator,
+        generator: torch.Generator | None,
     ) -> tuple[Tensor, Tensor]:
         """See `ShadowNetwork.losses`; rays with nothing to hit have none."""
         t_a, t_b, meets = self.span(batch.origins, batch.directions)

@@ -4,7 +4,6 @@ from abc import ABC, abstractmethod
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
-import numpy as np
 import torch
 from torch import Tensor, nn
 
@@ -47,6 +46,9 @@ class ShadowNetwork(nn.Module, ABC):
 
     training_chunk: ClassVar[int] = TRAINING_CHUNK
     query_chunks: ClassVar[dict[str, int]] = QUERY_CHUNKS
+    # Whether the losses have the same shapes whatever the batch, draw nothing, and read nothing
+    # back from a GPU, so that a GPU can record a training step and repeat it.
+    recordable: ClassVar[bool] = False
 
     def prepare(self, mesh_ply: Path) -> None:
         """Lay out what depends on the object and is not trained; called before training.
@@ -78,7 +80,7 @@ class ShadowNetwork(nn.Module, ABC):
         batch: LabelledBatch,
         dead_zone: DeadZone,
         dtype: torch.dtype,
-        generator: torch.Generator,
+        generator: torch.Generator | None,
     ) -> tuple[Tensor, Tensor]:
         """Losses whose sum is the batch's, and outputs that differ as long as the network lives.
 
@@ -87,19 +89,28 @@ class ShadowNetwork(nn.Module, ABC):
 
         Args:
             dead_zone: the loss of a depth.
-            generator: for a loss that draws points; on the CPU.
+            generator: for a loss that draws points, on the batch's device; None for a
+                `recordable` network.
         """
         t = self(batch.origins, batch.directions, dtype)
         return dead_zone(t, batch.t_lb, batch.t_ub), t
 
-    def depths(self, origins: np.ndarray, d: np.ndarray, dtype: torch.dtype) -> np.ndarray:
-        """t_pred of parallel rays, from entry points (k, 3) float32 along d (3,): (k,) float32."""
-        device = next(self.parameters()).device
-        d = torch.from_numpy(np.asarray(d, np.float32)).to(device)
+    @property
+    def device(self) -> torch.device:
+        """Where its weights are."""
+        return next(self.parameters()).device
+
+    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
+        """t_pred of parallel rays: (k,) float32.
+
+        Args:
+            origins: (k, 3) float32 entry points on the unit sphere, on this device.
+            d: (3,) float32, unit, there too.
+            dtype: of the matrix products, float32 or bfloat16.
+        """
         with torch.inference_mode():
-            chunks = torch.from_numpy(origins).to(device).split(self.query_chunks[device.type])
-            depths = [self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks]
-            return torch.cat(depths).cpu().numpy() if depths else np.empty(0, np.float32)
+            chunks = origins.split(self.query_chunks[self.device.type])
+            return torch.cat([self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks])
 
     def parameter_count(self) -> int:
         """Number of trained weights: 556,800 for the thesis's network at width 256 [4.4.2]."""

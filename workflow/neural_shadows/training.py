@@ -7,7 +7,7 @@ import shutil
 import time
 from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -24,7 +24,15 @@ from neural_shadows.module_graph import kind_module, modules_of
 from neural_shadows.network_file import load_tensors, save_network, save_tensors
 from neural_shadows.network_kinds import make_network
 from neural_shadows.progress import progress_bar
+from neural_shadows.recorded_step import recorded
 from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork
+from neural_shadows.training_data import (
+    BatchSource,
+    DeviceRays,
+    LabelledRays,
+    batch_indices,
+    batch_source,
+)
 
 # Points of the loss curve, each the mean loss since the point before.
 CURVE_POINTS = 500
@@ -33,29 +41,19 @@ CURVE_POINTS = 500
 ADAM_STATE = ("exp_avg", "exp_avg_sq")
 
 
-class LabelledRays(Protocol):
-    """What training needs of a ray set."""
+def learning_rate_at(step: Tensor, *, steps: int, learning_rate: float, schedule: str) -> Tensor:
+    """Learning rate of a step: `constant`, or `cosine` from `learning_rate` down to zero.
 
-    count: int
+    Args:
+        step: int64 without dimensions.
 
-    def gather(self, indices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Origins (n, 3), directions (n, 3), t_lb (n,) and t_ub (n,), all float32."""
-
-
-def learning_rate_at(step: int, *, steps: int, learning_rate: float, schedule: str) -> float:
-    """Learning rate of a step: `constant`, or `cosine` from `learning_rate` down to zero."""
-    if schedule == "cosine":
-        return learning_rate * 0.5 * (1 + math.cos(math.pi * step / steps))
-    return learning_rate
-
-
-def batch_indices(step: int, *, seed: int, batch_size: int, count: int) -> np.ndarray:
-    """Indices of the samples of a step, drawn with replacement: (batch_size,) int64.
-
-    They depend on (seed, step) alone, so that a resumed run needs no state of a generator.
+    Returns:
+        float64 without dimensions, on the same device.
     """
-    generator = np.random.Generator(np.random.Philox(key=[seed, step]))
-    return generator.integers(0, count, batch_size)
+    rate = torch.full_like(step, learning_rate, dtype=torch.float64)
+    if schedule == "cosine":
+        rate = rate * 0.5 * (1 + torch.cos(math.pi * step.double() / steps))
+    return rate
 
 
 def state_digest(description: dict) -> str:
@@ -86,13 +84,18 @@ class TrainingRun:
         seed: int,
     ):
         self.network, self.dead_zone, self.seed = network.to(device), dead_zone, seed
-        self.step = 0
+        self.weights = list(network.parameters())
+        self.step = torch.zeros((), dtype=torch.int64, device=device)
+        self.loss_sum = torch.zeros((), device=device)  # of the steps since it was last zeroed
+        self.spread = torch.zeros((), device=device)  # max − min of the last step's outputs
         self.seconds = 0.0
         self.curve: list[list[float]] = []  # [step, learning rate, mean loss since the last]
         self.means = {
             mean: {name: torch.zeros_like(weight) for name, weight in network.named_parameters()}
             for mean in ADAM_STATE
         }
+        # Adam counts for each weight.
+        self._adam_steps = [torch.zeros((), device=device) for _ in self.weights]
 
     def save(self, path: Path) -> None:
         """Write the whole state."""
@@ -100,7 +103,7 @@ class TrainingRun:
         for mean, values in self.means.items():
             for name in values:
                 tensors[f"{mean}.{name}"] = self.means[mean][name]
-        header = {"step": self.step, "seconds": self.seconds, "curve": self.curve}
+        header = {"step": int(self.step), "seconds": self.seconds, "curve": self.curve}
         save_tensors(path, tensors, header)
 
     def restore(self, path: Path) -> None:
@@ -110,7 +113,10 @@ class TrainingRun:
             weight.data.copy_(tensors[name])
             for mean in ADAM_STATE:
                 self.means[mean][name].copy_(tensors[f"{mean}.{name}"])
-        self.step, self.seconds, self.curve = header["step"], header["seconds"], header["curve"]
+        self.step.fill_(header["step"])
+        for count in self._adam_steps:
+            count.fill_(header["step"])
+        self.seconds, self.curve = header["seconds"], header["curve"]
 
     def curve_csv(self, batch_size: int) -> str:
         """The loss curve as CSV: step, samples, learning_rate, loss."""
@@ -119,21 +125,20 @@ class TrainingRun:
         curve.insert(1, "samples", curve["step"] * batch_size)
         return curve.to_csv(index=False, lineterminator="\n")
 
-    def _adam(self, weights: list[Tensor], rate: float) -> None:
+    def _adam(self, rate: Tensor) -> None:
         """Change the weights by Adam's functional form, whose class loads a compiler for 1.7 s."""
-        steps = [torch.full((), float(self.step), device=weight.device) for weight in weights]
         with torch.no_grad():
             adam(
-                weights,
-                [weight.grad for weight in weights],
+                self.weights,
+                [weight.grad for weight in self.weights],
                 *(list(self.means[mean].values()) for mean in ADAM_STATE),
                 [],
-                steps,
+                self._adam_steps,
                 fused=True,
                 amsgrad=False,
                 beta1=0.9,
                 beta2=0.999,
-                lr=rate,
+                lr=rate.float(),  # what a GPU takes
                 weight_decay=0.0,
                 eps=1e-8,
                 maximize=False,
@@ -141,49 +146,53 @@ class TrainingRun:
 
     def train_step(
         self,
-        rays: LabelledRays,
-        indices: np.ndarray,
-        rate: float,
+        batch: LabelledBatch,
+        rate: Tensor,
         dtype: torch.dtype,
         chunk: int,
-        pool: Executor,
-    ) -> tuple[torch.Tensor, torch.Tensor]:
-        """One step of Adam on the mean loss of the samples `indices`.
+        pool: Executor | None = None,
+    ) -> None:
+        """One step of Adam on the batch's mean loss.
 
         Gradients of chunks are computed in the pool's threads and added in the chunks' order,
-        so that the result does not depend on the number of threads.
+        so that the result does not depend on the number of threads. Nothing is read back from
+        a GPU, which therefore need not be waited for.
 
         What a network's loss draws depends on the seed, the step and the chunk's number.
 
-        Returns:
-            The batch's mean loss, and the spread (max − min) of the network's outputs.
+        Args:
+            rate: of learning, float64 without dimensions.
         """
-        weights = list(self.network.parameters())
-        device = weights[0].device
+        count = len(batch.origins)
+        chunks = [LabelledBatch(*parts) for parts in zip(*(part.split(chunk) for part in batch))]
 
         def gradients(number: int, part: LabelledBatch):
-            state = np.random.SeedSequence([self.seed, self.step, number]).generate_state(
-                1, np.uint64
-            )
-            generator = torch.Generator(device).manual_seed(int(state[0]))
+            generator = None if self.network.recordable else self._generator(number)
             losses, outputs = self.network.losses(part, self.dead_zone, dtype, generator)
-            loss = losses.sum() / len(indices)
-            return loss.detach(), outputs.detach(), torch.autograd.grad(loss, weights)
+            loss = losses.sum() / count
+            return loss.detach(), outputs.detach(), torch.autograd.grad(loss, self.weights)
 
-        batch = [torch.from_numpy(part).to(device) for part in rays.gather(indices)]
-        chunks = [LabelledBatch(*parts) for parts in zip(*(part.split(chunk) for part in batch))]
-        losses, outputs, parts = zip(*pool.map(gradients, range(len(chunks)), chunks))
-        for weight, *terms in zip(weights, *parts):
+        compute = pool.map if pool else map
+        losses, outputs, parts = zip(*compute(gradients, range(len(chunks)), chunks))
+        for weight, *terms in zip(self.weights, *parts):
             weight.grad = terms[0]
             for term in terms[1:]:
                 weight.grad += term
-        self._adam(weights, rate)
+        self._adam(rate)
         self.step += 1
+        self.loss_sum += torch.stack(losses).sum()
         outputs = torch.cat(outputs)
-        if not len(outputs):  # no ray of the batch needed the network: that is not its death
-            return torch.stack(losses).sum(), outputs.new_tensor(math.inf)
-        low, high = outputs.aminmax()
-        return torch.stack(losses).sum(), high - low
+        if len(outputs):
+            low, high = outputs.aminmax()
+            self.spread.copy_(high - low)
+        else:  # no ray of the batch needed the network: that is not its death
+            self.spread.fill_(math.inf)
+
+    def _generator(self, number: int) -> torch.Generator:
+        state = np.random.SeedSequence([self.seed, int(self.step), number]).generate_state(
+            1, np.uint64
+        )
+        return torch.Generator(self.step.device).manual_seed(int(state[0]))
 
 
 def gradient_pool(threads: int) -> ThreadPoolExecutor:
@@ -202,6 +211,11 @@ def chunk_size(batch_size: int, device: torch.device, most: int) -> int:
     if device.type == "cuda":
         return batch_size
     return min(most, -(-batch_size // 2))
+
+
+def may_be_recorded(network: ShadowNetwork, device: torch.device, source: BatchSource) -> bool:
+    """Whether a GPU can repeat a step on its own, with the samples that it has."""
+    return network.recordable and device.type == "cuda" and isinstance(source, DeviceRays)
 
 
 def check_alive(name: str, step: int, loss: float, spread: float) -> None:
@@ -296,30 +310,41 @@ def train(
         run.restore(state_file)
 
     chunk = chunk_size(batch_size, chosen, model.training_chunk)
+    source = batch_source(rays, chosen)
     point_interval = max(1, steps // CURVE_POINTS)
-    interval_loss = torch.zeros((), device=chosen)
     seconds_before = run.seconds
     total = steps * batch_size
+    step = int(run.step)
     with (
-        progress_bar(total, "samples", f"train {name}", run.step * batch_size) as bar,
+        progress_bar(total, "samples", f"train {name}", step * batch_size) as bar,
         gradient_pool(threads) as pool,
     ):
-        while run.step < steps:
-            rate = learning_rate_at(
-                run.step, steps=steps, learning_rate=learning_rate, schedule=schedule
+
+        def rate_at(step: Tensor) -> Tensor:
+            return learning_rate_at(
+                step, steps=steps, learning_rate=learning_rate, schedule=schedule
             )
+
+        def advance() -> None:
             indices = batch_indices(run.step, seed=seed, batch_size=batch_size, count=rays.count)
-            mean, spread = run.train_step(rays, indices, rate, dtype, chunk, pool)
-            interval_loss += mean
+            # A GPU is given its work by one thread, whose stream can be recorded.
+            workers = pool if chosen.type == "cpu" else None
+            run.train_step(source.gather(indices), rate_at(run.step), dtype, chunk, workers)
+
+        if may_be_recorded(model, chosen, source):
+            advance = recorded(advance)
+        while step < steps:
+            advance()
+            step += 1
             bar.update(batch_size)
             # States are saved at points of the curve only, so that a restored run has no
-            # half-summed loss to carry along.
-            if run.step % point_interval == 0 or run.step == steps:
+            # half-summed loss to carry along; and only there a GPU is waited for.
+            if step % point_interval == 0 or step == steps:
                 first_step = run.curve[-1][0] if run.curve else 0
-                mean_loss = interval_loss.item() / (run.step - first_step)
-                check_alive(name, run.step, mean_loss, spread.item())
-                run.curve.append([run.step, rate, mean_loss])
-                interval_loss.zero_()
+                mean_loss = run.loss_sum.item() / (step - first_step)
+                check_alive(name, step, mean_loss, run.spread.item())
+                run.curve.append([step, rate_at(run.step - 1).item(), mean_loss])
+                run.loss_sum.zero_()
                 bar.set_postfix(loss=f"{mean_loss:.4g}", refresh=False)
                 run.seconds = seconds_before + time.monotonic() - started
                 if time.monotonic() - last_saved > state_interval_s:
