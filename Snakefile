@@ -17,6 +17,7 @@ include: "workflow/rules/rays.smk"
 include: "workflow/rules/networks.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/reports.smk"
+include: "workflow/rules/costs.smk"
 
 
 rule all:

@@ -1,73 +1,155 @@
-"""Rays/s of networks' queries on the same frames, as ratios to the first network's.
+"""Network queries of a frame's rays, beside eager float32 and the exact answer of Embree.
 
-    python tests/benchmarks/bench_queries.py --mesh results/scenes/dragon/mesh.ply \
-        results/networks/dragon/weights.safetensors results/networks/dragon_field/weights.safetensors
-
-One thread, the light's rays of 1200 × 800 frames, networks in turn; median over the frames. An
-occupancy field is also asked in its plain form, which looks at every sample of every ray.
+The ceiling is the rate of the layers' matrix products in our number format. On two threads each
+answers half of the frame, as two evaluation jobs side by side do.
 """
 
-import argparse
-import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import numpy as np
 import torch
+from frame_query import FrameQuery
+from measurement import Row, median_seconds
+from torch import Tensor
 
 from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.hardware import processor_name
+from neural_shadows.frames import ShadingPoints, Viewpoint, reference_visibility
+from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.network_file import load_network
-from neural_shadows.occupancy_field_network import OccupancyFieldNetwork
-from neural_shadows.scene_frames import open_scene
-from neural_shadows.shadow_network import ShadowNetwork
-from neural_shadows.shadow_query import sphere_rays
+from neural_shadows.scene_frames import SceneFrames, open_scene
+from neural_shadows.shadow_network import QUERY_CHUNKS, ShadowNetwork
+from neural_shadows.shadow_query import on_device, sphere_rays
 
-LIGHT = {"domain": "sphere", "min_elevation_deg": 20}
-PLAIN_RAYS = 4096
+WIDTHS = (256, 128, 64)
+FRAME = {
+    "up": "y",
+    "ground": True,
+    "light": {"domain": "sphere", "min_elevation_deg": 20},
+    "width": 1200,
+    "height": 800,
+    "seed": 2026,
+}
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("weights", type=Path, nargs="+")
-    parser.add_argument("--mesh", type=Path, required=True, help="a prepared mesh")
-    parser.add_argument("--no-ground", action="store_true")
-    parser.add_argument("--views", type=int, default=4)
-    arguments = parser.parse_args()
+def rows(mesh_ply: Path, weights: Sequence[Path], quick: bool) -> list[Row]:
+    """Rates of untrained networks of the thesis's widths, and of trained ones of any kind.
+
+    Args:
+        weights: of trained networks, beside which the 256-wide one stands as a peer.
+    """
     torch.set_num_threads(1)
-    dtype = choose_dtype("auto", choose_device("cpu"))
-    scene = open_scene(
-        arguments.mesh,
-        up="y",
-        ground=not arguments.no_ground,
-        light=LIGHT,
-        width=1200,
-        height=800,
-        seed=2026,
-    )
-    networks = {path.parent.name: load_network(path)[0] for path in arguments.weights}
-    rates: dict[str, list[float]] = {}
-
-    def timed(name: str, rays: int, work, *inputs) -> None:
-        started = time.perf_counter()
-        work(*inputs)
-        rates.setdefault(name, []).append(rays / (time.perf_counter() - started))
-
-    for view in scene.viewpoints(["surface"], range(arguments.views + 1)):  # the first one warms up
-        points = scene.points(view)
-        origins = sphere_rays(points.p, points.light).origins
-        d = -points.light.astype(np.float32)
-        for name, network in networks.items():
-            timed(name, len(origins), network.depths, origins, d, dtype)
-            if isinstance(network, OccupancyFieldNetwork):
-                some = origins[:: max(1, len(origins) // PLAIN_RAYS)]
-                plain = ShadowNetwork.depths
-                timed(f"{name}, plain", len(some), plain, network, some, d, dtype)
-    first = np.median(next(iter(rates.values()))[1:])
-    print(f"{processor_name()}, one thread, {dtype}, median of {arguments.views} frames")
-    for name, values in rates.items():
-        rate = np.median(values[1:])
-        print(f"{name:40} {rate / 1e6:8.3f} M rays/s {rate / first:8.2f} times the first")
+    scene = open_scene(mesh_ply, **FRAME)
+    (view,) = scene.viewpoints(["surface"], [0])
+    points = scene.points(view)
+    cpu = choose_device("cpu")
+    p, light = on_device(points.p, points.light, cpu)
+    origins, d = sphere_rays(p, light).origins, -light
+    dtype = choose_dtype("auto", cpu)
+    found = _width_rows(scene, points, origins, d, dtype, 2 if quick else 5)
+    found += _trained_rows(weights, origins, d, dtype, 2 if quick else 5)
+    if torch.cuda.is_available():
+        found += _cuda_rows(scene, view, points, 5 if quick else 50)
+    return found
 
 
-if __name__ == "__main__":
-    main()
+def thesis_network(width: int) -> FrequencyNetwork:
+    """An untrained network: the rate does not depend on its weights."""
+    network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
+    network.initialise(0)
+    return network
+
+
+def _two_halves(network: ShadowNetwork, origins: Tensor, d: Tensor, dtype) -> Callable[[], object]:
+    halves = origins.chunk(2)
+    pool = ThreadPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,))
+    return lambda: list(pool.map(lambda half: network.depths(half, d, dtype), halves))
+
+
+def _products(network: FrequencyNetwork, dtype, rays: int) -> Callable[[], object]:
+    """The matrix products of a query, forward alone."""
+    rows = QUERY_CHUNKS["cpu"]
+    layers = [
+        (torch.randn(rows, weight.shape[1]).to(dtype), weight.detach().to(dtype).t())
+        for weight in network.layers
+    ]
+
+    def products() -> None:
+        for _ in range(rays // rows):
+            for x, weight in layers:
+                torch.mm(x, weight)
+
+    return products
+
+
+def _width_rows(
+    scene: SceneFrames, points: ShadingPoints, origins: Tensor, d: Tensor, dtype, rounds: int
+) -> list[Row]:
+    found, count = [], len(origins)
+    for width in WIDTHS:
+        network = thesis_network(width)
+
+        def eager(network=network) -> None:
+            with torch.inference_mode():
+                network(origins, d.expand(count, 3), torch.float32)
+
+        works = {
+            "ours": lambda network=network: network.depths(origins, d, dtype),
+            "halves": _two_halves(network, origins, d, dtype),
+            "eager float32, whole frame": eager,
+            "Embree's occlusion rays": lambda: reference_visibility(scene.tracer, points),
+            "products": _products(network, dtype, count),
+        }
+        seconds = median_seconds(works, rounds)
+        stage = f"query, width {width}, {str(dtype).removeprefix('torch.')}"
+        asked = {name: count for name in works} | {"Embree's occlusion rays": len(points.p)}
+        rate = {name: asked[name] / seconds[name] for name in works}
+        found += [
+            Row(stage, "cpu x1", rate["ours"], "rays/s", rate["products"], peer, rate[peer])
+            for peer in ("eager float32, whole frame", "Embree's occlusion rays")
+        ]
+        found.append(Row(stage, "cpu x2", rate["halves"], "rays/s", 2 * rate["products"]))
+    return found
+
+
+def _trained_rows(weights, origins: Tensor, d: Tensor, dtype, rounds: int) -> list[Row]:
+    networks = {path.parent.name: load_network(path)[0] for path in weights}
+    if not networks:
+        return []
+    works = {
+        name: lambda network=network: network.depths(origins, d, dtype)
+        for name, network in {"thesis": thesis_network(256), **networks}.items()
+    }
+    seconds = median_seconds(works, rounds)
+    rate = {name: len(origins) / value for name, value in seconds.items()}
+    peer = "the thesis's network, width 256"
+    return [
+        Row(f"query, {name}", "cpu x1", rate[name], "rays/s", peer=peer, peer_rate=rate["thesis"])
+        for name in networks
+    ]
+
+
+def _cuda_rows(scene: SceneFrames, view: Viewpoint, points: ShadingPoints, rounds: int):
+    """Whole frames from a depth buffer to a mask, all on the GPU."""
+    cuda = choose_device("cuda")
+    dtype = choose_dtype("auto", cuda)
+    query = FrameQuery(scene, view, points, cuda)
+
+    def frame(network: ShadowNetwork) -> Callable[[], object]:
+        def whole() -> None:
+            query.mask(network, dtype)
+            torch.cuda.synchronize()
+
+        return whole
+
+    works = {str(width): frame(thesis_network(width).to(cuda)) for width in WIDTHS}
+    seconds = median_seconds(works, rounds)
+    return [
+        Row(
+            f"frame from depth buffer to mask, width {width}",
+            torch.cuda.get_device_name(),
+            1000 * seconds[str(width)],
+            "ms a frame",
+        )
+        for width in WIDTHS
+    ]

@@ -1,112 +1,158 @@
-"""Training rate of the thesis's network on this CPU, beside the plain step and the ceiling.
+"""Training steps of the thesis's network, beside the plain step and the matrix products alone.
 
-    python tests/benchmarks/bench_training.py [--width 256] [--batch 1024] [--rounds 7]
-
-Per round, one after another so that all see the same machine: our step in the number format that
-`precision: auto` chooses, cache-sized chunks side by side; the plain step, float32 on the whole
-batch at once, threads within each product; and the rate that the layers' matrix products alone would allow (the ceiling). Prints
-medians over the rounds, and ratios.
+The plain step is float32 on the whole batch at once, with threads inside each product. The
+ceiling is the rate of the layers' matrix products, forward and backward, in our number format.
 """
 
-import argparse
-import time
-from concurrent.futures import Executor
+import itertools
 
-import numpy as np
 import torch
+from measurement import Row, median_seconds
 
-from neural_shadows.compute import choose_dtype
+from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.frequency_network import FrequencyNetwork
-from neural_shadows.hardware import describe_machine
-from neural_shadows.shadow_network import TRAINING_CHUNK
+from neural_shadows.recorded_step import WARM_UP, recorded
+from neural_shadows.shadow_network import TRAINING_CHUNK, LabelledBatch
 from neural_shadows.training import TrainingRun, chunk_size, gradient_pool
+from neural_shadows.training_data import batch_indices
 
-DESK_BATCH = 1024
+THREADS = 2
+DESK_BATCH, THESIS_BATCH = 1024, 65536
+WIDTHS = (256, 128, 64)
 
 
 class RandomRays:
     """Rays across the unit sphere with made-up bounds: the rate does not depend on them."""
 
-    count = 65536
+    count = 1 << 17
 
-    def __init__(self):
-        generator = np.random.default_rng(0)
+    def __init__(self, device: torch.device):
+        generator = torch.Generator().manual_seed(0)
 
-        def unit():
-            vectors = generator.normal(size=(self.count, 3)).astype(np.float32)
-            return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+        def unit() -> torch.Tensor:
+            vectors = torch.randn(self.count, 3, generator=generator)
+            return (vectors / vectors.norm(dim=1, keepdim=True)).to(device)
 
-        self.origins, self.directions = unit(), unit()
-        self.t_lb = generator.random(self.count, dtype=np.float32)
-        self.t_ub = self.t_lb + np.float32(0.1)
+        t_lb = torch.rand(self.count, generator=generator).to(device)
+        self.parts = LabelledBatch(unit(), unit(), t_lb, t_lb + 0.1)
 
-    def gather(self, indices):
-        return tuple(
-            part[indices] for part in (self.origins, self.directions, self.t_lb, self.t_ub)
-        )
+    def gather(self, indices: torch.Tensor) -> LabelledBatch:
+        """See `BatchSource.gather`."""
+        return LabelledBatch(*(part.index_select(0, indices) for part in self.parts))
 
 
-def product_seconds(network: FrequencyNetwork, dtype: torch.dtype, batch: int) -> float:
-    """Seconds of one batch's matrix products: forward, and both of the backward pass."""
-    pairs = []
-    rows = min(batch, 4096)  # 2 MiB of activations, where the products were fastest
-    for weight in network.layers:
-        x = torch.randn(rows, weight.shape[1]).to(dtype)
-        y = torch.randn(rows, weight.shape[0]).to(dtype)
-        pairs.append((x, y, weight.detach().to(dtype)))
-    started = time.perf_counter()
-    for _ in range(batch // rows):
-        for i, (x, y, weight) in enumerate(pairs):
-            torch.mm(x, weight.t())
-            torch.mm(y.t(), x)
-            if i:  # nobody needs the gradient of the encoding
-                torch.mm(y, weight)
-    return time.perf_counter() - started
+def rows(quick: bool) -> list[Row]:
+    """Rates at the desk's batch on the CPU, and at the thesis's where there is a GPU."""
+    found = [_cpu_row(width, 7 if quick else 21) for width in WIDTHS]
+    if torch.cuda.is_available():
+        found += [_cuda_row(width, 20 if quick else 200) for width in WIDTHS]
+    return found
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--width", type=int, default=256)
-    parser.add_argument("--batch", type=int, default=DESK_BATCH, help="the default: desk's")
-    parser.add_argument("--rounds", type=int, default=7)
-    parser.add_argument("--threads", type=int, default=2)
-    arguments = parser.parse_args()
-    dtype = choose_dtype("auto", torch.device("cpu"))
-    rays = RandomRays()
-    network = FrequencyNetwork(frequencies=10, width=arguments.width, hidden_layers=8)
+def _new_run(width: int, device: torch.device) -> TrainingRun:
+    network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
     network.initialise(0)
-    run = TrainingRun(network, torch.device("cpu"), DeadZone(), 0)
+    return TrainingRun(network, device, DeadZone(), 0)
 
-    pool = gradient_pool(arguments.threads)
-    serial = gradient_pool(1)
-    serial.submit(torch.set_num_threads, arguments.threads).result()
 
-    def step_seconds(step_dtype: torch.dtype, chunk: int, workers: Executor, number: int) -> float:
-        indices = np.random.default_rng(number).integers(0, rays.count, arguments.batch)
-        started = time.perf_counter()
-        run.train_step(rays, indices, 1e-4, step_dtype, chunk, workers)
-        return time.perf_counter() - started
+def _stepper(run: TrainingRun, rays: RandomRays, batch: int, dtype, chunk: int, pool=None):
+    rate = torch.tensor(1e-4, dtype=torch.float64, device=run.step.device)
 
-    ours = dtype, chunk_size(arguments.batch, torch.device("cpu"), TRAINING_CHUNK), pool
-    plain = torch.float32, arguments.batch, serial
-    seconds: dict[str, list[float]] = {"ours": [], "plain": [], "ceiling": []}
-    for number in range(arguments.rounds + 1):  # the first round warms up
-        torch.set_num_threads(1)
-        seconds["ours"].append(step_seconds(*ours, number))
-        torch.set_num_threads(arguments.threads)
-        seconds["plain"].append(step_seconds(*plain, number))
-        seconds["ceiling"].append(product_seconds(network, dtype, arguments.batch))
-    rate = {name: arguments.batch / np.median(times[1:]) for name, times in seconds.items()}
-    print(f"{describe_machine()}, {arguments.threads} threads, median of {arguments.rounds} rounds")
-    print(
-        f"width {arguments.width}, {str(dtype).removeprefix('torch.')}: {rate['ours']:,.0f} samples/s"
+    def step() -> None:
+        indices = batch_indices(run.step, seed=0, batch_size=batch, count=rays.count)
+        run.train_step(rays.gather(indices), rate, dtype, chunk, pool)
+
+    return step
+
+
+def _products(network: FrequencyNetwork, dtype: torch.dtype, batch: int):
+    """The matrix products of one batch: forward, and both of the backward pass."""
+    device = network.device
+    rows = min(batch, 4096) if device.type == "cpu" else batch  # where they were fastest
+    layers = [
+        (
+            torch.randn(rows, weight.shape[1], device=device).to(dtype),
+            torch.randn(rows, weight.shape[0], device=device).to(dtype),
+            weight.detach().to(dtype),
+        )
+        for weight in network.layers
+    ]
+
+    def products() -> None:
+        for _ in range(batch // rows):
+            for i, (x, y, weight) in enumerate(layers):
+                torch.mm(x, weight.t())
+                torch.mm(y.t(), x)
+                if i:  # nobody needs the gradient of the encoding
+                    torch.mm(y, weight)
+
+    return products
+
+
+def _cpu_row(width: int, rounds: int) -> Row:
+    cpu = torch.device("cpu")
+    dtype = choose_dtype("auto", cpu)
+    run, rays = _new_run(width, cpu), RandomRays(cpu)
+    chunk = chunk_size(DESK_BATCH, cpu, TRAINING_CHUNK)
+    ours = _stepper(run, rays, DESK_BATCH, dtype, chunk, gradient_pool(THREADS))
+    plain = _stepper(_new_run(width, cpu), rays, DESK_BATCH, torch.float32, DESK_BATCH)
+    products = _products(run.network, dtype, DESK_BATCH)
+
+    def with_threads(threads: int, work):
+        def threaded() -> None:
+            torch.set_num_threads(threads)
+            work()
+
+        return threaded
+
+    works = {
+        "ours": with_threads(1, ours),  # each of the pool's threads has one
+        "plain": with_threads(THREADS, plain),
+        "products": with_threads(THREADS, products),
+    }
+    seconds = median_seconds(works, rounds)
+    return Row(
+        f"training, width {width}, {str(dtype).removeprefix('torch.')}",
+        f"cpu x{THREADS}",
+        DESK_BATCH / seconds["ours"],
+        "samples/s",
+        ceiling=DESK_BATCH / seconds["products"],
+        peer="eager float32, whole batch",
+        peer_rate=DESK_BATCH / seconds["plain"],
     )
-    print(f"plain float32 step, whole batch: {rate['plain']:,.0f} samples/s")
-    print(f"matrix products alone: {rate['ceiling']:,.0f} samples/s")
-    print(f"ratio to the plain step: {rate['ours'] / rate['plain']:.1f}")
-    print(f"share of the matrix products' rate: {rate['ours'] / rate['ceiling']:.0%}")
 
 
-if __name__ == "__main__":
-    main()
+def _cuda_row(width: int, rounds: int) -> Row:
+    cuda = choose_device("cuda")
+    dtype = choose_dtype("auto", cuda)
+    rays = RandomRays(cuda)
+
+    def stepper(dtype):
+        return _stepper(_new_run(width, cuda), rays, THESIS_BATCH, dtype, THESIS_BATCH)
+
+    ours, plain = recorded(stepper(dtype)), stepper(torch.float32)
+    products = _products(_new_run(width, cuda).network, dtype, THESIS_BATCH)
+    for _ in range(WARM_UP + 1):
+        ours()
+
+    def repeated(work):
+        def several() -> None:
+            for _ in itertools.repeat(None, 20):
+                work()
+            torch.cuda.synchronize()
+
+        return several
+
+    works = {"ours": ours, "plain": plain, "products": products}
+    seconds = median_seconds({name: repeated(work) for name, work in works.items()}, rounds)
+    rate = {name: 20 * THESIS_BATCH / value for name, value in seconds.items()}
+    return Row(
+        f"training, width {width}, {str(dtype).removeprefix('torch.')}",
+        torch.cuda.get_device_name(),
+        rate["ours"],
+        "samples/s",
+        ceiling=rate["products"],
+        peer="eager float32",
+        peer_rate=rate["plain"],
+    )

@@ -17,6 +17,7 @@ from neural_shadows.config import (
     json_schema,
     read_config,
 )
+from neural_shadows.cost_sizes import STAGES
 from neural_shadows.errors import InputError
 
 ROOT = Path(__file__).parents[2]
@@ -219,6 +220,13 @@ MISTAKES = [
         "dragon",
         ["figure_beyond_slice.experiment: 'dragon' is a network of frequency"],
     ),
+    ("tables.cost.samples", [1000, 1000], ["tables.cost.samples = [1000, 1000]", "must grow"]),
+    (
+        "tables.cost",
+        {"kind": "cost", "title": "x"} | dict.fromkeys(STAGES, []),
+        ["tables.cost: needs a size", "samples"],
+    ),
+    ("figures.figure_cost.table", "beyond", ["'beyond' is a table of networks", "one of cost"]),
     ("tables.Mine", TABLE, ["tables.Mine = 'Mine'", "^[a-z]"]),
     ("tables.index", TABLE, ["tables.index: a report has this name"]),
     ("tables.table_4_3.published", 4.3, ["tables.table_4_3.published = 4.3", "string"]),

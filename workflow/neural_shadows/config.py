@@ -20,6 +20,7 @@ from pydantic import (
     model_validator,
 )
 
+from neural_shadows.cost_sizes import STAGES
 from neural_shadows.errors import InputError
 from neural_shadows.methods import (
     BIASED_SUFFIX,
@@ -35,7 +36,10 @@ Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
 # Folders below results/ and reports/, where an overlay's own folder of this name would mix with
 # the default's files.
-RESERVED_SCALES = {"scenes", "rays", "networks", "evaluations", "logs", "benchmarks", "reference"}
+RESERVED_SCALES = {
+    *("scenes", "rays", "networks", "evaluations", "frame_times", "cost"),
+    *("logs", "benchmarks", "reference"),
+}
 
 
 class Model(BaseModel):
@@ -439,6 +443,11 @@ class TimedRow(Row):
     )
 
 
+ON_REQUEST = Field(
+    False, description="whether it is made only when asked for by name, and not by `all`"
+)
+
+
 class AnyTable(Model):
     """What all tables have."""
 
@@ -482,9 +491,7 @@ class NetworksTable(AnyTable):
         min_length=1, description="names in `evaluations`; rows are methods of theirs"
     )
     rows: list[TimedRow] = Field(min_length=1, description="methods, in the table's order")
-    on_request: bool = Field(
-        False, description="whether it is made only when asked for by name, and not by `all`"
-    )
+    on_request: bool = ON_REQUEST
 
 
 class MemoryTable(AnyTable):
@@ -494,20 +501,39 @@ class MemoryTable(AnyTable):
     rows: list[Row] = Field(min_length=1, description="experiments and `shadow_map_N`")
 
 
+class CostTable(AnyTable):
+    """A table of what each stage costs while one size grows and the others stay."""
+
+    kind: Literal["cost"] = Field(description="`cost`")
+    subdivisions: list[Annotated[int, Field(ge=1, le=9)]] = Field(
+        description="of a sphere's 20 triangles, each time into four: 6 gives 81,920"
+    )
+    samples: list[Annotated[int, Field(ge=1000, le=10**9)]] = Field(description="rays of a ray set")
+    width: list[Annotated[int, Field(ge=1, le=4096)]] = Field(description="neurons per layer")
+    views: list[Annotated[int, Field(ge=1, le=10_000)]] = Field(
+        description="viewpoints of an evaluation"
+    )
+    frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(
+        description="pixels; the height is two thirds of it"
+    )
+    on_request: bool = ON_REQUEST
+
+
 def _table_kind(value: Any) -> str | None:
     kind = value.get("kind", "comparison") if isinstance(value, dict) else "comparison"
-    return kind if kind in ("comparison", "frame_times", "networks", "memory") else None
+    return kind if kind in ("comparison", "frame_times", "networks", "memory", "cost") else None
 
 
 AnyTableKind = Annotated[
     Annotated[Table, Tag("comparison")]
     | Annotated[FrameTimesTable, Tag("frame_times")]
     | Annotated[NetworksTable, Tag("networks")]
-    | Annotated[MemoryTable, Tag("memory")],
+    | Annotated[MemoryTable, Tag("memory")]
+    | Annotated[CostTable, Tag("cost")],
     Discriminator(
         _table_kind,
         custom_error_type="table_kind",
-        custom_error_message="`kind` should be comparison (the default), frame_times, networks or memory",
+        custom_error_message="`kind` should be comparison (the default), frame_times, networks, memory or cost",
     ),
 ]
 
@@ -579,6 +605,14 @@ class FrontsFigure(Model):
     scene: Name = Field(description="a scene of that table")
 
 
+class CostFigure(Model):
+    """Time and memory of each stage over each size."""
+
+    kind: Literal["cost"] = Field(description="`cost`")
+    title: str = Field(min_length=1, description="heading of the figure")
+    table: str = Field(description="a table of `cost` in `tables`")
+
+
 class FieldSliceFigure(Model):
     """A slice through an occupancy field's logits, beside the mesh that it learned."""
 
@@ -588,7 +622,13 @@ class FieldSliceFigure(Model):
 
 
 Figure = Annotated[
-    PicturesFigure | LossFigure | WidthsFigure | FrontsFigure | FieldSliceFigure | MethodFigure,
+    PicturesFigure
+    | LossFigure
+    | WidthsFigure
+    | FrontsFigure
+    | CostFigure
+    | FieldSliceFigure
+    | MethodFigure,
     Field(discriminator="kind"),
 ]
 
@@ -783,12 +823,13 @@ class Config(Model):
             self._check_table(name, table)
         for name, figure in self.figures.items():
             match figure:
-                case PicturesFigure() | WidthsFigure() | FrontsFigure():
+                case PicturesFigure() | WidthsFigure() | FrontsFigure() | CostFigure():
                     known("tables", figure.table, f"figures.{name}.table")
                     wanted = {
                         "pictures": ("comparison", "networks"),
                         "widths": ("frame_times",),
                         "fronts": ("networks",),
+                        "cost": ("cost",),
                     }[figure.kind]
                     if self.tables[figure.table].kind not in wanted:
                         raise ValueError(
@@ -796,7 +837,8 @@ class Config(Model):
                             f"{self.tables[figure.table].kind}; "
                             f"allowed: one of {' or '.join(wanted)}"
                         )
-                    self._check_figure_scene(name, figure)
+                    if not isinstance(figure, CostFigure):
+                        self._check_figure_scene(name, figure)
                 case FieldSliceFigure():
                     known("experiments", figure.experiment, f"figures.{name}.experiment")
                     network = self.experiments[figure.experiment].network
@@ -861,8 +903,11 @@ class Config(Model):
             )
 
     def _check_table(
-        self, name: str, table: "Table | FrameTimesTable | NetworksTable | MemoryTable"
+        self, name: str, table: "Table | FrameTimesTable | NetworksTable | MemoryTable | CostTable"
     ) -> None:
+        if isinstance(table, CostTable):
+            self._check_sizes(name, table)
+            return
         keys = [(row.method, getattr(row, "scene", None)) for row in table.rows]
         for key in keys:
             if keys.count(key) > 1:
@@ -883,6 +928,14 @@ class Config(Model):
                             f"tables.{name}.rows: no such method: {row.method!r}; "
                             f"allowed: shadow_map_N, {', '.join(self.experiments)}"
                         )
+
+    def _check_sizes(self, name: str, table: CostTable) -> None:
+        sizes = {key: getattr(table, key) for key in STAGES}
+        for key, values in sizes.items():
+            if values != sorted(set(values)):
+                raise ValueError(f"tables.{name}.{key} = {values}: must grow from each to the next")
+        if not any(sizes.values()):
+            raise ValueError(f"tables.{name}: needs a size; give one of {', '.join(sizes)}")
 
     def _check_comparison(self, name: str, table: Table) -> None:
         first = self.evaluations[table.evaluations[0]]

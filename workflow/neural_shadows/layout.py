@@ -13,6 +13,7 @@ from neural_shadows.config import (
     MethodFigure,
     Rendering,
 )
+from neural_shadows.cost_sizes import STAGES
 from neural_shadows.methods import RAY_TRACED, experiment_of, is_shadow_map, resolution_of
 
 # A file name of each stage, in Snakemake's notation of wildcards.
@@ -22,6 +23,7 @@ NETWORK = "networks/{experiment}"
 EVALUATION = "evaluations/{evaluation}"
 METHOD_FIGURES = get_args(MethodFigure.model_fields["kind"].annotation)
 FRAME_TIMES = "frame_times/{table}/{scene}.json"
+COST = "cost/{over}.{value}.json"
 
 
 def part_range(total: int, parts: int, part: int) -> tuple[int, int]:
@@ -266,6 +268,15 @@ class Layout:
             ),
             ["surface"],
         )
+
+    def costs(self, table: str) -> list[str]:
+        """The measurements of a table of costs, a file for each size."""
+        settings = self.config.tables[table]
+        return [
+            f"{self.results}/{COST.format(over=over, value=value)}"
+            for over in STAGES
+            for value in getattr(settings, over)
+        ]
 
     def batches_by_scene(self, table: str) -> dict[str, list[str]]:
         """Files of per-view metrics of a table's evaluations, by scene."""

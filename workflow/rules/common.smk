@@ -58,17 +58,22 @@ wildcard_constraints:
     evaluation="[a-z][a-z0-9_]*",
     view_set="[a-z]+",
     table=layout.one_of(list(CONFIG.tables)),
+    over="[a-z_]+",
+    value="[0-9]+",
     shard="[0-9]+",
     batch="[0-9]+",
 
 
-def code(name, experiments=()):
+def code(name, experiments=(), encodings=()):
     """The package's modules that the result of a script depends on.
 
     A network's module is imported by its kind's name, so that it is among them only for the
     jobs that use such a network.
     """
-    kinds = {kind_module(LAYOUT.network_settings(e)["encoding"]) for e in experiments}
+    used = {LAYOUT.network_settings(e)["encoding"] for e in experiments}.union(
+        encodings
+    )
+    kinds = set(map(kind_module, used))
     sources = [WORKFLOW / "scripts" / f"{name}.py", *kinds]
     modules = kinds.union(*map(modules_of, sources))
     return sorted(os.path.relpath(path) for path in modules)

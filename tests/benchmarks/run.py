@@ -1,0 +1,71 @@
+"""Every stage's rate beside its ceiling and its peers, as one table.
+
+    python tests/benchmarks/run.py [--quick] [--only labels training queries viewpoint default]
+        [--mesh results/scenes/dragon/mesh.ply] [--trunk squeeze.backbone.pth]
+        [--weights results/networks/*/weights.safetensors]
+
+Prints the table and writes it to reports/benchmarks.csv. Peers of the ray stages beyond trimesh
+come from envs/benchmarks.txt. Where there is a GPU, its rows are added. `--quick` takes fewer
+rounds and leaves the default main job out: under five minutes on two cores.
+"""
+
+import argparse
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import bench_default
+import bench_labels
+import bench_queries
+import bench_training
+import bench_viewpoint
+from measurement import Row, table
+
+from neural_shadows.files import write_text
+from neural_shadows.generated_mesh import generate_mesh
+from neural_shadows.hardware import describe_machine
+from neural_shadows.mesh import prepare_mesh
+
+STAGES = ("labels", "training", "queries", "viewpoint", "default")
+TABLE = Path("reports/benchmarks.csv")
+
+
+def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]]:
+    """The rows of each stage that is asked for."""
+    quick = arguments.quick
+    measured = {
+        "labels": lambda: bench_labels.rows(mesh_ply, quick),
+        "training": lambda: bench_training.rows(quick),
+        "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
+        "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
+        "default": bench_default.rows,
+    }
+    for stage in arguments.only:
+        print(f"{stage} …", flush=True)
+        yield measured[stage]()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--only", nargs="+", choices=STAGES)
+    parser.add_argument("--mesh", type=Path, help="prepared; the default config's dragon if none")
+    parser.add_argument("--trunk", type=Path, help="of LPIPS; without it LPIPS is left out")
+    parser.add_argument("--weights", type=Path, nargs="+", default=[], help="trained networks")
+    arguments = parser.parse_args()
+    if arguments.only is None:
+        arguments.only = [stage for stage in STAGES if stage != "default" or not arguments.quick]
+    print(", ".join(f"{key}: {value}" for key, value in describe_machine().items()))
+    with tempfile.TemporaryDirectory() as folder:
+        mesh_ply = arguments.mesh
+        if mesh_ply is None:
+            made, mesh_ply = Path(folder) / "made.ply", Path(folder) / "mesh.ply"
+            generate_mesh(made, generate="wyrm", cells=256)
+            prepare_mesh(made, mesh_ply, Path(folder) / "mesh.json", name="wyrm")
+        found = table([row for rows in measure(arguments, mesh_ply) for row in rows])
+    print(found.to_string(index=False, float_format="{:,.4g}".format, na_rep=""))
+    write_text(TABLE, found.to_csv(index=False, lineterminator="\n", float_format="%.6g"))
+
+
+if __name__ == "__main__":
+    main()

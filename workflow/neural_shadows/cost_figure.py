@@ -1,0 +1,55 @@
+"""How the cost of each stage grows, as a figure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from neural_shadows.cost_table import cost_table
+from neural_shadows.files import read_json
+from neural_shadows.loss_figure import COLOURS
+from neural_shadows.strips import DPI, write_strip
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def cost_figure(table: pd.DataFrame, *, title: str) -> Figure:
+    """Draw seconds, and below them memory, over each size, both logarithmic."""
+    from matplotlib.figure import Figure
+
+    sizes = list(dict.fromkeys(table["over"]))
+    stages = list(dict.fromkeys(table["stage"]))
+    figure = Figure(figsize=(3.2 * len(sizes), 6.4), dpi=DPI, layout="constrained")
+    panels = figure.subplots(2, len(sizes), squeeze=False, sharey="row")
+    for column, over in enumerate(sizes):
+        shown = table[table["over"] == over]
+        for row, (value, unit) in enumerate((("seconds", "s"), ("memory_mib", "MiB"))):
+            axes = panels[row, column]
+            for colour, stage in zip(COLOURS, stages):
+                part = shown[(shown["stage"] == stage) & (shown[value] > 0)]
+                if len(part):
+                    label = f"{stage} ({part[f'{value}_exponent'].iloc[0]:.2f})"
+                    axes.plot(part["size"], part[value], color=colour, marker="o", label=label)
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            axes.grid(which="both", linewidth=0.4, alpha=0.4)
+            axes.legend(fontsize="small")
+            axes.set_xlabel(over)
+            if column == 0:
+                axes.set_ylabel(unit)
+    figure.suptitle(
+        f"{title}; exponents in brackets, 1 is linear", x=0.01, ha="left", weight="bold"
+    )
+    return figure
+
+
+def write_cost_figure(
+    costs: Sequence[Path], png: Path, svg: Path, *, title: str, scale: str
+) -> None:
+    """Draw the figure of these measurements."""
+    table = cost_table([read_json(path) for path in costs])
+    write_strip(cost_figure(table, title=f"{title} ({scale} scale)"), png, svg)
