@@ -66,10 +66,9 @@ def _stepper(run: TrainingRun, rays: RandomRays, batch: int, dtype, chunk: int, 
     return step
 
 
-def _products(network: FrequencyNetwork, dtype: torch.dtype, batch: int):
-    """The matrix products of one batch: forward, and both of the backward pass."""
+def _products(network: FrequencyNetwork, dtype: torch.dtype, rows: int):
+    """The matrix products of so many samples: forward, and both of the backward pass."""
     device = network.device
-    rows = min(batch, 4096) if device.type == "cpu" else batch  # where they were fastest
     layers = [
         (
             torch.randn(rows, weight.shape[1], device=device).to(dtype),
@@ -80,12 +79,11 @@ def _products(network: FrequencyNetwork, dtype: torch.dtype, batch: int):
     ]
 
     def products() -> None:
-        for _ in range(batch // rows):
-            for i, (x, y, weight) in enumerate(layers):
-                torch.mm(x, weight.t())
-                torch.mm(y.t(), x)
-                if i:  # nobody needs the gradient of the encoding
-                    torch.mm(y, weight)
+        for i, (x, y, weight) in enumerate(layers):
+            torch.mm(x, weight.t())
+            torch.mm(y.t(), x)
+            if i:  # nobody needs the gradient of the encoding
+                torch.mm(y, weight)
 
     return products
 
@@ -95,9 +93,11 @@ def _cpu_row(width: int, rounds: int) -> Row:
     dtype = choose_dtype("auto", cpu)
     run, rays = _new_run(width, cpu), RandomRays(cpu)
     chunk = chunk_size(DESK_BATCH, cpu, TRAINING_CHUNK)
-    ours = _stepper(run, rays, DESK_BATCH, dtype, chunk, gradient_pool(THREADS))
+    pool = gradient_pool(THREADS)
+    ours = _stepper(run, rays, DESK_BATCH, dtype, chunk, pool)
     plain = _stepper(_new_run(width, cpu), rays, DESK_BATCH, torch.float32, DESK_BATCH)
-    products = _products(run.network, dtype, DESK_BATCH)
+    # Each thread multiplies for itself, as in our step: nothing has to be waited for.
+    products = [_products(run.network, dtype, chunk) for _ in range(DESK_BATCH // chunk)]
 
     def with_threads(threads: int, work):
         def threaded() -> None:
@@ -109,7 +109,7 @@ def _cpu_row(width: int, rounds: int) -> Row:
     works = {
         "ours": with_threads(1, ours),  # each of the pool's threads has one
         "plain": with_threads(THREADS, plain),
-        "products": with_threads(THREADS, products),
+        "products": with_threads(1, lambda: list(pool.map(lambda work: work(), products))),
     }
     seconds = median_seconds(works, rounds)
     return Row(
