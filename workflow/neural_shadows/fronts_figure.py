@@ -89,6 +89,8 @@ def _panel(
     column: str,
     factor: float,
 ) -> None:
+    from matplotlib.ticker import LogLocator, NullFormatter
+
     cost = table[column].to_numpy(float) * factor
     error = table[quality].to_numpy(float)
     # Of the whole table, so that all panels share their heights.
@@ -106,7 +108,7 @@ def _panel(
                 axes.axhline(error[i], color="#777777", linewidth=0.7, linestyle=":")
                 text = table["method"].iloc[i]
                 axes.annotate(
-                    text, (1, error[i]), xycoords=("axes fraction", "data"), fontsize=7, ha="right"
+                    text, (0.01, error[i]), xycoords=("axes fraction", "data"), fontsize=7
                 )
     for i in np.flatnonzero(np.isfinite(cost) & np.isnan(error)):
         # Ray tracing is the reference: no error, below any height of a logarithmic axis.
@@ -133,6 +135,13 @@ def _panel(
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.grid(linewidth=0.4, alpha=0.4)
+    # Less than a decade has no power of ten to label.
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.tick_params(axis="x", labelsize="small")
+    if column == "training_seconds":
+        axes.set_xlim(left=axes.get_xlim()[0] / 2.5)  # room for the maps' names
 
 
 def kind_of(method: str, encoding: str) -> str:
