@@ -14,7 +14,8 @@ from measurement import Row
 
 from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.frames import reference_visibility, shade
-from neural_shadows.metrics import Lpips, flip, psnr, ssim
+from neural_shadows.grey_flip import Flip
+from neural_shadows.metrics import Lpips, psnr, ssim
 from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
 from neural_shadows.shadow_query import network_lit, on_device
@@ -63,11 +64,12 @@ def rows(mesh_ply: Path, trunk: Path | None, quick: bool) -> list[Row]:
             ]
             lit.append(timed("network", query, points))
             truth, *images = [timed("shading", shade, points, answer) for answer in lit]
+            flip = timed("FLIP", Flip, truth)
             features = timed("LPIPS", lpips.features, truth) if lpips else None
             for image in images:
                 timed("PSNR", psnr, image, truth)
                 timed("SSIM", ssim, image, truth)
-                timed("FLIP", flip, image, truth)
+                timed("FLIP", flip.mean, image)
                 if lpips:
                     timed("LPIPS", lpips.distance, image, features)
             if index < 0:

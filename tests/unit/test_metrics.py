@@ -8,18 +8,10 @@ import numpy as np
 import pytest
 import torch
 import torchvision
-from skimage.color import rgb2lab
+from images import NO_GREY_IMAGES, constant, random_image
 
 from neural_shadows.lpips_trunk import TRUNKS
-from neural_shadows.metrics import Lpips, flip, flip_map, psnr, shadow_error, ssim
-
-
-def random_image(seed: int, shape: tuple[int, int] = (64, 80)) -> np.ndarray:
-    return np.random.default_rng(seed).random(shape, np.float32)
-
-
-def constant(value: float, shape: tuple[int, int] = (64, 80)) -> np.ndarray:
-    return np.full(shape, value, np.float32)
+from neural_shadows.metrics import Lpips, psnr, shadow_error, ssim
 
 
 @pytest.mark.parametrize(("offset", "decibels"), [(0.1, 20.0), (0.01, 40.0), (0.5, 6.0206)])
@@ -66,47 +58,6 @@ def test_ssim_is_that_of_wang_2004():
     assert ssim(image[:11, :11], reference[:11, :11]) == pytest.approx(expected, abs=1e-5)
 
 
-def hunt(rgb: tuple[float, float, float]) -> np.ndarray:
-    """L*a*b* of one sRGB colour, chroma scaled by the Hunt effect (FLIP, section 4.1.2)."""
-    lightness, a, b = rgb2lab(np.array(rgb, float))
-    return np.array([lightness, 0.01 * lightness * a, 0.01 * lightness * b])
-
-
-@pytest.mark.parametrize(("a", "b"), [(0.0, 1.0), (0.3, 0.5), (0.2, 0.22)])
-def test_flip_of_constants(a, b):
-    """Flat greys differ in lightness alone: the paper has a closed form (0.967 for 0, 1)."""
-
-    def hyab(p, q):
-        return abs(p[0] - q[0]) + np.hypot(p[1] - q[1], p[2] - q[2])
-
-    largest = hyab(hunt((0, 1, 0)), hunt((0, 0, 1))) ** 0.7
-    error = hyab(hunt((a, a, a)), hunt((b, b, b))) ** 0.7 / largest
-    expected = 0.95 * error / 0.4 if error < 0.4 else 0.95 + 0.05 * (error - 0.4) / 0.6
-    assert flip(constant(a), constant(b)) == pytest.approx(expected, abs=1e-4)
-    assert flip(constant(b), constant(a)) == pytest.approx(expected, abs=1e-4)
-
-
-def test_flip_of_identical_frames_is_zero():
-    assert flip(random_image(0), random_image(0)) == 0.0
-
-
-def test_flip_is_symmetric():
-    a, b = random_image(0), random_image(1)
-    assert 0.1 < flip(a, b) == pytest.approx(flip(b, a), abs=1e-5)
-
-
-def test_flip_map_shows_where():
-    reference = constant(0.5)
-    image = reference.copy()
-    image[:, 60:] = 1.0
-    error = flip_map(image, reference)
-    assert error.shape == (64, 80)
-    assert error.dtype == np.float32
-    assert error[:, :40].max() < 1e-3
-    assert error[:, 65:].min() > 0.3
-    assert flip(image, reference) == pytest.approx(error.mean(), abs=1e-6)
-
-
 def test_shadow_error_by_hand():
     #                    fine  fine   dark   dark   leak   unseen unseen background
     lit = np.array([[True, False, False, False, True, True, False, True]])
@@ -124,17 +75,8 @@ def test_shadow_error_refuses_an_empty_mask():
         shadow_error(frame, frame, frame)
 
 
-@pytest.mark.parametrize("metric", [psnr, ssim, flip])
-@pytest.mark.parametrize(
-    "image",
-    [
-        pytest.param(constant(np.nan), id="nan"),
-        pytest.param(constant(255.0), id="byte-range"),
-        pytest.param(constant(-0.1), id="negative"),
-        pytest.param(constant(0.5, (1, 80)), id="broadcasts"),
-        pytest.param(np.zeros((64, 80, 3), np.float32), id="rgb"),
-    ],
-)
+@pytest.mark.parametrize("metric", [psnr, ssim])
+@pytest.mark.parametrize("image", NO_GREY_IMAGES)
 def test_what_is_no_grey_image_is_refused(metric, image):
     with pytest.raises(ValueError, match="grey|\\[0, 1\\]"):
         metric(image, constant(0.5))

@@ -16,9 +16,10 @@ from neural_shadows.frames import (
     shade,
     visibility,
 )
+from neural_shadows.grey_flip import Flip
 from neural_shadows.mesh import PreparedMesh
 from neural_shadows.methods import shadow_map_key
-from neural_shadows.metrics import Lpips, flip, psnr, shadow_error, ssim
+from neural_shadows.metrics import Lpips, psnr, shadow_error, ssim
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
 from neural_shadows.scene_frames import open_scene
@@ -79,13 +80,20 @@ def network_visibilities(
 
 
 def frame_metrics(
-    image: np.ndarray, reference: np.ndarray, lpips: Lpips | None, reference_features: Any
+    image: np.ndarray,
+    reference: np.ndarray,
+    flip: Flip,
+    lpips: Lpips | None,
+    reference_features: Any,
 ) -> dict[str, float]:
-    """Image metrics of a frame (H, W); without `lpips` its value is left out."""
+    """Image metrics of a frame (H, W); without `lpips` its value is left out.
+
+    `flip` and the features are the reference's, made once for all frames compared with it.
+    """
     values = {
         "psnr": psnr(image, reference),
         "ssim": ssim(image, reference),
-        "flip": flip(image, reference),
+        "flip": flip.mean(image),
     }
     if lpips is not None:
         values["lpips"] = lpips.distance(image, reference_features)
@@ -112,7 +120,7 @@ def evaluate(
 ) -> None:
     """Render viewpoints `first` to `last` (exclusive) of a set with every method; measure them.
 
-    Frames, references and their LPIPS features are made once and shared by all methods. Writes
+    Frames, references and what FLIP and LPIPS see of these are made once and shared by all methods. Writes
     tidy metrics (a row per view, method and metric) and, for people to look at, the batch's
     first frame by every method (8-bit grey arrays by method, and `reference`).
 
@@ -147,13 +155,14 @@ def evaluate(
             points = scene.points(view)
             lit = reference_lit(points)
             truth = shade(points, lit)
+            flip = Flip(truth)
             features = lpips.features(truth) if lpips else None
             truth_visible = visibility(points, lit)
             everything = np.ones(len(points.pixel), bool)
             images = {"reference": truth}
             for method, lit in (item for part in methods for item in part(points).items()):
                 images[method] = shade(points, lit)
-                values = frame_metrics(images[method], truth, lpips, features)
+                values = frame_metrics(images[method], truth, flip, lpips, features)
                 error = shadow_error(visibility(points, lit), truth_visible, everything)
                 values |= {
                     "shadow_error": error.total,

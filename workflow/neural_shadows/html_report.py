@@ -18,8 +18,8 @@ from PIL import Image
 from neural_shadows.errors import InputError
 from neural_shadows.files import read_json, write_text
 from neural_shadows.first_frames import FirstFrame, read_first_frames
+from neural_shadows.grey_flip import Flip
 from neural_shadows.methods import is_shadow_map, resolution_of
-from neural_shadows.metrics import flip_map
 from neural_shadows.run_facts import run_facts
 from neural_shadows.table_report import describe_mesh
 
@@ -144,10 +144,11 @@ def comparison(scene: str, title: str, frames: Sequence[FirstFrame]) -> dict[str
     for frame in frames:
         reference = frame.images["reference"].astype(np.float32) / 255
         height, width = reference.shape
+        flip = Flip(reference)
         pictures = {}
         for method, image in frame.images.items():
             scores = frame.scores.get(method, {})
-            error = flip_map(image.astype(np.float32) / 255, reference)
+            error = flip.error_map(image.astype(np.float32) / 255)
             pictures[method] = {
                 "frame": _webp(Image.fromarray(image)),
                 "map": _webp(map_picture(error)),

@@ -1,4 +1,4 @@
-"""Image metrics of a frame against its reference [4.1].
+"""Image metrics of a frame against its reference, besides FLIP [4.1].
 
 All images are grey display (sRGB) values: float32 arrays of shape (H, W) in [0, 1].
 """
@@ -7,10 +7,10 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-import flip_evaluator
 import numpy as np
 from skimage.metrics import structural_similarity
 
+from neural_shadows.grey_images import check_grey
 from neural_shadows.lpips_trunk import Net, find_trunk
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def psnr(image: np.ndarray, reference: np.ndarray) -> float:
     Raises:
         ValueError: the images are no pair of grey images in [0, 1].
     """
-    _check(image, reference)
+    _check_pair(image, reference)
     mean_square = np.mean(np.square(image - reference, dtype=np.float64))
     return float(-10 * np.log10(max(mean_square, 1e-10)))  # 1e-10 is 100 dB
 
@@ -37,7 +37,7 @@ def ssim(image: np.ndarray, reference: np.ndarray) -> float:
         ValueError: the images are no pair of grey images in [0, 1], or have a side
             shorter than the window's 11 pixels.
     """
-    _check(image, reference)
+    _check_pair(image, reference)
     return float(
         structural_similarity(
             image,
@@ -48,33 +48,6 @@ def ssim(image: np.ndarray, reference: np.ndarray) -> float:
             data_range=1.0,
         )
     )
-
-
-def flip(image: np.ndarray, reference: np.ndarray) -> float:
-    """Mean of `flip_map`, in [0, 1]; 0 for identical frames.
-
-    The package's own mean adds up in float32, which is off by 1e-5 on a thesis frame.
-
-    Raises:
-        ValueError: the images are no pair of grey images in [0, 1].
-    """
-    return float(flip_map(image, reference).mean(dtype=np.float64))
-
-
-def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """LDR-FLIP error of each pixel (Andersson et al. 2020): float32 (H, W) in [0, 1].
-
-    Seen at the package's default of 67 pixels per degree: a 3840-pixel, 0.7 m wide
-    display from 0.7 m.
-
-    Raises:
-        ValueError: the images are no pair of grey images in [0, 1].
-    """
-    _check(image, reference)
-    error, _, _ = flip_evaluator.evaluate(
-        _rgb(reference), _rgb(image), "LDR", applyMagma=False, computeMeanError=False
-    )
-    return error[..., 0]
 
 
 class ShadowError(NamedTuple):
@@ -143,7 +116,7 @@ class Lpips:
         import lpips
         import torch
 
-        _check(image, image)
+        check_grey(image)
         with torch.inference_mode():
             grey = 2 * torch.tensor(image, dtype=torch.float32, device=self._device) - 1
             rgb = grey.expand(1, 3, *grey.shape)
@@ -159,16 +132,6 @@ class Lpips:
             return float(sum(head((a - b) ** 2).mean() for a, b, head in pairs))
 
 
-def _check(image: np.ndarray, reference: np.ndarray) -> None:
-    """Refuse what would give a plausible number: NaN, 0 to 255, shapes that broadcast."""
-    if image.ndim != 2 or image.shape != reference.shape:
-        raise ValueError(f"no pair of grey images: shapes {image.shape}, {reference.shape}")
-    for values in (image, reference):
-        low, high = values.min(), values.max()
-        # Shading in float32 may pass 1 by its rounding.
-        if not (low >= -1e-5 and high <= 1 + 1e-5):
-            raise ValueError(f"image values must lie in [0, 1]; they span [{low}, {high}]")
-
-
-def _rgb(grey: np.ndarray) -> np.ndarray:
-    return np.repeat(np.asarray(grey, np.float32)[..., None], 3, axis=2)
+def _check_pair(image: np.ndarray, reference: np.ndarray) -> None:
+    check_grey(reference)
+    check_grey(image, reference.shape)

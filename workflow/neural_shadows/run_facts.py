@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips", "flip-evaluator")
+PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
 
 
 def commit_of(folder: Path) -> str:
