@@ -50,6 +50,9 @@ def ssim(image: np.ndarray, reference: np.ndarray) -> float:
     )
 
 
+_PIECE = 4096  # pixels; of 64 channels in float32: 1 MiB
+
+
 class ShadowError(NamedTuple):
     """Shares, in [0, 1], of the object and receiver pixels whose visibility is wrong."""
 
@@ -108,28 +111,59 @@ class Lpips:
         model.net.load_state_dict(
             {key: weights[key.partition(".")[2]] for key in model.net.state_dict()}
         )
-        self._model = model.eval().to(device)
+        # Channels last: the trunk is 1.8 times as fast, at the same values to 1e-8. In bfloat16
+        # it is 2 to 3 times as fast again, but distances are up to 0.0014 off: not used.
+        self._model = model.eval().to(device, memory_format=torch.channels_last)
+        self._heads = [head.model[-1].weight.reshape(-1) for head in self._model.lins]
         self._device = device
 
     def features(self, image: np.ndarray) -> "Features":
-        """The image's unit-length features of each layer: tensors (1, C, h, w)."""
-        import lpips
+        """The image's unit-length features of each layer: tensors (h w, C).
+
+        Raises:
+            ValueError: it is no grey image in [0, 1].
+        """
         import torch
 
         check_grey(image)
         with torch.inference_mode():
-            grey = 2 * torch.tensor(image, dtype=torch.float32, device=self._device) - 1
-            rgb = grey.expand(1, 3, *grey.shape)
-            layers = self._model.net(self._model.scaling_layer(rgb))
-            return [lpips.normalize_tensor(layer) for layer in layers]
+            return [_unit(layer) for layer in self._layers(image)]
 
     def distance(self, image: np.ndarray, reference_features: "Features") -> float:
-        """LPIPS distance (0 for identical frames) to the reference of these `features`."""
+        """LPIPS distance (0 for identical frames) to the reference of these `features`.
+
+        Raises:
+            ValueError: it is no grey image in [0, 1].
+        """
         import torch
 
+        check_grey(image)
+        total = 0.0
         with torch.inference_mode():
-            pairs = zip(self.features(image), reference_features, self._model.lins, strict=True)
-            return float(sum(head((a - b) ** 2).mean() for a, b, head in pairs))
+            for layer, reference, head in zip(
+                self._layers(image), reference_features, self._heads, strict=True
+            ):
+                # In pieces that stay in the cache: 22 ms instead of 136 for 1200 x 800.
+                pieces = zip(layer.split(_PIECE), reference.split(_PIECE), strict=True)
+                weighted = [((_unit(a) - b).square_() @ head).sum() for a, b in pieces]
+                total += float(torch.stack(weighted).sum()) / len(layer)
+        return total
+
+    def _layers(self, image: np.ndarray) -> "Features":
+        """The trunk's features as they come: tensors (h w, C)."""
+        import torch
+
+        grey = 2 * torch.tensor(image, dtype=torch.float32, device=self._device) - 1
+        rgb = self._model.scaling_layer(grey.expand(1, 3, *grey.shape))
+        layers = self._model.net(rgb.contiguous(memory_format=torch.channels_last))
+        return [layer[0].permute(1, 2, 0).flatten(0, 1) for layer in layers]
+
+
+def _unit(features: "torch.Tensor") -> "torch.Tensor":
+    """Rows scaled to length 1; lpips's own epsilon for rows of zeros."""
+    import torch
+
+    return torch.nn.functional.normalize(features, dim=1, eps=1e-10)
 
 
 def _check_pair(image: np.ndarray, reference: np.ndarray) -> None:
