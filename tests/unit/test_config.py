@@ -220,7 +220,7 @@ MISTAKES = [
         "dragon",
         ["figure_beyond_slice.experiment: 'dragon' is a network of frequency"],
     ),
-    ("tables.cost.samples", [1000, 1000], ["tables.cost.samples = [1000, 1000]", "must grow"]),
+    ("tables.cost.samples", [20000, 20000], ["tables.cost.samples = [20000, 20000]", "must grow"]),
     (
         "tables.cost",
         {"kind": "cost", "title": "x"} | dict.fromkeys(STAGES, []),

@@ -5,7 +5,7 @@ from checkout import write_overlay
 
 
 def test_costs_of_two_sizes(finished, tmp_path):
-    sizes = {"subdivisions": [], "samples": [1000, 4000], "width": [], "views": []}
+    sizes = {"subdivisions": [], "samples": [10000, 40000], "width": [], "views": []}
     overlay = write_overlay(tmp_path / "costs.yaml", tables={"cost": sizes | {"frame_width": []}})
     finished.run("reports/smoke/cost.csv", "reports/smoke/figure_cost.png", overlays=[overlay])
     table = pd.read_csv(finished.reports / "cost.csv")
@@ -16,4 +16,4 @@ def test_costs_of_two_sizes(finished, tmp_path):
     assert (table["seconds"] > 0).all() and (table["peak_mib"] > 20).all()
     # What was made on the way to the numbers is gone.
     made = sorted(path.name for path in (finished.results / "cost").iterdir())
-    assert made == ["samples.1000.json", "samples.4000.json"]
+    assert made == ["samples.10000.json", "samples.40000.json"]

@@ -508,7 +508,9 @@ class CostTable(AnyTable):
     subdivisions: list[Annotated[int, Field(ge=1, le=9)]] = Field(
         description="of a sphere's 20 triangles, each time into four: 6 gives 81,920"
     )
-    samples: list[Annotated[int, Field(ge=1000, le=10**9)]] = Field(description="rays of a ray set")
+    samples: list[Annotated[int, Field(ge=10_000, le=10**9)]] = Field(
+        description="rays of a ray set, 10,000 of each direction"
+    )
     width: list[Annotated[int, Field(ge=1, le=4096)]] = Field(description="neurons per layer")
     views: list[Annotated[int, Field(ge=1, le=10_000)]] = Field(
         description="viewpoints of an evaluation"

@@ -17,6 +17,8 @@ from neural_shadows.cost_sizes import STAGES
 from neural_shadows.files import write_json
 from neural_shadows.hardware import describe_machine
 
+POINTS_PER_DIRECTION = 10_000  # the thesis's [4.1]
+
 # What stays as it is while one of them grows.
 BASE = {
     "subdivisions": 6,  # 81,920 triangles
@@ -26,7 +28,13 @@ BASE = {
     "frame_width": 600,
 }
 # Sizes of the run that warms a stage up: libraries loaded, kernels compiled.
-TINY = {"subdivisions": 2, "samples": 2000, "width": 16, "views": 1, "frame_width": 48}
+TINY = {
+    "subdivisions": 2,
+    "samples": POINTS_PER_DIRECTION,
+    "width": 16,
+    "views": 1,
+    "frame_width": 48,
+}
 NEEDED = {
     "mesh": ("mesh",),
     "rays": ("mesh", "rays"),
@@ -34,7 +42,6 @@ NEEDED = {
     "training": ("mesh", "rays", "labels", "training"),
     "evaluation": ("mesh", "evaluation"),
 }
-POINTS_PER_DIRECTION = 1000
 TRAINING_STEPS = 200
 BATCH_SIZE = 1024
 
@@ -111,7 +118,7 @@ def stage_work(
     """One stage as the workflow runs it, on files in `folder`, ready to be called."""
     mesh_ply, directions = folder / "mesh.ply", folder / "directions.npy"
     origins, bounds = folder / "origins.000.npy", folder / "bounds.000.npy"
-    count = max(1, sizes["samples"] // POINTS_PER_DIRECTION)
+    count = sizes["samples"] // POINTS_PER_DIRECTION
     part = {"first": 0, "last": count, "threads": settings["threads"]}
     network = {
         "encoding": "frequency",

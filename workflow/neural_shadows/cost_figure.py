@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 def cost_figure(table: pd.DataFrame, *, title: str) -> Figure:
     """Draw seconds, and below them memory, over each size, both logarithmic."""
     from matplotlib.figure import Figure
+    from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
 
     sizes = list(dict.fromkeys(table["over"]))
     stages = list(dict.fromkeys(table["stage"]))
@@ -27,6 +28,8 @@ def cost_figure(table: pd.DataFrame, *, title: str) -> Figure:
     panels = figure.subplots(2, len(sizes), squeeze=False, sharey="row")
     for column, over in enumerate(sizes):
         shown = table[table["over"] == over]
+        # Less than two decades have too few powers of ten to read sizes from.
+        narrow = shown["size"].max() < 100 * shown["size"].min()
         for row, (value, unit) in enumerate((("seconds", "s"), ("memory_mib", "MiB"))):
             axes = panels[row, column]
             for colour, stage in zip(COLOURS, stages):
@@ -36,6 +39,9 @@ def cost_figure(table: pd.DataFrame, *, title: str) -> Figure:
                     axes.plot(part["size"], part[value], color=colour, marker="o", label=label)
             axes.set_xscale("log")
             axes.set_yscale("log")
+            axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if narrow else (1,)))
+            axes.xaxis.set_major_formatter(EngFormatter(sep=""))
+            axes.xaxis.set_minor_formatter(NullFormatter())
             axes.grid(which="both", linewidth=0.4, alpha=0.4)
             axes.legend(fontsize="small")
             axes.set_xlabel(over)

@@ -75,8 +75,10 @@ def write_cost_table(
         "A waved sphere; other sizes 81,920 triangles, 1,000,000 samples, width 256, 4 viewpoints "
         "of 600 × 400. Training takes 200 steps of 1,024 whatever the samples it draws from; an "
         "evaluation has one 512² map and one network, without LPIPS.",
-        "Memory: the peak above what the process held with its libraries loaded. Exponents: of "
-        f"the {SLOPE_POINTS} largest sizes, 1 is linear.",
+        "Memory: the peak of what was resident, above what the process held with its libraries "
+        "loaded. Rays are files mapped into memory (20 bytes a sample): their pages count here, "
+        "but are the first that a full machine takes back. Exponents: of the "
+        f"{SLOPE_POINTS} largest sizes, 1 is linear.",
         f"Scale: {scale}; {machine['cpu']}, {threads} threads, an evaluation one; each measured "
         f"once; made on {datetime.date.today().isoformat()}.",
     ]
