@@ -54,7 +54,7 @@ def _rows(mesh_ply: Path, folder: Path, count: int, rounds: int) -> list[Row]:
         )
 
     def labels() -> None:
-        make_labels(mesh_ply, directions_npy, origins_npy, bounds_npy, **part)
+        make_labels(mesh_ply, directions_npy, origins_npy, bounds_npy, seed=0, **part)
 
     rays()
     labels()

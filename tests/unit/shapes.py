@@ -8,6 +8,7 @@ from neural_shadows.mesh import PreparedMesh
 from neural_shadows.tracing import Tracer
 
 Y_UP = np.array([0.0, 1.0, 0.0])
+AXES = [np.array(axis, float) for axis in np.concatenate([np.eye(3), -np.eye(3)])]
 
 
 def prepared(shape: trimesh.Trimesh) -> tuple[PreparedMesh, Tracer]:
@@ -33,6 +34,13 @@ def bumpy_sphere(subdivisions: int) -> trimesh.Trimesh:
 def box(*extents: float) -> trimesh.Trimesh:
     """An axis-aligned box round the origin."""
     return trimesh.creation.box(extents)
+
+
+def octahedron() -> trimesh.Trimesh:
+    """|x| + |y| + |z| = 1: its six vertices are on the unit sphere, exactly."""
+    vertices = np.concatenate([np.eye(3), -np.eye(3)])
+    faces = [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]]
+    return trimesh.Trimesh(vertices, faces, process=False)
 
 
 def sheet(height: float, half: float, winding: int = 1) -> trimesh.Trimesh:

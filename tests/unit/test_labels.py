@@ -1,9 +1,27 @@
 import numpy as np
 import pytest
 import trimesh
-from shapes import box, prepared, sheet, unit
+from shapes import AXES, box, octahedron, prepared, sheet, unit
 
-from neural_shadows.labels import SECOND_HIT_STEP, chord_lengths, dual_bounds
+from neural_shadows.labels import SECOND_HIT_STEP, check_bounds, chord_lengths, dual_bounds
+
+
+def parallel_rays(direction, a, b):
+    """Rays along an axis through the points (a, b) of the two others; float32, (n, 3) and (3,)."""
+    along = np.flatnonzero(direction)[0]
+    origins = np.empty((len(a), 3), np.float32)
+    origins[:, along - 2], origins[:, along - 1] = a, b
+    a, b = origins[:, along - 2].astype(float), origins[:, along - 1].astype(float)
+    origins[:, along] = -direction[along] * np.sqrt(1 - a**2 - b**2)
+    return origins, direction.astype(np.float32)
+
+
+def checked_bounds(tracer, origins, directions):
+    """`dual_bounds` of rays (n, 3), which keep the rules of bounds."""
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    directions = np.ascontiguousarray(np.broadcast_to(directions, origins.shape))
+    check_bounds(directions, origins[:, None], np.stack([t_lb, t_ub], 1)[:, None], name="test")
+    return t_lb, t_ub
 
 
 def rays_through(count, seed, reach=1.0):
@@ -196,29 +214,159 @@ def test_a_triangle_found_again_behind_the_step_is_no_second_hit():
     assert (t_lb[0], t_ub[0]) == (0.5, pytest.approx(1.5, abs=1e-6))
 
 
+@pytest.mark.parametrize("direction", AXES)
+def test_light_along_an_axis(direction):
+    """Two components of the direction are 0: no slab or edge test may divide by them."""
+    half = np.array([0.25, 0.375, 0.5])
+    grid = np.linspace(-0.625, 0.625, 41)  # steps of 1/32: rays meet edges and diagonals exactly
+    a, b = (values.ravel() for values in np.meshgrid(grid, grid))
+    origins, direction = parallel_rays(direction, a, b)
+    t_lb, t_ub = checked_bounds(prepared(box(*2 * half))[1], origins, direction)
+    along = np.flatnonzero(direction)[0]
+    beyond = np.delete(np.abs(origins) - half, along, axis=1).max(axis=1)
+    middle = np.abs(origins[:, along].astype(float))
+    inside, outside = beyond < 0, beyond > 0
+    assert inside.sum() > 300 and outside.sum() > 300
+    assert t_lb[inside] == pytest.approx((middle - half[along])[inside], abs=3e-7)
+    assert t_ub[inside] == pytest.approx((middle + half[along])[inside], abs=3e-7)
+    assert t_lb[outside] == pytest.approx(2 * middle[outside], abs=3e-7)
+    assert np.isinf(t_ub[outside]).all()
+    # In the plane of a side face, edge-on, a ray may pass the box or run along it.
+    edge_on = beyond == 0
+    assert edge_on.sum() > 50
+    passed = edge_on & np.isinf(t_ub)
+    assert t_lb[passed] == pytest.approx(2 * middle[passed], abs=3e-7)
+    assert t_lb[edge_on & ~passed] == pytest.approx((middle - half[along])[edge_on & ~passed])
+
+
+@pytest.mark.parametrize("height", [0.25, 0.3])
+def test_a_sheet_edge_on_is_not_there(height):
+    """Rays within a sheet's plane and a rounding beside it: their lower bound is the chord."""
+    tracer = prepared(sheet(height, 0.5))[1]
+    z = np.linspace(-0.6, 0.6, 101)
+    for beside in (0, 1, -1):
+        y = np.full(101, np.float32(height) + beside * np.spacing(np.float32(height)))
+        origins, direction = parallel_rays(np.array([1.0, 0, 0]), y, z)
+        t_lb, t_ub = checked_bounds(tracer, origins, direction)
+        assert t_lb == pytest.approx(2 * np.sqrt(1 - y**2 - z**2), abs=2e-7)
+        assert np.isinf(t_ub).all()
+
+
+@pytest.mark.parametrize("cosine", [1.0, 0.1, 0.03])
+def test_coplanar_faces_count_as_one(cosine):
+    """A sheet cut along both diagonals: each point is covered twice, by different triangles."""
+    corners, turned = (
+        sheet(0.0, 0.5).vertices,
+        trimesh.transformations.rotation_matrix(1, [1, 2, 3]),
+    )
+    corners = corners @ turned[:3, :3].T
+    faces = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]]
+    tracer = prepared(trimesh.Trimesh(corners, faces, process=False))[1]
+    rng = np.random.default_rng(8)
+    angle = rng.uniform(0, 2 * np.pi, 20_000)
+    sine = np.sqrt(1 - cosine**2)
+    local = np.stack([sine * np.cos(angle), np.full(20_000, -cosine), sine * np.sin(angle)], 1)
+    targets = rng.uniform(-0.45, 0.45, (20_000, 3)) * [1, 0, 1] @ turned[:3, :3].T
+    directions = local @ turned[:3, :3].T
+    along = np.sum(targets * directions, axis=1)
+    t = along + np.sqrt(along**2 + 1 - np.sum(targets**2, axis=1))
+    origins = (targets - t[:, None] * directions).astype(np.float32)
+    t_lb, t_ub = checked_bounds(tracer, origins, directions.astype(np.float32))
+    # Embree's rounding grows as a ray gets flatter: from 0.01 on it is that of the step itself.
+    assert np.abs(t_lb - t).max() < 4e-7 / cosine
+    assert np.isinf(t_ub).all()
+
+
+def test_rays_that_graze_the_sphere():
+    """Chords down to 2e-3, the shortest that are drawn, and a thousandth of it."""
+    tracer = prepared(box(0.1, 0.1, 0.1))[1]
+    inward = np.array([1e-3, 1e-4, 1e-5, 1e-6])
+    directions = np.stack([np.sqrt(1 - inward**2), -inward, 0 * inward], 1).astype(np.float32)
+    origins = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
+    t_lb, t_ub = checked_bounds(tracer, origins, directions)
+    assert t_lb == pytest.approx(2 * inward, rel=1e-6)
+    assert np.isinf(t_ub).all()
+
+
 def test_bounds_hold_where_the_object_touches_the_sphere():
     shape = trimesh.creation.icosphere(subdivisions=3, radius=1.0)  # its vertices are on it
     tracer = prepared(shape)[1]
-    origins, directions = rays_through(50_000, 7)
-    t_lb, t_ub = dual_bounds(tracer, origins, directions)
-    chord = chord_lengths(origins, directions)
-    assert np.isfinite(t_lb).all()
-    assert ((t_lb >= 0) & (t_lb <= chord) & (t_lb <= t_ub)).all()
+    checked_bounds(tracer, *rays_through(50_000, 7))
     # Straight at a vertex, from either side of it.
     vertices = shape.vertices.astype(np.float32)
-    t_lb, t_ub = dual_bounds(tracer, vertices, -vertices)
-    assert ((t_lb >= 0) & (t_lb <= 2.000001) & (t_lb <= t_ub)).all()
+    checked_bounds(tracer, vertices, -vertices)
 
 
-def test_impossible_bounds_are_an_error_that_names_the_rays():
-    tracer = prepared(sheet(-1.5, 0.5))[1]  # below the unit sphere
-    down = np.array([0, -1, 0], np.float32)
-    with pytest.raises(RuntimeError, match=r"direction 17 \(seed 3\): ray 0 .* unit sphere"):
-        dual_bounds(tracer, -down[None], down, name="direction 17 (seed 3)")
-    # A ray that leaves the sphere where it starts has no chord.
-    outward = unit(0.1, 1, 0).astype(np.float32)
-    with pytest.raises(RuntimeError, match="ray 1"):
-        dual_bounds(tracer, np.array([[0, 1, 0]] * 2, np.float32), np.stack([down, outward]))
+def test_a_vertex_on_the_sphere():
+    """Exactly on it, as two and more of every mesh are: hit at t = 0, or at the chord's end."""
+    tracer = prepared(octahedron())[1]
+    vertices = np.array(AXES, np.float32)
+    t_lb, t_ub = checked_bounds(tracer, vertices, -vertices)
+    assert ((0 < t_lb) & (t_lb < 2e-7)).all()
+    assert (t_ub == 2).all()
+    # Chords of the sphere about a vertex at its end: |x| + |y| + |z| = 1 is met on the way.
+    origins, directions = rays_through(20_000, 9)
+    t_lb, t_ub = checked_bounds(tracer, origins, directions)
+    normals = np.array(np.meshgrid([1, -1], [1, -1], [1, -1])).reshape(3, 8)
+    o, d = origins.astype(float), directions.astype(float)
+    # A convex body is left where the first of its half-spaces is.
+    across, beyond = d @ normals, 1 - o @ normals
+    with np.errstate(divide="ignore"):
+        t = beyond / across
+    enter = np.where(across < 0, t, -np.inf).max(axis=1)
+    leave = np.where(across > 0, t, np.inf).min(axis=1)
+    hit, missed = leave - enter > 1e-4, enter - leave > 1e-4
+    assert hit.sum() > 5000 and missed.sum() > 500
+    assert t_lb[hit] == pytest.approx(enter[hit], abs=1e-5)
+    assert t_ub[hit] == pytest.approx(leave[hit], abs=1e-5)
+    assert t_lb[missed] == pytest.approx(-2 * np.sum(o * d, axis=1)[missed], abs=3e-7)
+
+
+def bounds_of(*values):
+    """One direction whose rays enter at (0, 1, 0) along −y, ℓ = 2, with these bounds."""
+    origins = np.tile(np.array([0, 1, 0], np.float32), (1, len(values), 1))
+    return np.array([[0, -1, 0]], np.float32), origins, np.array([values], np.float32)
+
+
+GOOD = [(0.5, 1.5), (2.0, np.inf), (0.5, np.inf), (1.0, 1.0), (1e-7, 2.0), (0.5, 2.00001)]
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        (0.0, 1.0),
+        (0.0, 0.0),  # what nothing was written to
+        (-1e-7, 1.0),
+        (1.0, 0.999),
+        (2.000001, np.inf),
+        (np.nan, 1.0),
+        (0.5, np.nan),
+        (np.inf, np.inf),
+        (0.5, -np.inf),
+    ],
+)
+def test_broken_rules_of_bounds_are_an_error_that_names_the_ray(bad):
+    check_bounds(*bounds_of(*GOOD), name="good")
+    with pytest.raises(RuntimeError) as caught:
+        check_bounds(*bounds_of(*GOOD, bad), name="labels x.npy (seed 3)", first=17)
+    message = str(caught.value)
+    assert message.startswith("labels x.npy (seed 3): ray 6 of direction 17 from [0.0, 1.0, 0.0] ")
+    assert f"t_lb = {np.float32(bad[0])}, t_ub = {np.float32(bad[1])} on a chord of 2.0" in message
+    assert "\n" not in message
+
+
+def test_rays_that_are_none_are_an_error():
+    # Tangent, outward, and not a number: there is no chord to have bounds on.
+    for direction in (unit(1, 0, 0), unit(0.1, 1, 0), np.full(3, np.nan)):
+        d, o, bounds = bounds_of((1e-7, np.inf))
+        with pytest.raises(RuntimeError, match="ray 0 of direction 0"):
+            check_bounds(direction[None].astype(np.float32), o, bounds, name="rays")
+    # An object that is outside the sphere.
+    tracer = prepared(sheet(-1.5, 0.5))[1]
+    d, o, _ = bounds_of((1, 2))
+    bounds = np.stack(dual_bounds(tracer, o[0], d), axis=1)[None]
+    with pytest.raises(RuntimeError, match="unit sphere, the mesh is not inside it"):
+        check_bounds(d, o, bounds, name="rays")
 
 
 def test_lower_bounds_of_hits_end_with_the_chord():

@@ -6,6 +6,7 @@ import pytest
 import trimesh
 from shapes import prepared
 
+from neural_shadows import ray_files
 from neural_shadows.errors import InputError
 from neural_shadows.files import sha256_of
 from neural_shadows.labels import dual_bounds
@@ -49,7 +50,8 @@ def make_set(mesh_ply, folder, *, cuts=(0, 11, 30), threads=2, sampler="poisson_
             **SETTINGS,
             **part,
         )
-        make_labels(mesh_ply, directions, origins, folder / f"bounds.{shard:03}.npy", **part)
+        bounds = folder / f"bounds.{shard:03}.npy"
+        make_labels(mesh_ply, directions, origins, bounds, seed=3, **part)
     return folder
 
 
@@ -110,7 +112,7 @@ def test_rays_of_a_set_are_as_the_contract_says(ray_set, shape):
     assert np.abs(np.linalg.norm(origins.astype(float), axis=1) - 1).max() < 1e-6
     assert np.abs(np.linalg.norm(directions.astype(float), axis=1) - 1).max() < 1e-6
     assert (cosines < 0).all()
-    assert ((t_lb >= 0) & (t_lb <= -2 * cosines + 1e-6) & (t_lb <= t_ub)).all()
+    assert ((t_lb > 0) & (t_lb <= -2 * cosines + 1e-6) & (t_lb <= t_ub)).all()
     expected = dual_bounds(prepared(shape)[1], origins, directions)
     assert np.array_equal([t_lb, t_ub], expected)
 
@@ -128,6 +130,53 @@ def test_gather_finds_rays_across_shards(ray_set):
     for wrong in (rays.count, -1):
         with pytest.raises(IndexError, match="12000"):
             rays.gather(np.array([0, wrong]))
+
+
+def wrong_once(*arguments):
+    """`dual_bounds`, but for a NaN at the ray 123 of the third task."""
+    t_lb, t_ub = dual_bounds(*arguments)
+    wrong_once.tasks += 1
+    if wrong_once.tasks == 3:
+        t_lb[123] = np.nan
+    return t_lb, t_ub
+
+
+def half_of_the_tasks(task, directions, *_):
+    """`_run_tasks`, but for a second half that is never done: the file has zeros there."""
+    task(0, directions // 2)
+
+
+@pytest.mark.parametrize(
+    ("name", "stand_in", "ray", "values"),
+    [
+        ("dual_bounds", wrong_once, f"ray 123 of direction {11 + 2 * 4}", "t_lb = nan, t_ub = "),
+        ("_run_tasks", half_of_the_tasks, f"ray 0 of direction {11 + 9}", "t_lb = 0.0, t_ub = 0"),
+    ],
+)
+def test_a_shard_with_impossible_bounds_stops_the_run(
+    mesh_ply, copy, monkeypatch, name, stand_in, ray, values
+):
+    monkeypatch.setattr(ray_files, name, stand_in)
+    monkeypatch.setattr(ray_files, "_TASK_RAYS", 4 * POINTS)
+    wrong_once.tasks = 0
+    bounds = copy / "bounds.001.npy"
+    bounds.unlink()
+    before = sorted(copy.iterdir())
+    with pytest.raises(RuntimeError) as caught:
+        make_labels(
+            mesh_ply,
+            copy / "directions.npy",
+            copy / "origins.001.npy",
+            bounds,
+            seed=3,
+            first=11,
+            last=30,
+            threads=1,
+        )
+    message = str(caught.value)
+    assert message.startswith(f"labels {bounds} (seed 3): {ray} from [")
+    assert values in message
+    assert sorted(copy.iterdir()) == before  # no shard, and no part of one
 
 
 def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
@@ -235,7 +284,6 @@ def test_wrong_arguments_are_named(mesh_ply, ray_set, tmp_path):
         )
     # The labels of a range need the origins of that range.
     with pytest.raises(InputError, match=r"origins.001.npy: holds .*\(19, 400, 3\)"):
-        make_labels(
-            mesh_ply, directions, ray_set / "origins.001.npy", out, first=0, last=11, threads=1
-        )
+        origins = ray_set / "origins.001.npy"
+        make_labels(mesh_ply, directions, origins, out, seed=3, first=0, last=11, threads=1)
     assert list(tmp_path.iterdir()) == []  # nothing half-written is left

@@ -1,11 +1,10 @@
 import numpy as np
 import pytest
-from shapes import unit
+from shapes import AXES, unit
 
 from neural_shadows.silhouette import entry_points, plane_basis, silhouette
 from neural_shadows.tracing import Tracer
 
-AXES = [np.array(axis, float) for axis in np.concatenate([np.eye(3), -np.eye(3)])]
 NEAR_POLES = [unit(1e-9, -1e-12, -1), unit(1e-4, 2e-5, -1), unit(1e-300, 0, -1), unit(1, 1, -1e-17)]
 
 

@@ -153,7 +153,8 @@ def stage_work(
         case "labels":
             from neural_shadows.ray_files import make_labels
 
-            return lambda: make_labels(mesh_ply, directions, origins, bounds, **part)
+            seed = settings["seed"]
+            return lambda: make_labels(mesh_ply, directions, origins, bounds, seed=seed, **part)
         case "training":
             from neural_shadows.ray_set import RaySet
             from neural_shadows.training import train

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import trimesh
 
-from neural_shadows.labels import dual_bounds
+from neural_shadows.labels import check_bounds, dual_bounds
 from neural_shadows.mesh import PreparedMesh
 from neural_shadows.tracing import Tracer
 
@@ -72,9 +72,7 @@ def slice_rays(cut: MeshSlice, count: int) -> SliceRays:
     offset *= 0.995
     d = cut.to_plane(cut.direction[None])[0]
     origins = offset[:, None] * np.array([-d[1], d[0]]) - np.sqrt(1 - offset**2)[:, None] * d
-    t_lb, t_ub = dual_bounds(
-        cut.tracer,
-        cut.to_space(origins).astype(np.float32),
-        cut.direction.astype(np.float32),
-    )
+    o, along = cut.to_space(origins).astype(np.float32), cut.direction.astype(np.float32)
+    t_lb, t_ub = dual_bounds(cut.tracer, o, along)
+    check_bounds(along[None], o[None], np.stack([t_lb, t_ub], axis=1)[None], name="slice")
     return SliceRays(offset, origins, d, 2 * np.sqrt(1 - offset**2), t_lb, t_ub)

@@ -10,7 +10,7 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 from neural_shadows.files import sha256_of, whole_file, write_json
-from neural_shadows.labels import SECOND_HIT_STEP, chord_lengths, dual_bounds
+from neural_shadows.labels import SECOND_HIT_STEP, check_bounds, chord_lengths, dual_bounds
 from neural_shadows.mesh import read_prepared
 from neural_shadows.poisson_disk import PatternBank
 from neural_shadows.progress import progress_bar
@@ -87,21 +87,24 @@ def make_labels(
     origins_npy: str | Path,
     bounds_npy: str | Path,
     *,
+    seed: int,
     first: int,
     last: int,
     threads: int,
 ) -> None:
-    """Trace the rays of a shard and write their bounds [3.4.3].
+    """Trace the rays of a shard, write their bounds and check them as they are written [3.4.3].
 
     Args:
         mesh_ply: the mesh in normalised space.
         directions_npy, origins_npy: from `make_directions`, and from `make_rays` for the
             directions first to last − 1.
         bounds_npy: where the shard's bounds go.
+        seed: what the rays were drawn with, for whoever must find a ray again.
 
     Raises:
         InputError: a file that cannot be used, or that is of another range of directions.
-        RuntimeError: a ray with impossible bounds.
+        RuntimeError: a ray with impossible bounds, named by shard, seed and index; the shard
+            is not left behind then.
     """
     directions = read_directions(directions_npy)
     _check_range(first, last, len(directions), directions_npy)
@@ -109,6 +112,7 @@ def make_labels(
     origins = open_array(origins_npy, (last - first, None, 3))
     points = origins.shape[1]
     tracer = _tracer(mesh_ply)
+    name = f"labels {bounds_npy} (seed {seed})"
 
     with whole_file(bounds_npy) as part:
         bounds = _new_array(part, (last - first, points, 2))
@@ -118,13 +122,13 @@ def make_labels(
                 tracer,
                 origins[begin:end].reshape(-1, 3),
                 np.repeat(directions[begin:end], points, axis=0),
-                name=f"{origins_npy}, directions {first + begin} to {first + end - 1}",
             )
             bounds[begin:end, :, 0] = t_lb.reshape(-1, points)
             bounds[begin:end, :, 1] = t_ub.reshape(-1, points)
 
         _run_tasks(label, last - first, points, threads, "labels")
         bounds.flush()
+        check_bounds(directions, origins, open_array(part, bounds.shape), name=name, first=first)
 
 
 def describe_rays(

@@ -86,6 +86,7 @@ rule label_rays:
         mem_mb=4000,
         runtime=60,
     params:
+        seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
         first=lambda wildcards: LAYOUT.shard_range(
             wildcards.sampling, wildcards.shard
         )[0],

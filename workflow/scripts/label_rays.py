@@ -12,6 +12,7 @@ def main(job):
         Path(job.input.directions),
         Path(job.input.origins),
         Path(job.output.bounds),
+        seed=job.params.seed,
         first=job.params.first,
         last=job.params.last,
         threads=job.threads,
