@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import trimesh
-from shapes import Y_UP, box, bumpy_sphere, looking, prepared, sheet, unit
+from shapes import AXES, Y_UP, box, bumpy_sphere, looking, prepared, sheet, unit
 
 from neural_shadows.frames import (
     AMBIENT,
@@ -94,6 +94,24 @@ def test_both_sides_of_a_sheet_are_shaded(winding):
     # From below, the side seen is turned from the light.
     below = primary_hits(*mesh, looking((0.5, -2, 2), light), W, H, None)
     assert len(below.pixel) > 100 and len(below.facing) == 0
+
+
+@pytest.mark.parametrize("light", AXES)
+def test_faces_edge_on_to_the_light_are_dark(light):
+    """Of the three faces that are seen of a box one at most is lit, and the others are edge-on."""
+    mesh, tracer = prepared(box(1, 1, 1))
+    points = primary_hits(mesh, tracer, looking((1.5, 2, 2.5), light), W, H, None)
+    assert len(points.pixel) > 1000
+    if light.sum() < 0:  # it comes from behind them
+        assert len(points.facing) == 0
+        return
+    assert 200 < len(points.facing) < len(points.pixel) / 2
+    np.testing.assert_allclose(points.p @ light, 0.5 + SHADING_OFFSET, atol=2e-7)
+    assert (points.cos_theta == 1).all()
+    lit = reference_visibility(tracer, points)
+    assert lit.all()
+    image = shade(points, lit).ravel()[points.pixel]
+    assert np.count_nonzero(image != np.float32(AMBIENT)) == len(points.facing)
 
 
 @pytest.mark.parametrize("light", [unit(0, 1, 0), unit(1, 1, 0.5), unit(-3, 1.5, 1)])

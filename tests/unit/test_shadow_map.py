@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import trimesh
-from shapes import Y_UP, box, bumpy_sphere, looking, prepared, sheet, unit
+from shapes import AXES, Y_UP, box, bumpy_sphere, looking, octahedron, prepared, sheet, unit
 
 from neural_shadows.frames import (
     ShadingPoints,
@@ -96,6 +96,77 @@ def test_points_off_the_map_are_lit():
     points = points_at([[0.59, 0, 0], [0.61, 0, 0], [0, 0, -0.61], [0, 0, -0.59]], Y_UP, 1.0)
     receivers = receivers_of(shadow_map_frame(mesh.vertices, Y_UP), points)
     assert shadow_map_lit(tracer, receivers, 128).tolist() == [False, True, True, False]
+
+
+@pytest.mark.parametrize("light", AXES)
+def test_light_along_an_axis(light):
+    """A box, its side faces edge-on to the light: its shadow is the rectangle behind it."""
+    half = np.array([0.25, 0.375, 0.5])
+    mesh, tracer = prepared(box(*2 * half))
+    frame = shadow_map_frame(mesh.vertices, light)
+    along = np.flatnonzero(light)[0]
+    assert frame.side == 2 * np.delete(half, along).max()
+    rng = np.random.default_rng(4)
+    p = rng.uniform(-0.7, 0.7, (5000, 3))
+    p[:, along] = light[along] * rng.choice([-1.0, 1.0], 5000)
+    # Clear of the border by a texel's diagonal.
+    beyond = np.delete(np.abs(p) - half, along, axis=1).max(axis=1)
+    p = p[np.abs(beyond) > 1.5 * frame.side / 128]
+    dark = np.delete(np.abs(p) < half, along, axis=1).all(axis=1) & (p @ light < 0)
+    assert 400 < dark.sum() < len(p) / 2
+    points = points_at(p, light, 1.0)
+    assert np.array_equal(~reference_visibility(tracer, points), dark)
+    assert np.array_equal(~shadow_map_lit(tracer, receivers_of(frame, points), 128), dark)
+
+
+def test_a_sheet_edge_on_casts_no_shadow():
+    shape = sheet(0.0, 0.4)
+    shape.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 0, 1]))
+    shape.vertices[:, 0] = 0
+    mesh, tracer = prepared(shape)
+    frame = shadow_map_frame(mesh.vertices, Y_UP)
+    assert frame.side == pytest.approx(0.8)
+    x, z = np.meshgrid(np.concatenate([np.geomspace(1e-6, 0.4, 30), [-1e-6, -0.1]]), [-0.39, 0.1])
+    points = points_at(np.stack([x, 0 * x - 0.5, z], 2).reshape(-1, 3), Y_UP, 1.0)
+    assert reference_visibility(tracer, points).all()
+    for resolution in (128, 2048):
+        assert shadow_map_lit(tracer, receivers_of(frame, points), resolution).all()
+
+
+def test_vertices_on_the_border_of_the_map():
+    """An octahedron's: they are on the sphere and on the border of its map at once."""
+    mesh, tracer = prepared(octahedron())
+    frame = shadow_map_frame(mesh.vertices, Y_UP)
+    assert (frame.side, *frame.corner) == (2, -1, -1)
+    vertices = np.array([v for v in mesh.vertices if v[1] == 0])
+    points = points_at(vertices, Y_UP, 1.0)
+    receivers = receivers_of(frame, points)
+    assert receivers.place.tolist() == [[0.5, 0], [0, 0.5]]  # at 1 they are off the map
+    assert shadow_map_lit(tracer, receivers, 256).all()
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_coplanar_faces_cast_one_shadow(light):
+    """A box whose sides are cut along both diagonals, so that each point is covered twice."""
+    shape = box(0.8, 0.8, 0.8)
+    single = prepared(shape)
+    turned = shape.copy()
+    turned.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 1, 0]))
+    turned.apply_transform(np.diag([1.0, -1, 1, 1]))  # the other diagonals, on all six sides
+    turned.invert()
+    double = prepared(trimesh.util.concatenate([shape, turned]))
+    assert len(double[0].faces) == 24
+    view = looking((1.5, 2, 2.5), light)
+    pictures = []
+    for mesh, tracer in (single, double):
+        points, receivers = frame_points(mesh, tracer, view)
+        maps = [shadow_map_lit(tracer, receivers, n) for n in (256, 2048)]
+        pictures.append(
+            [shade(points, lit) for lit in (reference_visibility(tracer, points), *maps)]
+        )
+    # Nothing shadows itself: the object's pixels, and the ground's, are as with single faces.
+    for one, two in zip(*pictures, strict=True):
+        assert np.mean(np.abs(one - two) > 1e-5) < 1e-3
 
 
 def test_depth_is_that_of_texel_centres():

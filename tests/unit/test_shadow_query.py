@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import torch
+from shapes import AXES
 
 from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.shadow_network import QUERY_CHUNKS, ShadowNetwork
@@ -134,6 +135,63 @@ def test_far_points_of_the_ground(light):
     expected, clear = exact(p, light)
     assert 0.01 < (~expected).mean() < 0.5 and clear.mean() > 0.999
     assert (lit(BallOracle(), p, light) == expected)[clear].all()
+
+
+@pytest.mark.parametrize("light", AXES)
+def test_light_along_an_axis(light):
+    rng = np.random.default_rng(9)
+    p = points_at(light, rng.uniform(0, 1.2, 20_000), rng.uniform(-3, 1.5, 20_000))
+    expected, clear = exact(p, light)
+    assert clear.mean() > 0.999 and 0.1 < (~expected).mean() < 0.9
+    assert (lit(BallOracle(), p, light) == expected)[clear].all()
+    # On the axis itself, all is exact.
+    along = np.linspace(-2, 1, 97)  # steps of 1/32
+    rays = sphere_rays(*tensors((along[:, None] * light).astype(np.float32), light))
+    assert np.array_equal(rays.index, np.flatnonzero(along < 1))
+    assert np.array_equal(rays.s, 1 - along[along < 1])
+    assert (rays.chord == 2).all()
+    assert np.array_equal(rays.origins, np.tile(light, (len(rays.s), 1)))
+
+
+def test_light_tangent_to_the_sphere():
+    """On the tangent there is no chord, and a point is lit; a rounding within it is √(2⁻²³)."""
+    light = np.array([0.0, 1.0, 0.0])
+    within = np.nextafter(np.float32(1), np.float32(0))
+    p = np.array([[1, -2, 0], [within, -2, 0], [-1, 0.5, 0], [0, 0, within]], np.float32)
+    rays = sphere_rays(*tensors(p, light))
+    assert rays.index.tolist() == [1, 3]
+    half_chord = 2**-11.5
+    assert rays.chord.numpy() == pytest.approx(2 * half_chord, rel=1e-6)
+    assert rays.s.numpy() == pytest.approx([2 + half_chord, half_chord], rel=1e-6)
+    assert lit(BallOracle(), p, light).all()
+    # Whatever it predicts, a point beside the chord is not asked for; one within it is.
+    assert lit(Constant(0.0), p, light).tolist() == [True, False, True, False]
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_points_about_a_tangent_are_lit(light):
+    light = np.array(light)
+    rng = np.random.default_rng(10)
+    p = points_at(light, 1 + rng.uniform(-1e-6, 1e-6, 20_000), rng.uniform(-2, 0.5, 20_000))
+    rays = sphere_rays(*tensors(p, light))
+    assert 5000 < len(rays.index) < 15_000
+    for part in (rays.origins, rays.s, rays.chord):
+        assert torch.isfinite(part).all()
+    # 2 √(1 − r²), r a rounding of a few 1e-7 nearer to the axis than 1 − 1e-6.
+    assert 0 < rays.chord.min() and rays.chord.max() < 2 * np.sqrt(2 * 1.5e-6)
+    assert lit(BallOracle(), p, light).all()
+
+
+def test_a_vertex_on_the_sphere():
+    """The object's points on the sphere: none of it is behind those towards the light."""
+    light = np.array([0.0, 1.0, 0.0])
+    p = np.array([[0, 1, 0], [0, -1, 0]], np.float32)
+    rays = sphere_rays(*tensors(p, light))
+    assert rays.index.tolist() == [1]
+    assert rays.s.tolist() == rays.chord.tolist() == [2]
+    # The far one is behind the ball, and in no shadow of a ray that misses (t_pred = ℓ).
+    assert lit(BallOracle(), p, light).tolist() == [True, False]
+    assert lit(Constant(2.0), p, light).tolist() == [True, True]
 
 
 def test_behind_at_a_distance_of_eight():
