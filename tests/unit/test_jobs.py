@@ -98,6 +98,20 @@ run_job(job, failing)
     assert log.endswith(line + "\n")
 
 
+def test_a_log_on_a_full_disk(tmp_path):
+    """The terminal still says why the job failed."""
+    code = "def f(job):\n    print('a result')\nrun_job(job, f)\n"
+    done = subprocess.run(
+        [sys.executable, "-c", START + code, "/dev/full"],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode != 0
+    assert done.stderr == "train: [Errno 28] No space left on device [log: /dev/full]\n"
+
+
 def test_the_log_is_written_while_the_job_runs(tmp_path):
     code = """
 def main(job):

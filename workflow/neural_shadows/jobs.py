@@ -58,17 +58,16 @@ def run_job(job: Any, main: Callable[[Any], None]) -> None:
         try:
             main(job)
             return
-        except (InputError, OSError) as error:
-            # Their messages name the file and the reason: a full disk is an OSError.
-            message = str(error)
-            traceback.print_exc(file=log)
-        except Exception as error:
-            message = f"{type(error).__name__}: {error}"
-            traceback.print_exc(file=log)
+        except Exception as caught:
+            error, told = caught, traceback.format_exc()
         finally:
             sys.stderr = sys.__stderr__
+        # Messages of these name the file and the reason: a full disk is an OSError.
+        readable = isinstance(error, InputError | OSError)
+        message = str(error) if readable else f"{type(error).__name__}: {error}"
         message = message.strip().replace("\n", " ")
         line = f"{job.rule}: {message} [log: {shlex.quote(str(path))}]"
-        log.write(line + "\n")
+        # First, for the log may lie on the disk that is full.
         terminal.write(line + "\n")
+        log.write(f"{told}{line}\n")
     sys.exit(1)
