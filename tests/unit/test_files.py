@@ -5,6 +5,7 @@ import os
 import stat
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +65,54 @@ def test_an_error_leaves_no_file_where_there_was_none(tmp_path):
     with pytest.raises(ValueError), whole_file(tmp_path / "a.txt"):
         raise ValueError
     assert names(tmp_path) == []
+
+
+KILLED = """
+import sys, time
+from neural_shadows.files import whole_file
+
+with whole_file(sys.argv[1]) as part:
+    part.write_bytes(b"half of the")
+    print(part, flush=True)
+    time.sleep(60)
+"""
+
+
+@contextmanager
+def a_writer(path: Path):
+    """Another process that is writing `path`; yields it and its temporary file."""
+    writer = subprocess.Popen(
+        [sys.executable, "-c", KILLED, path],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    with writer:
+        try:
+            yield writer, Path(writer.stdout.readline().strip())
+        finally:
+            writer.kill()
+
+
+def test_what_a_killed_process_left_goes_with_the_next_write(tmp_path):
+    path, other = tmp_path / "rays [1].npy", tmp_path / "rays.npy"
+    for target in (path, other):
+        with a_writer(target):
+            pass
+    assert len(names(tmp_path)) == 2 and not path.exists()
+    write_array(path, np.zeros(3))
+    (left,) = [name for name in names(tmp_path) if name.startswith(".")]
+    assert left.startswith(".rays.npy.")  # another file's: it goes when that one is written
+    assert np.array_equal(np.load(path), np.zeros(3))
+
+
+def test_another_process_writes_the_same_file(tmp_path):
+    """What is being written is not taken for left behind: a cache that two runs share."""
+    path = tmp_path / "a.txt"
+    with a_writer(path) as (_, part):
+        write_text(path, "mine")
+        assert part.read_bytes() == b"half of the"
+    assert path.read_text() == "mine"
 
 
 FULL_DISK = """

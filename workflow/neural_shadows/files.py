@@ -1,11 +1,13 @@
 """Files that are written whole or not at all, and their digests."""
 
+import fcntl
+import glob
 import hashlib
 import json
 import os
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,17 +21,22 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     """Yield a temporary path beside `path`; rename it to `path` when the block ends.
 
     If the block raises, the temporary file is removed and an older `path` is left as it
-    was. The suffix of `path` is kept, since many writers choose their format by it.
+    was. What killed processes left of the same file is removed. The suffix of `path` is kept,
+    since many writers choose their format by it.
 
     Raises:
         OSError: the folder cannot be written, or the disk is full.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=".", suffix=f".part{path.suffix}", dir=path.parent)
-    os.close(handle)
+    start, suffix = f".{path.name}.", f".part{path.suffix}"
+    for left in path.parent.glob(f"{glob.escape(start)}*{glob.escape(suffix)}"):
+        _remove_if_left(left)
+    handle, name = tempfile.mkstemp(prefix=start, suffix=suffix, dir=path.parent)
     part = Path(name)
     try:
+        with suppress(OSError):  # some cluster file systems have no locks
+            fcntl.flock(handle, fcntl.LOCK_EX)  # ends with the process, however that ends
         yield part
         # On disk before it gets its name: after a power cut, a file that is there is whole.
         with part.open("rb") as file:
@@ -38,6 +45,14 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
+        os.close(handle)
+
+
+def _remove_if_left(part: Path) -> None:
+    """Remove a temporary file, unless a process is writing it or that cannot be told."""
+    with suppress(OSError), part.open("rb") as file:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        part.unlink()
 
 
 def write_text(path: str | Path, text: str) -> None:
