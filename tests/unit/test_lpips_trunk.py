@@ -1,20 +1,21 @@
 """LPIPS's trunk: each way to supply it, and one readable line for each way to fail."""
 
 import functools
-import http.server
+import hashlib
 import pickle
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import torch
 import torchvision
+from web_server import WebServer, nobody, serving
 
 from neural_shadows import lpips_trunk
 from neural_shadows.download import fetch
 from neural_shadows.errors import InputError
-from neural_shadows.files import sha256_of
+from neural_shadows.files import read_json
+from neural_shadows.lpips_stage import find_lpips
 from neural_shadows.lpips_trunk import TRUNKS, Trunk, find_trunk
 from neural_shadows.metrics import Lpips
 
@@ -54,11 +55,15 @@ def assert_same(found: dict[str, torch.Tensor], expected: dict[str, torch.Tensor
 
 
 def test_published_files():
-    assert {net: (trunk.file, trunk.sha256) for net, trunk in TRUNKS.items()} == {
+    """torchvision's names hold the first eight digits of the files' SHA-256."""
+    for net, (file, digits) in {
         "alex": ("alexnet-owt-7be5be79.pth", "7be5be79"),
         "squeeze": ("squeezenet1_1-b8a52dc0.pth", "b8a52dc0"),
         "vgg": ("vgg16-397923af.pth", "397923af"),
-    }
+    }.items():
+        trunk = TRUNKS[net]
+        assert trunk.url == f"https://download.pytorch.org/models/{file}" and trunk.file == file
+        assert trunk.sha256.startswith(digits) and len(bytes.fromhex(trunk.sha256)) == 32
 
 
 @pytest.mark.parametrize("zipped", [True, False], ids=["zip", "before-torch-1.6"])
@@ -70,58 +75,79 @@ def test_whole_classifier_and_features_alone_are_the_same(classifier, features, 
     assert_same(find_trunk("squeeze", alone, tmp_path), features)
 
 
-def test_cached_file_is_not_fetched_again(classifier, features, tmp_path, monkeypatch):
-    def fetch(*_, **__):
-        raise AssertionError("fetched although it is there")
-
-    monkeypatch.setattr(lpips_trunk, "fetch", fetch)
-    saved(classifier, tmp_path / "squeezenet1_1-b8a52dc0.pth")
-    assert_same(find_trunk("squeeze", None, tmp_path), features)
-
-
 @pytest.fixture
-def server(tmp_path) -> Iterator[str]:
-    class Quiet(http.server.SimpleHTTPRequestHandler):
-        def log_message(self, *_):
-            pass
-
-    folder = tmp_path / "served"
-    folder.mkdir()
-    handler = functools.partial(Quiet, directory=folder)
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as httpd:
-        thread = threading.Thread(target=httpd.serve_forever)
-        thread.start()
-        yield f"http://127.0.0.1:{httpd.server_port}"
-        httpd.shutdown()
-        thread.join()
+def published(classifier, tmp_path, monkeypatch) -> Iterator[tuple[bytes, WebServer]]:
+    """A file in the place of torchvision's for `squeeze`, and the server that has it."""
+    content = saved(classifier, tmp_path / "whole.pth").read_bytes()
+    with serving(tmp_path, monkeypatch) as server:
+        server.files["/squeeze.pth"] = content
+        trunk = Trunk(
+            "squeezenet1_1", f"{server.url}/squeeze.pth", hashlib.sha256(content).hexdigest()
+        )
+        monkeypatch.setitem(TRUNKS, "squeeze", trunk)
+        yield content, server
 
 
-def test_download(classifier, features, tmp_path, monkeypatch, server):
-    whole = saved(classifier, tmp_path / "served" / "whole.pth")
-    name = f"squeezenet1_1-{sha256_of(whole)[:8]}.pth"
-    whole.rename(tmp_path / "served" / name)
-    monkeypatch.setitem(TRUNKS, "squeeze", Trunk("squeezenet1_1", f"{server}/{name}"))
+def test_download(published, features, tmp_path):
+    _, server = published
     cache = tmp_path / "cache"
-    assert_same(find_trunk("squeeze", None, cache), features)
-    assert [path.name for path in cache.iterdir()] == [name]
+    for _ in range(2):  # the second time it is there
+        assert_same(find_trunk("squeeze", None, cache), features)
+    assert [path.name for path in cache.iterdir()] == ["squeeze.pth"]
+    assert server.requests == ["/squeeze.pth"]
 
 
-def test_download_of_another_file(classifier, tmp_path, monkeypatch, server):
-    saved(classifier, tmp_path / "served" / "squeezenet1_1-00000000.pth")
-    trunk = Trunk("squeezenet1_1", f"{server}/squeezenet1_1-00000000.pth")
-    monkeypatch.setitem(TRUNKS, "squeeze", trunk)
-    refusal("squeeze", None, tmp_path / "cache")
+def test_another_file_in_the_cache_is_replaced(published, features, tmp_path):
+    """One that was cut short, or is of the same shapes and not torchvision's."""
+    content, server = published
+    cached = tmp_path / "cache" / "squeeze.pth"
+    cached.parent.mkdir()
+    for wrong in (content[:-1000], content[:-1] + b"!"):
+        cached.write_bytes(wrong)
+        assert_same(find_trunk("squeeze", None, tmp_path / "cache"), features)
+        assert cached.read_bytes() == content
+    assert len(server.requests) == 2
+
+
+def test_download_of_another_file(published, tmp_path):
+    content, server = published
+    server.files["/squeeze.pth"] = content[:-1] + b"!"
+    assert "where" in refusal("squeeze", None, tmp_path / "cache")
+    assert list((tmp_path / "cache").iterdir()) == []
 
 
 def test_offline(tmp_path, monkeypatch):
-    # Port 9 of this machine: nobody listens, as behind a firewall that refuses.
-    trunk = Trunk("alexnet", "http://127.0.0.1:9/alexnet-owt-7be5be79.pth")
-    monkeypatch.setitem(TRUNKS, "alex", trunk)
-    monkeypatch.setattr(lpips_trunk, "fetch", functools.partial(fetch, backoff_s=0))
-    refusal("alex", None, tmp_path)
-    monkeypatch.setenv("TORCH_HOME", str(tmp_path))
-    with pytest.raises(InputError, match="metrics.lpips.trunk"):
-        Lpips("alex", None)
+    with nobody() as url:
+        monkeypatch.setitem(TRUNKS, "alex", Trunk("alexnet", f"{url}/alexnet.pth", "0" * 64))
+        monkeypatch.setattr(lpips_trunk, "fetch", functools.partial(fetch, backoff_s=0))
+        assert "refused" in refusal("alex", None, tmp_path)
+        monkeypatch.setenv("TORCH_HOME", str(tmp_path))
+        with pytest.raises(InputError, match="metrics.lpips.trunk"):
+            Lpips("alex", None)
+
+
+def test_why_lpips_is_missing_names_no_folder(published, tmp_path, monkeypatch):
+    """It is shown in reports, and the cache is in somebody's home."""
+    _, server = published
+    monkeypatch.setenv("TORCH_HOME", str(tmp_path / "home"))
+    (tmp_path / "home").write_text("a file where the folder should be")
+
+    def reason() -> str:
+        find_lpips(tmp_path / "lpips.json", net="squeeze", trunk=None)
+        found = read_json(tmp_path / "lpips.json")
+        assert not found["available"]
+        assert "squeeze.pth" in found["reason"] and str(tmp_path) not in found["reason"]
+        return found["reason"]
+
+    assert "squeeze.pth in torch's cache cannot be used: cannot write it: Not a dir" in reason()
+    (tmp_path / "home").unlink()
+    server.answers = [404]
+    assert "404" in reason()
+    server.answers = ["whole"]
+    server.files["/squeeze.pth"] = b"no weights"
+    digest = hashlib.sha256(b"no weights").hexdigest()
+    monkeypatch.setitem(TRUNKS, "squeeze", TRUNKS["squeeze"]._replace(sha256=digest))
+    assert "squeeze.pth in torch's cache cannot be used: it is not a whole PyTorch" in reason()
 
 
 def test_cache_that_cannot_be_written(tmp_path):
@@ -129,12 +155,10 @@ def test_cache_that_cannot_be_written(tmp_path):
     assert "cannot write" in refusal("alex", None, tmp_path / "cache")
 
 
-def test_cache_is_that_of_torch(classifier, tmp_path, monkeypatch):
+def test_cache_is_that_of_torch(published, tmp_path, monkeypatch):
     monkeypatch.setenv("TORCH_HOME", str(tmp_path))
-    folder = tmp_path / "hub" / "checkpoints"
-    folder.mkdir(parents=True)
-    saved(classifier, folder / "squeezenet1_1-b8a52dc0.pth")
     Lpips("squeeze", None)
+    assert (tmp_path / "hub" / "checkpoints" / "squeeze.pth").is_file()
 
 
 def test_missing_file(tmp_path):

@@ -2,13 +2,12 @@
 
 import hashlib
 import io
-import socket
 import tarfile
-import threading
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
+from web_server import CUT, nobody, serving
 
 from neural_shadows import stanford
 from neural_shadows.errors import InputError
@@ -39,25 +38,24 @@ def write_archive(path, *members):
     return path
 
 
+PATH = "/pub/dragon_recon.tar.gz"
+
+
+def archive_of(tmp_path, *members):
+    return write_archive(tmp_path / "packed.tar.gz", *members).read_bytes()
+
+
 @pytest.fixture
-def site(tmp_path):
-    """A folder, and the URL of a server of it."""
-    folder = tmp_path / "site"
-    folder.mkdir()
+def server(tmp_path_factory, monkeypatch):
+    with serving(tmp_path_factory.mktemp("authority"), monkeypatch) as server:
+        yield server
 
-    class Handler(SimpleHTTPRequestHandler):
-        def __init__(self, *args):
-            super().__init__(*args, directory=folder)
 
-        def log_message(self, *_):
-            pass
-
-    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as server:
-        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
-        thread.start()
-        yield folder, f"http://127.0.0.1:{server.server_port}/dragon_recon.tar.gz"
-        server.shutdown()
-        thread.join()
+def serve(server, content):
+    """Let the server have this archive; gives what to fetch it with."""
+    server.files[PATH] = content
+    digest = hashlib.sha256(content).hexdigest()
+    return {"url": f"{server.url}{PATH}", "archive_sha256": digest}
 
 
 def assert_refused(target, reason, **options):
@@ -68,35 +66,48 @@ def assert_refused(target, reason, **options):
     assert "\n" not in message
     assert f"download {options.get('url', stanford.DRAGON_URL)} by hand" in message
     assert "`--config dragon=PATH/TO/dragon_vrip_res2.ply` (any .ply or .ply.gz)" in message
-    assert not target.parent.exists()
+    assert not target.parent.exists() or list(target.parent.iterdir()) == []
 
 
 def test_the_published_constants():
     url = urlsplit(stanford.DRAGON_URL)
-    assert (url.hostname, url.path.rsplit("/", 1)[1]) == (
-        "graphics.stanford.edu",
-        "dragon_recon.tar.gz",
-    )
+    assert (url.scheme, url.hostname) == ("https", "graphics.stanford.edu")
+    assert url.path.endswith("/dragon_recon.tar.gz")
     assert stanford.DRAGON_MEMBER == MEMBER
-    assert len(bytes.fromhex(stanford.DRAGON_SHA256)) == 32
+    for digest in (stanford.DRAGON_SHA256, stanford.ARCHIVE_SHA256):
+        assert len(bytes.fromhex(digest)) == 32
 
 
-def test_success(site, tmp_path):
-    folder, url = site
-    write_archive(
-        folder / "dragon_recon.tar.gz",
+def test_success(server, tmp_path):
+    packed = archive_of(
+        tmp_path,
         regular("dragon_recon/README", b"about"),
         regular(OTHER, b"another"),
         regular(MEMBER),
     )
+    options = serve(server, packed)
     target = tmp_path / "out" / "dragon.ply"
-    fetch_stanford_dragon(target, url=url, sha256=DIGEST)
+    fetch_stanford_dragon(target, **options, sha256=DIGEST)
     assert target.read_bytes() == MESH
     assert list(target.parent.iterdir()) == [target]
-    fetch_stanford_dragon(
-        target, url=url, member=OTHER, sha256=hashlib.sha256(b"another").hexdigest()
-    )
+    another = hashlib.sha256(b"another").hexdigest()
+    fetch_stanford_dragon(target, **options, member=OTHER, sha256=another)
     assert target.read_bytes() == b"another"
+
+
+def test_a_cut_archive_is_gone_on_from_in_the_next_run(server, tmp_path):
+    mesh = np.random.default_rng(0).bytes(500_000)  # which no archive makes smaller
+    options = serve(server, archive_of(tmp_path, regular(MEMBER, mesh)))
+    options |= {"sha256": hashlib.sha256(mesh).hexdigest()}
+    target = tmp_path / "out" / "dragon.ply"
+    server.answers = ["cut", 503, "whole"]
+    with pytest.raises(InputError, match="503"):
+        fetch_stanford_dragon(target, **options, tries=1, backoff_s=1e-3)
+    assert [path.name for path in target.parent.iterdir()] == [".dragon_recon.tar.gz.part"]
+    fetch_stanford_dragon(target, **options)
+    assert target.read_bytes() == mesh
+    assert list(target.parent.iterdir()) == [target]
+    assert server.ranges[2] == f"bytes={CUT}-"
 
 
 def test_a_local_archive_needs_no_server(tmp_path):
@@ -106,10 +117,17 @@ def test_a_local_archive_needs_no_server(tmp_path):
     assert target.read_bytes() == MESH
 
 
-def test_wrong_checksum_of_the_member(site, tmp_path):
-    folder, url = site
-    write_archive(folder / "dragon_recon.tar.gz", regular(MEMBER, MESH + b"!"))
-    assert_refused(tmp_path / "out" / "dragon.ply", f"where {DIGEST} is expected", url=url)
+def test_wrong_checksum_of_the_member(server, tmp_path):
+    options = serve(server, archive_of(tmp_path, regular(MEMBER, MESH + b"!")))
+    assert_refused(tmp_path / "out" / "dragon.ply", f"where {DIGEST} is expected", **options)
+
+
+def test_an_archive_that_is_another_is_not_opened(server, tmp_path, monkeypatch):
+    options = serve(server, archive_of(tmp_path, regular(MEMBER))) | {"archive_sha256": "0" * 64}
+    monkeypatch.setattr(tarfile, "open", lambda *_: pytest.fail("opened before it was checked"))
+    assert_refused(tmp_path / "out" / "dragon.ply", f"where {'0' * 64} is expected", **options)
+    options.pop("archive_sha256")
+    assert_refused(tmp_path / "out" / "dragon.ply", "where 74ac1d90", **options)
 
 
 def test_the_published_digest_is_checked_by_default(tmp_path):
@@ -173,12 +191,9 @@ def test_damaged_archives(tmp_path):
 
 
 def test_offline(tmp_path):
-    with socket.socket() as held:  # bound but not listening: nobody else takes the port
-        held.bind(("127.0.0.1", 0))
-        url = f"http://127.0.0.1:{held.getsockname()[1]}/dragon_recon.tar.gz"
-        assert_refused(tmp_path / "out" / "dragon.ply", "refused", url=url)
+    with nobody() as url:
+        assert_refused(tmp_path / "out" / "dragon.ply", "refused", url=f"{url}{PATH}")
 
 
-def test_not_found(site, tmp_path):
-    _, url = site
-    assert_refused(tmp_path / "out" / "dragon.ply", "404", url=url)
+def test_not_found(server, tmp_path):
+    assert_refused(tmp_path / "out" / "dragon.ply", "404", url=f"{server.url}{PATH}")

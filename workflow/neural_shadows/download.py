@@ -1,23 +1,32 @@
-"""Downloads that are bounded, checked and retried, and arrive whole or not at all."""
+"""Downloads: encrypted, bounded, checked, resumed and retried; they arrive whole or not at all."""
 
-import hashlib
+import fcntl
 import http.client
 import logging
+import os
 import re
+import ssl
 import sys
 import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
 from urllib.parse import urlsplit
 
 from tqdm import tqdm
 
 from neural_shadows.errors import InputError
-from neural_shadows.files import whole_file
+from neural_shadows.files import sha256_of, whole_file
 
+# At most so much is read at once; an attempt that got further by it is none in vain.
 _BLOCK = 1 << 18
+
+# Bytes a second below which a connection counts as lost.
+_SLOWEST = 1000
+
 _log = logging.getLogger(__name__)
 
 
@@ -25,7 +34,7 @@ def fetch(
     url: str,
     path: str | Path,
     *,
-    sha256: str | None,
+    sha256: str,
     max_bytes: int,
     remedy: str,
     label: str,
@@ -33,98 +42,200 @@ def fetch(
     timeout_s: float = 30,
     backoff_s: float = 1,
 ) -> None:
-    """Download `url` to `path`, with a progress bar on stderr.
+    """Make sure that the file `path` is the one of `url`: by its digest, or else by a download.
 
-    What may pass by itself (no connection, a cut one, HTTP 408, 429 and 5xx) is tried again
-    after `backoff_s`, then twice that, and so on.
+    What may pass by itself (no connection, one that is cut, hangs or trickles, HTTP 408, 429 and
+    5xx) is tried again after `backoff_s`, then twice that, and so on. An attempt goes on where
+    the last one ended, also where that was in an earlier run: what has come is kept beside `path`
+    as `.NAME.part`. Of several processes that want the same file one downloads it, and the
+    others wait.
 
     Args:
-        url: http, https or file.
+        url: https; a redirection to anything else is refused.
         path: where the file goes, once it is whole and checked.
-        sha256: digest in hexadecimal, or its first digits (at least 8); None to skip the check.
+        sha256: its digest in hexadecimal.
         max_bytes: refuse anything larger.
         remedy: sentence for the error message: what to do without this download.
-        label: what the progress bar says.
-        tries: attempts in all.
-        timeout_s: seconds without a byte after which a connection counts as lost.
+        label: what the progress bar on stderr says.
+        tries: so many attempts in a row that get less than 256 KiB further are the last.
+        timeout_s: seconds without a byte, or with less than 1000 bytes a second, after which a
+            connection counts as lost.
         backoff_s: seconds before the second attempt.
 
     Raises:
-        InputError: the URL or the digest is malformed, or the download failed for good;
-            nothing is left behind then.
-        OSError: `path` cannot be written.
+        InputError: the URL is not https, or the download failed for good; an older `path` is
+            as it was then.
+        OSError: `path` cannot be read or written.
     """
-    if urlsplit(url).scheme not in ("http", "https", "file"):
-        raise InputError(f"cannot download {url}: only http, https and file URLs; {remedy}")
-    if sha256 is not None and not re.fullmatch("[0-9a-fA-F]{8,64}", sha256):
-        raise InputError(f"cannot download {url}: '{sha256}' is not 8 to 64 digits of a SHA-256")
-    for attempt in range(tries):
+    path = Path(path)
+    if urlsplit(url).scheme != "https":
+        raise InputError(f"cannot download {url}: only https URLs; {remedy}")
+    if _is_whole(path, sha256):
+        return
+    failed = reached = 0
+    while True:
         try:
-            _fetch_once(url, path, sha256, max_bytes, timeout_s, label)
+            _attempt(url, path, sha256, max_bytes, timeout_s, label)
             return
         except _FailedError as failure:
-            if not failure.may_pass or attempt == tries - 1:
+            failed = 0 if failure.size >= reached + _BLOCK else failed + 1
+            reached = max(reached, failure.size)
+            if not failure.may_pass or failed == tries:
                 raise InputError(f"cannot download {url}: {failure}; {remedy}") from failure
-            wait_s = backoff_s * 2**attempt
+            wait_s = backoff_s * 2 ** max(failed - 1, 0)
             _log.warning("%s: %s; trying again in %g s", url, failure, wait_s)
             time.sleep(wait_s)
 
 
 class _FailedError(Exception):
-    """One attempt failed; `may_pass` says whether another one can succeed."""
+    """One attempt failed.
 
-    def __init__(self, reason: str, *, may_pass: bool):
+    `may_pass`: another one can succeed; `keep`: what has come so far can be of use to it;
+    `size`: bytes of the file that are there now.
+    """
+
+    def __init__(self, reason: str, *, may_pass: bool, keep: bool):
         super().__init__(" ".join(reason.split()))
-        self.may_pass = may_pass
+        self.may_pass, self.keep = may_pass, keep
+        self.size = 0
 
 
-def _fetch_once(
-    url: str, path: str | Path, sha256: str | None, max_bytes: int, timeout_s: float, label: str
+def _is_whole(path: Path, sha256: str) -> bool:
+    return path.is_file() and sha256_of(path) == sha256
+
+
+def _attempt(
+    url: str, path: Path, sha256: str, max_bytes: int, timeout_s: float, label: str
 ) -> None:
-    digest = hashlib.sha256()
-    with whole_file(path) as part:
-        with part.open("wb") as file:
-            for block in _blocks(url, max_bytes, timeout_s, label):
+    part = path.with_name(f".{path.name}.part")
+    with _opened_alone(part) as file:
+        if _is_whole(path, sha256):  # by another process, while this one waited for it
+            part.unlink()
+            return
+        had = file.seek(0, os.SEEK_END)
+        try:
+            for offset, block in _blocks(url, had, max_bytes, timeout_s, label):
+                file.seek(offset)
+                file.truncate()  # the rest of an older part, where the server starts anew
                 file.write(block)
-                digest.update(block)
-        if sha256 is not None and not digest.hexdigest().startswith(sha256.lower()):
-            raise _FailedError(
-                f"its SHA-256 is {digest.hexdigest()}, where {sha256} is expected", may_pass=False
-            )
+            file.flush()
+            found = sha256_of(part)
+            if found != sha256:
+                reason = f"its SHA-256 is {found}, where {sha256} is expected"
+                # With an older part, it may be that which was wrong.
+                raise _FailedError(reason, may_pass=had > 0, keep=False)
+        except _FailedError as failure:
+            failure.size = file.tell()
+            if not failure.keep or failure.size == 0:
+                part.unlink()
+            raise
+        with whole_file(path) as written:
+            part.replace(written)
 
 
-def _blocks(url: str, max_bytes: int, timeout_s: float, label: str) -> Iterator[bytes]:
-    """Yield the content of `url`; all that goes wrong on the way is a `_FailedError`.
+@contextmanager
+def _opened_alone(part: Path) -> Iterator[BinaryIO]:
+    """A partial file, opened or made, for this process alone: waits until no other has it."""
+    part.parent.mkdir(parents=True, exist_ok=True)
+    while True:
+        with open(part, "r+b", opener=_open_or_make) as file:
+            with suppress(OSError):  # some cluster file systems have no locks: the digest tells
+                fcntl.flock(file, fcntl.LOCK_EX)
+            if _has_name(file, part):
+                yield file
+                return
+        # It was renamed or removed by the process that had it.
 
-    A generator, so that an OSError of the disk, raised where the blocks go, is not taken for
-    one of the network.
+
+def _open_or_make(path: str, flags: int) -> int:
+    return os.open(path, flags | os.O_CREAT, 0o644)
+
+
+def _has_name(file: BinaryIO, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), path.stat())
+    except FileNotFoundError:
+        return False
+
+
+class _HttpsOnly(urllib.request.HTTPRedirectHandler):
+    def redirect_request(self, request, response, code, reason, headers, new_url):
+        if urlsplit(new_url).scheme != "https":
+            reason = f"{reason}, to {urlsplit(new_url).scheme} and not https"
+            raise urllib.error.HTTPError(new_url, code, reason, headers, response)
+        return super().redirect_request(request, response, code, reason, headers, new_url)
+
+
+def _blocks(
+    url: str, had: int, max_bytes: int, timeout_s: float, label: str
+) -> Iterator[tuple[int, bytes]]:
+    """Yield the content of `url` from the byte `had` on: offsets and blocks.
+
+    From the byte 0 on where the server can no other. All that goes wrong on the way is a
+    `_FailedError`. A generator, so that an OSError of the disk, raised where the blocks go, is
+    not taken for one of the network.
     """
     # Some servers refuse the default name of Python's client.
-    request = urllib.request.Request(url, headers={"User-Agent": "neural-shadows"})
+    headers = {"User-Agent": "neural-shadows"}
+    if had:
+        headers["Range"] = f"bytes={had}-"
+    request = urllib.request.Request(url, headers=headers)
+    encrypted = urllib.request.HTTPSHandler(context=ssl.create_default_context())
+    opener = urllib.request.build_opener(encrypted, _HttpsOnly)
     try:
-        with urllib.request.urlopen(request, timeout=timeout_s) as response:
-            length = response.headers.get("Content-Length", "")
-            total = int(length) if length.isdigit() else None
-            received = 0
+        with opener.open(request, timeout=timeout_s) as response:
+            offset, total = _extent(response, had)
             with tqdm(
-                total=total, desc=label, unit="B", unit_scale=True, file=sys.stderr
+                total=total,
+                initial=offset,
+                desc=label,
+                unit="B",
+                unit_scale=True,
+                file=sys.stderr,
             ) as progress:
+                since, before = time.monotonic(), offset
                 # The announced size first, so that nothing of a file that is too large is read.
-                while max(received, total or 0) <= max_bytes and (block := response.read(_BLOCK)):
-                    received += len(block)
+                while max(offset, total or 0) <= max_bytes and (block := response.read1(_BLOCK)):
+                    yield offset, block
+                    offset += len(block)
                     progress.update(len(block))
-                    yield block
+                    passed = time.monotonic() - since
+                    if passed >= timeout_s:
+                        if offset - before < _SLOWEST * passed:
+                            raise TimeoutError(f"less than {_SLOWEST:,} bytes/s")
+                        since, before = time.monotonic(), offset
     except urllib.error.HTTPError as error:
         error.close()  # it is also the response
-        may_pass = error.code in (408, 429) or error.code >= 500
-        reason = f"the server answers {error.code} {error.reason}"
-        raise _FailedError(reason, may_pass=may_pass) from error
+        passing = error.code in (408, 429) or error.code >= 500
+        # 416: there is nothing behind what we have, which can then not be right.
+        raise _FailedError(
+            f"the server answers {error.code} {error.reason}",
+            may_pass=passing or (error.code == 416 and had > 0),
+            keep=passing,
+        ) from error
     except (OSError, http.client.HTTPException, UnicodeError) as error:
-        # URLError is an OSError, and so are timeouts and lost connections. What is not on
-        # this disk will not appear by waiting.
-        reason = str(getattr(error, "reason", error)) or type(error).__name__
-        raise _FailedError(reason, may_pass=request.type != "file") from error
-    if max(received, total or 0) > max_bytes:
-        raise _FailedError(f"larger than the {max_bytes:,} bytes allowed", may_pass=False)
-    if total is not None and received < total:
-        raise _FailedError(f"cut after {received:,} of {total:,} bytes", may_pass=True)
+        # URLError is an OSError, and so are timeouts and lost connections.
+        cause = getattr(error, "reason", error)
+        wrong = isinstance(cause, ssl.SSLCertVerificationError)
+        raise _FailedError(
+            str(cause) or type(error).__name__, may_pass=not wrong, keep=True
+        ) from error
+    if max(offset, total or 0) > max_bytes:
+        reason = f"larger than the {max_bytes:,} bytes allowed"
+        raise _FailedError(reason, may_pass=False, keep=False)
+    if total is not None and offset < total:
+        reason = f"cut after {offset:,} of {total:,} bytes"
+        raise _FailedError(reason, may_pass=True, keep=True)
+
+
+def _extent(response: http.client.HTTPResponse, had: int) -> tuple[int, int | None]:
+    """Where the content of an answer begins, and the size of the whole file if it says so."""
+    if response.status == 206:
+        stated = response.headers.get("Content-Range", "")
+        found = re.fullmatch(r"bytes (\d+)-\d+/(\d+|\*)", stated)
+        if not found or int(found[1]) != had:
+            reason = f"the server answers the range {stated!r} to one from byte {had} on"
+            raise _FailedError(reason, may_pass=had > 0, keep=False)
+        return had, int(found[2]) if found[2].isdigit() else None
+    length = response.headers.get("Content-Length", "")
+    return 0, int(length) if length.isdigit() else None

@@ -21,23 +21,31 @@ class Trunk(NamedTuple):
     model: str
     """Name in torchvision's registry of models."""
     url: str
-    """The official weights; the digits before `.pth` begin the file's SHA-256."""
+    """The official weights."""
+    sha256: str
+    """Of that file, in hexadecimal; its name has the first eight digits."""
 
     @property
     def file(self) -> str:
         return self.url.rpartition("/")[2]
 
-    @property
-    def sha256(self) -> str:
-        return self.file.removesuffix(".pth").rpartition("-")[2]
-
 
 TRUNKS: dict[Net, Trunk] = {
-    "alex": Trunk("alexnet", "https://download.pytorch.org/models/alexnet-owt-7be5be79.pth"),
-    "squeeze": Trunk(
-        "squeezenet1_1", "https://download.pytorch.org/models/squeezenet1_1-b8a52dc0.pth"
+    "alex": Trunk(
+        "alexnet",
+        "https://download.pytorch.org/models/alexnet-owt-7be5be79.pth",
+        "7be5be791159472b1fbf3c69796f7cb30dca7ad8466c2df70058c37116cdee02",
     ),
-    "vgg": Trunk("vgg16", "https://download.pytorch.org/models/vgg16-397923af.pth"),
+    "squeeze": Trunk(
+        "squeezenet1_1",
+        "https://download.pytorch.org/models/squeezenet1_1-b8a52dc0.pth",
+        "b8a52dc049b60e4b6ab68ad0df457362afab8b6304b2febdc1650a5dab4d7e7b",
+    ),
+    "vgg": Trunk(
+        "vgg16",
+        "https://download.pytorch.org/models/vgg16-397923af.pth",
+        "397923af8e79cdbb6a7127f12361acd7a2f83e06b05044ddf496e83de57a5bf0",
+    ),
 }
 
 
@@ -46,32 +54,33 @@ def find_trunk(net: Net, trunk: Path | None, cache: Path) -> "dict[str, torch.Te
 
     It comes from the user's file `trunk` if one is given, which may hold the whole
     classifier (keys `features.0.weight`, ...) or only its features; else from torchvision's
-    file in the folder `cache`, which is downloaded there if it is not there yet.
+    file in the folder `cache`, which is downloaded there if it is not there, or another one.
 
     Raises:
         InputError: the trunk cannot be read or downloaded, or it is not `net`'s.
     """
-    path = trunk
+    path, name = trunk, str(trunk)
     if path is None:
         path = cache / TRUNKS[net].file
-        if not path.exists():
-            _download(net, path)
-    state = _read(net, path)
+        # Without its folder, for reports say why LPIPS is missing, and are shown to others.
+        name = f"{path.name} in torch's cache"
+        _download(net, path, name)
+    state = _read(net, path, name)
     shapes = _shapes(net)
     for key, shape in shapes.items():
         if key not in state:
-            raise _unusable(net, path, f"it has no tensor {key!r} of {TRUNKS[net].model}")
+            raise _unusable(net, name, f"it has no tensor {key!r} of {TRUNKS[net].model}")
         found = tuple(state[key].shape)
         if found != shape:
             raise _unusable(
                 net,
-                path,
+                name,
                 f"its tensor {key!r} has shape {found}, that of {TRUNKS[net].model} {shape}",
             )
     return {key: state[key] for key in shapes}
 
 
-def _download(net: Net, path: Path) -> None:
+def _download(net: Net, path: Path, name: str) -> None:
     trunk = TRUNKS[net]
     try:
         fetch(
@@ -83,22 +92,22 @@ def _download(net: Net, path: Path) -> None:
             label=trunk.file,
         )
     except OSError as error:  # the folder, often in a home that compute nodes may not write
-        raise _unusable(net, path, f"cannot write it: {error.strerror or error}") from error
+        raise _unusable(net, name, f"cannot write it: {error.strerror}") from error
 
 
-def _read(net: Net, path: Path) -> "dict[str, torch.Tensor]":
+def _read(net: Net, path: Path, name: str) -> "dict[str, torch.Tensor]":
     """The file's tensors, `features.` taken off their names."""
     import torch
 
     try:
         state: Any = torch.load(path, map_location="cpu", weights_only=True)
     except OSError as error:
-        raise _unusable(net, path, error.strerror or str(error)) from error
+        raise _unusable(net, name, error.strerror or str(error)) from error
     except Exception as error:
         # What is not a weights file makes the restricted unpickler raise nearly anything.
-        raise _unusable(net, path, "it is not a whole PyTorch file of plain weights") from error
+        raise _unusable(net, name, "it is not a whole PyTorch file of plain weights") from error
     if not isinstance(state, dict):
-        raise _unusable(net, path, f"it holds one {type(state).__name__} and no state dict")
+        raise _unusable(net, name, f"it holds one {type(state).__name__} and no state dict")
     return {
         str(key).removeprefix("features."): value
         for key, value in state.items()
@@ -116,8 +125,8 @@ def _shapes(net: Net) -> dict[str, tuple[int, ...]]:
     return {key: tuple(weight.shape) for key, weight in model.features.state_dict().items()}
 
 
-def _unusable(net: Net, path: Path, why: str) -> InputError:
-    return InputError(f"LPIPS trunk {path} cannot be used: {why}; {_remedy(net)}")
+def _unusable(net: Net, name: str, why: str) -> InputError:
+    return InputError(f"LPIPS trunk {name} cannot be used: {why}; {_remedy(net)}")
 
 
 def _remedy(net: Net) -> str:

@@ -2,7 +2,6 @@
 
 import hashlib
 import tarfile
-import tempfile
 import zlib
 from pathlib import Path
 
@@ -10,11 +9,13 @@ from neural_shadows.download import fetch
 from neural_shadows.errors import InputError
 from neural_shadows.files import whole_file
 
-DRAGON_URL = "http://graphics.stanford.edu/pub/3Dscanrep/dragon/dragon_recon.tar.gz"
+DRAGON_URL = "https://graphics.stanford.edu/pub/3Dscanrep/dragon/dragon_recon.tar.gz"
+
+# Of the whole archive (11,197,764 bytes), checked before anything in it is read.
+ARCHIVE_SHA256 = "74ac1d90989c9b1732edee82d57e9ce71452144cf4355f108d8c9c616d28d02f"
 
 # The thesis does not say which of the four resolutions it used. This is the second, of
-# 202,520 triangles. The repository is served without encryption and the digest is of the
-# member that is used, so a changed archive does no harm.
+# 202,520 triangles.
 DRAGON_MEMBER = "dragon_recon/dragon_vrip_res2.ply"
 DRAGON_SHA256 = "f64cd2d043551ec82643d9987d1d26d35018238d501b346481e3b89d6e224da4"
 
@@ -28,6 +29,7 @@ def fetch_stanford_dragon(
     *,
     archive: str | Path | None = None,
     url: str = DRAGON_URL,
+    archive_sha256: str = ARCHIVE_SHA256,
     member: str = DRAGON_MEMBER,
     sha256: str = DRAGON_SHA256,
     tries: int = 4,
@@ -38,14 +40,15 @@ def fetch_stanford_dragon(
     Args:
         path_ply: where the mesh goes, as it is in the archive.
         archive: a copy of the archive on disk, instead of the download.
-        url: of the archive (`.tar.gz`).
+        url, archive_sha256: of the archive (`.tar.gz`).
         member: name of the mesh in it.
         sha256: of the mesh, in hexadecimal.
         tries, backoff_s: as `download.fetch`.
 
     Raises:
         InputError: no connection, a damaged archive, or a mesh that is missing in it or
-            changed; nothing is left behind then.
+            changed. Nothing is left behind then but what has come of the archive, from which the
+            next call goes on.
     """
     remedy = (
         f"download {url} by hand, unpack it, and run with "
@@ -54,19 +57,21 @@ def fetch_stanford_dragon(
     if archive is not None:
         _extract(Path(archive), member, sha256, path_ply, remedy)
         return
-    with tempfile.TemporaryDirectory() as folder:
-        downloaded = Path(folder) / Path(url).name
-        fetch(
-            url,
-            downloaded,
-            sha256=None,
-            max_bytes=MAX_ARCHIVE_BYTES,
-            remedy=remedy,
-            label="Stanford dragon",
-            tries=tries,
-            backoff_s=backoff_s,
-        )
+    downloaded = Path(path_ply).with_name(Path(url).name)
+    fetch(
+        url,
+        downloaded,
+        sha256=archive_sha256,
+        max_bytes=MAX_ARCHIVE_BYTES,
+        remedy=remedy,
+        label="Stanford dragon",
+        tries=tries,
+        backoff_s=backoff_s,
+    )
+    try:
         _extract(downloaded, member, sha256, path_ply, remedy)
+    finally:
+        downloaded.unlink()
 
 
 def _extract(archive: Path, member: str, sha256: str, path_ply: str | Path, remedy: str) -> None:
