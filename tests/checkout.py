@@ -12,7 +12,7 @@ from typing import Any
 
 import yaml
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[1]
 SMOKE = Path("config/smoke.yaml")
 
 # LPIPS's trunk can then be downloaded nowhere, so that the tables are the same everywhere.

@@ -3,6 +3,7 @@
 import sys
 
 from neural_shadows.progress import progress_bar
+from neural_shadows.rates import RATES
 
 
 def test_bar(capsys):
@@ -39,3 +40,15 @@ def test_bar_goes_to_the_stderr_of_the_moment(monkeypatch, tmp_path):
         progress_bar(1, "views", "shadow").close()
         monkeypatch.undo()
     assert "shadow" in (tmp_path / "log").read_text()
+
+
+def test_a_bar_leaves_its_rate():
+    before = len(RATES)
+    with progress_bar(100, "views", "shadow", initial=50) as bar:
+        bar.update(20)
+        bar.update(5)
+    bar.close()  # again, as when it is collected
+    (rate,) = RATES[before:]
+    assert (rate.title, rate.unit, rate.count) == ("shadow", "views", 25)
+    assert 0 < rate.seconds < 60
+    assert rate.per_second == 25 / rate.seconds

@@ -43,6 +43,7 @@ TRAINED = SHOWN | {
         ("preview.py", {"preview_scene", "table", "html_report"}),
         ("shadow_map.py", SHOWN | {"evaluate", "frame_times", "memory_table", "find_depth_biases"}),
         ("training.py", TRAINED | {"train"}),
+        ("jobs.py", set()),
     ],
 )
 def test_edited_module(finished, module, rules):

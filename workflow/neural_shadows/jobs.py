@@ -1,5 +1,6 @@
 """What every script of the workflow does around its one call: log, and errors kept readable."""
 
+import faulthandler
 import os
 import shlex
 import sys
@@ -9,6 +10,11 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from neural_shadows.errors import InputError
+from neural_shadows.job_record import JobRecord
+from neural_shadows.rerun import command_for
+
+# Of a failed job's log, shown with its error.
+_LAST_LINES = 10
 
 
 class _LogAndTerminal:
@@ -39,8 +45,9 @@ class _LogAndTerminal:
 def run_job(job: Any, main: Callable[[Any], None]) -> None:
     """Run `main(job)` with stdout, stderr and a traceback captured in the job's log.
 
-    Ends the process with status 1 on an error, after one line on the terminal that says what
-    went wrong and where the log is.
+    The log ends with the job's record. On an error the process ends with status 1, after the
+    terminal has been told what went wrong, where the log is and how it ends, and the command
+    that runs this job alone.
 
     Args:
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
@@ -53,10 +60,13 @@ def run_job(job: Any, main: Callable[[Any], None]) -> None:
         # By file descriptor, so that what native libraries print is captured as well.
         os.dup2(log.fileno(), 1)
         os.dup2(log.fileno(), 2)
+        faulthandler.enable(log)  # where in the job native code crashed
         sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
         sys.stderr = _LogAndTerminal(log, terminal)
+        record = JobRecord(job)
         try:
             main(job)
+            log.write(record.text("done"))
             return
         except Exception as caught:
             error, told = caught, traceback.format_exc()
@@ -69,5 +79,19 @@ def run_job(job: Any, main: Callable[[Any], None]) -> None:
         line = f"{job.rule}: {message} [log: {shlex.quote(str(path))}]"
         # First, for the log may lie on the disk that is full.
         terminal.write(line + "\n")
-        log.write(f"{told}{line}\n")
+        # A readable message says all that its traceback could.
+        said = _end_of(path) if readable else _end_of(path) + told
+        for last in said.rstrip().splitlines()[-_LAST_LINES:]:
+            terminal.write(f"  | {last}\n")
+        terminal.write(f"  run it alone: {command_for(job.output[0], job.threads)}\n")
+        log.write(f"{told}{record.text(message)}{line}\n")
     sys.exit(1)
+
+
+def _end_of(path: Path) -> str:
+    """What a log has at its end: more than is shown of it."""
+    if not path.is_file():  # a device
+        return ""
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - 10_000))
+        return file.read().decode(errors="replace")

@@ -5,6 +5,10 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parent
 
+# What every script does around its one call: the log, its record, the message of an error. No
+# result depends on it, and an edit of a log's wording must not train a network.
+_AROUND = PACKAGE / "jobs.py"
+
 
 def _imported(source: Path) -> set[Path]:
     """Modules of this package that a file imports, at its top or inside a function."""
@@ -23,12 +27,13 @@ def modules_of(script: Path) -> list[Path]:
     """The package's modules that `script` imports, directly or through others, sorted.
 
     Snakemake tracks a script but not what it imports. With these files as a rule's input an
-    edited module reruns the rules whose results depend on it, and no others.
+    edited module reruns the rules whose results depend on it, and no others. `jobs.py` is not
+    among them, nor what it alone imports.
     """
     found: set[Path] = set()
     queue = [script]
     while queue:
-        new = _imported(queue.pop()) - found
+        new = _imported(queue.pop()) - found - {_AROUND}
         found |= new
         queue += new
     return sorted(found)

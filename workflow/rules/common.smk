@@ -28,6 +28,7 @@ from neural_shadows import layout
 from neural_shadows.config import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
 from neural_shadows.module_graph import kind_module, modules_of
+from neural_shadows.rerun import remember_configuration
 
 try:
     check_duplicates(workflow.configfiles)
@@ -35,6 +36,11 @@ try:
     check_files(CONFIG)
 except InputError as error:
     raise WorkflowError(str(error))
+
+# For the message of a job that fails.
+remember_configuration(
+    workflow.overwrite_configfiles, workflow.config_settings.config_args
+)
 
 LAYOUT = layout.Layout(CONFIG)
 RESULTS = LAYOUT.results
