@@ -46,6 +46,10 @@ def test_scene_of_an_overlay(second_scene):
         encoding="utf-8"
     )
     assert (reports / "scenes" / "torus.png").is_file()
+    # The mesh was given by an absolute path.
+    folder = str(second_scene.overlay.parent).encode()
+    files = [path for path in reports.rglob("*") if path.is_file()]
+    assert [path for path in files if folder in path.read_bytes()] == []
     assert second_scene.checkout.pending(overlays=[second_scene.overlay]) == {}
 
 

@@ -2,11 +2,13 @@
 
 import json
 import xml.etree.ElementTree
+from pathlib import Path
 
 import numpy as np
 import onnxruntime
 import pandas as pd
 import pytest
+from checkout import SECRET
 from PIL import Image
 
 MAPS = ["2048² shadow map", "1024² shadow map", "512² shadow map", "256² shadow map"]
@@ -45,6 +47,44 @@ def test_each_job_left_its_log(smoke):
     assert [name for name in logs if not (smoke.folder / name).is_file()] == []
     (training,) = [name for name in logs if name.endswith("/train/dragon.log")]
     assert "train dragon: 100%" in (smoke.folder / training).read_text()
+
+
+def test_each_log_has_the_record_of_its_job(smoke):
+    rates = {}
+    for row in smoke.summary():
+        log = smoke.folder / row["log-file(s)"]
+        (line,) = (said for said in log.read_text().splitlines() if said.startswith("{"))
+        record = json.loads(line)
+        assert (record["rule"], record["outcome"]) == (row["rule"], "done"), log
+        assert row["output_file"] in sum(record["outputs"].values(), [])
+        assert record["inputs"]["code"], log
+        for file in sum(record["inputs"].values(), []):
+            assert file["bytes"] > 0 and len(bytes.fromhex(file["sha256"])) == 32
+        rates[record["rule"]] = {rate["unit"] for rate in record["rates"]}
+        # The digests that a training logs are those that its rays were described with.
+        if record["rule"] == "train":
+            (described,) = record["inputs"]["description"]
+            shards = json.loads((smoke.folder / described["path"]).read_text())["sha256"]
+            assert len(record["inputs"]["origins"]) > 0
+            for file in record["inputs"]["origins"] + record["inputs"]["bounds"]:
+                assert shards[Path(file["path"]).name] == file["sha256"]
+            assert "seed" in record["seeds"]
+    counted = {rule: units for rule, units in rates.items() if units}
+    assert counted == {
+        **dict.fromkeys(("sample_rays", "label_rays", "train"), {"samples"}),
+        **dict.fromkeys(("evaluate", "find_depth_biases"), {"views"}),
+        "frame_times": {"frames"},
+    }
+
+
+def test_no_secret_is_written_and_no_folder_reported(smoke):
+    for path in smoke.folder.glob("re*/**/*"):
+        if path.is_file():
+            content = path.read_bytes()
+            assert SECRET.encode() not in content, path
+            if smoke.reports in path.parents:
+                assert str(smoke.folder).encode() not in content, path
+                assert str(Path.home() / ".cache").encode() not in content, path
 
 
 def test_columns_and_rows_are_the_thesis_s(table):
