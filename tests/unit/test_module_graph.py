@@ -89,6 +89,13 @@ def test_all_forms_of_import_are_followed(tmp_path):
     assert {path.stem for path in modules_of(script)} == expected
 
 
+def test_each_file_is_read_once(monkeypatch):
+    """Snakemake asks for each of thousands of jobs: read anew, the thesis's graph took 46 s."""
+    modules_of(SCRIPTS / "evaluate.py")
+    monkeypatch.setattr("neural_shadows.module_graph.ast", None)
+    assert names_of("evaluate") > {"evaluation", "metrics"}
+
+
 def test_no_import_no_modules(tmp_path):
     script = tmp_path / "script.py"
     script.write_text("import numpy\nfrom neural_shadowsx.light import draw_light\n")

@@ -1,6 +1,7 @@
 """Which modules of the package a script's result depends on."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 PACKAGE = Path(__file__).parent
@@ -10,7 +11,8 @@ PACKAGE = Path(__file__).parent
 _AROUND = PACKAGE / "jobs.py"
 
 
-def _imported(source: Path) -> set[Path]:
+@cache
+def _imported(source: Path) -> frozenset[Path]:
     """Modules of this package that a file imports, at its top or inside a function."""
     names = set()
     for node in ast.walk(ast.parse(source.read_text(encoding="utf-8"))):
@@ -20,7 +22,7 @@ def _imported(source: Path) -> set[Path]:
             names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
     parts = [name.split(".")[1:] for name in names if name.startswith(f"{PACKAGE.name}.")]
     paths = {PACKAGE.joinpath(*part).with_suffix(".py") for part in parts}
-    return {path for path in paths if path.is_file()}
+    return frozenset(path for path in paths if path.is_file())
 
 
 def modules_of(script: Path) -> list[Path]:
