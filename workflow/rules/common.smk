@@ -83,3 +83,8 @@ def code(name, experiments=(), encodings=()):
     sources = [WORKFLOW / "scripts" / f"{name}.py", *kinds]
     modules = kinds.union(*map(modules_of, sources))
     return sorted(os.path.relpath(path) for path in modules)
+
+
+def memory(mb):
+    """What a job asks for in MB; each attempt after a failed one asks for as much again."""
+    return lambda wildcards, attempt: mb * attempt

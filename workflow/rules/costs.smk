@@ -15,7 +15,7 @@ rule measure_cost:
     # All that a training takes, so that nothing disturbs it on a small machine.
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=8000,
+        mem_mb=memory(8000),
         runtime=120,
         gpu=GPUS,
     params:
@@ -48,7 +48,7 @@ rule cost_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
@@ -79,7 +79,7 @@ rule cost_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,

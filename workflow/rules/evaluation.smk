@@ -9,11 +9,13 @@ rule find_lpips:
         found=f"{RESULTS}/lpips.json",
     log:
         f"{LOGS}/find_lpips.log",
+    # It may download: on a cluster, nodes that compute often have no network.
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=30,
     params:
         net=CONFIG.metrics.lpips.net,
@@ -45,7 +47,7 @@ rule find_depth_biases:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=60,
         gpu=GPUS,
     params:
@@ -89,7 +91,7 @@ rule evaluate:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=120,
         gpu=GPUS,
     params:
@@ -132,7 +134,7 @@ rule frame_times:
     # It computes on one: with all that a training takes, nothing disturbs it on a small machine.
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=120,
         gpu=GPUS,
     params:

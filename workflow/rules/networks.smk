@@ -18,7 +18,7 @@ rule train:
         ENVIRONMENT
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=8000,
+        mem_mb=memory(8000),
         runtime=600,
         gpu=GPUS,
     params:
@@ -60,7 +60,7 @@ rule export_network:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=30,
     params:
         depth_bias=lambda wildcards: LAYOUT.export_bias(wildcards.experiment),

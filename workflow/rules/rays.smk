@@ -12,7 +12,7 @@ rule view_directions:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=1000,
+        mem_mb=memory(1000),
         runtime=10,
     params:
         sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
@@ -43,7 +43,7 @@ rule sample_rays:
         ENVIRONMENT
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=60,
     params:
         sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
@@ -83,7 +83,7 @@ rule label_rays:
         ENVIRONMENT
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=60,
     params:
         seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
@@ -118,7 +118,7 @@ rule describe_rays:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=30,
     params:
         sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,

@@ -29,7 +29,7 @@ rule table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
@@ -73,7 +73,7 @@ rule picture_strip:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
@@ -113,7 +113,7 @@ rule performance_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
@@ -160,7 +160,7 @@ rule networks_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
@@ -214,7 +214,7 @@ rule memory_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
@@ -248,7 +248,7 @@ rule loss_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
@@ -282,7 +282,7 @@ rule width_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
@@ -315,7 +315,7 @@ rule fronts_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
@@ -353,7 +353,7 @@ rule field_slice:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
@@ -391,7 +391,7 @@ rule method_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         kind=lambda wildcards: CONFIG.figures[wildcards.figure].kind,
@@ -427,7 +427,7 @@ rule claims:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=memory(2000),
         runtime=10,
     params:
         claims={name: layout.plain(claim) for name, claim in CONFIG.claims.items()},
@@ -488,7 +488,7 @@ rule html_report:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         scale=CONFIG.scale,

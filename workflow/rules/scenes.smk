@@ -14,7 +14,7 @@ rule generate_mesh:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         mesh=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "mesh"),
@@ -31,11 +31,13 @@ rule download_mesh:
         mesh=f"{SCENE}/downloaded.ply",
     log:
         f"{LOGS}/download_mesh/{{scene}}.log",
+    # On a cluster, nodes that compute often have no network.
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=1000,
+        mem_mb=memory(1000),
         runtime=30,
     message:
         "Fetching the mesh of scene {wildcards.scene}"
@@ -56,7 +58,7 @@ rule prepare_mesh:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         name=lambda wildcards: CONFIG.mesh_name(wildcards.scene),
@@ -84,7 +86,7 @@ rule preview_scene:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory(4000),
         runtime=10,
     params:
         up=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "up"),

@@ -1,0 +1,219 @@
+"""The workflow on a real Slurm: killed jobs and daemons, time limits and too little memory."""
+
+import importlib.util
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from checkout import SMOKE, Checkout, write_overlay
+from same_results import differences
+from slurm import Job, Slurm, missing_programs, wait_for
+
+from neural_shadows.files import read_json
+
+WEIGHTS = "results/smoke/networks/dragon/weights.safetensors"
+
+# The profile as it is, but for what this small cluster needs: it has no accounting, and its
+# jobs last seconds. It has GPUs to reserve, though none that compute.
+PROFILE = [
+    *("--workflow-profile", "workflow/profiles/slurm"),
+    *("--slurm-status-command", "squeue"),
+    *("--slurm-init-seconds-before-status-checks", "2"),
+]
+
+
+@pytest.fixture(scope="session")
+def slurm(tmp_path_factory) -> Iterator[Slurm]:
+    if missing := missing_programs():
+        pytest.skip(f"not installed: {', '.join(missing)} (apt-get install slurm-wlm munge)")
+    if importlib.util.find_spec("snakemake_executor_plugin_slurm") is None:
+        pytest.skip("Snakemake's executor is not installed (pip install -r envs/slurm.txt)")
+    if os.geteuid() != 0:
+        pytest.skip("the daemons of this cluster, and so its jobs, run as root")
+    cluster = Slurm(tmp_path_factory.mktemp("slurm"))
+    try:
+        cluster.start()
+        yield cluster
+    finally:
+        cluster.stop()
+
+
+@pytest.fixture(scope="session")
+def fresh(slurm, tmp_path_factory) -> Checkout:
+    """A checkout in which nothing has run."""
+    return Checkout.fresh(tmp_path_factory.mktemp("fresh"))
+
+
+@pytest.fixture(scope="session")
+def local(fresh, tmp_path_factory) -> Checkout:
+    """The smoke workflow, run to its end on this machine, without Slurm."""
+    checkout = fresh.copy(tmp_path_factory.mktemp("local"))
+    checkout.run()
+    return checkout
+
+
+class Submitted:
+    """Snakemake at work in a checkout, with its jobs on the cluster."""
+
+    def __init__(self, slurm: Slurm, process: subprocess.Popen, output: Path):
+        self.slurm, self.process, self._output = slurm, process, output
+        self.before = {job.id for job in slurm.queue()}
+
+    @property
+    def output(self) -> str:
+        """All that Snakemake has said."""
+        return self._output.read_text()
+
+    def jobs(self) -> list[Job]:
+        """Its jobs, also those that have ended."""
+        return [job for job in self.slurm.queue() if job.id not in self.before]
+
+    def working(self, name: str) -> tuple[Job, list[int]]:
+        """Wait for a job of this name that computes; it, and the processes of its scripts."""
+        while self.process.poll() is None:
+            for job in self.jobs():
+                if job.state == "RUNNING" and job.name.startswith(f"rule_{name}"):
+                    processes = self.slurm.processes_of(job.id)
+                    if scripts := [pid for pid in processes if _is_script(pid)]:
+                        return job, scripts
+            time.sleep(0.1)
+        raise AssertionError(f"no job of {name} is left:\n{self.output}")
+
+    def wait(self) -> None:
+        """Wait for the end of the run, which must be a good one."""
+        assert self.process.wait(3600) == 0, self.output
+
+
+def _is_script(pid: int) -> bool:
+    try:
+        return b"/.snakemake/scripts/" in Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:
+        return False
+
+
+@contextmanager
+def submitted(
+    slurm: Slurm, checkout: Checkout, *arguments: str, overlays: tuple[Path, ...] = ()
+) -> Iterator[Submitted]:
+    """Run Snakemake through the profile at the smoke scale."""
+    configs = [str(path) for path in (SMOKE, *overlays)]
+    output = checkout.folder / "output.txt"
+    with output.open("w") as file:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "snakemake", *arguments, *PROFILE, "--configfile", *configs],
+            cwd=checkout.folder,
+            env=checkout.environment() | slurm.environment,
+            stdout=file,
+            stderr=subprocess.STDOUT,
+        )
+    try:
+        yield Submitted(slurm, process, output)
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            process.wait(120)
+
+
+def kill_script(slurm: Slurm, job: Job, scripts: list[int]) -> None:
+    os.kill(scripts[0], signal.SIGKILL)
+
+
+def cancel(slurm: Slurm, job: Job, scripts: list[int]) -> None:
+    slurm.ask("scancel", job.id)
+
+
+def kill_controller(slurm: Slurm, job: Job, scripts: list[int]) -> None:
+    slurm.kill_daemon("slurmctld")
+    time.sleep(5)
+    slurm.start_daemon("slurmctld")
+    wait_for(lambda: "UP" in slurm.ask("scontrol", "ping"), "controller")
+
+
+def kill_node_daemon(slurm: Slurm, job: Job, scripts: list[int]) -> None:
+    slurm.kill_daemon("slurmd")
+    time.sleep(5)
+    slurm.start_daemon("slurmd")
+
+
+def crash_node(slurm: Slurm, job: Job, scripts: list[int]) -> None:
+    """The daemon and all that it started go at once, and the controller is told."""
+    slurm.kill_daemon("slurmd")
+    running = [job.id for job in slurm.queue() if job.state == "RUNNING"]
+    for pid in slurm.processes_of(*running):
+        os.kill(pid, signal.SIGKILL)
+    node = slurm.ask("sinfo", "-h", "-o", "%N").strip()
+    slurm.ask("scontrol", "update", f"nodename={node}", "state=down", "reason=crashed")
+    slurm.start_daemon("slurmd")
+    slurm.ask("scontrol", "update", f"nodename={node}", "state=resume")
+
+
+# What is done in turn, each as soon as a job of that name works.
+DISTURBANCES: list[tuple[str, Callable[[Slurm, Job, list[int]], None]]] = [
+    ("rays", kill_script),
+    ("train", cancel),
+    ("train", kill_controller),
+    ("train", kill_node_daemon),
+    ("train", kill_script),
+    ("evaluate", crash_node),
+]
+
+
+def test_killed_jobs_and_daemons(slurm, fresh, local, tmp_path):
+    checkout = fresh.copy(tmp_path / "checkout")
+    started = time.monotonic()
+    # Reserves a GPU as on a machine with one; the network is computed on the CPU all the same.
+    with submitted(slurm, checkout, "--set-resources", "train:gpu=1") as run:
+        for name, disturb in DISTURBANCES:
+            job, scripts = run.working(name)
+            print(f"{time.monotonic() - started:.0f} s: {disturb.__name__} at {job.name}")
+            disturb(slurm, job, scripts)
+        run.wait()
+        count = run.output.count("has been submitted with SLURM jobid")
+    print(f"{time.monotonic() - started:.0f} s, {count} jobs of Slurm's")
+    assert differences(checkout, local) == []
+    assert run.output.count("Trying to restart job") >= 3
+
+
+def test_training_goes_on_after_its_time_limit(slurm, local, tmp_path):
+    # 100 s of training in jobs of a minute (Slurm's smallest limit, which it checks twice a
+    # minute); a state is saved each half minute.
+    record = read_json(local.results / "networks" / "dragon" / "training.json")
+    rate = record["samples_per_second"] / record["training"]["batch_size"]
+    overlay = write_overlay(tmp_path / "long.yaml", trainings={"base": {"steps": int(100 * rate)}})
+
+    undisturbed = local.copy(tmp_path / "undisturbed")
+    undisturbed.run(WEIGHTS, overlays=[overlay])
+    checkout = local.copy(tmp_path / "checkout")
+    arguments = [WEIGHTS, "--set-resources", "train:runtime=1"]
+    with submitted(slurm, checkout, *arguments, overlays=(overlay,)) as run:
+        run.wait()
+        jobs = run.jobs()
+    states = [job.state for job in jobs]
+    assert "TIMEOUT" in states and states[-1] == "COMPLETED", states
+    log = (checkout.results / "logs" / "train" / "dragon.log").read_text()
+    print(states, log.splitlines()[0])
+    assert not log.startswith("train dragon:   0%")  # it went on
+    assert (checkout.folder / WEIGHTS).read_bytes() == (undisturbed.folder / WEIGHTS).read_bytes()
+
+
+def test_too_little_memory_is_tried_with_more(slurm, local, tmp_path):
+    checkout = local.copy(tmp_path / "checkout")
+    rules = checkout.folder / "workflow" / "rules" / "rays.smk"
+    text = rules.read_text()
+    changed = text.replace("mem_mb=memory(1000)", "mem_mb=memory(150)", 1)
+    assert changed != text
+    rules.write_text(changed)
+    target = "results/smoke/rays/dragon/uniform/directions.npy"
+    with submitted(slurm, checkout, target, "--forcerun", target) as run:
+        run.wait()
+        jobs = run.jobs()
+    print([job.state for job in jobs])
+    assert "OUT_OF_MEMORY" in [job.state for job in jobs[:-1]]
+    assert jobs[-1].state == "COMPLETED"
+    assert differences(checkout, local) == []
