@@ -206,7 +206,7 @@ def test_too_little_memory_is_tried_with_more(slurm, local, tmp_path):
     checkout = local.copy(tmp_path / "checkout")
     rules = checkout.folder / "workflow" / "rules" / "rays.smk"
     text = rules.read_text()
-    changed = text.replace("mem_mb=memory(1000)", "mem_mb=memory(150)", 1)
+    changed = text.replace("mem_mb=per_attempt(1000)", "mem_mb=per_attempt(150)", 1)
     assert changed != text
     rules.write_text(changed)
     target = "results/smoke/rays/dragon/uniform/directions.npy"

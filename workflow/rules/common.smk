@@ -85,6 +85,6 @@ def code(name, experiments=(), encodings=()):
     return sorted(os.path.relpath(path) for path in modules)
 
 
-def memory(mb):
-    """What a job asks for in MB; each attempt after a failed one asks for as much again."""
-    return lambda wildcards, attempt: mb * attempt
+def per_attempt(amount):
+    """Memory or minutes of a job: as much again for each attempt after a failed one."""
+    return lambda wildcards, attempt: amount * attempt

@@ -15,8 +15,8 @@ rule measure_cost:
     # All that a training takes, so that nothing disturbs it on a small machine.
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=memory(8000),
-        runtime=120,
+        mem_mb=per_attempt(8000),
+        runtime=per_attempt(120),
         gpu=GPUS,
     params:
         seed=CONFIG.seed,
@@ -48,8 +48,8 @@ rule cost_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
         scale=CONFIG.scale,
@@ -79,8 +79,8 @@ rule cost_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
         scale=CONFIG.scale,

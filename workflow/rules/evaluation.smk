@@ -15,8 +15,8 @@ rule find_lpips:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=30,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(30),
     params:
         net=CONFIG.metrics.lpips.net,
         trunk=CONFIG.metrics.lpips.trunk,
@@ -47,8 +47,8 @@ rule find_depth_biases:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=60,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(60),
         gpu=GPUS,
     params:
         networks=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].networks,
@@ -91,8 +91,8 @@ rule evaluate:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=120,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(120),
         gpu=GPUS,
     params:
         networks=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].networks,
@@ -134,8 +134,8 @@ rule frame_times:
     # It computes on one: with all that a training takes, nothing disturbs it on a small machine.
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=memory(4000),
-        runtime=120,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(120),
         gpu=GPUS,
     params:
         networks=lambda wildcards: LAYOUT.table_networks(

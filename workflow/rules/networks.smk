@@ -18,7 +18,8 @@ rule train:
         ENVIRONMENT
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=memory(8000),
+        mem_mb=per_attempt(8000),
+        # Not more for each attempt: it goes on from its last saved state.
         runtime=600,
         gpu=GPUS,
     params:
@@ -60,8 +61,8 @@ rule export_network:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=30,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(30),
     params:
         depth_bias=lambda wildcards: LAYOUT.export_bias(wildcards.experiment),
     message:

@@ -12,8 +12,8 @@ rule view_directions:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(1000),
-        runtime=10,
+        mem_mb=per_attempt(1000),
+        runtime=per_attempt(10),
     params:
         sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
         directions=lambda wildcards: CONFIG.samplings[wildcards.sampling].directions,
@@ -43,8 +43,8 @@ rule sample_rays:
         ENVIRONMENT
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=memory(4000),
-        runtime=60,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
         points_per_direction=lambda wildcards: CONFIG.samplings[
@@ -83,8 +83,8 @@ rule label_rays:
         ENVIRONMENT
     threads: CONFIG.compute.threads
     resources:
-        mem_mb=memory(4000),
-        runtime=60,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
         first=lambda wildcards: LAYOUT.shard_range(
@@ -118,8 +118,8 @@ rule describe_rays:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=30,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(30),
     params:
         sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
         silhouette_resolution=lambda wildcards: CONFIG.samplings[

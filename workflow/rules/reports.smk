@@ -29,8 +29,8 @@ rule table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
         number=lambda wildcards: CONFIG.tables[wildcards.table].published,
@@ -73,8 +73,8 @@ rule picture_strip:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
         rows=lambda wildcards: LAYOUT.picture_rows(wildcards.figure),
@@ -113,8 +113,8 @@ rule performance_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
         number=lambda wildcards: CONFIG.tables[wildcards.table].published,
@@ -160,8 +160,8 @@ rule networks_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
         rows=lambda wildcards: LAYOUT.table_rows(wildcards.table),
@@ -214,8 +214,8 @@ rule memory_table:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.tables[wildcards.table].title,
         number=lambda wildcards: CONFIG.tables[wildcards.table].published,
@@ -248,8 +248,8 @@ rule loss_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
         labels=lambda wildcards: [
@@ -282,8 +282,8 @@ rule width_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
         rows=lambda wildcards: LAYOUT.table_rows(LAYOUT.figure_table(wildcards.figure)),
@@ -315,8 +315,8 @@ rule fronts_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
         scene=lambda wildcards: CONFIG.figures[wildcards.figure].scene,
@@ -353,8 +353,8 @@ rule field_slice:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
         up=lambda wildcards: LAYOUT.scene_param(
@@ -391,8 +391,8 @@ rule method_figure:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         kind=lambda wildcards: CONFIG.figures[wildcards.figure].kind,
         title=lambda wildcards: CONFIG.figures[wildcards.figure].title,
@@ -427,8 +427,8 @@ rule claims:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(2000),
-        runtime=10,
+        mem_mb=per_attempt(2000),
+        runtime=per_attempt(10),
     params:
         claims={name: layout.plain(claim) for name, claim in CONFIG.claims.items()},
         metrics=LAYOUT.claim_batches(),
@@ -488,8 +488,8 @@ rule html_report:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         scale=CONFIG.scale,
         seed=CONFIG.seed,

@@ -14,8 +14,8 @@ rule generate_mesh:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         mesh=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "mesh"),
     message:
@@ -37,8 +37,8 @@ rule download_mesh:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(1000),
-        runtime=30,
+        mem_mb=per_attempt(1000),
+        runtime=per_attempt(30),
     message:
         "Fetching the mesh of scene {wildcards.scene}"
     script:
@@ -58,8 +58,8 @@ rule prepare_mesh:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         name=lambda wildcards: CONFIG.mesh_name(wildcards.scene),
     message:
@@ -86,8 +86,8 @@ rule preview_scene:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=memory(4000),
-        runtime=10,
+        mem_mb=per_attempt(4000),
+        runtime=per_attempt(10),
     params:
         up=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "up"),
         ground=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "ground"),
