@@ -102,7 +102,7 @@ class Checkout:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=1200,
+            timeout=3600,
         )
 
     def run(self, *arguments: str, overlays: Sequence[Path] = ()) -> str:
