@@ -217,5 +217,5 @@ def test_too_little_memory_is_tried_with_more(slurm, local, tmp_path):
     states = [job.state for job in jobs]
     print(states)
     assert len(states) > 1 and set(states[:-1]) == {"FAILED"} and states[-1] == "COMPLETED"
-    assert "exceeded memory limit" in (slurm.folder / "slurmd.log").read_text()
+    assert "memory limit" in (slurm.folder / "slurmd.log").read_text()
     assert differences(checkout, local) == []

@@ -69,7 +69,15 @@ def test_every_line_of_the_lock_is_a_pin():
         assert re.fullmatch(r"[a-z0-9-]+==[a-z0-9.]+( ; .+)?", line), line
 
 
-@pytest.mark.parametrize("name", ["requirements.in", "requirements.txt", "environment.yaml"])
+def test_what_only_a_cluster_needs_is_no_part_of_the_lock():
+    locked = {line.split("==")[0] for line in lines_of("requirements.txt")}
+    pins = pins_of(lines_of("slurm.txt"))
+    assert "snakemake-executor-plugin-slurm" in pins and not locked & pins.keys()
+
+
+@pytest.mark.parametrize(
+    "name", ["requirements.in", "requirements.txt", "slurm.txt", "environment.yaml"]
+)
 def test_no_index_address(name):
     text = (ENVS / name).read_text()
     assert not re.search(r"://|--(extra-)?index-url|--find-links|--trusted-host| @ ", text)
