@@ -1,6 +1,7 @@
 """ONNX Runtime answers as PyTorch does, and the written conventions give the pipeline's shadow."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import onnxruntime
@@ -100,6 +101,10 @@ def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
     }
     assert conventions["network"] == settings
     assert conventions["onnx"]["difference_from_pytorch"] < 1e-4
+    # It is given away: nothing in it is of this machine's folders.
+    content = (tmp_path / "network.onnx").read_bytes()
+    for folder in (Path(__file__).parents[2], Path(torch.__file__).parents[1], tmp_path):
+        assert str(folder).encode() not in content
 
 
 def test_any_number_of_rays(tmp_path, export):
