@@ -1,7 +1,6 @@
 """How long each stage takes, and how much memory, as one size grows and the others stay."""
 
 import json
-import resource
 import subprocess
 import sys
 import tempfile
@@ -16,6 +15,7 @@ import trimesh
 from neural_shadows.cost_sizes import STAGES
 from neural_shadows.files import write_json
 from neural_shadows.hardware import describe_machine
+from neural_shadows.process_memory import held_bytes, peak_bytes
 
 POINTS_PER_DIRECTION = 10_000  # the thesis's [4.1]
 
@@ -212,12 +212,6 @@ def stage_work(
     )
 
 
-def _held() -> int:
-    """Bytes of memory that this process holds now."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * resource.getpagesize()
-
-
 def _main(job: Mapping[str, Any]) -> None:
     """Warm one stage up, run it, and print its seconds and its memory as JSON."""
     stage, settings = job["stage"], job["settings"]
@@ -225,11 +219,11 @@ def _main(job: Mapping[str, Any]) -> None:
         for needed in NEEDED[stage]:
             stage_work(needed, Path(folder), TINY, settings)()
     work = stage_work(stage, Path(job["folder"]), job["sizes"], settings)
-    before = _held()
+    before = held_bytes()
     started = time.perf_counter()
     work()
     seconds = time.perf_counter() - started
-    peak = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    peak = peak_bytes()
     print(json.dumps({"seconds": seconds, "bytes": max(0, peak - before), "peak_bytes": peak}))
 
 

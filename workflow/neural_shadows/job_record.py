@@ -4,7 +4,6 @@ import datetime
 import hashlib
 import json
 import platform
-import resource
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -14,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from neural_shadows.files import sha256_of
+from neural_shadows.process_memory import peak_bytes
 from neural_shadows.rates import RATES
 
 
@@ -51,7 +51,7 @@ class JobRecord:
             "seconds": round(time.perf_counter() - self._begin, 3),
             "digest_seconds": round(self._digests, 3),
             "cpu_seconds": round(time.process_time(), 3),
-            "peak_mib": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024,
+            "peak_mib": peak // 2**20 if (peak := peak_bytes()) else None,
             "threads": job.threads,
             "rates": [rate._asdict() | {"per_second": rate.per_second} for rate in RATES],
             "seeds": dict(_seeds(params)),
@@ -78,7 +78,7 @@ class JobRecord:
             f"{content['rule']}: {outcome}",
             f"  started {content['started']}, took {content['seconds']:.1f} s "
             f"({content['digest_seconds']:.1f} s for digests, {content['cpu_seconds']:.1f} s of CPU, "
-            f"at most {content['peak_mib']:,} MiB)",
+            f"at most {content['peak_mib'] or '?'} MiB)",
             *(f"  rate of {rate}" for rate in rates),
             *(f"  input {line}" for line in inputs),
             *(f"  param {name}: {value}" for name, value in content["params"].items()),
