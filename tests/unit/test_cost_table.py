@@ -1,4 +1,8 @@
 import json
+import os
+import signal
+import subprocess
+import sys
 
 import numpy as np
 import pandas as pd
@@ -76,3 +80,35 @@ def test_every_size_has_stages_whose_files_can_be_made():
     for stages in STAGES.values():
         for stage in stages:
             assert NEEDED[stage][-1] == stage
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from neural_shadows import cost
+
+def killed(stage, folder, sizes, settings):
+    (folder / "origins.000.npy").write_bytes(b"gigabytes")
+    os.kill(os.getpid(), signal.SIGKILL)
+
+def measured(stage, folder, sizes, settings):
+    return {"seconds": 1.0, "files": sorted(path.name for path in folder.iterdir())}
+
+cost._in_process = {"killed": killed, "measured": measured}[sys.argv[1]]
+out = Path(sys.argv[2])
+cost.measure_cost(out, over="samples", value=4, seed=0, device="cpu", precision="auto", threads=1)
+"""
+
+
+def test_what_a_killed_measurement_left_is_removed(tmp_path):
+    def measure(how: str) -> int:
+        command = [sys.executable, "-c", KILLED, how, tmp_path / "samples.4.json"]
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+        return subprocess.run(command, env=environment, timeout=60).returncode
+
+    assert measure("killed") == -signal.SIGKILL
+    assert len(list(tmp_path.rglob("origins.*"))) == 1
+    assert measure("measured") == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["samples.4.json"]
+    stages = json.loads((tmp_path / "samples.4.json").read_text())["stages"]
+    assert stages and all(stage["files"] == [] for stage in stages)

@@ -1,6 +1,7 @@
 """How long each stage takes, and how much memory, as one size grows and the others stay."""
 
 import json
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -77,17 +78,23 @@ def measure_cost(
     settings = {"seed": seed, "device": device, "precision": precision, "threads": threads}
     found = []
     # Beside the result: a hundred million rays take 2 GB, which a system's /tmp may not have.
-    with tempfile.TemporaryDirectory(dir=out_json.parent) as folder:
+    # Named after it, so that what a killed job left is found.
+    folder = out_json.with_suffix(".unfinished")
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    try:
         sizes = BASE | {over: value}
         measured = STAGES[over]
         done: set[str] = set()
         for stage in measured:
             for needed in NEEDED[stage]:
                 if needed not in done:
-                    result = _in_process(needed, Path(folder), sizes, settings)
+                    result = _in_process(needed, folder, sizes, settings)
                     done.add(needed)
                     if needed in measured:
                         found.append({"stage": needed, **result})
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
     name, size = size_of(over, value)
     write_json(
         out_json,
