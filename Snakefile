@@ -20,6 +20,16 @@ include: "workflow/rules/reports.smk"
 include: "workflow/rules/costs.smk"
 
 
+# Before the first job of a run that has any.
+onstart:
+    check_folders()
+
+
+# Snakemake has now taken note of all networks.
+onsuccess:
+    forget_finished(Path(RESULTS) / "networks")
+
+
 rule all:
     default_target: True
     input:

@@ -267,7 +267,6 @@ def test_killed_runs_end_in_the_same_bytes(tmp_path):
     # The last run went on from the last saved state, and did not begin again.
     assert (killed / "gathers.json").read_text() == str(800 - killed_at[-1])
     assert contents(killed) == contents(undisturbed)
-    assert not list((killed / "unfinished").iterdir())
 
 
 def interrupt(folder: Path, after: int) -> None:
@@ -283,7 +282,28 @@ def test_the_same_settings_resume(tmp_path, capsys):
     shown = capsys.readouterr().err.split("\r")[1:]
     assert f"{12 * 32}/640" in shown[0]  # where the bar begins
     assert len(shown) <= 4  # every two seconds a line, and not at every point of the curve
-    assert not list((tmp_path / "unfinished").iterdir())
+
+
+def test_a_run_whose_files_were_lost_is_not_trained_again(tmp_path):
+    """Snakemake deletes the files of a job that was killed before it had noted the job's end."""
+    run_training(tmp_path, **TINY, state_interval_s=0.0)
+    before = contents(tmp_path)
+    for name in ("weights.safetensors", "loss.csv", "training.json"):
+        (tmp_path / name).unlink()
+    assert run_training(tmp_path, **TINY).gathers == 0
+    assert contents(tmp_path) == before
+
+
+def test_a_short_run_keeps_no_state(tmp_path):
+    run_training(tmp_path, **TINY)
+    assert not (tmp_path / "unfinished").exists()
+
+
+def test_the_kept_state_is_the_last(tmp_path):
+    interrupt(tmp_path, 12)
+    run_training(tmp_path, **TINY)  # ends long before the next state would be saved
+    (state,) = tmp_path.glob("unfinished/*/state.safetensors")
+    assert load_tensors(state)[1]["step"] == 20
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 import hashlib
 import json
 import math
-import shutil
 import time
 from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
@@ -275,7 +274,8 @@ def train(
         mesh_ply: prepared mesh of the object, for a network that needs it; None for others.
         data: description of the rays (their digests and seeds); goes into the weights' header
             and into the name of the saved state.
-        state_folder: where states of running trainings live; this run's is removed at its end.
+        state_folder: where states of trainings live. If this one saved any, that of its end is
+            left there, so that nothing is lost with the files that it writes; see `saved_states`.
         state_interval_s: seconds between saved states. A kill costs at most that and one point
             of the loss curve, 1/500 of the run.
         threads: chunks of a batch computed side by side; the weights do not depend on it.
@@ -314,7 +314,7 @@ def train(
     point_interval = max(1, steps // CURVE_POINTS)
     seconds_before = run.seconds
     total = steps * batch_size
-    step = int(run.step)
+    step = saved_step = int(run.step)
     with (
         progress_bar(total, "samples", f"train {name}", step * batch_size) as bar,
         gradient_pool(threads) as pool,
@@ -350,7 +350,9 @@ def train(
                 if time.monotonic() - last_saved > state_interval_s:
                     run.save(state_file)
                     write_text(run_folder / "loss.csv", run.curve_csv(batch_size))
-                    last_saved = time.monotonic()
+                    last_saved, saved_step = time.monotonic(), step
+    if 0 < saved_step < steps:
+        run.save(state_file)
 
     save_network(weights, model, header)
     write_text(loss_csv, run.curve_csv(batch_size))
@@ -367,4 +369,3 @@ def train(
             "threads": threads,
         },
     )
-    shutil.rmtree(run_folder, ignore_errors=True)

@@ -27,8 +27,10 @@ os.environ.update(NUMBA_CACHE_DIR=kernels)
 from neural_shadows import layout
 from neural_shadows.config import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
+from neural_shadows.folder_checks import check_clock, check_writable
 from neural_shadows.module_graph import kind_module, modules_of
 from neural_shadows.rerun import remember_configuration
+from neural_shadows.saved_states import forget_finished
 
 try:
     check_duplicates(workflow.configfiles)
@@ -88,3 +90,15 @@ def code(name, experiments=(), encodings=()):
 def per_attempt(amount):
     """Memory or minutes of a job: as much again for each attempt after a failed one."""
     return lambda wildcards, attempt: amount * attempt
+
+
+def check_folders():
+    """Find out whether jobs can write, and whether Snakemake can trust the files' times."""
+    try:
+        check_writable([RESULTS, REPORTS])
+        sources = [
+            os.path.relpath(WORKFLOW.parent / name) for name in ("workflow", "config")
+        ]
+        check_clock([RESULTS, REPORTS, *sources])
+    except InputError as error:
+        raise WorkflowError(str(error))

@@ -5,6 +5,7 @@ from pathlib import Path
 from neural_shadows.files import read_json
 from neural_shadows.jobs import run_job
 from neural_shadows.ray_set import RaySet
+from neural_shadows.saved_states import UNFINISHED
 from neural_shadows.training import train
 
 
@@ -25,7 +26,7 @@ def main(job):
         seed=params.seed,
         mesh_ply=next(map(Path, job.input.mesh), None),
         data=read_json(job.input.description),
-        state_folder=Path(job.output.weights).parents[1] / "unfinished",
+        state_folder=Path(job.output.weights).parents[1] / UNFINISHED,
         device=params.device,
         precision=params.precision,
         threads=job.threads,
