@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +54,7 @@ class Checkout:
     """A copy of the checkout, and Snakemake in it at the smoke scale."""
 
     folder: Path
+    cores: int = 2
 
     @classmethod
     def fresh(cls, folder: Path) -> "Checkout":
@@ -66,7 +67,7 @@ class Checkout:
     def copy(self, folder: Path) -> "Checkout":
         """A copy with results, Snakemake's records of them and times of modification."""
         shutil.copytree(self.folder, folder, symlinks=True, dirs_exist_ok=True)
-        return Checkout(folder)
+        return replace(self, folder=folder)
 
     @property
     def results(self) -> Path:
@@ -84,7 +85,8 @@ class Checkout:
         """Snakemake's command line; `overlays` are merged into the smoke configuration."""
         configs = [str(path) for path in (SMOKE, *overlays)]
         snakemake = [sys.executable, "-m", "snakemake"]
-        return [*snakemake, *arguments, "--cores", "2", "--configfile", *configs]
+        cores = str(self.cores)
+        return [*snakemake, *arguments, "--cores", cores, "--configfile", *configs]
 
     def environment(self) -> dict[str, str]:
         """The environment that Snakemake runs in: offline, nothing of the user's settings."""
@@ -111,9 +113,9 @@ class Checkout:
         assert done.returncode == 0, done.stdout
         return done.stdout
 
-    def summary(self, *, overlays: Sequence[Path] = ()) -> list[dict[str, str]]:
+    def summary(self, *targets: str, overlays: Sequence[Path] = ()) -> list[dict[str, str]]:
         """Snakemake's own account: a row per output file, with `rule`, `log-file(s)`, `plan`."""
-        said = self.run("--summary", overlays=overlays)
+        said = self.run(*targets, "--summary", overlays=overlays)
         header = said.index("output_file\t")
         return list(csv.DictReader(said[header:].splitlines(), delimiter="\t"))
 

@@ -1,0 +1,170 @@
+"""The workflow in processes of its own, watched from outside and ended at a chosen moment."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from checkout import ROOT, Checkout
+
+RULE = re.compile(r'^rule (\w+):.*?"\.\./scripts/(\w+)\.py"', re.MULTILINE | re.DOTALL)
+
+# The rule that runs each script.
+RULE_OF = {
+    script: rule
+    for path in (ROOT / "workflow" / "rules").glob("*.smk")
+    for rule, script in RULE.findall(path.read_text(encoding="utf-8"))
+}
+SCRIPT = re.compile(r".*/\.snakemake/scripts/tmp[^./]*\.(\w+)\.py")
+
+POLL_S = 0.01
+
+# Within which all processes of a run end after a signal. It takes a second; but a machine that is
+# busy with other things lets a process of low priority wait for minutes.
+END_S = 600
+
+
+@dataclass(frozen=True)
+class Job:
+    """A job that runs: the process of its script."""
+
+    pid: int
+    rule: str
+    seen: float
+    """When it was first seen, seconds of `time.time`."""
+
+    @property
+    def log(self) -> Path | None:
+        """Its log, once it writes there; before that it loads Snakemake's own modules."""
+        try:
+            said = Path(f"/proc/{self.pid}/fd/1").readlink()
+        except OSError:
+            return None
+        return said if said.suffix == ".log" and "logs" in said.parts else None
+
+
+class Started:
+    """A run of Snakemake in a process group of its own.
+
+    As a context, it ends with all its processes, whatever happens.
+    """
+
+    def __init__(self, checkout: Checkout, *arguments: str, output: Path, **settings):
+        self.output = output
+        self.begun = time.time()
+        self.longest: dict[str, float] = {}
+        """Seconds of the longest job that was seen of each rule, in the order of their start."""
+        self._jobs: dict[int, Job] = {}
+        with output.open("w") as file:
+            self._process = subprocess.Popen(
+                checkout.command(*arguments, **settings),
+                cwd=checkout.folder,
+                env=checkout.environment(),
+                stdout=file,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+
+    def __enter__(self) -> "Started":
+        return self
+
+    def __exit__(self, *_) -> None:
+        if self._members():
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
+
+    @property
+    def ended(self) -> bool:
+        return self._process.poll() is not None
+
+    @property
+    def status(self) -> int | None:
+        return self._process.poll()
+
+    @property
+    def said(self) -> str:
+        """All that Snakemake has said so far."""
+        return self.output.read_text(encoding="utf-8", errors="replace")
+
+    def jobs(self) -> list[Job]:
+        """The jobs that run now."""
+        now = time.time()
+        found = {}
+        for pid in self._members():
+            try:
+                arguments = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
+            except (FileNotFoundError, ProcessLookupError):
+                continue  # it has just ended
+            # Of bash, which starts it, the script is not an argument of its own.
+            scripts = filter(None, map(SCRIPT.fullmatch, arguments[1:2]))
+            for script in scripts:
+                found[pid] = self._jobs.get(pid) or Job(pid, RULE_OF[script[1]], now)
+        self._jobs = found
+        for job in found.values():
+            self.longest[job.rule] = max(self.longest.get(job.rule, 0), now - job.seen)
+        return list(found.values())
+
+    def watch(self, until: Callable[[list[Job]], bool], timeout: float) -> bool:
+        """Look at the jobs until they are as wanted; False if the run ends before.
+
+        Raises:
+            TimeoutError: neither happens in `timeout` seconds.
+        """
+        deadline = time.monotonic() + timeout
+        while True:
+            ended = self.ended
+            if until(self.jobs()):
+                return True
+            if ended:
+                return False
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"nothing happened in {timeout:g} s:\n{self.said}")
+            time.sleep(POLL_S)
+
+    def kill_snakemake_alone(self) -> list[Job]:
+        """End Snakemake as the system does when memory is short; its jobs run on."""
+        left = self.jobs()
+        self._process.kill()
+        self._process.wait()
+        return left
+
+    def interrupt(self, sign: signal.Signals) -> list[Job]:
+        """Send a signal to all processes, wait for their end, and give the jobs that it hit.
+
+        Raises:
+            TimeoutError: a process is still there after `END_S`.
+        """
+        group = self._process.pid
+        os.killpg(group, signal.SIGSTOP)  # so that what is seen is what is hit
+        hit = self.jobs()
+        os.killpg(group, sign)
+        os.killpg(group, signal.SIGCONT)
+        deadline = time.monotonic() + END_S
+        while left := self._members():
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"processes {left} run on after {sign.name}:\n{self.said}")
+            time.sleep(POLL_S)
+        self._process.wait()
+        return hit
+
+    def _members(self) -> list[int]:
+        """Processes of the group that have not ended."""
+        found = []
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                # After the name in brackets, which may hold anything: state, parent, group.
+                state, _, group = (folder / "stat").read_text().rpartition(")")[2].split()[:3]
+            except (FileNotFoundError, ProcessLookupError):
+                continue
+            if int(group) == self._process.pid and state != "Z":
+                found.append(int(folder.name))
+        return found
+
+
+def rules_of(jobs: Iterable[Job]) -> list[str]:
+    """The rules of some jobs, each once."""
+    return sorted({job.rule for job in jobs})

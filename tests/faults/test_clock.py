@@ -1,0 +1,36 @@
+"""After the clock was set back, a run says so, and what it says to do leads to right results.
+
+The clock of the machine is left alone. What a later run sees of a clock that was set back is
+files from the future, and those are made by dating a half-finished run's forward. (libfaketime
+would fake the times that processes see, but not those that the kernel gives to files.)
+"""
+
+import os
+import re
+import subprocess
+from signal import SIGKILL
+
+from victim import Victim
+
+DAY_S = 86_400
+
+
+def test_clock_set_back(undisturbed):
+    checkout = undisturbed.another(finished=False)
+    victim = Victim(undisturbed, checkout)
+    victim.interrupt(SIGKILL, victim.in_job("train", 0.5))
+    for path in checkout.folder.rglob("*"):
+        if path.is_file():
+            stat = path.stat()
+            os.utime(path, (stat.st_atime + DAY_S, stat.st_mtime + DAY_S))
+
+    arguments = *undisturbed.targets, "--rerun-incomplete"
+    failed = checkout.snakemake(*arguments, overlays=undisturbed.overlays)
+    assert failed.returncode != 0
+    assert "was the clock set back?" in failed.stdout
+    assert "Execute" not in failed.stdout and "Traceback" not in failed.stdout
+
+    (command,) = re.findall("date such files to now: (.*)", failed.stdout)
+    subprocess.run(command, shell=True, check=True, cwd=checkout.folder)
+    undisturbed.finish(checkout)
+    undisturbed.same_as(checkout)
