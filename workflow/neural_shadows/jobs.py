@@ -60,7 +60,7 @@ def run_job(job: Any, main: Callable[[Any], None]) -> None:
         # By file descriptor, so that what native libraries print is captured as well.
         os.dup2(log.fileno(), 1)
         os.dup2(log.fileno(), 2)
-        faulthandler.enable(log)  # where in the job native code crashed
+        faulthandler.enable(sys.__stderr__)  # where in the job native code crashed
         sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
         sys.stderr = _LogAndTerminal(log, terminal)
         record = JobRecord(job)
