@@ -131,6 +131,7 @@ class Slurm:
         self._spawn("munged", f"--socket={munge / 'socket'}", *files, "--foreground", "--force")
         wait_for((munge / "socket").exists, "munge socket")
         self.start_daemon("slurmctld")
+        wait_for(self.answers, "controller")
         self.start_daemon("slurmd")
         wait_for(lambda: "idle" in self.ask("sinfo", "-h", "-o", "%T"), "idle node")
 
@@ -170,22 +171,36 @@ class Slurm:
         return done.stdout
 
     def queue(self) -> list[Job]:
-        """Every job that the controller remembers, which are all of the last five minutes."""
+        """Every job that the controller remembers, by its id; it forgets one after five minutes."""
         lines = self.ask("squeue", "-h", "--states=all", "-o", "%i|%T|%k").splitlines()
-        return [Job(*line.split("|")) for line in lines]
+        return sorted((Job(*line.split("|")) for line in lines), key=lambda job: int(job.id))
+
+    def answers(self) -> bool:
+        """Whether the controller does."""
+        return (
+            subprocess.run(
+                ["scontrol", "ping"],
+                env=os.environ | self.environment,
+                capture_output=True,
+                timeout=60,
+            ).returncode
+            == 0
+        )
 
     def processes_of(self, *jobs: str) -> list[int]:
         """Processes of running jobs, their steps' keepers (slurmstepd) included."""
+        ours = f"SLURM_CONF={self.folder / 'slurm.conf'}".encode()
+        names = {f"SLURM_JOB_ID={job}".encode() for job in jobs}
         found = []
         for entry in Path("/proc").iterdir():
             if not entry.name.isdigit():
                 continue
             try:
-                title = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode()
-                variables = (entry / "environ").read_bytes().split(b"\0")
-            except (OSError, UnicodeDecodeError):
+                variables = {*(entry / "environ").read_bytes().split(b"\0")}
+                title = (entry / "cmdline").read_bytes()
+            except OSError:  # ended meanwhile
                 continue
-            keeper = any(title.startswith(f"slurmstepd: [{job}.") for job in jobs)
-            if keeper or any(f"SLURM_JOB_ID={job}".encode() in variables for job in jobs):
+            keeper = any(title.startswith(f"slurmstepd: [{job}.".encode()) for job in jobs)
+            if ours in variables and (keeper or names & variables):
                 found.append(int(entry.name))
         return found

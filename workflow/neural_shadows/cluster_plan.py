@@ -213,7 +213,7 @@ def plan_report(
         row = [rule, counts[rule], groups.get(rule, ""), asked, "", "", ""]
         if of_rule:
             work = sum(work_of(layout, job) for job in of_rule)
-            row[4:] = [f"{work:.3g} {UNITS[rule]}", f"{sum(each):.3g}", f"{max(each):.3g}"]
+            row[4:] = [f"{work:.3g} {UNITS[rule]}", _readable(sum(each)), _readable(max(each))]
             total += sum(each)
             longest = max(longest, max(each) / asked)
         rows.append(row)
@@ -229,6 +229,11 @@ def plan_report(
         f"{len(jobs):,} jobs, {sum(sent.values()):,} of Slurm's; {total:,.0f} core-hours; "
         f"the rays take {rays * RAY_BYTES / 1e9:,.3g} GB."
     )
-    hours = [(n, f"{max(total / (n * cores), longest):,.3g}") for n in nodes]
-    tables.append(tabulate(hours, [f"nodes of {cores} cores", "hours"], tablefmt="pipe"))
+    hours = [(n, _readable(max(total / (n * cores), longest))) for n in nodes]
+    header = [f"nodes of {cores} cores", "hours"]
+    tables.append(tabulate(hours, header, tablefmt="pipe", disable_numparse=True))
     return "\n\n".join(tables) + "\n"
+
+
+def _readable(number: float) -> str:
+    return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
