@@ -16,7 +16,8 @@ def _mount(*arguments: str | Path) -> None:
 
 @contextmanager
 def small_disk(folder: Path, size: int) -> Iterator[None]:
-    """A file system in memory of so many bytes at an empty folder; `resize` makes it larger."""
+    """A file system in memory of so many bytes at a folder; `resize` makes it larger."""
+    folder.mkdir(exist_ok=True)
     _mount("-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder)
     try:
         yield
@@ -25,8 +26,8 @@ def small_disk(folder: Path, size: int) -> Iterator[None]:
 
 
 def resize(folder: Path, size: int) -> None:
-    """Give a small disk another size, bytes."""
-    _mount("-o", f"remount,size={size}", folder)
+    """Give a small disk another size, bytes; not less than what is on it."""
+    subprocess.run(["mount", "-o", f"remount,size={size}", folder], check=True)
 
 
 @contextmanager

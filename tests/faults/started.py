@@ -21,7 +21,7 @@ RULE_OF = {
 }
 SCRIPT = re.compile(r".*/\.snakemake/scripts/tmp[^./]*\.(\w+)\.py")
 
-POLL_S = 0.01
+POLL_S = 0.03
 
 # Within which all processes of a run end after a signal. It takes a second; but a machine that is
 # busy with other things lets a process of low priority wait for minutes.
@@ -34,8 +34,8 @@ class Job:
 
     pid: int
     rule: str
-    seen: float
-    """When it was first seen, seconds of `time.time`."""
+    started: float
+    """When, in seconds of `time.time`."""
 
     @property
     def log(self) -> Path | None:
@@ -58,7 +58,6 @@ class Started:
         self.begun = time.time()
         self.longest: dict[str, float] = {}
         """Seconds of the longest job that was seen of each rule, in the order of their start."""
-        self._jobs: dict[int, Job] = {}
         with output.open("w") as file:
             self._process = subprocess.Popen(
                 checkout.command(*arguments, **settings),
@@ -92,21 +91,19 @@ class Started:
 
     def jobs(self) -> list[Job]:
         """The jobs that run now."""
-        now = time.time()
-        found = {}
-        for pid in self._members():
+        found = []
+        for pid, started in self._members().items():
             try:
                 arguments = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
             except (FileNotFoundError, ProcessLookupError):
                 continue  # it has just ended
             # Of bash, which starts it, the script is not an argument of its own.
-            scripts = filter(None, map(SCRIPT.fullmatch, arguments[1:2]))
-            for script in scripts:
-                found[pid] = self._jobs.get(pid) or Job(pid, RULE_OF[script[1]], now)
-        self._jobs = found
-        for job in found.values():
-            self.longest[job.rule] = max(self.longest.get(job.rule, 0), now - job.seen)
-        return list(found.values())
+            if script := next(filter(None, map(SCRIPT.fullmatch, arguments[1:2])), None):
+                found.append(Job(pid, RULE_OF[script[1]], started))
+        for job in found:
+            seconds = time.time() - job.started
+            self.longest[job.rule] = max(self.longest.get(job.rule, 0), seconds)
+        return found
 
     def watch(self, until: Callable[[list[Job]], bool], timeout: float) -> bool:
         """Look at the jobs until they are as wanted; False if the run ends before.
@@ -114,16 +111,20 @@ class Started:
         Raises:
             TimeoutError: neither happens in `timeout` seconds.
         """
+        return self.wait(lambda: until(self.jobs()), timeout, POLL_S)
+
+    def wait(self, until: Callable[[], bool], timeout: float, poll_s: float = 0.001) -> bool:
+        """As `watch`, for what can be found out faster."""
         deadline = time.monotonic() + timeout
         while True:
             ended = self.ended
-            if until(self.jobs()):
+            if until():
                 return True
             if ended:
                 return False
             if time.monotonic() > deadline:
                 raise TimeoutError(f"nothing happened in {timeout:g} s:\n{self.said}")
-            time.sleep(POLL_S)
+            time.sleep(poll_s)
 
     def kill_snakemake_alone(self) -> list[Job]:
         """End Snakemake as the system does when memory is short; its jobs run on."""
@@ -144,24 +145,26 @@ class Started:
         os.killpg(group, sign)
         os.killpg(group, signal.SIGCONT)
         deadline = time.monotonic() + END_S
-        while left := self._members():
+        while left := [*self._members()]:
             if time.monotonic() > deadline:
                 raise TimeoutError(f"processes {left} run on after {sign.name}:\n{self.said}")
             time.sleep(POLL_S)
         self._process.wait()
         return hit
 
-    def _members(self) -> list[int]:
-        """Processes of the group that have not ended."""
-        found = []
+    def _members(self) -> dict[int, float]:
+        """Processes of the group that have not ended, and when they were started."""
+        found = {}
+        booted = time.time() - time.clock_gettime(time.CLOCK_BOOTTIME)
         for folder in Path("/proc").glob("[0-9]*"):
             try:
-                # After the name in brackets, which may hold anything: state, parent, group.
-                state, _, group = (folder / "stat").read_text().rpartition(")")[2].split()[:3]
+                # From the third field on: before it is a name in brackets, with anything in it.
+                fields = (folder / "stat").read_text().rpartition(")")[2].split()
             except (FileNotFoundError, ProcessLookupError):
                 continue
-            if int(group) == self._process.pid and state != "Z":
-                found.append(int(folder.name))
+            state, group, ticks = fields[0], int(fields[2]), int(fields[19])
+            if group == self._process.pid and state != "Z":
+                found[int(folder.name)] = booted + ticks / os.sysconf("SC_CLK_TCK")
         return found
 
 

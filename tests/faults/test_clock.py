@@ -7,6 +7,7 @@ would fake the times that processes see, but not those that the kernel gives to 
 
 import os
 import re
+import shutil
 import subprocess
 from signal import SIGKILL
 
@@ -16,9 +17,11 @@ DAY_S = 86_400
 
 
 def test_clock_set_back(undisturbed):
-    checkout = undisturbed.another(finished=False)
+    checkout = undisturbed.another(finished=True)
+    for folder in (checkout.results / "evaluations", checkout.reports):
+        shutil.rmtree(folder)
     victim = Victim(undisturbed, checkout)
-    victim.interrupt(SIGKILL, victim.in_job("train", 0.5))
+    victim.interrupt(SIGKILL, victim.in_job("evaluate", 0.5))
     for path in checkout.folder.rglob("*"):
         if path.is_file():
             stat = path.stat()
@@ -32,5 +35,9 @@ def test_clock_set_back(undisturbed):
 
     (command,) = re.findall("date such files to now: (.*)", failed.stdout)
     subprocess.run(command, shell=True, check=True, cwd=checkout.folder)
+    # What was made before is not made again.
+    said = checkout.run(*arguments, "--dry-run", overlays=undisturbed.overlays)
+    assert re.search("^evaluate +[1-9]", said, re.MULTILINE)
+    assert not re.search("^(train|label_rays|prepare_mesh) ", said, re.MULTILINE)
     undisturbed.finish(checkout)
     undisturbed.same_as(checkout)

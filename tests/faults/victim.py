@@ -88,7 +88,7 @@ class Victim:
                 return False
             end = time.time() + share * self.undisturbed.longest[rule]
             # A job that is done by then is not hit, but what follows it.
-            return run.watch(lambda jobs: time.time() >= end, TIMEOUT_S)
+            return run.wait(lambda: time.time() >= end, TIMEOUT_S, 0.01)
 
         return moment
 
@@ -100,7 +100,7 @@ class Victim:
             if not run.watch(lambda jobs: rule in rules_of(jobs), TIMEOUT_S):
                 return False
             end = time.time() + 2 * self.undisturbed.longest[rule]
-            return run.watch(lambda jobs: self._parts(rule) - before or time.time() >= end, 600)
+            return run.wait(lambda: self._parts(rule) - before or time.time() >= end, TIMEOUT_S)
 
         return moment
 
@@ -117,12 +117,12 @@ class Victim:
     def _last_saved(self, job: Job) -> float:
         """When a training's last state was saved or, if none was, it was started."""
         state = self.state(job.log.stem) if job.log else None
-        return max(job.seen, state.stat().st_mtime if state else 0)
+        return max(job.started, state.stat().st_mtime if state else 0)
 
 
 def at(seconds: float) -> Moment:
     """Some seconds after the start, whatever runs then."""
-    return lambda run: run.watch(lambda jobs: time.time() >= run.begun + seconds, TIMEOUT_S)
+    return lambda run: run.wait(lambda: time.time() >= run.begun + seconds, TIMEOUT_S, 0.01)
 
 
 def write_tables(interruptions: Sequence[Interruption], folder: Path, name: str) -> None:

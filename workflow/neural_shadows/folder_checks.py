@@ -40,7 +40,7 @@ def check_clock(folders: Iterable[str | Path]) -> None:
     Raises:
         InputError: names the latest file, and how to date those from the future to now.
     """
-    folders = [str(folder) for folder in folders]
+    folders = [str(folder) for folder in folders if os.path.exists(folder)]
     times = ((os.lstat(path).st_mtime, path) for folder in folders for path in _files(folder))
     latest, path = max(times, default=(0, ""))
     ahead = latest - time.time()
