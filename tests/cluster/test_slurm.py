@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from checkout import SMOKE, Checkout
-from same_results import differences
+from same_results import differences, reports_of, results_of, take_measured
 from slurm import Job, Slurm, missing_programs, wait_for
 
 WEIGHTS = "results/smoke/networks/dragon/weights.safetensors"
@@ -181,7 +181,12 @@ def test_killed_jobs_and_daemons(slurm, fresh, local, tmp_path):
         run.wait()
         count = run.output.count("has been submitted with SLURM jobid")
     print(f"{time.monotonic() - started:.0f} s, {count} jobs of Slurm's")
-    assert differences(checkout, local) == []
+    assert differences(results_of(checkout), results_of(local)) == []
+    # Reports show measured values: those of the cluster's run, put into the local one.
+    copy = local.copy(tmp_path / "same measured values")
+    take_measured(checkout, copy)
+    copy.run()
+    assert differences(reports_of(checkout), reports_of(copy)) == []
     assert run.output.count("Trying to restart job") >= 3
 
 
@@ -218,4 +223,4 @@ def test_too_little_memory_is_tried_with_more(slurm, local, tmp_path):
     print(states)
     assert len(states) > 1 and set(states[:-1]) == {"FAILED"} and states[-1] == "COMPLETED"
     assert "memory limit" in (slurm.folder / "slurmd.log").read_text()
-    assert differences(checkout, local) == []
+    assert differences(results_of(checkout), results_of(local)) == []

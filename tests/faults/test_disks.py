@@ -2,8 +2,8 @@
 
 import shutil
 
-from comparison import differences, reports_of, results_of
 from mounts import read_only, resize, small_disk
+from same_results import differences, reports_of, results_of
 
 
 def test_disk_that_fills(undisturbed, full):

@@ -9,7 +9,7 @@ from pathlib import Path
 from signal import SIGINT, SIGKILL, SIGTERM, Signals
 
 import pytest
-from comparison import differences, leavings_of, results_of
+from same_results import differences, leavings_of, results_of
 from started import RULE_OF, Started
 from undisturbed import LONG, LONG_WEIGHTS, TIMEOUT_S
 from victim import Moment, Victim, at, write_tables

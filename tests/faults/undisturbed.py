@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checkout import Checkout, write_overlay
-from comparison import differences, leavings_of, reports_of, results_of, take_measured
+from same_results import differences, leavings_of, reports_of, results_of, take_measured
 from started import Started
 
 # A training of several times the 30 s between two saved states. The short form of these tests

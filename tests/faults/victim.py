@@ -9,7 +9,7 @@ from signal import SIGINT, SIGKILL, SIGTERM, Signals
 
 import pandas as pd
 from checkout import Checkout
-from comparison import differences, results_of
+from same_results import differences, results_of
 from started import Job, Started, rules_of
 from undisturbed import TIMEOUT_S, Undisturbed
 
