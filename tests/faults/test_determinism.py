@@ -1,6 +1,7 @@
-"""The same configuration gives the same bytes, however and wherever it is run.
+"""The same configuration gives the same bytes on the same machine, however it is run.
 
-What may differ, and by how much, is stated where it is tested: the last test.
+Threads change nothing (tests/unit/test_training.py). Another processor or a GPU adds the products
+of its layers in another order: between machines no equality of bytes is claimed.
 """
 
 from dataclasses import replace
