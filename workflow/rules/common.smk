@@ -27,7 +27,8 @@ os.environ.update(NUMBA_CACHE_DIR=kernels)
 from neural_shadows import layout
 from neural_shadows.config import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
-from neural_shadows.folder_checks import check_clock, check_writable
+from neural_shadows.file_times import check_clock
+from neural_shadows.folder_checks import check_writable
 from neural_shadows.module_graph import kind_module, modules_of
 from neural_shadows.rerun import remember_configuration
 from neural_shadows.saved_states import forget_finished
@@ -36,6 +37,12 @@ try:
     check_duplicates(workflow.configfiles)
     CONFIG = read_config(config)
     check_files(CONFIG)
+    LAYOUT = layout.Layout(CONFIG)
+    RESULTS = LAYOUT.results
+    REPORTS = LAYOUT.reports
+    if workflow.is_main_process:
+        sources = [WORKFLOW, WORKFLOW.parent / "config"]
+        check_clock([RESULTS, REPORTS, *map(os.path.relpath, sources)])
 except InputError as error:
     raise WorkflowError(str(error))
 
@@ -44,9 +51,6 @@ remember_configuration(
     workflow.overwrite_configfiles, workflow.config_settings.config_args
 )
 
-LAYOUT = layout.Layout(CONFIG)
-RESULTS = LAYOUT.results
-REPORTS = LAYOUT.reports
 LOGS = f"{RESULTS}/logs"
 BENCHMARKS = f"{RESULTS}/benchmarks"
 SCENE = f"{RESULTS}/{layout.SCENE}"
@@ -93,12 +97,8 @@ def per_attempt(amount):
 
 
 def check_folders():
-    """Find out whether jobs can write, and whether Snakemake can trust the files' times."""
+    """Find out whether jobs can write where they will."""
     try:
         check_writable([RESULTS, REPORTS])
-        sources = [
-            os.path.relpath(WORKFLOW.parent / name) for name in ("workflow", "config")
-        ]
-        check_clock([RESULTS, REPORTS, *sources])
     except InputError as error:
         raise WorkflowError(str(error))
