@@ -10,7 +10,7 @@ def test_costs_of_two_sizes(finished, tmp_path):
     finished.run("reports/smoke/cost.csv", "reports/smoke/figure_cost.png", overlays=[overlay])
     table = pd.read_csv(finished.reports / "cost.csv")
     assert table[["stage", "size"]].to_numpy().tolist() == [
-        [stage, size] for stage in ("labels", "rays", "training") for size in (1000, 4000)
+        [stage, size] for stage in ("labels", "rays", "training") for size in (10000, 40000)
     ]
     assert set(table["over"]) == {"samples"}
     assert (table["seconds"] > 0).all() and (table["peak_mib"] > 20).all()
