@@ -129,8 +129,9 @@ def expected_seconds(
 ) -> dict[Job, float]:
     """Seconds of jobs at the rate that the most alike of the measured jobs had.
 
-    A job is most like those with the same names, then a training is like those of the same
-    network, then of the same encoding, and last a job is like all of its rule.
+    A training is most like those of the same network, then of the same encoding; another job is
+    most like those with the same names, of other shards and batches; and last, each job is like
+    all of its rule.
 
     Args:
         layout: of the run that the jobs belong to; `measured_layout`: of the measured run.
@@ -210,7 +211,8 @@ def plan_report(
         of_rule = [job for job in jobs if job.rule == rule and job in seconds]
         used, asked = (measured_cores, threads) if rule in MANY_CORES else (1, 1)
         each = [seconds[job] * used / 3600 for job in of_rule]
-        row = [rule, counts[rule], groups.get(rule, ""), asked, "", "", ""]
+        group = "local" if rule in LOCAL else groups.get(rule, "")
+        row = [rule, counts[rule], group, asked, "", "", ""]
         if of_rule:
             work = sum(work_of(layout, job) for job in of_rule)
             row[4:] = [f"{work:.3g} {UNITS[rule]}", _readable(sum(each)), _readable(max(each))]
