@@ -1,12 +1,7 @@
 """Triangle meshes: reading what users bring, cleaning it, and the move to normalised space."""
 
-import gzip
 import io
-import re
-import zlib
-from array import array
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +15,9 @@ from trimesh.grouping import unique_rows
 from neural_shadows.bounding_sphere import minimal_bounding_sphere
 from neural_shadows.errors import InputError
 from neural_shadows.files import sha256_of, whole_file, write_json
+from neural_shadows.gzip_file import unpack
+from neural_shadows.mesh_checks import check_glb, check_indices, check_ply, check_stl
+from neural_shadows.obj_file import parse_obj
 
 FORMATS = ("ply", "obj", "stl", "glb")
 
@@ -73,6 +71,8 @@ def read_mesh(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
         raise InputError(f"mesh {path}: is a folder; give the mesh file in it")
     if not path.exists():
         raise InputError(f"mesh {path}: no such file; check the path")
+    if not path.is_file():  # a pipe would be waited for
+        raise InputError(f"mesh {path}: is no regular file; give a mesh file")
     suffixes = path.name.lower().removesuffix(".gz").rsplit(".", 1)
     kind = suffixes[-1]
     if len(suffixes) < 2 or kind not in FORMATS:
@@ -83,15 +83,12 @@ def read_mesh(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
         )
     data = _read_bytes(path)
     try:
-        if kind == "obj":
-            vertices, faces = _parse_obj(data)
-        else:
-            vertices, faces = _parse_with_trimesh(data, kind)
+        vertices, faces = parse_obj(data) if kind == "obj" else _parse_with_trimesh(data, kind)
     except Exception as error:  # whatever a damaged file makes the readers raise
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise InputError(
-            f"mesh {path}: cannot be read as {kind.upper()} ({reason}); it is damaged, truncated "
-            "or an unusual variant: export it again, as triangles"
+            f"mesh {path}: cannot be read as {kind.upper()} ({reason}); it is damaged, truncated, "
+            "too large or an unusual variant: export it again, as triangles"
         ) from error
     if len(faces) == 0:
         raise InputError(
@@ -255,58 +252,25 @@ def read_prepared(mesh_ply: str | Path) -> PreparedMesh:
 
 def _read_bytes(path: Path) -> bytes:
     """Content of a file, decompressed if it ends in `.gz`, up to `MAX_BYTES`."""
-    compressed = path.name.lower().endswith(".gz")
     try:
-        with (gzip.open if compressed else open)(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        raise InputError(
-            f"mesh {path}: the compressed data is damaged or truncated ({error}); copy it again"
-        ) from error
+        if path.name.lower().endswith(".gz"):
+            data = unpack(path, MAX_BYTES)
+        elif path.stat().st_size > MAX_BYTES:
+            raise ValueError(f"has more than {MAX_BYTES:,} bytes")
+        else:
+            data = path.read_bytes()
+    except ValueError as error:
+        raise InputError(f"mesh {path}: {error}; copy it again, or give a smaller mesh") from error
     except OSError as error:
         raise InputError(f"mesh {path}: cannot be read ({error.strerror or error})") from error
     if not data:
         raise InputError(f"mesh {path}: is empty; copy or export it again")
-    if len(data) > MAX_BYTES:
-        raise InputError(f"mesh {path}: more than {MAX_BYTES:,} bytes; give a smaller mesh")
     return data
-
-
-def _parse_obj(data: bytes) -> tuple[np.ndarray, np.ndarray]:
-    """Positions and faces of an OBJ; polygons become fans.
-
-    trimesh reads this format too, but takes a relative index as counted from the end of the
-    file (and not, as the format has it, from the face's line), an index of 0 as 1, and
-    copies vertices at texture seams and for each material.
-    """
-    vertices, faces = array("d"), array("q")
-    for line in data.replace(b"\\\n", b" ").replace(b"\\\r\n", b" ").splitlines():
-        key, *values = line.split() or [b"#"]
-        try:
-            if key == b"v":
-                x, y, z = values[:3]
-                vertices.extend((float(x), float(y), float(z)))
-            elif key == b"f":
-                indices = [int(value.partition(b"/")[0]) for value in values]
-                if 0 in indices or len(indices) < 3:
-                    raise ValueError
-                count = len(vertices) // 3
-                first, *rest = (i - 1 if i > 0 else count + i for i in indices)
-                for pair in pairwise(rest):
-                    faces.extend((first, *pair))
-        except ValueError:
-            text = line[:80].decode("utf-8", "replace")
-            raise ValueError(f"the line '{text}' is not understood") from None
-    points = np.array(vertices).reshape(-1, 3)
-    triangles = np.array(faces).reshape(-1, 3)
-    _check_indices(triangles, len(points))
-    return points, triangles
 
 
 def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
     """Positions and faces of the other formats, scenes flattened."""
-    if kind == "ply":
-        _check_ascii_ply(data)
+    {"ply": check_ply, "stl": check_stl, "glb": check_glb}[kind](data)
     # Without `fix_texture` the vertices of a PLY are not copied at texture seams.
     scene = trimesh.load_scene(
         io.BytesIO(data), file_type=kind, process=False, skip_materials=True, fix_texture=False
@@ -314,44 +278,11 @@ def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]
     # Part by part: once joined, an index past the end of one part is a vertex of the next.
     for part in scene.geometry.values():
         if isinstance(part, trimesh.Trimesh):
-            _check_indices(part.faces, len(part.vertices))
+            check_indices(part.faces, len(part.vertices))
     mesh = scene.to_mesh()
+    if len(mesh.faces) and mesh.vertices.shape[1:] != (3,):
+        raise ValueError(f"its positions have {mesh.vertices.shape[1]} coordinates")
     return np.array(mesh.vertices, dtype=np.float64), np.array(mesh.faces, dtype=np.int64)
-
-
-def _check_indices(faces: np.ndarray, vertices: int) -> None:
-    bad = np.argwhere((faces < 0) | (faces >= vertices))
-    if len(bad):
-        face = bad[0][0]
-        raise ValueError(
-            f"face {face} (counted from 0) names vertices {faces[face].tolist()} of {vertices}"
-        )
-
-
-def _check_ascii_ply(data: bytes) -> None:
-    """Refuse an ASCII PLY with fewer rows than its header says.
-
-    trimesh reads what is there without a word. (It does compare the size of a binary one.)
-    """
-    header, _, body = data.partition(b"end_header")
-    if b"format ascii" not in header:
-        return
-    header = re.sub(rb"(?m)^(comment|obj_info)\b.*$", b"", header)
-    elements = [
-        (int(count), kind)
-        for count, kind in re.findall(rb"element\s+\S+\s+(\d+)\s+property\s+(\S+)", header)
-        if int(count)
-    ]
-    body = body.strip()
-    rows = body.count(b"\n") + 1 if body else 0
-    expected = sum(count for count, _ in elements)
-    if rows < expected:
-        raise ValueError(f"truncated: {rows} rows of data where its header says {expected}")
-    if rows == expected and elements and elements[-1][1] == b"list":
-        # The last row may be cut in the middle: its first number says how many follow.
-        count, *values = body.rsplit(b"\n", 1)[-1].split()
-        if len(values) < int(count):
-            raise ValueError("truncated: its last row is cut")
 
 
 def _drop_unreferenced(vertices: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
