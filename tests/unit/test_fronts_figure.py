@@ -3,7 +3,13 @@ import pandas as pd
 import pytest
 
 from neural_shadows.errors import InputError
-from neural_shadows.fronts_figure import front, fronts_figure, kind_of, write_fronts_figure
+from neural_shadows.fronts_figure import (
+    front,
+    fronts_figure,
+    kind_of,
+    read_networks,
+    write_fronts_figure,
+)
 
 NAN = float("nan")
 TABLE = pd.DataFrame(
@@ -88,7 +94,7 @@ def test_flip_stands_in_for_lpips(tmp_path):
 def test_a_table_without_the_rows_is_named(tmp_path, content):
     if content is not None:
         (tmp_path / "t.csv").write_text(content)
-    with pytest.raises(InputError, match=r"t\.csv: cannot be read"):
+    with pytest.raises(InputError, match=r"t\.csv: (no such file of a|not a whole) table"):
         write_fronts_figure(
             tmp_path / "t.csv",
             tmp_path / "a.png",
@@ -98,3 +104,9 @@ def test_a_table_without_the_rows_is_named(tmp_path, content):
             rows=ROWS,
             scale="",
         )
+
+
+def test_a_row_that_is_missing_is_named(tmp_path):
+    TABLE.iloc[:-1].to_csv(tmp_path / "t.csv", index=False)
+    with pytest.raises(InputError, match=rf"t\.csv: has no row '{ROWS[-1]['label']}' of dragon"):
+        read_networks(tmp_path / "t.csv", "dragon", [row["label"] for row in ROWS])

@@ -97,7 +97,7 @@ HEAD = "table,row,label,column,value,unit,section\n"
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("table,row\n4.1,uniform\n", "columns must be"),
+        ("table,row\n4.1,uniform\n", "no column label"),
         (HEAD + "4.1,a,A,psnr,high,dB,4.2.1\n", "cannot be"),
         (HEAD + "4.1,a,A,psnr,,dB,4.2.1\n", "line 2"),
         (HEAD + "4.1,a,A,psnr,25,dB,4.2.1,1,2\n4.1,b,A,psnr,25,dB,4.2.1,1,2,3\n", "cannot be read"),

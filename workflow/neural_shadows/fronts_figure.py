@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from neural_shadows.errors import InputError
+from neural_shadows.broken import broken
 from neural_shadows.loss_figure import COLOURS
 from neural_shadows.methods import RAY_TRACED, is_shadow_map
 from neural_shadows.strips import DPI, write_strip
+from neural_shadows.tables import read_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -151,6 +152,21 @@ def kind_of(method: str, encoding: str) -> str:
     return "shadow map" if is_shadow_map(method) else encoding
 
 
+def read_networks(table_csv: Path, scene: str, labels: Sequence[str]) -> pd.DataFrame:
+    """The rows with these labels, of a scene of a table of `write_networks_table`.
+
+    Raises:
+        InputError: the table is missing, not whole, or without one of the rows.
+    """
+    qualities = [metric + end for metric in ("lpips", "flip") for end in ("", "_low", "_high")]
+    table = read_table(table_csv, ("scene", "method", "encoding"), (*qualities, *COSTS))
+    table = table[table["scene"] == scene].set_index("method", drop=False)
+    for label in labels:
+        if label not in table.index:
+            raise broken(table_csv, f"has no row {label!r} of {scene}")
+    return table.loc[labels]
+
+
 def write_fronts_figure(
     table_csv: Path,
     png: Path,
@@ -170,13 +186,7 @@ def write_fronts_figure(
     Raises:
         InputError: the table is not whole.
     """
-    try:
-        table = pd.read_csv(table_csv, keep_default_na=True)
-        table = table[table["scene"] == scene].set_index("method", drop=False)
-        table = table.loc[[row["label"] for row in rows]]
-    except (OSError, ValueError, KeyError) as error:
-        reason = " ".join(str(error).split())
-        raise InputError(f"{table_csv}: cannot be read ({reason}): delete it") from error
+    table = read_networks(table_csv, scene, [row["label"] for row in rows])
     kinds = [kind_of(row["method"], table.loc[row["label"], "encoding"]) for row in rows]
     quality = "lpips" if table["lpips"].notna().any() else "flip"
     figure = fronts_figure(table, kinds, quality, title=f"{title} ({scale} scale)")

@@ -10,13 +10,14 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.broken import broken
+from neural_shadows.csv_file import read_csv
 from neural_shadows.errors import InputError
 from neural_shadows.strips import DPI, write_strip
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-COLUMNS = ["step", "samples", "learning_rate", "loss"]
+COLUMNS = {"step": "int64", "samples": "int64", "learning_rate": "float64", "loss": "float64"}
 # Okabe and Ito's colours, which readers with any colour vision tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 SMOOTHING = 0.02  # of the curve's points, each the mean of a five hundredth of the run
@@ -29,15 +30,13 @@ def read_loss(path: str | Path) -> pd.DataFrame:
         InputError: the file is missing; or cut short or no loss curve, and moved aside.
     """
     try:
-        whole = Path(path).read_bytes().endswith(b"\n")
-        curve = pd.read_csv(path)
+        curve = read_csv(path, COLUMNS)
     except FileNotFoundError as error:
         raise InputError(f"{path}: no such file; run the training") from error
     except (OSError, ValueError) as error:
-        reason = " ".join(str(error).split())
-        raise broken(path, f"not a whole loss curve ({reason})") from error
-    if list(curve.columns) != COLUMNS or not whole or curve.empty or curve.isna().any(axis=None):
-        raise broken(path, "not a whole loss curve")
+        raise broken(path, f"not a whole loss curve ({error})") from error
+    if curve.empty or not np.isfinite(curve).all(axis=None):
+        raise broken(path, "not a whole loss curve (a value is missing or not finite)")
     return curve
 
 

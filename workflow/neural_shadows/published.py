@@ -2,8 +2,10 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
+from neural_shadows.csv_file import read_csv
 from neural_shadows.errors import InputError
 
 COLUMNS = ("table", "row", "label", "column", "value", "unit", "section")
@@ -21,14 +23,12 @@ def read_published(path: str | Path) -> pd.DataFrame:
             the same table, row and column twice.
     """
     try:
-        published = pd.read_csv(path, dtype=dict.fromkeys(COLUMNS, "str") | {"value": "float64"})
+        published = read_csv(path, dict.fromkeys(COLUMNS, "str") | {"value": "float64"})
     except (OSError, ValueError) as error:
-        reason = " ".join(str(error).split())  # pandas ends some messages with a line break
-        raise InputError(f"{path}: cannot be read ({reason}): restore it from git") from error
-    if tuple(published.columns) != COLUMNS:
-        raise InputError(f"{path}: the columns must be {', '.join(COLUMNS)}: restore it from git")
-    if published["value"].isna().any():
-        line = published["value"].isna().argmax() + 2
+        raise InputError(f"{path}: cannot be read ({error}): restore it from git") from error
+    finite = np.isfinite(published["value"])
+    if not finite.all():
+        line = finite.argmin() + 2
         raise InputError(f"{path}: line {line} has no value: restore it from git")
     twice = published.duplicated(["table", "row", "column"])
     if twice.any():

@@ -8,7 +8,10 @@ from pathlib import Path
 from platform import python_version
 from typing import Any
 
-import pandas as pd
+import numpy as np
+
+from neural_shadows.broken import broken
+from neural_shadows.csv_file import read_csv
 
 PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
 
@@ -33,13 +36,27 @@ def durations(benchmarks: Path) -> dict[str, tuple[int, float]]:
 
     Args:
         benchmarks: the folder that has a folder for each rule.
+
+    Raises:
+        InputError: a file is not whole, and moved aside.
     """
     found = {}
     for folder in sorted(path for path in benchmarks.glob("*") if path.is_dir()):
-        tables = [pd.read_csv(path, sep="\t") for path in sorted(folder.glob("*.tsv"))]
-        if tables:
-            found[folder.name] = len(tables), float(sum(table["s"].sum() for table in tables))
+        seconds = [_seconds(path) for path in sorted(folder.glob("*.tsv"))]
+        if seconds:
+            found[folder.name] = len(seconds), sum(seconds)
     return found
+
+
+def _seconds(path: Path) -> float:
+    """Of all runs that a benchmark file is of."""
+    try:
+        seconds = read_csv(path, {"s": "float64"}, others=True, separator="\t")["s"].sum()
+    except (OSError, ValueError) as error:
+        raise broken(path, f"not a whole benchmark file ({error})") from error
+    if not np.isfinite(seconds):
+        raise broken(path, "not a whole benchmark file (a time is not finite)")
+    return float(seconds)
 
 
 def run_facts(

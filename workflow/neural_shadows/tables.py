@@ -9,6 +9,7 @@ import pandas as pd
 from tabulate import tabulate
 
 from neural_shadows.broken import broken
+from neural_shadows.csv_file import read_csv
 from neural_shadows.errors import InputError
 from neural_shadows.files import write_text
 from neural_shadows.published import printed
@@ -61,18 +62,12 @@ def read_metrics(paths: Iterable[str | Path]) -> pd.DataFrame:
 
 def _read_one(path: str | Path) -> pd.DataFrame:
     try:
-        # A number cut in two is still a number: only the missing line break tells.
-        whole = Path(path).read_bytes().endswith(b"\n")
-        metrics = pd.read_csv(path, dtype=METRICS_DTYPES)
+        metrics = read_csv(path, METRICS_DTYPES)
     except FileNotFoundError as error:
         raise InputError(f"{path}: no such file of metrics: run the evaluation") from error
     except (OSError, ValueError) as error:
-        reason = " ".join(str(error).split())  # pandas ends some messages with a line break
-        raise broken(path, f"not a whole file of metrics ({reason})") from error
-    if list(metrics.columns) != list(METRICS_DTYPES):
-        expected = ",".join(METRICS_DTYPES)
-        raise broken(path, f"no file of metrics, its columns are not {expected}")
-    if not whole or metrics.empty or metrics.isna().any(axis=None):
+        raise broken(path, f"not a whole file of metrics ({error})") from error
+    if metrics.empty or metrics.isna().any(axis=None):
         raise broken(path, "metrics are cut short")
     if not np.isfinite(metrics["value"]).all():
         raise broken(path, "a value is not finite")
@@ -205,6 +200,24 @@ def write_table(
         "number that the thesis prints."
     )
     write_twins(frame, columns, csv_path, md_path, title=title, notes=[legend, *notes])
+
+
+def read_table(path: str | Path, texts: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
+    """Read the CSV of a table that `write_twins` wrote.
+
+    Args:
+        texts, numbers: columns that it must have; a cell may be empty, and is then NaN.
+
+    Raises:
+        InputError: the file is missing; or not whole or no such table, and moved aside.
+    """
+    kinds = dict.fromkeys(texts, "str") | dict.fromkeys(numbers, "float64")
+    try:
+        return read_csv(path, kinds, others=True)
+    except FileNotFoundError as error:
+        raise InputError(f"{path}: no such file of a table: run the table") from error
+    except (OSError, ValueError) as error:
+        raise broken(path, f"not a whole table ({error})") from error
 
 
 def write_twins(

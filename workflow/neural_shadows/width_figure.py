@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from neural_shadows.errors import InputError
 from neural_shadows.loss_figure import COLOURS
 from neural_shadows.strips import DPI, write_strip
+from neural_shadows.tables import read_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+# What is drawn, and between what it is spread.
+SPREADS = {"lpips": ("lpips_low", "lpips_high"), "frame_ms": ("frame_ms_q1", "frame_ms_q3")}
 
 
 def width_figure(table: pd.DataFrame, widths: Mapping[str, int], *, title: str) -> Figure:
@@ -31,10 +34,7 @@ def width_figure(table: pd.DataFrame, widths: Mapping[str, int], *, title: str) 
     figure = Figure(figsize=(11, 4.6), dpi=DPI, layout="constrained")
     quality, speed = figure.subplots(1, 2)
     scenes = list(dict.fromkeys(shown["scene"]))
-    for axes, column, (low, high) in (
-        (quality, "lpips", ("lpips_low", "lpips_high")),
-        (speed, "frame_ms", ("frame_ms_q1", "frame_ms_q3")),
-    ):
+    for axes, (column, (low, high)) in zip((quality, speed), SPREADS.items()):
         for colour, scene in zip(COLOURS, scenes):
             rows = shown[shown["scene"] == scene]
             spread = [rows[column] - rows[low], rows[high] - rows[column]]
@@ -63,6 +63,17 @@ def width_figure(table: pd.DataFrame, widths: Mapping[str, int], *, title: str) 
     return figure
 
 
+def read_frame_time_table(table_csv: Path) -> pd.DataFrame:
+    """Read a table of `write_performance_table`.
+
+    Raises:
+        InputError: it is missing or not whole.
+    """
+    spreads = [column for pair in SPREADS.values() for column in pair]
+    theirs = [f"thesis_{column}" for column in SPREADS]
+    return read_table(table_csv, ("method", "scene"), (*SPREADS, *spreads, *theirs))
+
+
 def write_width_figure(
     table_csv: Path,
     png: Path,
@@ -83,10 +94,6 @@ def write_width_figure(
     Raises:
         InputError: the table is not whole.
     """
-    try:
-        table = pd.read_csv(table_csv)
-    except (OSError, ValueError) as error:
-        reason = " ".join(str(error).split())
-        raise InputError(f"{table_csv}: cannot be read ({reason}): delete it") from error
+    table = read_frame_time_table(table_csv)
     by_label = {row["label"]: widths[row["method"]] for row in rows if row["method"] in widths}
     write_strip(width_figure(table, by_label, title=f"{title} ({scale} scale)"), png, svg)
