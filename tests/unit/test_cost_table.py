@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pandas as pd
 import pytest
+from sample_records import MACHINE
 
 from neural_shadows.cost import BASE, NEEDED, TINY, bumpy_sphere, size_of
 from neural_shadows.cost_figure import cost_figure
@@ -23,7 +24,7 @@ def measured(size: int) -> dict:
             {"stage": "labels", "seconds": 1e-6 * size, "bytes": 2**20, "peak_bytes": 2**21},
             {"stage": "training", "seconds": size**0.5, "bytes": 0, "peak_bytes": 2**21},
         ],
-        "machine": {"cpu": "a CPU"},
+        "machine": MACHINE,
         "threads": 2,
     }
 

@@ -95,6 +95,6 @@ def test_other_views_are_other_errors(find):
 def test_a_file_of_something_else_is_moved_aside(tmp_path, text):
     path = tmp_path / "found.json"
     path.write_text(text)
-    with pytest.raises(InputError, match="not a file of depth biases"):
+    with pytest.raises(InputError, match="no file of depth biases"):
         read_depth_biases(path)
     assert not path.exists()

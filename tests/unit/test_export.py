@@ -7,6 +7,7 @@ import numpy as np
 import onnxruntime
 import pytest
 import torch
+from sample_records import MESH
 from shapes import bumpy_sphere, looking, prepared, unit
 
 from neural_shadows.errors import InputError
@@ -40,7 +41,7 @@ KINDS = [
 def export(tmp_path):
     shape = bumpy_sphere(4)
     shape.export(tmp_path / "mesh.ply")
-    (tmp_path / "mesh.json").write_text(json.dumps({"centre": [1, 2, 3], "radius": 4}))
+    (tmp_path / "mesh.json").write_text(json.dumps(MESH))
     (tmp_path / "biases.json").write_text(json.dumps({"net": {"depth_bias": 0.02}}))
 
     def export(settings, biased=True):

@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 import trimesh
 from matplotlib.colors import to_rgb
+from sample_records import MESH
 from scipy.ndimage import binary_opening
 from shapes import box, bumpy_sphere
 
@@ -27,7 +28,7 @@ def meshes(tmp_path_factory):
     corner.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0)))
     corner.export(folder / "corner_z.ply")
     for name in ("closed", "open", "corner_y", "corner_z"):
-        write_json(folder / f"{name}.json", {"name": name})
+        write_json(folder / f"{name}.json", MESH | {"name": name})
     return folder
 
 

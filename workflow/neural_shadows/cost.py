@@ -190,7 +190,10 @@ def stage_work(
     made = make_network(network)
     made.initialise(settings["seed"])
     save_network(folder / "untrained.safetensors", made, {"network": network})
-    write_json(folder / "lpips.json", {"available": False})
+    write_json(
+        folder / "lpips.json",
+        {"net": "alex", "trunk": None, "available": False, "reason": "not measured"},
+    )
     width = sizes["frame_width"]
     frames = {
         "up": "y",

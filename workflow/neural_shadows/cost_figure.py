@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from neural_shadows.cost_table import cost_table
-from neural_shadows.files import read_json
 from neural_shadows.loss_figure import COLOURS
+from neural_shadows.records import read_cost
 from neural_shadows.strips import DPI, write_strip
 
 if TYPE_CHECKING:
@@ -57,5 +57,5 @@ def write_cost_figure(
     costs: Sequence[Path], png: Path, svg: Path, *, title: str, scale: str
 ) -> None:
     """Draw the figure of these measurements."""
-    table = cost_table([read_json(path) for path in costs])
+    table = cost_table([read_cost(path) for path in costs])
     write_strip(cost_figure(table, title=f"{title} ({scale} scale)"), png, svg)

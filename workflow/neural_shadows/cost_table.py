@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from neural_shadows.files import read_json
+from neural_shadows.records import read_cost
 from neural_shadows.tables import write_twins
 
 MIB = 2**20
@@ -55,7 +55,7 @@ def write_cost_table(
     costs: Sequence[Path], csv_path: Path, md_path: Path, *, title: str, scale: str
 ) -> None:
     """Write the table of `cost_table` as CSV and Markdown."""
-    measured = [read_json(path) for path in costs]
+    measured = [read_cost(path) for path in costs]
     table = cost_table(measured)
 
     def texts(column: str, form: str) -> list[str]:

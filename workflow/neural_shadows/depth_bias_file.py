@@ -3,9 +3,8 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from neural_shadows.broken import broken
-from neural_shadows.files import read_json
 from neural_shadows.methods import biased_key
+from neural_shadows.records import read_bias_search
 
 
 def biases_by_method(paths: Iterable[Path]) -> dict[str, float]:
@@ -25,8 +24,4 @@ def read_depth_biases(path: Path) -> dict[str, float]:
     Raises:
         InputError: the file is missing, or not whole.
     """
-    found = read_json(path)
-    try:
-        return {name: float(values["depth_bias"]) for name, values in found.items()}
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
-        raise broken(path, "not a file of depth biases") from error
+    return {name: found["depth_bias"] for name, found in read_bias_search(path).items()}

@@ -9,7 +9,7 @@ import pandas as pd
 import torch
 
 from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.files import read_json, whole_file, write_text
+from neural_shadows.files import whole_file, write_text
 from neural_shadows.frames import (
     ShadingPoints,
     reference_visibility,
@@ -22,6 +22,7 @@ from neural_shadows.methods import shadow_map_key
 from neural_shadows.metrics import Lpips, psnr, shadow_error, ssim
 from neural_shadows.network_file import load_network
 from neural_shadows.progress import progress_bar
+from neural_shadows.records import read_lpips_choice
 from neural_shadows.scene_frames import open_scene
 from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
 from neural_shadows.shadow_query import network_lit, on_device
@@ -141,7 +142,7 @@ def evaluate(
         map_visibilities(scene.mesh, scene.tracer, shadow_maps),
         network_visibilities(weights, depth_biases, device=device, precision=precision),
     ]
-    found = read_json(lpips_json)
+    found = read_lpips_choice(lpips_json)
     lpips = None
     if found["available"]:
         trunk = Path(found["trunk"]) if found["trunk"] else None

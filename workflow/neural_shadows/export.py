@@ -9,9 +9,10 @@ from torch import Tensor, nn
 
 from neural_shadows.depth_bias_file import read_depth_biases
 from neural_shadows.errors import InputError
-from neural_shadows.files import read_json, whole_file, write_json
+from neural_shadows.files import whole_file, write_json
 from neural_shadows.frames import SHADING_OFFSET
 from neural_shadows.network_file import load_network
+from neural_shadows.records import read_mesh_report
 from neural_shadows.shadow_network import ShadowNetwork
 
 OPSET = 20
@@ -100,7 +101,7 @@ def export_network(
     """
     network, header = load_network(weights)
     name = header["name"]
-    mesh = read_json(mesh_json)
+    mesh = read_mesh_report(mesh_json)
     depth_bias = read_depth_biases(bias_json)[name] if bias_json else given_bias
     export_onnx(network, onnx_path)
     difference = largest_difference(network, onnx_path)

@@ -76,7 +76,7 @@ def read_json(path: str | Path) -> Any:
         return json.loads(Path(path).read_text(encoding="utf-8"))
     except FileNotFoundError as error:
         raise InputError(f"{path}: no such file; run the stage that makes it") from error
-    except ValueError as error:
+    except (ValueError, RecursionError, OSError) as error:  # nested too deep; or a folder
         raise InputError(f"{path}: not a JSON file ({error}); delete it and run again") from error
 
 

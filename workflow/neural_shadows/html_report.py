@@ -15,11 +15,13 @@ from markdown_it.token import Token
 from markupsafe import Markup
 from PIL import Image
 
+from neural_shadows.broken import broken
 from neural_shadows.errors import InputError
-from neural_shadows.files import read_json, write_text
+from neural_shadows.files import write_text
 from neural_shadows.first_frames import FirstFrame, read_first_frames
 from neural_shadows.grey_flip import Flip
 from neural_shadows.methods import is_shadow_map, resolution_of
+from neural_shadows.records import read_lpips_choice, read_mesh_report, read_training
 from neural_shadows.run_facts import run_facts
 from neural_shadows.table_report import describe_mesh
 
@@ -55,8 +57,8 @@ def table_block(path: Path) -> Block:
     """
     try:
         text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); run the table") from error
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read ({error}); run the table") from error
     markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
     tokens = markdown.parse(text)
     if [token.type for token in tokens[:1]] != ["heading_open"] or not any(
@@ -96,14 +98,13 @@ def figure_block(title: str, svg: Path, png: Path) -> Block:
     The number of a figure of the thesis comes from its name: `figure_4_3` is figure 4.3.
 
     Raises:
-        InputError: a file is missing.
+        InputError: a file is missing; or the PNG is not whole, and moved aside.
     """
     try:
         if svg.stat().st_size <= LARGEST_SVG:
             source = _data_uri("svg+xml", svg.read_bytes())
         else:
-            with Image.open(png) as image:
-                source = _webp(image)
+            source = _webp_of(png)
     except OSError as error:
         raise InputError(
             f"{error.filename}: cannot be read ({error.strerror}); run the figure"
@@ -112,6 +113,16 @@ def figure_block(title: str, svg: Path, png: Path) -> Block:
     if number := re.fullmatch(r"figure_(\d)_(\d+)", svg.stem):
         title = f"Figure {number[1]}.{number[2]}: {title}"
     return Block(svg.stem, title, html)
+
+
+def _webp_of(png: Path) -> str:
+    content = io.BytesIO(png.read_bytes())
+    try:
+        with Image.open(content, formats=["PNG"]) as image:
+            return _webp(image)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        # What Pillow says of a file in memory names the memory.
+        raise broken(png, f"not a whole picture ({type(error).__name__})") from error
 
 
 def _data_uri(kind: str, content: bytes) -> str:
@@ -243,15 +254,16 @@ def write_html_report(
         InputError: a file is missing or not whole.
     """
     described = {
-        scene: describe_mesh(read_json(path), procedural[scene]) for scene, path in meshes.items()
+        scene: describe_mesh(read_mesh_report(path), procedural[scene])
+        for scene, path in meshes.items()
     }
     facts = run_facts(
         scale=scale,
         seed=seed,
         frames=frames,
         meshes=described,
-        records=[read_json(path) for path in trainings],
-        lpips=read_json(lpips_json),
+        records=[read_training(path) for path in trainings],
+        lpips=read_lpips_choice(lpips_json),
         benchmarks=benchmarks,
         folder=folder,
     )

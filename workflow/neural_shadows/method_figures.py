@@ -13,7 +13,6 @@ import torch
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.direction_spectrum import angular_power_spectrum
 from neural_shadows.errors import InputError
-from neural_shadows.files import read_json
 from neural_shadows.light import axis_vector
 from neural_shadows.loss_figure import COLOURS
 from neural_shadows.mesh import read_prepared
@@ -21,6 +20,7 @@ from neural_shadows.mesh_slice import MeshSlice, SliceRays, slice_mesh, slice_ra
 from neural_shadows.poisson_disk import PatternBank
 from neural_shadows.quadtree import build_quadtree
 from neural_shadows.ray_sampling import sample_quads
+from neural_shadows.records import read_mesh_report
 from neural_shadows.silhouette import plane_basis, silhouette
 from neural_shadows.strips import DPI, write_strip
 from neural_shadows.tracing import Tracer
@@ -88,7 +88,7 @@ def draw_method_figure(
             _dead_zone_loss(figure, cut)
         case _:
             raise InputError(f"figure kind {kind!r} is unknown; use one of those in the config")
-    name = read_json(mesh_json)["name"]
+    name = read_mesh_report(mesh_json)["name"]
     figure.suptitle(f"{title} ({name})", x=0.01, ha="left", weight="bold")
     write_strip(figure, png, svg)
 

@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.depth_bias_file import biases_by_method
-from neural_shadows.files import read_json
 from neural_shadows.memory import network_bytes, shadow_map_bytes
 from neural_shadows.methods import RAY_TRACED, experiment_of
 from neural_shadows.performance_table import describe_times, read_frame_times
 from neural_shadows.published import COLUMNS
+from neural_shadows.records import read_lpips_choice, read_mesh_report, read_training
 from neural_shadows.table_report import REFERENCES, describe_mesh, describe_training
 from neural_shadows.tables import (
     METRICS,
@@ -153,9 +153,9 @@ def write_networks_table(
         InputError: a file is missing or not whole.
     """
     times = read_frame_times(times_jsons)
-    described = {scene: read_json(path) for scene, path in meshes.items()}
-    lpips = read_json(lpips_json)
-    records = {record["name"]: record for record in map(read_json, training_jsons)}
+    described = {scene: read_mesh_report(path) for scene, path in meshes.items()}
+    lpips = read_lpips_choice(lpips_json)
+    records = {record["name"]: record for record in map(read_training, training_jsons)}
     sizes = {method: network_bytes(path) for method, path in weights.items()}
     depth_biases = dict(given_biases) | biases_by_method(bias_jsons)
     frame = networks_table(

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.broken import broken
 from neural_shadows.errors import InputError
-from neural_shadows.files import read_json
 from neural_shadows.memory import network_bytes, shadow_map_bytes
 from neural_shadows.methods import RAY_TRACED
 from neural_shadows.published import printed, read_published
+from neural_shadows.records import read_scene_times, read_training
 from neural_shadows.statistics import mean_interval
 from neural_shadows.table_report import describe_training
 from neural_shadows.tables import interval_text, read_metrics, thesis_texts, write_twins
@@ -27,13 +26,7 @@ def read_frame_times(paths: Sequence[Path]) -> dict[str, dict[str, Any]]:
     Raises:
         InputError: a file is missing or not whole.
     """
-    times = {}
-    for path in paths:
-        values = read_json(path)
-        if not isinstance(values, dict) or not {"scene", "methods", "machine"} <= values.keys():
-            raise broken(path, "not a file of frame times")
-        times[values["scene"]] = values
-    return times
+    return {times["scene"]: times for times in map(read_scene_times, paths)}
 
 
 def performance_table(
@@ -161,7 +154,7 @@ def write_performance_table(
         "A shadow map is rendered whole in each frame and its size is 4 N² bytes; ray tracing "
         "sends a shadow ray from each pixel that faces the light.",
         f"Scale: {scale}; seed {seed}; made on {datetime.date.today().isoformat()}.",
-        *(f"Network {describe_training(read_json(path))}." for path in training_jsons),
+        *(f"Network {describe_training(read_training(path))}." for path in training_jsons),
     ]
     if number:
         title += f" (table {number} of the thesis)"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from neural_shadows.files import read_json, whole_file
+from neural_shadows.files import whole_file
 from neural_shadows.frames import (
     Viewpoint,
     camera_axes,
@@ -16,6 +16,7 @@ from neural_shadows.frames import (
 from neural_shadows.light import axis_vector, light_basis
 from neural_shadows.mesh import read_prepared
 from neural_shadows.quadtree import build_quadtree
+from neural_shadows.records import read_mesh_report
 from neural_shadows.silhouette import plane_basis, silhouette
 from neural_shadows.tracing import Tracer
 
@@ -39,7 +40,7 @@ def preview_scene(
     from matplotlib.patches import Circle, Rectangle
     from matplotlib.transforms import Affine2D
 
-    mesh, report = read_prepared(mesh_ply), read_json(mesh_json)
+    mesh, report = read_prepared(mesh_ply), read_mesh_report(mesh_json)
     tracer = Tracer(mesh.vertices, mesh.faces)
     up_vector = axis_vector(up, "up")
     # From 20 degrees above the horizon and 30 off a coordinate axis, which shows most objects

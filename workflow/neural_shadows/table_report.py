@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.depth_bias_file import biases_by_method
-from neural_shadows.files import read_json
 from neural_shadows.first_frames import read_first_frames
 from neural_shadows.published import read_published
+from neural_shadows.records import read_lpips_choice, read_mesh_report, read_training
 from neural_shadows.strips import picture_strip, write_strip
 from neural_shadows.tables import comparison_table, read_metrics, write_table
 
@@ -73,8 +73,8 @@ def write_table_report(
     Raises:
         InputError: metrics are missing, cut short or not finite.
     """
-    mesh, lpips = read_json(mesh_json), read_json(lpips_json)
-    records = [read_json(path) for path in training_jsons]
+    mesh, lpips = read_mesh_report(mesh_json), read_lpips_choice(lpips_json)
+    records = [read_training(path) for path in training_jsons]
     frame = comparison_table(
         read_metrics(metrics),
         rows,
@@ -142,7 +142,7 @@ def write_picture_strip(
         {key: image.astype(np.float32) / 255 for key, image in frame.images.items()}
         for frame in frames
     ]
-    mesh = read_json(mesh_json)["name"]
+    mesh = read_mesh_report(mesh_json)["name"]
     figure = picture_strip(
         shown,
         labels,
