@@ -19,7 +19,7 @@ from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.errors import InputError
 from neural_shadows.frequency_network import FrequencyNetwork
 from neural_shadows.module_graph import kind_module
-from neural_shadows.network_file import load_network, load_tensors
+from neural_shadows.network_file import load_network, load_tensors, save_tensors
 from neural_shadows.network_kinds import make_network
 from neural_shadows.training import (
     TrainingRun,
@@ -395,6 +395,38 @@ def test_a_damaged_state_is_named(tmp_path):
     state.write_bytes(state.read_bytes()[:-10])
     with pytest.raises(InputError, match="state.safetensors: not a whole file.*delete it"):
         run_training(tmp_path, **TINY)
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        # One value in a tensor's place would be taken for all of it.
+        (lambda tensors, header: tensors.update({"output": torch.ones(1)}), "output has the shape"),
+        (lambda tensors, header: tensors.pop("exp_avg.output"), "'exp_avg.output'"),
+        (lambda tensors, header: header.pop("step"), "'step'"),
+        (lambda tensors, header: header.update(step=-1), "its step is -1"),
+        (lambda tensors, header: header.update(step=1.5), "its step is 1.5"),
+        (lambda tensors, header: header.update(curve=[[1, 2]]), "not enough values"),
+    ],
+    ids=["shape", "tensor", "no step", "negative", "half", "curve"],
+)
+def test_a_state_of_something_else_is_moved_aside(tmp_path, change, reason):
+    def run() -> TrainingRun:
+        network = make_network(TINY["network"])
+        network.initialise(1)
+        return TrainingRun(network, torch.device("cpu"), DeadZone(), 0)
+
+    state = tmp_path / "state.safetensors"
+    run().save(state)
+    tensors, header = load_tensors(state)
+    change(tensors, header)
+    save_tensors(state, tensors, header)
+    fresh = run()
+    with pytest.raises(InputError, match=rf"not a state of this training \(.*{reason}.*moved to"):
+        fresh.restore(state)
+    assert not state.exists()
+    for ours, theirs in zip(fresh.weights, run().weights, strict=True):
+        assert torch.equal(ours, theirs)  # nothing of it was taken
 
 
 def test_restored_state_is_the_saved_one(tmp_path):

@@ -5,6 +5,7 @@
 """
 
 import json
+import reprlib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
@@ -1136,14 +1137,21 @@ def _describe(error: ValidationError) -> str:
     elif problem["type"] == "missing":
         message = "this key is missing"
     elif problem["type"] in ("dict_type", "model_type", "model_attributes_type"):
-        message = f"should be a section of keys, not {problem['input']!r}"
+        message = f"should be a section of keys, not {_shown(problem['input'])}"
     elif problem["type"] == "float_type" and _is_number(problem["input"]):
-        key = f"{key} = {problem['input']!r}"
+        key = f"{key} = {_shown(problem['input'])}"
         message = "is text to YAML; write a number with a point, as 0.001 or 1.0e-3"
     elif problem["type"] != "value_error":  # our own checks name key and value themselves
-        key = f"{key} = {problem['input']!r}"
+        key = f"{key} = {_shown(problem['input'])}"
     more = error.error_count() - 1
     return f"{key + ': ' if key else ''}{message}" + (f" (and {more} more)" if more else "")
+
+
+def _shown(value: Any) -> str:
+    """A value as a message shows it: aliases of aliases in YAML may unfold to gigabytes."""
+    shown = reprlib.Repr()
+    shown.maxstring = shown.maxother = shown.maxlong = 80
+    return shown.repr(value)
 
 
 def _is_number(text: Any) -> bool:
@@ -1221,11 +1229,18 @@ def check_duplicates(paths: Iterable[str | Path]) -> None:
     """Check that no section of these config files gives a name twice.
 
     Raises:
-        InputError: one does; one line with the file, the line and the name.
+        InputError: one does; one line with the file, the line and the name. Or a file is no
+            YAML, or has no sections.
     """
     for path in paths:
-        with Path(path).open(encoding="utf-8") as file:
-            yaml.load(file, _NoDuplicates)
+        try:
+            with Path(path).open(encoding="utf-8") as file:
+                sections = yaml.load(file, _NoDuplicates)
+        except (OSError, ValueError, yaml.YAMLError, RecursionError) as error:
+            reason = " ".join(str(error).split())[:300]
+            raise InputError(f"config: {path}: cannot be read as YAML ({reason})") from error
+        if not isinstance(sections, dict):
+            raise InputError(f"config: {path}: holds no sections; write `section: ...` at its top")
 
 
 def read_config(values: dict[str, Any]) -> Config:

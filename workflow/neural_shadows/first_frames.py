@@ -1,9 +1,10 @@
 """The frames that people look at: the first view of each set by every method, with its scores."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from zipfile import BadZipFile
+from zipfile import ZipFile, ZipInfo
 
 import numpy as np
 
@@ -15,6 +16,8 @@ CAPTIONS = {
     "surface": "aimed at the object's surface (self-shadowing)",
     "centre": "aimed at the object's centre",
 }
+
+MOST_BYTES = 8192**2 + 2**16  # of a frame: the most pixels that a config may ask for
 
 
 @dataclass
@@ -41,16 +44,46 @@ def read_first_frames(pictures: Sequence[Path], metrics: Sequence[Path]) -> list
         values = read_metrics([metrics_path])
         values = values[values["view"] == values["view"].iloc[0]]
         view_set = values["view_set"].iloc[0]
+        if view_set not in CAPTIONS:
+            raise broken(metrics_path, f"the view set {view_set!r} is unknown")
         frame = frames.setdefault(view_set, FirstFrame(CAPTIONS[view_set]))
-        try:
-            # Opened here: np.load leaves its own file open where the archive is cut short.
-            with picture_path.open("rb") as file, np.load(file, allow_pickle=False) as images:
-                frame.images |= dict(images)
-        except (OSError, ValueError, EOFError, BadZipFile) as error:
-            reason = " ".join(str(error).split())
-            raise broken(picture_path, f"not a whole file of frames ({reason})") from error
+        frame.images |= _read_images(picture_path)
         frame.scores |= {
             method: dict(zip(group["metric"], group["value"]))
             for method, group in values.groupby("method")
         }
     return list(frames.values())
+
+
+def _read_images(path: Path) -> dict[str, np.ndarray]:
+    """The 8-bit grey frames (H, W) by method, and `reference`, that `evaluate` wrote.
+
+    Raises:
+        InputError: the file is missing or not whole, and moved aside.
+    """
+    try:
+        with ZipFile(path) as archive:
+            images = {
+                member.filename.removesuffix(".npy"): _read_image(archive, member)
+                for member in archive.infolist()
+            }
+        shape = images["reference"].shape
+        if 0 in shape or any(image.shape != shape for image in images.values()):
+            raise ValueError(f"frames of different sizes, or of none: {shape}")
+    except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
+        reason = " ".join(str(error).split())[:200]
+        raise broken(path, f"not a whole file of frames ({reason})") from error
+    return images
+
+
+def _read_image(archive: ZipFile, member: ZipInfo) -> np.ndarray:
+    """An array of an `.npz`, if it is a frame; nothing is unpacked that is larger than one."""
+    if member.file_size > MOST_BYTES:
+        raise ValueError(f"{member.filename} unpacks to {member.file_size:,} bytes")
+    with archive.open(member) as file:
+        np.lib.format.read_magic(file)
+        shape, by_columns, dtype = np.lib.format.read_array_header_1_0(file)
+        pixels = np.frombuffer(file.read(), np.uint8)
+    if dtype != np.uint8 or len(shape) != 2 or math.prod(shape) != len(pixels):
+        raise ValueError(f"{member.filename} holds {len(pixels):,} bytes as {dtype} {shape}")
+    return pixels.reshape(shape, order="F" if by_columns else "C")

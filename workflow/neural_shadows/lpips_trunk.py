@@ -1,5 +1,6 @@
 """The pretrained convolution layers ("trunk") inside LPIPS: found, fetched, checked."""
 
+import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -77,6 +78,8 @@ def find_trunk(net: Net, trunk: Path | None, cache: Path) -> "dict[str, torch.Te
                 name,
                 f"its tensor {key!r} has shape {found}, that of {TRUNKS[net].model} {shape}",
             )
+        if not _is_plain(state[key]):
+            raise _unusable(net, name, f"its tensor {key!r} is not of finite real numbers in full")
     return {key: state[key] for key in shapes}
 
 
@@ -100,6 +103,11 @@ def _read(net: Net, path: Path, name: str) -> "dict[str, torch.Tensor]":
     import torch
 
     try:
+        if zipfile.is_zipfile(path):
+            with zipfile.ZipFile(path) as archive:
+                # PyTorch compresses nothing, and what it did not write may unpack to anything.
+                if any(member.compress_type for member in archive.infolist()):
+                    raise ValueError("compressed")
         state: Any = torch.load(path, map_location="cpu", weights_only=True)
     except OSError as error:
         raise _unusable(net, name, error.strerror or str(error)) from error
@@ -113,6 +121,18 @@ def _read(net: Net, path: Path, name: str) -> "dict[str, torch.Tensor]":
         for key, value in state.items()
         if isinstance(value, torch.Tensor)
     }
+
+
+def _is_plain(weights: "torch.Tensor") -> bool:
+    """Whether these are finite floating-point numbers, each stored."""
+    import torch
+
+    return (
+        weights.is_floating_point()
+        and weights.layout == torch.strided
+        and not weights.is_meta
+        and bool(weights.isfinite().all())
+    )
 
 
 def _shapes(net: Net) -> dict[str, tuple[int, ...]]:

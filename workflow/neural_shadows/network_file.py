@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import torch
 from safetensors import SafetensorError, safe_open
@@ -11,6 +12,9 @@ from neural_shadows.errors import InputError
 from neural_shadows.files import whole_file
 from neural_shadows.network_kinds import make_network
 from neural_shadows.shadow_network import ShadowNetwork
+
+# The largest number among the settings that a config may have: of entries of a hash table.
+MOST = 2**24
 
 
 def save_tensors(path: Path, tensors: dict[str, torch.Tensor], header: dict) -> None:
@@ -40,8 +44,8 @@ def load_tensors(path: Path) -> tuple[dict[str, torch.Tensor], dict]:
         with safe_open(path, framework="pt") as file:
             header = json.loads((file.metadata() or {})["header"])
             return {name: file.get_tensor(name) for name in file.keys()}, header
-    except (OSError, SafetensorError, KeyError, ValueError) as error:
-        reason = " ".join(str(error).split())
+    except (OSError, SafetensorError, KeyError, ValueError, RecursionError) as error:
+        reason = " ".join(str(error).split())[:200]
         raise InputError(
             f"{path}: not a whole file of this pipeline ({reason}); delete it and run again"
         ) from error
@@ -61,11 +65,24 @@ def load_network(path: Path) -> tuple[ShadowNetwork, dict]:
     """
     tensors, header = load_tensors(path)
     try:
+        _check_settings(header["network"], tensors)
         network = make_network(header["network"])
         network.restore(tensors)
-    except (KeyError, TypeError, ValueError, RuntimeError) as error:
-        reason = " ".join(str(error).split())
+    except (KeyError, TypeError, ValueError, OverflowError, RuntimeError, MemoryError) as error:
+        reason = " ".join(str(error).split())[:200]
         raise InputError(
             f"{path}: weights do not fit the header ({reason}); delete it and train again"
         ) from error
     return network, header
+
+
+def _check_settings(settings: dict[str, Any], tensors: dict[str, torch.Tensor]) -> None:
+    """Refuse settings of any size before something of that size is made."""
+    for key, value in dict(settings).items():
+        values = value if isinstance(value, list) else [value]
+        layers = value if key == "hidden_layers" else len(values)
+        if isinstance(layers, int) and layers > len(tensors):
+            raise ValueError(f"{key}: there are only {len(tensors)} tensors")
+        for number in values:
+            if isinstance(number, int) and number > MOST:
+                raise ValueError(f"{key}: {str(number)[:20]} is more than {MOST:,}")

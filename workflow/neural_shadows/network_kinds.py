@@ -18,7 +18,7 @@ def make_network(settings: dict[str, Any]) -> ShadowNetwork:
     """
     arguments = dict(settings)
     encoding = arguments.pop("encoding")
-    if not encoding.isidentifier() or not kind_module(encoding).is_file():
+    if not str(encoding).isidentifier() or not kind_module(encoding).is_file():
         raise KeyError(f"encoding {encoding!r}")
     module = import_module(f"neural_shadows.{kind_module(encoding).stem}")
     words = kind_module(encoding).stem.split("_")

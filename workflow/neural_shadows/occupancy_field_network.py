@@ -80,12 +80,15 @@ class OccupancyFieldNetwork(ShadowNetwork):
 
     def __init__(self, *, resolution: int, surface: str, stored: str):
         super().__init__()
+        if surface not in ("solid", "sheet"):
+            raise ValueError(f"surface {surface!r}")
         self.resolution, self.surface, self.precision = resolution, surface, stored
         corners = torch.cartesian_prod(*[torch.arange(2)] * 3)
         offsets = torch.tensor([(BRICK + 1) ** 2, BRICK + 1, 1])
         self.register_buffer("corners", corners, persistent=False)
         self.register_buffer("offsets", offsets, persistent=False)
-        self._use(lay_out(np.zeros((resolution // BRICK,) * 3, bool), solid=False))
+        # One brick's place, until `prepare` or `restore` knows better: a file may say any resolution.
+        self._use(lay_out(np.zeros((1, 1, 1), bool), solid=False))
 
     def _use(self, layout: Layout) -> None:
         self.register_buffer("grid", torch.from_numpy(layout.grid.reshape(-1)), persistent=False)

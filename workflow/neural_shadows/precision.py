@@ -4,13 +4,14 @@ import torch
 from torch import Tensor
 
 SCALE = ".scale"  # ends the name of an int8 tensor's scale
+_DTYPES = {"float32": torch.float32, "float16": torch.float16}
 _BITS = torch.tensor([1, 2, 4, 8, 16, 32, 64, 128], dtype=torch.uint8)
 
 
 def quantise(tensors: dict[str, Tensor], precision: str) -> dict[str, Tensor]:
     """Tensors in `float32`, `float16`, or `int8` with one scale each, the largest value / 127."""
     if precision != "int8":
-        dtype = {"float32": torch.float32, "float16": torch.float16}[precision]
+        dtype = _DTYPES[precision]
         return {name: value.to(dtype) for name, value in tensors.items()}
     stored = {}
     for name, value in tensors.items():
@@ -24,8 +25,10 @@ def restore_values(stored: dict[str, Tensor], precision: str) -> dict[str, Tenso
     """float32 tensors from what `quantise` gave.
 
     Raises:
-        KeyError: an int8 tensor has no scale.
+        KeyError: there is no such precision, or an int8 tensor has no scale.
     """
+    if precision not in (*_DTYPES, "int8"):
+        raise KeyError(f"precision {precision!r}")
     names = [name for name in stored if not name.endswith(SCALE)]
     if precision != "int8":
         return {name: stored[name].float() for name in names}

@@ -85,7 +85,7 @@ class RayGridNetwork(ShadowNetwork):
         self.grids = nn.ModuleList(self.feature_grid(n, channels) for n in grids)
         # Features of all points, o, d, and the depths t_a and t_b between which they lie.
         sizes = [points * channels * len(grids) + 8] + [width] * hidden_layers
-        outputs = 2 if head == "depth_confidence" else 1
+        outputs = {"depth": 1, "depth_confidence": 2}[head]
         self.layers = nn.ModuleList(nn.Linear(a, b) for a, b in zip(sizes, sizes[1:]))
         self.output = nn.Linear(width, outputs)
         fractions = (torch.arange(points, dtype=torch.float32) + 0.5) / points

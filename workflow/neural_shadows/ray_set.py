@@ -117,8 +117,10 @@ def open_array(path: str | Path, shape: tuple[int | None, ...]) -> np.ndarray:
     if not path.is_file():
         raise InputError(f"{path}: no such file; run the stage that makes it")
     try:
-        array = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (ValueError, OSError, EOFError) as error:
+        # Not np.load, which opens archives too. A shape may be more than a number holds.
+        with np.errstate(over="ignore"):
+            array = np.lib.format.open_memmap(path, mode="r")
+    except (ValueError, OverflowError, OSError) as error:
         reason = " ".join(str(error).split())[:200]
         raise InputError(
             f"{path}: is truncated or no array file ({reason}); delete it and run again"

@@ -14,6 +14,7 @@ import torch
 from torch import Tensor
 from torch.optim.adam import adam
 
+from neural_shadows.broken import broken
 from neural_shadows.compute import choose_device, choose_dtype
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.errors import InputError
@@ -106,16 +107,30 @@ class TrainingRun:
         save_tensors(path, tensors, header)
 
     def restore(self, path: Path) -> None:
-        """Continue from a state that `save` wrote."""
+        """Continue from a state that `save` wrote.
+
+        Raises:
+            InputError: the file is missing or not whole; or of another network, and moved aside.
+        """
         tensors, header = load_tensors(path)
-        for name, weight in self.network.named_parameters():
-            weight.data.copy_(tensors[name])
-            for mean in ADAM_STATE:
-                self.means[mean][name].copy_(tensors[f"{mean}.{name}"])
-        self.step.fill_(header["step"])
-        for count in self._adam_steps:
-            count.fill_(header["step"])
-        self.seconds, self.curve = header["seconds"], header["curve"]
+        places = {name: weight.data for name, weight in self.network.named_parameters()}
+        for mean, values in self.means.items():
+            places |= {f"{mean}.{name}": value for name, value in values.items()}
+        try:
+            for name, place in places.items():
+                if tensors[name].shape != place.shape:  # a copy would repeat a single value
+                    raise ValueError(f"{name} has the shape {tuple(tensors[name].shape)}")
+            step, seconds = header["step"], float(header["seconds"])
+            if not isinstance(step, int) or not 0 <= step < 2**53:
+                raise ValueError(f"its step is {str(step)[:40]}")
+            curve = [[int(at), float(rate), float(loss)] for at, rate, loss in header["curve"]]
+        except (KeyError, TypeError, ValueError, OverflowError) as error:
+            raise broken(path, f"not a state of this training ({error})") from error
+        for name, place in places.items():
+            place.copy_(tensors[name])
+        for count in (self.step, *self._adam_steps):
+            count.fill_(step)
+        self.seconds, self.curve = seconds, curve
 
     def curve_csv(self, batch_size: int) -> str:
         """The loss curve as CSV: step, samples, learning_rate, loss."""
