@@ -3,6 +3,7 @@
 import fcntl
 import glob
 import hashlib
+import io
 import json
 import os
 import tempfile
@@ -43,6 +44,10 @@ def whole_file(path: str | Path) -> Iterator[Path]:
             os.fsync(file.fileno())
         part.chmod(0o644)  # mkstemp gives 0600, which hides results from a shared group
         part.replace(path)
+    except OSError as error:
+        if error.filename is None:  # of a write: it knows no name
+            error.filename = str(path)
+        raise
     finally:
         part.unlink(missing_ok=True)
         os.close(handle)
@@ -82,8 +87,11 @@ def read_json(path: str | Path) -> Any:
 
 def write_array(path: str | Path, array: np.ndarray) -> None:
     """Write one array as `.npy` (no pickle), whole or not at all."""
+    content = io.BytesIO()
+    np.save(content, array, allow_pickle=False)
     with whole_file(path) as part:
-        np.save(part, array, allow_pickle=False)
+        # Not by numpy's own writer, whose error on a full disk does not say so.
+        part.write_bytes(content.getbuffer())
 
 
 def sha256_of(path: str | Path) -> str:
