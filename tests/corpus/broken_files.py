@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
-from broken_meshes import ERROR, HUGE, WORKS, raw_files, shaped_files
+from broken_meshes import ERROR, HUGE, WORKS
 from readers import MEMBER, NETWORKS, READERS
 
 
@@ -666,12 +666,3 @@ def _markdown() -> Found:
     script = "# A <script>alert(1)</script>\n\n| a |\n| - |\n| <img src=x onerror=alert(1)> |\n"
     yield "values", "a script", content(script.encode()), None
     yield "values", "nested", content(b"# A\n\n" + b"> " * 50_000 + b"\n\n| a |\n| - |\n"), None
-
-
-def everything() -> Iterator[Broken]:
-    """All inputs."""
-    for name in READERS:
-        yield from in_place_of(name)
-        yield from of_format(name)
-    for file in (*shaped_files(), *raw_files()):
-        yield Broken(f"mesh {file.file}", file.kind, file.name, content(file.content), file.end)

@@ -21,6 +21,7 @@ from PIL import Image
 from sample_records import COST, FRAME_TIMES, LPIPS, TRAINING
 
 from neural_shadows import records
+from neural_shadows.cluster_plan import read_measured
 from neural_shadows.config import check_duplicates, check_files, read_config
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.depth_bias_file import read_depth_biases
@@ -228,6 +229,11 @@ def _table() -> pd.DataFrame:
     return pd.DataFrame(texts | NUMBERS)
 
 
+def _times() -> pd.DataFrame:
+    jobs = ["dragon.poisson_quadtree.000", "dragon.poisson_quadtree.001"]
+    return pd.DataFrame({"rule": ["sample_rays"] * 2, "job": jobs, "seconds": [1.5, 2.5]})
+
+
 def _make_published(folder: Path) -> None:
     (folder / "published.csv").write_bytes((CONFIG / "published.csv").read_bytes())
 
@@ -331,6 +337,7 @@ READERS = MESHES | {
     "table of networks": _csv(
         "beyond.csv", _table, lambda path: read_networks(path, "dragon", ["Ours", "Map"])
     ),
+    "times for a plan": _csv("times.csv", _times, read_measured),
     "published numbers": Reader(
         "published.csv", _make_published, _reads(read_published, "published.csv")
     ),

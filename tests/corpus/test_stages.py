@@ -31,7 +31,7 @@ def test_rays_and_labels(tmp_path, shape):
     make_rays(
         mesh_ply, directions, origins, sampler=sampler, points_per_direction=100, **SETTINGS, **part
     )
-    make_labels(mesh_ply, directions, origins, bounds, **part)
+    make_labels(mesh_ply, directions, origins, bounds, seed=SETTINGS["seed"], **part)
     described = describe_rays(
         tmp_path / "rays.json",
         mesh_ply=mesh_ply,

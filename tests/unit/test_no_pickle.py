@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 WORKFLOW = Path(__file__).parents[2] / "workflow"
-MODULES = sorted([*WORKFLOW.glob("neural_shadows/*.py"), *WORKFLOW.glob("scripts/*.py")])
+MODULES = sorted(WORKFLOW.rglob("*.py"))
 
 # Modules that unpickle, or read what may hold pickles.
 FORBIDDEN = {"pickle", "_pickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "dbm"}

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import pandas as pd
 from tabulate import tabulate
 
+from neural_shadows.benchmark_file import read_seconds
+from neural_shadows.csv_file import read_csv
 from neural_shadows.errors import InputError
 from neural_shadows.layout import Layout
 
@@ -58,15 +60,19 @@ def read_measured(path: str | Path) -> dict[Job, float]:
             CSV with the columns `rule`, `job` and `seconds`.
 
     Raises:
-        InputError: there is no such file or folder, or nothing in it.
+        InputError: there is no such file or folder, nothing in it, or a file is not whole.
     """
     path = Path(path)
     if path.is_dir():
         files = sorted(path.glob("*/*.tsv"))
-        seconds = (pd.read_csv(file, sep="\t")["s"].mean() for file in files)
-        found = {Job(file.parent.name, file.stem): s for file, s in zip(files, seconds)}
+        found = {Job(file.parent.name, file.stem): read_seconds(file).mean() for file in files}
     elif path.is_file():
-        table = pd.read_csv(path)
+        try:
+            table = read_csv(path, {"rule": "str", "job": "str", "seconds": "float64"}, others=True)
+        except (OSError, ValueError) as error:
+            raise InputError(f"{path}: no times of jobs ({error})") from error
+        if table.isna().any(axis=None):
+            raise InputError(f"{path}: no times of jobs (a value is missing)")
         found = {Job(row.rule, row.job): row.seconds for row in table.itertuples()}
     else:
         raise InputError(f"{path}: no such file or folder; name a run's results/benchmarks")

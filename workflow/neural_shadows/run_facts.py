@@ -8,10 +8,7 @@ from pathlib import Path
 from platform import python_version
 from typing import Any
 
-import numpy as np
-
-from neural_shadows.broken import broken
-from neural_shadows.csv_file import read_csv
+from neural_shadows.benchmark_file import read_seconds
 
 PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
 
@@ -42,21 +39,10 @@ def durations(benchmarks: Path) -> dict[str, tuple[int, float]]:
     """
     found = {}
     for folder in sorted(path for path in benchmarks.glob("*") if path.is_dir()):
-        seconds = [_seconds(path) for path in sorted(folder.glob("*.tsv"))]
+        seconds = [read_seconds(path).sum() for path in sorted(folder.glob("*.tsv"))]
         if seconds:
-            found[folder.name] = len(seconds), sum(seconds)
+            found[folder.name] = len(seconds), float(sum(seconds))
     return found
-
-
-def _seconds(path: Path) -> float:
-    """Of all runs that a benchmark file is of."""
-    try:
-        seconds = read_csv(path, {"s": "float64"}, others=True, separator="\t")["s"].sum()
-    except (OSError, ValueError) as error:
-        raise broken(path, f"not a whole benchmark file ({error})") from error
-    if not np.isfinite(seconds):
-        raise broken(path, "not a whole benchmark file (a time is not finite)")
-    return float(seconds)
 
 
 def run_facts(
