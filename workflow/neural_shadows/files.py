@@ -45,7 +45,7 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         part.chmod(0o644)  # mkstemp gives 0600, which hides results from a shared group
         part.replace(path)
     except OSError as error:
-        if error.filename is None:  # of a write: it knows no name
+        if error.errno and error.filename is None:  # of a write: it knows no name
             error.filename = str(path)
         raise
     finally:
