@@ -246,6 +246,8 @@ def test_truncated_metrics_are_named(tmp_path):
     metrics_csv = tmp_path / "metrics.csv"
     text = one_scene().to_csv(index=False, lineterminator="\n")
     metrics_csv.write_text(text[:-4])
-    with pytest.raises(InputError, match=r"metrics\.csv: metrics are cut short"):
+    with pytest.raises(
+        InputError, match=r"metrics\.csv: not a whole file of metrics \(it is cut short\)"
+    ):
         write(tmp_path, metrics_csv)
     assert not (tmp_path / "claims.csv").exists()
