@@ -18,21 +18,21 @@ from slurm import Job, Slurm, missing_programs, wait_for
 
 WEIGHTS = "results/smoke/networks/dragon/weights.safetensors"
 
-# Appended to training.py.
-SLOW = """
-
-def check_alive(*args, _check=check_alive):
-    time.sleep(1)
-    _check(*args)
-"""
-
 # The profile as it is, but for what this small cluster needs: it has no accounting, and its
-# jobs last seconds. It has GPUs to reserve, though none that compute.
+# jobs last seconds.
 PROFILE = [
     *("--workflow-profile", "workflow/profiles/slurm"),
     *("--slurm-status-command", "squeue"),
     *("--slurm-init-seconds-before-status-checks", "2"),
 ]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def interruptible():
+    """Started in the background, pytest and all its children would ignore Ctrl-C."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")
@@ -125,6 +125,16 @@ def submitted(slurm: Slurm, checkout: Checkout, *arguments: str) -> Iterator[Sub
             slurm.ask("scancel", "--me")
 
 
+def slow_down(checkout: Checkout, seconds: float) -> None:
+    """Have a training rest so long after each of its 200 steps; its weights stay the same."""
+    with checkout.module("training.py").open("a") as file:
+        file.write(
+            "\n\ndef check_alive(*args, _check=check_alive):\n"
+            f"    time.sleep({seconds})\n"
+            "    _check(*args)\n"
+        )
+
+
 def kill_script(slurm: Slurm, job: Job, scripts: list[int]) -> None:
     os.kill(scripts[0], signal.SIGKILL)
 
@@ -172,8 +182,7 @@ DISTURBANCES: list[tuple[str, Callable[[Slurm, Job, list[int]], None]]] = [
 def test_killed_jobs_and_daemons(slurm, fresh, local, tmp_path):
     checkout = fresh.copy(tmp_path / "checkout")
     started = time.monotonic()
-    # Reserves a GPU as on a machine with one; the network is computed on the CPU all the same.
-    with submitted(slurm, checkout, "--set-resources", "train:gpu=1") as run:
+    with submitted(slurm, checkout) as run:
         for name, disturb in DISTURBANCES:
             job, scripts = run.working(name)
             print(f"{time.monotonic() - started:.0f} s: {disturb.__name__} at {job.name}")
@@ -188,15 +197,22 @@ def test_killed_jobs_and_daemons(slurm, fresh, local, tmp_path):
     copy.run()
     assert differences(reports_of(checkout), reports_of(copy)) == []
     assert run.output.count("Trying to restart job") >= 3
+    groups = set(re.findall(r"/group_([a-z]+)_", run.output))
+    assert groups == {"prepare", "rays", "reports"}
+    # Each job has a log of its own. Small ones are submitted together.
+    assert count < len({row["log-file(s)"] for row in local.summary()}) * 2 / 3
 
 
 def test_training_goes_on_after_its_time_limit(slurm, local, tmp_path):
     checkout = local.copy(tmp_path / "checkout")
-    # A second's rest after each of its 200 steps, so that on any machine it takes longer than two
-    # minutes, which the job is given. A state is saved each half minute.
-    with checkout.module("training.py").open("a") as file:
-        file.write(SLOW)
-    with submitted(slurm, checkout, WEIGHTS, "--set-resources", "train:runtime=2") as run:
+    # At least 200 s of training on any machine, in jobs of two minutes; a state is saved each
+    # half minute.
+    slow_down(checkout, 1)
+    limits = ["--set-resources", "train:runtime=2", "train:gpu=1"]
+    with submitted(slurm, checkout, WEIGHTS, *limits) as run:
+        _, (script, *_) = run.working("train")
+        # Reserved; there is none, so that the network is computed on the CPU all the same.
+        assert b"CUDA_VISIBLE_DEVICES=0" in Path(f"/proc/{script}/environ").read_bytes()
         run.wait()
         states = [job.state for job in run.jobs()]
     log = (checkout.results / "logs" / "train" / "dragon.log").read_text()
@@ -204,6 +220,35 @@ def test_training_goes_on_after_its_time_limit(slurm, local, tmp_path):
     print(f"{states}, the last from {share} % on")
     assert set(states[:-1]) == {"TIMEOUT"} and states[-1] == "COMPLETED"
     assert share >= 10
+    weights = (checkout.folder / WEIGHTS).read_bytes()
+    assert weights == (local.folder / WEIGHTS).read_bytes()
+
+
+def test_snakemake_itself_is_interrupted_and_killed(slurm, local, tmp_path):
+    checkout = local.copy(tmp_path / "checkout")
+    slow_down(checkout, 0.1)
+
+    def state_of(job: Job) -> str:
+        return next(other.state for other in slurm.queue() if other.id == job.id)
+
+    with submitted(slurm, checkout, WEIGHTS) as run:
+        job, _ = run.working("train")
+        run.process.send_signal(signal.SIGINT)
+        assert run.process.wait(120) != 0
+        wait_for(lambda: state_of(job) == "CANCELLED", "end of the job")
+    with submitted(slurm, checkout, WEIGHTS) as run:
+        job, _ = run.working("train")
+        run.process.kill()
+        run.process.wait()
+        assert state_of(job) == "RUNNING"
+        # As the profile's README says.
+        listed = slurm.ask("squeue", "--me", "-h", "--format=%i %j").splitlines()
+        assert [line.split()[0] for line in listed if "shadows_" in line] == [job.id]
+        slurm.ask("scancel", job.id)
+        wait_for(lambda: state_of(job) == "CANCELLED", "end of the job")
+    checkout.run("--unlock")
+    with submitted(slurm, checkout, WEIGHTS) as run:
+        run.wait()
     weights = (checkout.folder / WEIGHTS).read_bytes()
     assert weights == (local.folder / WEIGHTS).read_bytes()
 
