@@ -16,7 +16,8 @@ from neural_shadows.labels import dual_bounds
 from neural_shadows.network_file import load_network, save_network
 from neural_shadows.network_kinds import make_network
 from neural_shadows.occupancy_field_network import LIMIT, lay_out
-from neural_shadows.shadow_network import LabelledBatch, chords, hits
+from neural_shadows.shadow_network import LIT, LabelledBatch, chords, hits
+from neural_shadows.shadow_query import network_lit
 
 SOLID_32 = {"encoding": "occupancy_field", "resolution": 32, "surface": "solid", "stored": "int8"}
 SHEET_32 = SOLID_32 | {"surface": "sheet"}
@@ -104,7 +105,22 @@ def test_rays_cross_a_ball_where_it_is(tmp_path, settings):
     through = hit & (t_ub - t_lb > 0.2)
     assert (t - t_lb)[through].abs().max() < 0.01
     missed = ~hit & ((o - (o * d).sum(1, keepdim=True) * d).norm(dim=1) > 0.51)
-    assert torch.equal(t[missed], chords(o, d)[missed])
+    assert (t[missed] == LIT).all()
+
+
+@pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
+def test_behind_rays_that_miss_all_is_lit(tmp_path, settings):
+    """Without a depth bias too: a depth of ℓ, once more rounded, put a tenth in shadow."""
+    network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)
+    set_logits(network, ball)
+    rng = np.random.default_rng(0)
+    light = rng.normal(size=3)
+    light /= np.linalg.norm(light)
+    p = rng.normal(size=(20_000, 3)) * 3
+    across = np.linalg.norm(p - (p @ light)[:, None] * light, axis=1)
+    p, light = (torch.from_numpy(part).float() for part in (p[across > 0.51], light))
+    assert (across < 1).sum() - (across < 0.51).sum() > 500
+    assert network_lit(network, p, light, dtype=torch.float32).all()
 
 
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
@@ -194,7 +210,7 @@ def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
     for side in (d[:, 1] > 0.3, d[:, 1] < -0.3):
         near = (t - batch.t_lb[:3000]).abs() < 0.02
         assert near[hit & side].float().mean() > 0.95
-        assert (past & side).sum() > 20 and near[past & side].all()  # ℓ for them
+        assert (past & side).sum() > 20 and (t[past & side] == LIT).all()
 
 
 def test_a_solid_cannot_learn_a_sheet(tmp_path):

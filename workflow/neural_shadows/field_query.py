@@ -4,6 +4,8 @@ import numpy as np
 from numba import njit
 from scipy import ndimage
 
+from neural_shadows.shadow_network import LIT
+
 BRICK = 4  # cells along a brick's axis
 BRICK_VERTICES = (BRICK + 1) ** 3
 SOLID = -(1 << 20)  # in the grid: the brick is enclosed by the surface
@@ -28,7 +30,7 @@ def first_crossings(
     steps: int,
     sheet: bool,
 ) -> np.ndarray:
-    """t_pred (k,) float32 of parallel rays; ℓ where there is no crossing.
+    """t_pred (k,) float32 of parallel rays; `LIT` where there is no crossing.
 
     Args:
         origins: (k, 3) float32, on the unit sphere.
@@ -74,13 +76,14 @@ def _march(origins, d, grid, bricks, steps, sheet, t_pred):
     iy = 1 / dy if abs(dy) > 1e-9 else np.float32(0)
     iz = 1 / dz if abs(dz) > 1e-9 else np.float32(0)
     far = np.float32(4)  # beyond any chord
+    lit = np.float32(LIT)
     ahead_x, ahead_y, ahead_z = d[0] > 0, d[1] > 0, d[2] > 0
     zero, half, brick_cells = np.float32(0), np.float32(0.5), np.float32(BRICK)
     for ray in range(len(origins)):
         o = origins[ray]
         chord = -2 * (o[0] * d[0] + o[1] * d[1] + o[2] * d[2])
         ox, oy, oz = (o[0] + 1) * scale, (o[1] + 1) * scale, (o[2] + 1) * scale
-        found = chord
+        found = lit
         i = 0
         known = -2  # the sample whose value is `before`
         before = zero
@@ -129,6 +132,6 @@ def _march(origins, d, grid, bricks, steps, sheet, t_pred):
                 if t >= leave or t >= chord:
                     break
                 x, y, z = ox + t * dx, oy + t * dy, oz + t * dz
-            if found < chord:
+            if found < lit:
                 break
         t_pred[ray] = found

@@ -21,7 +21,7 @@ from neural_shadows.field_query import BRICK, BRICK_VERTICES, SOLID, first_cross
 from neural_shadows.mesh import read_prepared
 from neural_shadows.occupancy import enclosed_cells, surface_cells
 from neural_shadows.precision import pack_bits, quantise, restore_values, unpack_bits
-from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork, chords, hits
+from neural_shadows.shadow_network import LIT, LabelledBatch, ShadowNetwork, chords, hits
 from neural_shadows.tracing import Tracer
 
 # Logits end here: smoothly, so that int8 holds them. At 8 the surface blurs (−1.1 dB at 128³),
@@ -186,7 +186,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         return torch.from_numpy(back).to(origins.device)
 
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
-        """See `ShadowNetwork.forward`; ℓ, which is lit, for rays without a crossing.
+        """See `ShadowNetwork.forward`; `LIT` for rays without a crossing.
 
         All samples of all rays at once: for a GPU and for export. On a CPU `depths` answers the
         same, and skips what is empty.
@@ -212,7 +212,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         # Where the sample before is in a brick too, the crossing lies between the two.
         back = torch.where(follows.gather(1, first), value / (value - before), 0)
         depth = (t[first] - step * back).squeeze(1)
-        return torch.where(crossing.any(1), depth, chord)
+        return torch.where(crossing.any(1), depth, LIT)
 
     def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
         """See `ShadowNetwork.depths`."""

@@ -9,7 +9,7 @@ from torch import Tensor, nn
 
 from neural_shadows.dead_zone_loss import DeadZone
 from neural_shadows.precision import quantise, restore_values
-from neural_shadows.shadow_network import LabelledBatch, ShadowNetwork, chords, hits
+from neural_shadows.shadow_network import LIT, LabelledBatch, ShadowNetwork, chords, hits
 
 # Of the cross-entropy of hit or miss, beside the dead-zone loss, which is in sphere radii and so
 # the smaller of the two. Not tuned.
@@ -128,22 +128,20 @@ class RayGridNetwork(ShadowNetwork):
         return self.output(h.float())
 
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
-        """See `ShadowNetwork.forward`; ℓ, which is lit, for rays without shadow."""
+        """See `ShadowNetwork.forward`; `LIT` for rays without shadow."""
         t_a, t_b, meets = self.span(origins, directions)
-        chord = chords(origins, directions)
         if torch.compiler.is_exporting():
-            return torch.where(meets, self._depth(origins, directions, t_a, t_b, dtype), chord)
+            return torch.where(meets, self._depth(origins, directions, t_a, t_b, dtype), LIT)
         rays = meets.nonzero().squeeze(1)
         parts = (part[rays] for part in (origins, directions, t_a, t_b))
-        return chord.index_put((rays,), self._depth(*parts, dtype))
+        return torch.full_like(t_a, LIT).index_put((rays,), self._depth(*parts, dtype))
 
     def _depth(self, origins, directions, t_a, t_b, dtype):
         outputs = self.outputs(origins, directions, t_a, t_b, dtype)
         depth = t_a + outputs[:, 0]
         if self.head == "depth_confidence":
-            chord = chords(origins, directions)
             # A confidence of more than 0.5 is a logit of more than zero.
-            depth = torch.where(outputs[:, 1] > 0, depth, chord)
+            depth = torch.where(outputs[:, 1] > 0, depth, LIT)
         return depth
 
     def losses(

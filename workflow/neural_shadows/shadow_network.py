@@ -27,6 +27,12 @@ class LabelledBatch(NamedTuple):
     t_ub: Tensor  # (n,), may be ∞
 
 
+# t_pred of a ray without shadow: a diameter, which no point's min(s, ℓ) exceeds. Not ℓ itself:
+# found from o and d it differs from the point's own ℓ by a rounding, and without a depth bias a
+# tenth of the points behind a ray that misses were in shadow.
+LIT = 2.0
+
+
 def chords(origins: Tensor, directions: Tensor) -> Tensor:
     """ℓ = −2 o·d of each ray, the length of its chord of the unit sphere: (n,)."""
     return -2 * (origins * directions).sum(1)
