@@ -25,6 +25,11 @@ onstart:
     check_folders()
 
 
+# A job that was killed could not say so itself.
+onerror:
+    tell_of_killed_jobs(Path(LOGS), BEGUN)
+
+
 # Snakemake has now taken note of all networks.
 onsuccess:
     forget_finished(Path(RESULTS) / "networks")

@@ -235,12 +235,23 @@ def test_the_log_is_written_while_the_job_runs(tmp_path):
     code = """
 def main(job):
     print("begun")
-    print("log so far:", open(job.log[0]).read().split(), file=sys.stderr)
+    print("log so far:", open(job.log[0]).read().split()[-1], file=sys.stderr)
 
 run_job(job, main)
 """
     _, log = run(tmp_path, code)
-    assert "log so far: ['begun']" in log
+    assert "log so far: begun" in log
+
+
+def test_a_name_that_is_no_text_is_logged_all_the_same(tmp_path):
+    """A Latin-1 name of a file, as Python decodes it."""
+    code = """
+job.params = Params(fromdict={"source": "caf\\udce9.ply"})
+run_job(job, lambda job: print("done"))
+"""
+    done, log = run(tmp_path, code)
+    assert done.returncode == 0, done.stderr
+    assert r"caf\udce9.ply" in log
 
 
 def test_a_new_run_replaces_the_log(tmp_path):

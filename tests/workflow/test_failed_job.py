@@ -13,6 +13,32 @@ from checkout import write_overlay
 TARGET = "results/smoke/scenes/ball/mesh.ply"
 
 
+KILLED = """
+
+def generate_mesh(*args, **settings):
+    import os, signal
+    print("half way", flush=True)
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_a_killed_job_is_told_of_by_the_run(fresh, tmp_path):
+    """As by the system when memory ends: it cannot say so itself."""
+    checkout = fresh.copy(tmp_path / "checkout")
+    target = "results/smoke/scenes/fence/generated.ply"
+    with checkout.module("generated_mesh.py").open("a") as file:
+        file.write(KILLED)
+    failed = checkout.snakemake(target)
+    assert failed.returncode != 0
+    log = "results/smoke/logs/generate_mesh/fence.log"
+    said = failed.stdout[failed.stdout.index("generate_mesh: ended without a word: killed") :]
+    assert said.splitlines()[0].endswith(f"[log: {log}]")
+    assert said.splitlines()[1:3] == [
+        "  | half way",
+        f"  run it alone: snakemake --cores 1 {target} --configfile config/smoke.yaml",
+    ]
+
+
 def test_a_failed_job_is_run_alone_by_its_command(fresh, tmp_path):
     checkout = fresh.copy(tmp_path / "a checkout")
     ply = trimesh.creation.icosphere(subdivisions=1).export(file_type="ply")

@@ -6,6 +6,7 @@ import shlex
 import sys
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -15,6 +16,9 @@ from neural_shadows.rerun import command_for
 
 # Of a failed job's log, shown with its error.
 _LAST_LINES = 10
+
+# Begins each log, for who looks at that of a job that was killed.
+RUN_ALONE = "run it alone: "
 
 
 class _LogAndTerminal:
@@ -56,7 +60,11 @@ def run_job(job: Any, main: Callable[[Any], None]) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     # No error of its own for a sign that the terminal's encoding lacks, as Python's stderr.
     terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
-    with path.open("w", encoding="utf-8", buffering=1) as log:
+    # Nor one of the log's own, for a name of a file that is no text.
+    with path.open("w", encoding="utf-8", errors="backslashreplace", buffering=1) as log:
+        alone = f"{RUN_ALONE}{command_for(job.output[0], job.threads)}"
+        with suppress(OSError):  # of a full disk
+            log.write(f"{alone}\n")
         # By file descriptor, so that what native libraries print is captured as well.
         os.dup2(log.fileno(), 1)
         os.dup2(log.fileno(), 2)
@@ -80,18 +88,19 @@ def run_job(job: Any, main: Callable[[Any], None]) -> None:
         # First, for the log may lie on the disk that is full.
         terminal.write(line + "\n")
         # A readable message says all that its traceback could.
-        said = _end_of(path) if readable else _end_of(path) + told
-        for last in said.rstrip().splitlines()[-_LAST_LINES:]:
+        for last in last_lines(path, "" if readable else told):
             terminal.write(f"  | {last}\n")
-        terminal.write(f"  run it alone: {command_for(job.output[0], job.threads)}\n")
+        terminal.write(f"  {alone}\n")
         log.write(f"{told}{record.text(message)}{line}\n")
     sys.exit(1)
 
 
-def _end_of(path: Path) -> str:
-    """What a log has at its end: more than is shown of it."""
+def last_lines(path: Path, more: str = "") -> list[str]:
+    """The last lines of a log, to which `more` is still to be written; not its first."""
     if not path.is_file():  # a device
-        return ""
+        return more.splitlines()[-_LAST_LINES:]
     with path.open("rb") as file:
-        file.seek(max(0, path.stat().st_size - 10_000))
-        return file.read().decode(errors="replace")
+        file.readline()
+        file.seek(max(file.tell(), path.stat().st_size - 10_000))
+        said = file.read().decode(errors="replace")
+    return (said + more).rstrip().splitlines()[-_LAST_LINES:]

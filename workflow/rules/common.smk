@@ -3,6 +3,7 @@
 import hashlib
 import os
 import sys
+import time
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -29,6 +30,7 @@ from neural_shadows.config import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
 from neural_shadows.file_times import check_clock
 from neural_shadows.folder_checks import check_writable
+from neural_shadows.killed_jobs import tell_of_killed_jobs
 from neural_shadows.module_graph import kind_module, modules_of
 from neural_shadows.rerun import remember_configuration
 from neural_shadows.saved_states import forget_finished
@@ -51,6 +53,7 @@ remember_configuration(
     workflow.overwrite_configfiles, workflow.config_settings.config_args
 )
 
+BEGUN = time.time()
 LOGS = f"{RESULTS}/logs"
 BENCHMARKS = f"{RESULTS}/benchmarks"
 SCENE = f"{RESULTS}/{layout.SCENE}"
