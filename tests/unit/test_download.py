@@ -317,3 +317,20 @@ def test_a_disk_that_fills_is_not_one_of_the_network(server, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == [PART]
     get(url_of(server), tmp_path / "file.bin")
     assert_whole(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "proxy",
+    ["http://reader:pa55word", "http:/reader:pa55word@proxy:3128", "http://reader:pa55word@"],
+)
+def test_a_proxy_that_is_no_url_keeps_its_password(server, tmp_path, monkeypatch, proxy):
+    monkeypatch.setenv("https_proxy", proxy)
+    monkeypatch.setenv("no_proxy", "")
+    with pytest.raises(InputError) as caught:
+        get(url_of(server), tmp_path / "file.bin", tries=1)
+    assert "pa55word" not in str(caught.value) and "cannot download" in str(caught.value)
+
+
+def test_settings_of_tls_that_cannot_be_used_are_named(server, tmp_path, monkeypatch):
+    monkeypatch.setenv("SSLKEYLOGFILE", str(tmp_path / "none" / "keys"))
+    assert_refused(tmp_path, url_of(server), "settings of TLS cannot be used.*none/keys")

@@ -1,6 +1,7 @@
 """Downloads: encrypted, bounded, checked, resumed and retried; they arrive whole or not at all."""
 
 import fcntl
+import hashlib
 import http.client
 import logging
 import os
@@ -11,7 +12,7 @@ import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 from urllib.parse import urlsplit
@@ -119,7 +120,9 @@ def _attempt(
                 file.truncate()  # the rest of an older part, where the server starts anew
                 file.write(block)
             file.flush()
-            found = sha256_of(part)
+            # By this descriptor: on SMB no other may read what is locked.
+            file.seek(0)
+            found = hashlib.file_digest(file, "sha256").hexdigest()
             if found != sha256:
                 reason = f"its SHA-256 is {found}, where {sha256} is expected"
                 # With an older part, it may be that which was wrong.
@@ -139,8 +142,13 @@ def _opened_alone(part: Path) -> Iterator[BinaryIO]:
     part.parent.mkdir(parents=True, exist_ok=True)
     while True:
         with open(part, "r+b", opener=_open_or_make) as file:
-            with suppress(OSError):  # some cluster file systems have no locks: the digest tells
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                _log.warning("%s: waiting for the process that downloads it", part)
                 fcntl.flock(file, fcntl.LOCK_EX)
+            except OSError:
+                pass  # some cluster file systems have no locks: the digest tells
             if _has_name(file, part):
                 yield file
                 return
@@ -166,6 +174,26 @@ class _HttpsOnly(urllib.request.HTTPRedirectHandler):
         return super().redirect_request(request, response, code, reason, headers, new_url)
 
 
+def _opener() -> urllib.request.OpenerDirector:
+    try:
+        encrypted = urllib.request.HTTPSHandler(context=ssl.create_default_context())
+    except OSError as error:  # SSL_CERT_FILE, SSLKEYLOGFILE
+        reason = f"the environment's settings of TLS cannot be used: {error}"
+        raise _FailedError(reason, may_pass=False, keep=True) from error
+    return urllib.request.build_opener(encrypted, _HttpsOnly)
+
+
+def _opened(
+    opener: urllib.request.OpenerDirector, request: urllib.request.Request, timeout_s: float
+) -> http.client.HTTPResponse:
+    try:
+        return opener.open(request, timeout=timeout_s)
+    except (ValueError, http.client.InvalidURL):
+        # Python's message would show the password that may be in a proxy's URL.
+        reason = "the URL or that of https_proxy in the environment is not valid"
+        raise _FailedError(reason, may_pass=False, keep=True) from None
+
+
 def _blocks(
     url: str, had: int, max_bytes: int, timeout_s: float, label: str
 ) -> Iterator[tuple[int, bytes]]:
@@ -180,10 +208,9 @@ def _blocks(
     if had:
         headers["Range"] = f"bytes={had}-"
     request = urllib.request.Request(url, headers=headers)
-    encrypted = urllib.request.HTTPSHandler(context=ssl.create_default_context())
-    opener = urllib.request.build_opener(encrypted, _HttpsOnly)
+    opener = _opener()
     try:
-        with opener.open(request, timeout=timeout_s) as response:
+        with _opened(opener, request, timeout_s) as response:
             offset, total = _extent(response, had)
             with tqdm(
                 total=total,
