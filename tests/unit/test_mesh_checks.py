@@ -56,6 +56,32 @@ def test_damaged_plys(old, new, reason):
         check_ply(PLY.replace(old, new, 1).encode())
 
 
+COLOURED = (
+    PLY.replace("end_header", "property list uchar float uv\nproperty uchar red\nend_header")
+    .replace("0 1 2", "0 1 2 2 0.5 0.5 255")
+    .replace("2 1 0", "2 1 0 0 0")
+    .replace("ascii 1.0\n", "ascii 1.0\ncomment as exported\n")
+)
+
+
+def test_faces_with_more_than_corners_are_checked_too():
+    check_ply(COLOURED.encode())
+    for row in (
+        "3 0 1",
+        "3 0 1 2 2 0.5 0.5",
+        "2 1 2 0 255",
+        "3 1.7 2.2 3.9 0 255",
+        "4 0 1 2 0 255",
+    ):
+        with pytest.raises(ValueError, match=f"the face '{row}' is cut, or no polygon"):
+            check_ply(COLOURED.replace("3 2 1 0 0 0", row).encode())
+
+
+def test_the_format_is_what_the_header_says_and_not_a_comment():
+    binary = PLY.replace("format ascii", "comment once in ascii\nformat binary_little_endian")
+    check_ply(binary[: binary.index("end_header") + 11].encode() + bytes(62))
+
+
 SOLID = "solid {name}\nfacet normal 0 0 1\nouter loop\n{rows}endloop\nendfacet\nendsolid {name}\n"
 
 

@@ -12,7 +12,7 @@ from neural_shadows.files import sha256_of
 from neural_shadows.labels import dual_bounds
 from neural_shadows.ray_files import describe_rays, make_labels, make_rays
 from neural_shadows.ray_sampling import SAMPLERS
-from neural_shadows.ray_set import RaySet
+from neural_shadows.ray_set import RaySet, open_array
 from neural_shadows.view_directions import make_directions
 
 DIRECTIONS, POINTS = 30, 400
@@ -287,3 +287,20 @@ def test_wrong_arguments_are_named(mesh_ply, ray_set, tmp_path):
         origins = ray_set / "origins.001.npy"
         make_labels(mesh_ply, directions, origins, out, seed=3, first=0, last=11, threads=1)
     assert list(tmp_path.iterdir()) == []  # nothing half-written is left
+
+
+def test_no_bit_of_an_array_s_header_gives_an_unclear_error(tmp_path):
+    path = tmp_path / "origins.000.npy"
+    np.save(path, np.ones((6, 5, 3), np.float32))
+    whole = path.read_bytes()
+    refused = 0
+    for bit in range(8 * 128):
+        changed = bytearray(whole)
+        changed[bit // 8] ^= 1 << bit % 8
+        path.write_bytes(changed)
+        try:
+            open_array(path, (None, 5, 3))
+        except InputError as error:
+            assert str(path) in str(error) and "\n" not in str(error)
+            refused += 1
+    assert refused > 500

@@ -27,7 +27,8 @@ def check_ply(data: bytes) -> None:
     lines = [line.decode("ascii", "replace").split() for line in data[:end].splitlines()]
     if len(lines) > _MOST_HEADER_LINES:
         raise ValueError(f"its header has {len(lines):,} lines")
-    elements: list[tuple[str, int, list[str]]] = []
+    elements: list[tuple[str, int, list[list[str]]]] = []
+    is_text = ["format", "ascii"] in (words[:2] for words in lines)
     for words in lines:
         if words[:1] == ["element"]:
             name, count = words[1:]
@@ -36,8 +37,8 @@ def check_ply(data: bytes) -> None:
                 raise ValueError(f"its header says {count[:20]} of {name}")
             elements.append((name, int(count), []))
         elif words[:1] == ["property"] and elements:
-            elements[-1][2].append(words[1])
-    if b"ascii" not in data[:100]:
+            elements[-1][2].append(words[1:])
+    if not is_text:
         return
     rows = data[end:].strip().splitlines()[1:]
     for name, count, kinds in elements:
@@ -45,22 +46,31 @@ def check_ply(data: bytes) -> None:
             raise ValueError(
                 f"truncated: its header says {count:,} of {name}, there are {len(rows):,} rows"
             )
-        if kinds == ["list"]:
-            _check_lists(name, rows[:count])
+        if any(kind[0] == "list" for kind in kinds):
+            for row in rows[:count]:
+                _check_row(name, kinds, row)
         rows = rows[count:]
 
 
-def _check_lists(name: str, rows: list[bytes]) -> None:
-    """Refuse ASCII rows that are no `count index index index ...`.
+def _check_row(name: str, kinds: list[list[str]], row: bytes) -> None:
+    """Refuse an ASCII row with other than its header's values, or a polygon of other than indices.
 
     trimesh drops polygons of two corners, cuts indices to whole numbers, and takes the corners
     that are there for all.
     """
-    for row in rows:
-        count, *corners = row.split() or [b"0"]
-        if row.translate(None, b"0123456789- \t") or not len(corners) == int(count) > 2:
-            shown = row[:60].decode("ascii", "replace")
-            raise ValueError(f"the {name} '{shown}' is cut, or no polygon of whole numbers")
+    words = iter(row.split())
+    try:
+        for kind in kinds:
+            count = int(next(words)) if kind[0] == "list" else 1
+            values = [next(words) for _ in range(count)]
+            if kind[-1].startswith("vertex_ind"):
+                if count < 3 or not all(value.lstrip(b"-").isdigit() for value in values):
+                    raise ValueError
+        if next(words, None) is not None:
+            raise ValueError
+    except (ValueError, StopIteration):
+        shown = row[:60].decode("ascii", "replace")
+        raise ValueError(f"the {name} '{shown}' is cut, or no polygon of whole numbers") from None
 
 
 def check_stl(data: bytes) -> None:
@@ -69,9 +79,7 @@ def check_stl(data: bytes) -> None:
     if len(data) == expected:
         return
     if data[:200].lstrip()[:5].lower() != b"solid":
-        raise ValueError(
-            f"truncated: {len(data):,} bytes where its header says {expected:,}; nor is it text"
-        )
+        raise ValueError(f"{len(data):,} bytes where its header says {expected:,}; nor is it text")
     vertices, facets, solids, ends = (
         len(re.findall(rb"(?im)^[ \t]*" + word + rb"\b", data))
         for word in (b"vertex", b"endfacet", b"solid", b"endsolid")

@@ -120,7 +120,7 @@ def open_array(path: str | Path, shape: tuple[int | None, ...]) -> np.ndarray:
         # Not np.load, which opens archives too. A shape may be more than a number holds.
         with np.errstate(over="ignore"):
             array = np.lib.format.open_memmap(path, mode="r")
-    except (ValueError, OverflowError, OSError) as error:
+    except Exception as error:  # whatever a damaged header makes Python's own parser raise
         reason = " ".join(str(error).split())[:200]
         raise InputError(
             f"{path}: is truncated or no array file ({reason}); delete it and run again"
