@@ -140,14 +140,15 @@ class Slurm:
         self._spawn(name, "-D")
 
     def _spawn(self, name: str, *arguments: str) -> None:
-        self.daemons[name] = subprocess.Popen(
-            [name, *arguments],
-            env=os.environ | self.environment,
-            stdin=subprocess.DEVNULL,
-            stdout=(self.folder / f"{name}.out").open("a"),
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-        )
+        with (self.folder / f"{name}.out").open("a") as output:
+            self.daemons[name] = subprocess.Popen(
+                [name, *arguments],
+                env=os.environ | self.environment,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
 
     def kill_daemon(self, name: str) -> None:
         """Kill a daemon; what it started runs on."""
@@ -156,11 +157,14 @@ class Slurm:
 
     def stop(self) -> None:
         """End all jobs and daemons."""
-        for step in self.processes_of(*(job.id for job in self.queue() if job.state == "RUNNING")):
-            os.kill(step, signal.SIGKILL)
-        for name in ("slurmd", "slurmctld", "munged"):
-            if name in self.daemons:
-                self.kill_daemon(name)
+        try:
+            running = [job.id for job in self.queue() if job.state == "RUNNING"]
+            for step in self.processes_of(*running):
+                os.kill(step, signal.SIGKILL)
+        finally:  # also where it was the controller that did not start
+            for name in ("slurmd", "slurmctld", "munged"):
+                if name in self.daemons:
+                    self.kill_daemon(name)
 
     def ask(self, *command: str) -> str:
         """What one of Slurm's programs says; it must succeed."""

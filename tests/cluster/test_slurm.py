@@ -83,14 +83,15 @@ class Submitted:
 
     def working(self, name: str) -> tuple[Job, list[int]]:
         """Wait for a job of this name that computes; it, and the processes of its scripts."""
-        while self.process.poll() is None:
+        deadline = time.monotonic() + 1800
+        while self.process.poll() is None and time.monotonic() < deadline:
             for job in self.jobs():
                 if job.state == "RUNNING" and job.name.startswith(f"rule_{name}"):
                     processes = self.slurm.processes_of(job.id)
                     if scripts := [pid for pid in processes if _is_script(pid)]:
                         return job, scripts
             time.sleep(0.1)
-        raise AssertionError(f"no job of {name} is left:\n{self.output}")
+        raise AssertionError(f"no job of {name} works:\n{self.output}")
 
     def wait(self) -> None:
         """Wait for the end of the run, which must be a good one."""
