@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 from sample_records import MACHINE
 
-from neural_shadows.cost import BASE, NEEDED, TINY, bumpy_sphere, size_of
+from neural_shadows.cost import BASE, NEEDED, TINY, _in_process, bumpy_sphere, size_of
 from neural_shadows.cost_figure import cost_figure
 from neural_shadows.cost_sizes import STAGES
 from neural_shadows.cost_table import cost_table, growth, write_cost_table
@@ -113,3 +113,10 @@ def test_what_a_killed_measurement_left_is_removed(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["samples.4.json"]
     stages = json.loads((tmp_path / "samples.4.json").read_text())["stages"]
     assert stages and all(stage["files"] == [] for stage in stages)
+
+
+def test_a_stage_that_fails_says_why(tmp_path, monkeypatch):
+    """On a disk that is full its log would not."""
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
+    with pytest.raises(RuntimeError, match=r"none at .*: KeyError: 'none'"):
+        _in_process("none", tmp_path, TINY, {})

@@ -108,7 +108,9 @@ def _in_process(stage: str, folder: Path, sizes: Mapping[str, int], settings: Ma
         [sys.executable, "-m", "neural_shadows.cost", job], stdout=subprocess.PIPE, text=True
     )
     if done.returncode:
-        raise RuntimeError(f"{stage} at {sizes} ended with status {done.returncode}")
+        # Its traceback is in the log, or not, where that lies on a disk that is full.
+        reason = done.stdout.strip() or f"ended with status {done.returncode}"
+        raise RuntimeError(f"{stage} at {sizes}: {reason}")
     return json.loads(done.stdout.splitlines()[-1])
 
 
@@ -238,4 +240,8 @@ def _main(job: Mapping[str, Any]) -> None:
 
 
 if __name__ == "__main__":
-    _main(json.loads(sys.argv[1]))
+    try:
+        _main(json.loads(sys.argv[1]))
+    except Exception as error:
+        print(f"{type(error).__name__}: {error}")
+        raise
