@@ -5,6 +5,7 @@ import os
 import stat
 import subprocess
 import sys
+import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -106,6 +107,16 @@ def test_what_a_killed_process_left_goes_with_the_next_write(tmp_path):
     assert np.array_equal(np.load(path), np.zeros(3))
 
 
+@pytest.mark.parametrize(("hours", "left"), [(1, False), (25, True)])
+def test_what_another_host_left_goes_after_a_day(tmp_path, hours, left):
+    """Its processes are not seen here; it may be writing."""
+    part = tmp_path / ".a.txt.node-7-1-abc.part.txt"
+    part.write_text("half of the")
+    os.utime(part, (time.time() - 3600 * hours,) * 2)
+    write_text(tmp_path / "a.txt", "mine")
+    assert part.exists() != left
+
+
 def test_another_process_writes_the_same_file(tmp_path):
     """What is being written is not taken for left behind: a cache that two runs share."""
     path = tmp_path / "a.txt"
@@ -182,7 +193,8 @@ def test_json_round_trip(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("content", "reason"), [(None, "no such file"), (b'{"a": 1', "not a JSON"), (b"\xff", "JSON")]
+    ("content", "reason"),
+    [(None, "no such file"), (b'{"a": 1', "not a whole JSON"), (b"\xff", "JSON")],
 )
 def test_json_that_cannot_be_read_is_named(tmp_path, content, reason):
     path = tmp_path / "a.json"

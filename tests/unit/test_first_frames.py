@@ -2,6 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from neural_shadows import first_frames
 from neural_shadows.errors import InputError
 from neural_shadows.first_frames import read_first_frames
 
@@ -46,4 +47,14 @@ def test_frames_cut_short_are_named(batches, size):
     picture, _ = batches[0]
     picture.write_bytes(picture.read_bytes()[:size])
     with pytest.raises(InputError, match=r"a\.npz: not a whole file of frames"):
+        read_first_frames(*zip(*batches, strict=True))
+
+
+def test_frames_that_unpack_to_more_than_memory_are_refused(batches, monkeypatch):
+    picture, _ = batches[0]
+    frames = 3 * (SHAPE[0] * SHAPE[1] + 128)  # each with its header
+    monkeypatch.setattr(first_frames, "MOST_ALL_BYTES", frames)
+    read_first_frames(*zip(*batches, strict=True))
+    monkeypatch.setattr(first_frames, "MOST_ALL_BYTES", frames - 1)
+    with pytest.raises(InputError, match=rf"{picture.name}: .*unpacks to more than {frames - 1}"):
         read_first_frames(*zip(*batches, strict=True))

@@ -94,7 +94,7 @@ def test_flip_stands_in_for_lpips(tmp_path):
 def test_a_table_without_the_rows_is_named(tmp_path, content):
     if content is not None:
         (tmp_path / "t.csv").write_text(content)
-    with pytest.raises(InputError, match=r"t\.csv: (no such file of a|not a whole) table"):
+    with pytest.raises(InputError, match=r"t\.csv: (no such file|not a whole table)"):
         write_fronts_figure(
             tmp_path / "t.csv",
             tmp_path / "a.png",

@@ -86,7 +86,9 @@ def test_method_without_times_is_named():
 def test_times_cut_short_are_named(tmp_path, text):
     path = tmp_path / "dragon.json"
     path.write_text(text)
-    with pytest.raises(InputError, match=r"dragon\.json: (not a JSON file|no file of frame times)"):
+    with pytest.raises(
+        InputError, match=r"dragon\.json: (not a whole JSON file|no file of frame times)"
+    ):
         read_frame_times([path])
 
 

@@ -32,7 +32,7 @@ def test_lines_of_each_scene_over_width():
 
 
 def test_missing_table_is_named(tmp_path):
-    with pytest.raises(InputError, match=r"t\.csv: no such file of a table"):
+    with pytest.raises(InputError, match=r"t\.csv: no such file; run"):
         write_width_figure(
             tmp_path / "t.csv",
             tmp_path / "a.png",

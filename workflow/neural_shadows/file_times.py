@@ -61,8 +61,8 @@ def _files_from_the_future(folders: Iterable[str | Path], slack_s: float) -> dic
             for path in (os.path.join(parent, name) for name in names):
                 try:
                     moment = os.lstat(path).st_mtime_ns
-                except FileNotFoundError:
-                    continue  # another run's temporary file
+                except OSError:
+                    continue  # another run's temporary file, or another user's
                 if moment > latest:
                     found[path] = moment
     return found

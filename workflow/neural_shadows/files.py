@@ -1,12 +1,13 @@
 """Files that are written whole or not at all, and their digests."""
 
-import fcntl
 import glob
 import hashlib
 import io
 import json
 import os
+import socket
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -14,7 +15,15 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.errors import InputError
+from neural_shadows.broken import reading
+
+# Whoever writes a temporary file is in its name, and not a lock on it: NFS keeps a lock to its
+# host, and SMB lets nobody but the lock's own descriptor write.
+_HOST = socket.gethostname()
+
+# After which a temporary file of another host, whose processes are not seen, is left behind. None
+# takes a day to write.
+_ABANDONED_S = 86_400
 
 
 @contextmanager
@@ -31,18 +40,20 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     start, suffix = f".{path.name}.", f".part{path.suffix}"
-    for left in path.parent.glob(f"{glob.escape(start)}*{glob.escape(suffix)}"):
-        _remove_if_left(left)
-    handle, name = tempfile.mkstemp(prefix=start, suffix=suffix, dir=path.parent)
+    for part in path.parent.glob(f"{glob.escape(start)}*{glob.escape(suffix)}"):
+        if _is_left(part.name.removeprefix(start).removesuffix(suffix), part):
+            part.unlink(missing_ok=True)
+    writer = f"{start}{_HOST}-{os.getpid()}-"
+    handle, name = tempfile.mkstemp(prefix=writer, suffix=suffix, dir=path.parent)
+    os.close(handle)
     part = Path(name)
     try:
-        with suppress(OSError):  # some cluster file systems have no locks
-            fcntl.flock(handle, fcntl.LOCK_EX)  # ends with the process, however that ends
         yield part
         # On disk before it gets its name: after a power cut, a file that is there is whole.
         with part.open("rb") as file:
             os.fsync(file.fileno())
-        part.chmod(0o644)  # mkstemp gives 0600, which hides results from a shared group
+        with suppress(OSError):  # where modes are the mount's
+            part.chmod(0o644)  # mkstemp gives 0600, which hides results from a shared group
         part.replace(path)
     except OSError as error:
         if error.errno and error.filename is None:  # of a write: it knows no name
@@ -50,14 +61,20 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         raise
     finally:
         part.unlink(missing_ok=True)
-        os.close(handle)
 
 
-def _remove_if_left(part: Path) -> None:
-    """Remove a temporary file, unless a process is writing it or that cannot be told."""
-    with suppress(OSError), part.open("rb") as file:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        part.unlink()
+def _is_left(writer: str, part: Path) -> bool:
+    """Whether the process `writer` that began a temporary file is gone."""
+    host, pid, _ = writer.rsplit("-", 2) if writer.count("-") >= 2 else ("", "", "")
+    try:
+        if host == _HOST and pid.isdecimal():
+            os.kill(int(pid), 0)  # asks only whether it is there
+            return False
+        return time.time() - part.stat().st_mtime > _ABANDONED_S
+    except ProcessLookupError:
+        return True
+    except OSError:  # another user's process; or the file has gone
+        return False
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -72,17 +89,13 @@ def write_json(path: str | Path, value: Any) -> None:
 
 
 def read_json(path: str | Path) -> Any:
-    """Read a JSON file.
+    """Read a JSON file of an earlier job.
 
     Raises:
-        InputError: the file is missing, or it is no JSON.
+        InputError: the file is missing or cannot be read; or it is no JSON, and moved aside.
     """
-    try:
+    with reading(path, "JSON file", RecursionError):  # nested too deep
         return json.loads(Path(path).read_text(encoding="utf-8"))
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no such file; run the stage that makes it") from error
-    except (ValueError, RecursionError, OSError) as error:  # nested too deep; or a folder
-        raise InputError(f"{path}: not a JSON file ({error}); delete it and run again") from error
 
 
 def write_array(path: str | Path, array: np.ndarray) -> None:

@@ -1,5 +1,6 @@
 """The frames that people look at: the first view of each set by every method, with its scores."""
 
+import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -8,7 +9,7 @@ from zipfile import ZipFile, ZipInfo
 
 import numpy as np
 
-from neural_shadows.broken import broken
+from neural_shadows.broken import broken, reading
 from neural_shadows.tables import read_metrics
 
 CAPTIONS = {
@@ -18,6 +19,7 @@ CAPTIONS = {
 }
 
 MOST_BYTES = 8192**2 + 2**16  # of a frame: the most pixels that a config may ask for
+MOST_ALL_BYTES = 64 * MOST_BYTES
 
 
 @dataclass
@@ -61,18 +63,27 @@ def _read_images(path: Path) -> dict[str, np.ndarray]:
     Raises:
         InputError: the file is missing or not whole, and moved aside.
     """
-    try:
-        with ZipFile(path) as archive:
-            images = {
-                member.filename.removesuffix(".npy"): _read_image(archive, member)
-                for member in archive.infolist()
-            }
-        shape = images["reference"].shape
-        if 0 in shape or any(image.shape != shape for image in images.values()):
-            raise ValueError(f"frames of different sizes, or of none: {shape}")
-    except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
-        reason = " ".join(str(error).split())[:200]
-        raise broken(path, f"not a whole file of frames ({reason})") from error
+    with reading(path, "file of frames"):
+        content = path.read_bytes()
+        try:
+            return _unpack_images(content)
+        except MemoryError:
+            raise
+        except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
+            raise ValueError(error) from error
+
+
+def _unpack_images(content: bytes) -> dict[str, np.ndarray]:
+    with ZipFile(io.BytesIO(content)) as archive:
+        members = archive.infolist()
+        if sum(member.file_size for member in members) > MOST_ALL_BYTES:
+            raise ValueError(f"unpacks to more than {MOST_ALL_BYTES:,} bytes")
+        images = {
+            member.filename.removesuffix(".npy"): _read_image(archive, member) for member in members
+        }
+    shape = images["reference"].shape
+    if 0 in shape or any(image.shape != shape for image in images.values()):
+        raise ValueError(f"frames of different sizes, or of none: {shape}")
     return images
 
 

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from neural_shadows.broken import broken
+from neural_shadows.broken import broken, reading
 from neural_shadows.csv_file import read_csv
-from neural_shadows.errors import InputError
 from neural_shadows.strips import DPI, write_strip
 
 if TYPE_CHECKING:
@@ -29,12 +28,8 @@ def read_loss(path: str | Path) -> pd.DataFrame:
     Raises:
         InputError: the file is missing; or cut short or no loss curve, and moved aside.
     """
-    try:
+    with reading(path, "loss curve"):
         curve = read_csv(path, COLUMNS)
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no such file; run the training") from error
-    except (OSError, ValueError) as error:
-        raise broken(path, f"not a whole loss curve ({error})") from error
     if curve.empty or not np.isfinite(curve).all(axis=None):
         raise broken(path, "not a whole loss curve (a value is missing or not finite)")
     return curve

@@ -8,6 +8,7 @@ import torch
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save
 
+from neural_shadows.broken import reading
 from neural_shadows.errors import InputError
 from neural_shadows.files import whole_file
 from neural_shadows.network_kinds import make_network
@@ -36,19 +37,15 @@ def load_tensors(path: Path) -> tuple[dict[str, torch.Tensor], dict]:
     """Read what `save_tensors` wrote.
 
     Raises:
-        InputError: the file is missing, truncated, or not of this pipeline.
+        InputError: the file is missing or cannot be read; or it is truncated or not of this
+            pipeline, and moved aside.
     """
-    if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; run the stage that makes it")
-    try:
+    with reading(path, "file of this pipeline", SafetensorError, KeyError, RecursionError):
+        if not Path(path).is_file():  # a folder's error would speak of a device
+            raise FileNotFoundError
         with safe_open(path, framework="pt") as file:
             header = json.loads((file.metadata() or {})["header"])
             return {name: file.get_tensor(name) for name in file.keys()}, header
-    except (OSError, SafetensorError, KeyError, ValueError, RecursionError) as error:
-        reason = " ".join(str(error).split())[:200]
-        raise InputError(
-            f"{path}: not a whole file of this pipeline ({reason}); delete it and run again"
-        ) from error
 
 
 def save_network(path: Path, network: ShadowNetwork, header: dict) -> None:

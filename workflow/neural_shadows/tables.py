@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from tabulate import tabulate
 
-from neural_shadows.broken import broken
+from neural_shadows.broken import broken, reading
 from neural_shadows.csv_file import read_csv
 from neural_shadows.errors import InputError
 from neural_shadows.files import write_text
@@ -61,12 +61,8 @@ def read_metrics(paths: Iterable[str | Path]) -> pd.DataFrame:
 
 
 def _read_one(path: str | Path) -> pd.DataFrame:
-    try:
+    with reading(path, "file of metrics"):
         metrics = read_csv(path, METRICS_DTYPES)
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no such file of metrics: run the evaluation") from error
-    except (OSError, ValueError) as error:
-        raise broken(path, f"not a whole file of metrics ({error})") from error
     if metrics.empty or metrics.isna().any(axis=None):
         raise broken(path, "metrics are cut short")
     if not np.isfinite(metrics["value"]).all():
@@ -212,12 +208,8 @@ def read_table(path: str | Path, texts: Sequence[str], numbers: Sequence[str]) -
         InputError: the file is missing; or not whole or no such table, and moved aside.
     """
     kinds = dict.fromkeys(texts, "str") | dict.fromkeys(numbers, "float64")
-    try:
+    with reading(path, "table"):
         return read_csv(path, kinds, others=True)
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no such file of a table: run the table") from error
-    except (OSError, ValueError) as error:
-        raise broken(path, f"not a whole table ({error})") from error
 
 
 def write_twins(
