@@ -100,6 +100,7 @@ def test_what_may_pass_is_tried_again(server, tmp_path, caplog, failure):
         (503, "503 Service Unavailable", []),
         ("silent", "timed out", []),
         ("trickles", "less than 1,000 bytes/s", [PART]),
+        ("trickling headers", "no answer within", []),
     ],
 )
 def test_gives_up_after_the_last_try(server, tmp_path, failure, reason, left):

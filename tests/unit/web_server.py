@@ -59,6 +59,11 @@ class Handler(BaseHTTPRequestHandler):
         if answer == "silent":
             server.stop.wait()
             return
+        if answer == "trickling headers":
+            self.wfile.write(b"HTTP/1.1 200 OK\r\nX-Slow: ")
+            while not server.stop.wait(0.05):
+                self.wfile.write(b"x")
+            return
         if answer == "moved":
             self.send_response(302)
             self.send_header("Location", server.location)

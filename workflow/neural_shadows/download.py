@@ -5,9 +5,11 @@ import hashlib
 import http.client
 import logging
 import os
+import queue
 import re
 import ssl
 import sys
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -24,6 +26,9 @@ from neural_shadows.files import sha256_of, whole_file
 
 # At most so much is read at once; an attempt that got further by it is none in vain.
 _BLOCK = 1 << 18
+
+# Times the limit for a byte that the whole answer with its headers may take.
+_OPENING = 4
 
 # Bytes a second below which a connection counts as lost.
 _SLOWEST = 1000
@@ -186,12 +191,37 @@ def _opener() -> urllib.request.OpenerDirector:
 def _opened(
     opener: urllib.request.OpenerDirector, request: urllib.request.Request, timeout_s: float
 ) -> http.client.HTTPResponse:
+    """The answer with its headers.
+
+    In a thread: the opener's own limit is for each of a host's addresses, and for each byte of
+    the headers, so that a slow server could take any time.
+    """
+    answers: queue.SimpleQueue[http.client.HTTPResponse | Exception] = queue.SimpleQueue()
+    given_up = threading.Event()
+
+    def ask() -> None:
+        try:
+            answer = opener.open(request, timeout=timeout_s)
+        except Exception as error:
+            answers.put(error)
+            return
+        answers.put(answer)
+        if given_up.is_set():
+            answer.close()
+
+    threading.Thread(target=ask, daemon=True).start()
     try:
-        return opener.open(request, timeout=timeout_s)
-    except (ValueError, http.client.InvalidURL):
+        answer = answers.get(timeout=_OPENING * timeout_s)
+    except queue.Empty:
+        given_up.set()
+        raise TimeoutError(f"no answer within {_OPENING * timeout_s:g} s") from None
+    if isinstance(answer, ValueError | http.client.InvalidURL):
         # Python's message would show the password that may be in a proxy's URL.
         reason = "the URL or that of https_proxy in the environment is not valid"
-        raise _FailedError(reason, may_pass=False, keep=True) from None
+        raise _FailedError(reason, may_pass=False, keep=True)
+    if isinstance(answer, Exception):
+        raise answer
+    return answer
 
 
 def _blocks(
