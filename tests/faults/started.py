@@ -140,7 +140,10 @@ class Started:
             TimeoutError: a process is still there after `END_S`.
         """
         group = self._process.pid
-        os.killpg(group, signal.SIGSTOP)  # so that what is seen is what is hit
+        try:
+            os.killpg(group, signal.SIGSTOP)  # so that what is seen is what is hit
+        except ProcessLookupError:
+            return []  # the run has ended
         hit = self.jobs()
         os.killpg(group, sign)
         os.killpg(group, signal.SIGCONT)

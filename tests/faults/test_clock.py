@@ -23,7 +23,7 @@ def test_clock_set_back(undisturbed):
     for folder in (checkout.results / "evaluations", checkout.reports):
         shutil.rmtree(folder)
     victim = Victim(undisturbed, checkout)
-    victim.interrupt(SIGKILL, victim.in_job("evaluate", 0.5))
+    assert victim.interrupt(SIGKILL, victim.in_job("evaluate", 0.5))
     for path in checkout.folder.rglob("*"):
         if path.is_file():
             stat = path.stat()

@@ -51,19 +51,23 @@ class Victim:
         """Rules of the jobs that were hit so far."""
         return {rule for each in self.interruptions for rule in each.hit}
 
-    def interrupt(self, sign: Signals, moment: Moment, *targets: str) -> None:
+    def interrupt(self, sign: Signals, moment: Moment, *targets: str) -> bool:
         """Start a run, send all its processes a signal at a moment, and note what that hit.
 
         Then the folder must not be locked, except by SIGKILL, and is unlocked.
+
+        Returns:
+            False if the run came to its end before the moment, as runs should.
         """
         overlays = self.undisturbed.overlays
         targets = targets or self.undisturbed.targets
         arguments = *targets, "--rerun-incomplete"
         output = self.undisturbed.folder / "interrupted.txt"
         with Started(self.checkout, *arguments, overlays=overlays, output=output) as run:
-            assert moment(run), f"the run ended before the moment came:\n{run.said}"
-            hit = run.interrupt(sign)
+            hit = run.interrupt(sign) if moment(run) else []
             now = time.time()
+        if run.status == 0 and not hit:
+            return False
         assert run.status != 0, run.said
         lost = [now - self._last_saved(job) for job in hit if job.rule == "train"]
         found = results_of(self.checkout)
@@ -72,6 +76,7 @@ class Victim:
         if any(self.checkout.folder.glob(".snakemake/locks/*.lock")):
             assert sign == SIGKILL, f"locked after {sign.name}:\n{run.said}"
             self.checkout.run("--unlock", overlays=overlays)
+        return True
 
     def leave_work(self, rule: str) -> None:
         """Take away what a job made, if earlier runs came to the end of all jobs of its rule."""
@@ -87,8 +92,11 @@ class Victim:
             if not run.watch(lambda jobs: rule in rules_of(jobs), TIMEOUT_S):
                 return False
             end = time.time() + share * self.undisturbed.longest[rule]
-            # A job that is done by then is not hit, but what follows it.
-            return run.wait(lambda: time.time() >= end, TIMEOUT_S, 0.01)
+            # A job that is done by then is not hit, but what follows it: there may be nothing
+            # more by the end of its time.
+            return run.wait(
+                lambda: time.time() >= end or rule not in rules_of(run.jobs()), TIMEOUT_S, 0.01
+            )
 
         return moment
 
@@ -100,7 +108,14 @@ class Victim:
             if not run.watch(lambda jobs: rule in rules_of(jobs), TIMEOUT_S):
                 return False
             end = time.time() + 2 * self.undisturbed.longest[rule]
-            return run.wait(lambda: self._parts(rule) - before or time.time() >= end, TIMEOUT_S)
+            return run.wait(
+                lambda: (
+                    self._parts(rule) - before
+                    or time.time() >= end
+                    or rule not in rules_of(run.jobs())
+                ),
+                TIMEOUT_S,
+            )
 
         return moment
 
