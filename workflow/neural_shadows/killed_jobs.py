@@ -25,6 +25,8 @@ def tell_of_killed_jobs(logs: Path, since: float) -> None:
         said = last_lines(path)
         if not alone.startswith(RUN_ALONE) or _RECORD.search("\n".join(said)):
             continue
+        if said[-1:] == ["KeyboardInterrupt"]:  # they know
+            continue
         print(
             f"{path.parent.name}: ended without a word: killed (out of memory, past its time, or "
             f"by somebody), or crashed [log: {path}]",
