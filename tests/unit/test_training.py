@@ -389,12 +389,15 @@ def test_other_kinds_resume_and_do_not_depend_on_threads(tmp_path, network):
     assert contents(tmp_path / "other") != whole
 
 
-def test_a_damaged_state_is_named(tmp_path):
-    interrupt(tmp_path, 12)
-    (state,) = tmp_path.glob("unfinished/*/state.safetensors")
+def test_a_damaged_state_is_moved_aside_and_the_training_begins_anew(tmp_path):
+    interrupt(tmp_path / "a", 12)
+    (state,) = tmp_path.glob("a/unfinished/*/state.safetensors")
     state.write_bytes(state.read_bytes()[:-10])
-    with pytest.raises(InputError, match="state.safetensors: not a whole file.*delete it"):
-        run_training(tmp_path, **TINY)
+    with pytest.raises(InputError, match="state.safetensors: not a whole file.*moved to"):
+        run_training(tmp_path / "a", **TINY)
+    run_training(tmp_path / "a", **TINY)
+    run_training(tmp_path / "b", **TINY)
+    assert contents(tmp_path / "a") == contents(tmp_path / "b")
 
 
 @pytest.mark.parametrize(
