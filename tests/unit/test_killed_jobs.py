@@ -13,6 +13,7 @@ def test_only_jobs_of_this_run_without_a_record_are_told_of(tmp_path, capsys):
         "killed": f"{ALONE}\nhalf way\n",
         "killed at once": f"{ALONE}\n",
         "done": f"{ALONE}\nhalf way\ntrain: done\n{{}}\n",
+        "done, of many inputs": f"{ALONE}\ntrain: done\n{{{'x' * 20_000}}}\n",
         "failed": f"{ALONE}\nTraceback\n{{}}\ntrain: no such file [log: a]\n",
         "interrupted": f"{ALONE}\nTraceback\nKeyboardInterrupt\n",
         "another program's": "half way\n",

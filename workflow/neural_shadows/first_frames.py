@@ -19,7 +19,7 @@ CAPTIONS = {
 }
 
 MOST_BYTES = 8192**2 + 2**16  # of a frame: the most pixels that a config may ask for
-MOST_ALL_BYTES = 64 * MOST_BYTES
+MOST_ALL_BYTES = 64 * MOST_BYTES  # of a file: more methods than any evaluation has
 
 
 @dataclass

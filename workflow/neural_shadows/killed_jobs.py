@@ -20,11 +20,11 @@ def tell_of_killed_jobs(logs: Path, since: float) -> None:
     for path in sorted(logs.glob("*/*.log")):
         if path.stat().st_mtime < since:
             continue
-        with path.open(encoding="utf-8", errors="replace") as file:
-            alone = file.readline().strip()
-        said = last_lines(path)
-        if not alone.startswith(RUN_ALONE) or _RECORD.search("\n".join(said)):
+        # All of it: with many inputs a record is longer than what is shown of a log.
+        text = path.read_text(encoding="utf-8", errors="replace")
+        if not text.startswith(RUN_ALONE) or _RECORD.search(text):
             continue
+        alone, said = text.splitlines()[0], last_lines(path)
         if said[-1:] == ["KeyboardInterrupt"]:  # they know
             continue
         print(
