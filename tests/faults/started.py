@@ -36,15 +36,8 @@ class Job:
     rule: str
     started: float
     """When, in seconds of `time.time`."""
-
-    @property
-    def log(self) -> Path | None:
-        """Its log, once it writes there; before that it loads Snakemake's own modules."""
-        try:
-            said = Path(f"/proc/{self.pid}/fd/1").readlink()
-        except OSError:
-            return None
-        return said if said.suffix == ".log" and "logs" in said.parts else None
+    log: Path | None
+    """Its log, once it writes there; before that it loads Snakemake's own modules."""
 
 
 class Started:
@@ -99,7 +92,7 @@ class Started:
                 continue  # it has just ended
             # Of bash, which starts it, the script is not an argument of its own.
             if script := next(filter(None, map(SCRIPT.fullmatch, arguments[1:2])), None):
-                found.append(Job(pid, RULE_OF[script[1]], started))
+                found.append(Job(pid, RULE_OF[script[1]], started, _log_of(pid)))
         for job in found:
             seconds = time.time() - job.started
             self.longest[job.rule] = max(self.longest.get(job.rule, 0), seconds)
@@ -169,6 +162,14 @@ class Started:
             if group == self._process.pid and state != "Z":
                 found[int(folder.name)] = booted + ticks / os.sysconf("SC_CLK_TCK")
         return found
+
+
+def _log_of(pid: int) -> Path | None:
+    try:
+        said = Path(f"/proc/{pid}/fd/1").readlink()
+    except OSError:
+        return None  # it has just ended
+    return said if said.suffix == ".log" and "logs" in said.parts else None
 
 
 def rules_of(jobs: Iterable[Job]) -> list[str]:

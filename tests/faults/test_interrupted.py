@@ -106,6 +106,8 @@ def test_training_continues_from_its_last_state(undisturbed, full, moments, tabl
         _, header = load_tensors(victim.state(LONG))
         assert header["step"] > steps
         steps = header["step"]
+        (lost,) = victim.interruptions[-1].lost
+        assert lost <= time.time() - victim.state(LONG).stat().st_mtime
     assert all(each.hit == ["train"] for each in victim.interruptions)
 
     # With the network there and Snakemake about to note it, all of the training is at stake.
