@@ -152,15 +152,18 @@ class Started:
         """Processes of the group that have not ended, and when they were started."""
         found = {}
         booted = time.time() - time.clock_gettime(time.CLOCK_BOOTTIME)
-        for folder in Path("/proc").glob("[0-9]*"):
+        for pid in map(int, filter(str.isdigit, os.listdir("/proc"))):
             try:
+                # Asked first, since it takes a twentieth of the time that reading takes.
+                if os.getpgid(pid) != self._process.pid:
+                    continue
                 # From the third field on: before it is a name in brackets, with anything in it.
-                fields = (folder / "stat").read_text().rpartition(")")[2].split()
+                fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
             except (FileNotFoundError, ProcessLookupError):
                 continue
-            state, group, ticks = fields[0], int(fields[2]), int(fields[19])
-            if group == self._process.pid and state != "Z":
-                found[int(folder.name)] = booted + ticks / os.sysconf("SC_CLK_TCK")
+            state, ticks = fields[0], int(fields[19])
+            if state != "Z":
+                found[pid] = booted + ticks / os.sysconf("SC_CLK_TCK")
         return found
 
 

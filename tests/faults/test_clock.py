@@ -13,11 +13,13 @@ import subprocess
 import sys
 from signal import SIGKILL
 
+import pytest
 from victim import Victim
 
 DAY_S = 86_400
 
 
+@pytest.mark.usefixtures("only_full")
 def test_clock_set_back(undisturbed):
     checkout = undisturbed.another(finished=True)
     for folder in (checkout.results / "evaluations", checkout.reports):

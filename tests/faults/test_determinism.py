@@ -35,6 +35,7 @@ TOLERANCE = {
 }
 
 
+@pytest.mark.usefixtures("only_full")
 def test_clean_run_on_one_core_in_a_path_with_a_space(undisturbed):
     """The undisturbed run has two cores, and another path."""
     checkout = replace(undisturbed.another(finished=False), cores=1)

@@ -12,7 +12,7 @@ def test_disk_that_fills(undisturbed, full):
     targets, overlays = undisturbed.targets, undisturbed.overlays
     whole = results_of(undisturbed.checkout)
     written = sum(path.lstat().st_size for path in undisturbed.checkout.folder.rglob("*"))
-    shares = (0.01, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9) if full else (0.05, 0.5)
+    shares = (0.01, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9) if full else (0.3,)
     with small_disk(undisturbed.place, 4 * written):
         checkout = undisturbed.another(finished=not full)
         if not full:

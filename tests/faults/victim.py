@@ -4,6 +4,7 @@ import statistics
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from signal import SIGINT, SIGKILL, SIGTERM, Signals
 
@@ -39,19 +40,25 @@ class Victim:
         self.undisturbed, self.checkout = undisturbed, checkout
         self.interruptions: list[Interruption] = []
         self._whole = results_of(undisturbed.checkout)
-        # Files of each job, by rule. Each job has a log of its own.
-        self._files: dict[str, dict[str, list[Path]]] = {}
-        targets, overlays = undisturbed.targets, undisturbed.overlays
-        for row in undisturbed.checkout.summary(*targets, overlays=overlays):
-            jobs = self._files.setdefault(row["rule"], {})
-            jobs.setdefault(row["log-file(s)"], []).append(checkout.folder / row["output_file"])
+
+    @cached_property
+    def _files(self) -> dict[str, dict[str, list[str]]]:
+        """Files of each job as targets, by rule and log, of which each job has its own."""
+        rules = {}
+        targets, overlays = self.undisturbed.targets, self.undisturbed.overlays
+        for row in self.undisturbed.checkout.summary(*targets, overlays=overlays):
+            files = rules.setdefault(row["rule"], {}).setdefault(row["log-file(s)"], [])
+            files.append(row["output_file"])
+        return rules
 
     @property
     def hit(self) -> set[str]:
         """Rules of the jobs that were hit so far."""
         return {rule for each in self.interruptions for rule in each.hit}
 
-    def interrupt(self, sign: Signals, moment: Moment, *targets: str) -> bool:
+    def interrupt(
+        self, sign: Signals, moment: Moment, *targets: str, work: Sequence[str] = ()
+    ) -> bool:
         """Start a run, send all its processes a signal at a moment, and note what that hit.
 
         Then the folder must not be locked, except by SIGKILL, and is unlocked.
@@ -61,7 +68,7 @@ class Victim:
         """
         overlays = self.undisturbed.overlays
         targets = targets or self.undisturbed.targets
-        arguments = *targets, "--rerun-incomplete"
+        arguments = *targets, "--rerun-incomplete", *work
         output = self.undisturbed.folder / "interrupted.txt"
         with Started(self.checkout, *arguments, overlays=overlays, output=output) as run:
             hit = run.interrupt(sign) if moment(run) else []
@@ -78,12 +85,20 @@ class Victim:
             self.checkout.run("--unlock", overlays=overlays)
         return True
 
-    def leave_work(self, rule: str) -> None:
-        """Take away what a job made, if earlier runs came to the end of all jobs of its rule."""
+    def work_for(self, rule: str) -> list[str]:
+        """Arguments that let a job of a rule run where earlier runs came to the end of all."""
         jobs = list(self._files[rule].values())
-        if all(path.exists() for files in jobs for path in files):
-            for path in jobs[0]:
-                path.unlink()
+        there = [(self.checkout.folder / name).exists() for files in jobs for name in files]
+        return ["--forcerun", jobs[0][0]] if all(there) else []
+
+    def missing(self) -> list[str]:
+        """Files that the targets need and that are not there.
+
+        A forced job's old files go when it is interrupted. Snakemake makes them again only when
+        they are asked for, if all that is made from them is there.
+        """
+        files = [name for jobs in self._files.values() for job in jobs.values() for name in job]
+        return [name for name in files if not (self.checkout.folder / name).exists()]
 
     def in_job(self, rule: str, share: float) -> Moment:
         """After a share of the time of the rule's longest job."""
@@ -126,7 +141,8 @@ class Victim:
 
     def _parts(self, rule: str) -> set[Path]:
         """Temporary files beside a rule's own."""
-        folders = {path.parent for files in self._files[rule].values() for path in files}
+        names = [name for files in self._files[rule].values() for name in files]
+        folders = {(self.checkout.folder / name).parent for name in names}
         return {part for folder in folders for part in folder.glob(".*.part*")}
 
     def _last_saved(self, job: Job) -> float:
