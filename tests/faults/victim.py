@@ -86,19 +86,21 @@ class Victim:
         return True
 
     def work_for(self, rule: str) -> list[str]:
-        """Arguments that let a job of a rule run where earlier runs came to the end of all."""
+        """Arguments that let a job of a rule run: one with a file that is not there, if any has.
+
+        A forced job's old files go when it is interrupted. Then Snakemake does not make them again
+        by itself if all that is made from them is there.
+        """
         jobs = list(self._files[rule].values())
-        there = [(self.checkout.folder / name).exists() for files in jobs for name in files]
-        return ["--forcerun", jobs[0][0]] if all(there) else []
+        return ["--forcerun", next(filter(self._lacking, jobs), jobs[0])[0]]
 
     def missing(self) -> list[str]:
-        """Files that the targets need and that are not there.
+        """Files of all jobs that are not there."""
+        jobs = [job for jobs in self._files.values() for job in jobs.values()]
+        return [name for job in jobs for name in self._lacking(job)]
 
-        A forced job's old files go when it is interrupted. Snakemake makes them again only when
-        they are asked for, if all that is made from them is there.
-        """
-        files = [name for jobs in self._files.values() for job in jobs.values() for name in job]
-        return [name for name in files if not (self.checkout.folder / name).exists()]
+    def _lacking(self, names: Sequence[str]) -> list[str]:
+        return [name for name in names if not (self.checkout.folder / name).exists()]
 
     def in_job(self, rule: str, share: float) -> Moment:
         """After a share of the time of the rule's longest job."""
