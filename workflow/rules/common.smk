@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.scheduling.job_scheduler import JobScheduler
 
 # The package of this checkout, for the rules and for the scripts that they start.
 WORKFLOW = Path(workflow.basedir) / "workflow"
@@ -34,6 +35,7 @@ from neural_shadows.killed_jobs import tell_of_killed_jobs
 from neural_shadows.module_graph import kind_module, modules_of
 from neural_shadows.rerun import remember_configuration
 from neural_shadows.saved_states import forget_finished
+from neural_shadows.scheduler_waits import wait_once
 
 try:
     check_duplicates(workflow.configfiles)
@@ -47,6 +49,8 @@ try:
         check_clock([RESULTS, REPORTS, *map(os.path.relpath, sources)])
 except InputError as error:
     raise WorkflowError(str(error))
+
+wait_once(JobScheduler)
 
 # For the message of a job that fails.
 remember_configuration(
