@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 from markupsafe import Markup
 
-from neural_shadows.files import write_text
-from neural_shadows.first_frames import FirstFrame
-from neural_shadows.html_report import Block, comparison, figure_block, render_page, table_block
-from neural_shadows.loss_figure import loss_figure
-from neural_shadows.strips import write_strip
+from neural_shadows.evaluation.first_frames import FirstFrame
+from neural_shadows.files.whole_files import write_text
+from neural_shadows.reports.figures.loss import loss_figure
+from neural_shadows.reports.figures.style import write_strip
+from neural_shadows.reports.page import Block, comparison, figure_block, render_page, table_block
 
 TEMPLATES = Path(__file__).parents[1] / "workflow" / "report" / "page"
 HOSTILE = "<script>alert('x')</script> & \"quotes\""

@@ -12,13 +12,14 @@ import numpy as np
 import trimesh
 from measurement import Row, median_seconds
 
-from neural_shadows.labels import SECOND_HIT_STEP
-from neural_shadows.mesh import read_prepared
-from neural_shadows.ray_files import make_labels, make_rays
-from neural_shadows.ray_set import RaySet
-from neural_shadows.silhouette import silhouette
-from neural_shadows.tracing import Tracer
-from neural_shadows.view_directions import make_directions
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.rays.draw_directions import make_directions
+from neural_shadows.rays.label_rays import make_labels
+from neural_shadows.rays.labels import SECOND_HIT_STEP
+from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.rays.sample_rays import make_rays
+from neural_shadows.rays.silhouette import silhouette
+from neural_shadows.scenes.tracing import Tracer
 
 POINTS = 10_000  # of a direction, as in the thesis [4.1]
 RESOLUTION = 128  # of the silhouettes

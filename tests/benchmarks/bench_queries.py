@@ -13,13 +13,15 @@ from frame_query import FrameQuery
 from measurement import Row, median_seconds
 from torch import Tensor
 
-from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.frames import ShadingPoints, Viewpoint, reference_visibility
-from neural_shadows.frequency_network import FrequencyNetwork
-from neural_shadows.network_file import load_network
-from neural_shadows.scene_frames import SceneFrames, open_scene
-from neural_shadows.shadow_network import QUERY_CHUNKS, ShadowNetwork
-from neural_shadows.shadow_query import on_device, sphere_rays
+from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.object_space.shadow_network import QUERY_CHUNKS, ShadowNetwork
+from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
+from neural_shadows.networks.weight_file import load_network
+from neural_shadows.rendering.gbuffer import ShadingPoints
+from neural_shadows.rendering.scene_frames import SceneFrames, open_scene
+from neural_shadows.rendering.shading import reference_visibility
+from neural_shadows.scenes.cameras import Viewpoint
 
 WIDTHS = (256, 128, 64)
 FRAME = {

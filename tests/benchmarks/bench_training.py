@@ -9,13 +9,13 @@ import itertools
 import torch
 from measurement import Row, median_seconds
 
-from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.dead_zone_loss import DeadZone
-from neural_shadows.frequency_network import FrequencyNetwork
-from neural_shadows.recorded_step import WARM_UP, recorded
-from neural_shadows.shadow_network import TRAINING_CHUNK, LabelledBatch
-from neural_shadows.training import TrainingRun, chunk_size, gradient_pool
-from neural_shadows.training_data import batch_indices
+from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.object_space.shadow_network import TRAINING_CHUNK, LabelledBatch
+from neural_shadows.training.batches import batch_indices
+from neural_shadows.training.cuda_graph import WARM_UP, recorded
+from neural_shadows.training.training_run import TrainingRun, chunk_size, gradient_pool
 
 THREADS = 2
 DESK_BATCH, THESIS_BATCH = 1024, 65536

@@ -15,13 +15,14 @@ import torch
 from bench_queries import FRAME, thesis_network
 from measurement import Row
 
-from neural_shadows.compute import choose_device, choose_dtype
-from neural_shadows.frames import reference_visibility, shade
-from neural_shadows.grey_flip import Flip
-from neural_shadows.metrics import Lpips, psnr, ssim
-from neural_shadows.scene_frames import open_scene
-from neural_shadows.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
-from neural_shadows.shadow_query import network_lit, on_device
+from neural_shadows.metrics.flip import Flip
+from neural_shadows.metrics.lpips_distance import Lpips
+from neural_shadows.metrics.psnr_ssim import psnr, ssim
+from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.rendering.scene_frames import open_scene
+from neural_shadows.rendering.shading import reference_visibility, shade
+from neural_shadows.shadow_maps.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
 
 MAPS = (2048, 1024, 512, 256, 128)
 JOBS = 2  # at once

@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from neural_shadows.compute import choose_dtype
-from neural_shadows.evaluation import REFERENCE_MAP_RESOLUTION, reference_of
-from neural_shadows.frames import shade
-from neural_shadows.metrics import psnr
-from neural_shadows.network_file import load_network
-from neural_shadows.scene_frames import open_scene
-from neural_shadows.shadow_query import on_device, sphere_rays
+from neural_shadows.evaluation.shadow_methods import REFERENCE_MAP_RESOLUTION, reference_of
+from neural_shadows.metrics.psnr_ssim import psnr
+from neural_shadows.networks.compute import choose_dtype
+from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
+from neural_shadows.networks.weight_file import load_network
+from neural_shadows.rendering.scene_frames import open_scene
+from neural_shadows.rendering.shading import shade
 
 
 def main() -> None:

@@ -4,10 +4,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from neural_shadows.frames import ShadingPoints, Viewpoint, camera_axes
-from neural_shadows.scene_frames import SceneFrames
-from neural_shadows.shadow_network import ShadowNetwork
-from neural_shadows.shadow_query import network_lit
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.networks.object_space.shadow_query import network_lit
+from neural_shadows.rendering.gbuffer import ShadingPoints
+from neural_shadows.rendering.scene_frames import SceneFrames
+from neural_shadows.scenes.cameras import Viewpoint, camera_axes
 
 
 class FrameQuery:

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from neural_shadows.ray_set import RaySet
-from neural_shadows.training import train
+from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.training.train import train
 
 SEEDS = (1, 2, 3)
 FIFTHS = 5

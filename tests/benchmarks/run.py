@@ -21,10 +21,10 @@ import bench_training
 import bench_viewpoint
 from measurement import Row, table
 
-from neural_shadows.files import write_text
-from neural_shadows.generated_mesh import generate_mesh
-from neural_shadows.hardware import describe_machine
-from neural_shadows.mesh import prepare_mesh
+from neural_shadows.files.whole_files import write_text
+from neural_shadows.meshes.generate_mesh import generate_mesh
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
+from neural_shadows.running.hardware import describe_machine
 
 STAGES = ("labels", "training", "queries", "viewpoint", "default")
 TABLE = Path("reports/benchmarks.csv")

@@ -20,28 +20,30 @@ from mesh_formats import WRITERS
 from PIL import Image
 from sample_records import COST, FRAME_TIMES, LPIPS, TRAINING
 
-from neural_shadows import records
-from neural_shadows.cluster_plan import read_measured
-from neural_shadows.config import check_duplicates, check_files, read_config
-from neural_shadows.dead_zone_loss import DeadZone
-from neural_shadows.depth_bias_file import read_depth_biases
-from neural_shadows.files import write_json
-from neural_shadows.first_frames import read_first_frames
-from neural_shadows.fronts_figure import read_networks
-from neural_shadows.html_report import figure_block, table_block
-from neural_shadows.loss_figure import read_loss
-from neural_shadows.lpips_trunk import find_trunk
-from neural_shadows.mesh import prepare_mesh, read_prepared
-from neural_shadows.network_file import load_network, save_network
-from neural_shadows.network_kinds import make_network
-from neural_shadows.performance_table import read_frame_times
-from neural_shadows.published import read_published
-from neural_shadows.ray_set import RaySet
-from neural_shadows.run_facts import durations
-from neural_shadows.stanford import fetch_stanford_dragon
-from neural_shadows.tables import METRICS, read_metrics
-from neural_shadows.training import TrainingRun
-from neural_shadows.width_figure import read_frame_time_table
+from neural_shadows.config.reading import check_duplicates, check_files, read_config
+from neural_shadows.evaluation.depth_biases import read_depth_biases
+from neural_shadows.evaluation.first_frames import read_first_frames
+from neural_shadows.evaluation.frame_times import read_frame_times
+from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.files import records
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.layout.cluster_plan import read_measured
+from neural_shadows.meshes.download_mesh import fetch_stanford_dragon
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.metrics.lpips_trunk import find_trunk
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.reports.figures.fronts import read_networks
+from neural_shadows.reports.figures.widths import read_frame_time_table
+from neural_shadows.reports.page import figure_block, table_block
+from neural_shadows.reports.published import read_published
+from neural_shadows.reports.run_facts import durations
+from neural_shadows.reports.tables.comparison import METRICS
+from neural_shadows.training.loss_curve import read_loss
+from neural_shadows.training.training_run import TrainingRun
 
 CONFIG = Path(__file__).parents[2] / "config"
 

@@ -8,12 +8,15 @@ from broken_meshes import WORKS, shapes
 from mesh_formats import binary_ply
 
 from neural_shadows.errors import InputError
-from neural_shadows.light import axis_vector
-from neural_shadows.mesh import prepare_mesh, read_prepared
-from neural_shadows.ray_files import describe_rays, make_labels, make_rays
-from neural_shadows.tracing import Tracer
-from neural_shadows.view_directions import make_directions
-from neural_shadows.viewpoints import draw_viewpoints
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.rays.describe_rays import describe_rays
+from neural_shadows.rays.draw_directions import make_directions
+from neural_shadows.rays.label_rays import make_labels
+from neural_shadows.rays.sample_rays import make_rays
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.scenes.lights import axis_vector
+from neural_shadows.scenes.tracing import Tracer
 
 SETTINGS = {"silhouette_resolution": 32, "min_quad": 1, "seed": 3}
 READ = [shape for shape in shapes() if shape.end == WORKS]

@@ -12,7 +12,7 @@ import pytest
 from same_results import results_of
 from undisturbed import TABLE
 
-from neural_shadows.tables import read_metrics
+from neural_shadows.evaluation.per_view_metrics import read_metrics
 
 # What libraries are told to see, in place of a newer processor's AVX-512, bfloat16 and AMX.
 OLDER_PROCESSOR = {

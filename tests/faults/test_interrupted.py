@@ -14,7 +14,7 @@ from started import RULE_OF, Started
 from undisturbed import LONG, LONG_WEIGHTS, TIMEOUT_S
 from victim import Moment, Victim, at, write_tables
 
-from neural_shadows.network_file import load_tensors
+from neural_shadows.networks.weight_file import load_tensors
 
 # It needs a network. What a cut connection leaves is tested in tests/unit/test_download.py.
 NEVER = {"download_mesh"}

@@ -7,9 +7,9 @@ from frame_query import FrameQuery
 from measurement import COLUMNS, Row, median_seconds, table
 from shapes import bumpy_sphere
 
-from neural_shadows.frequency_network import FrequencyNetwork
-from neural_shadows.scene_frames import open_scene
-from neural_shadows.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.rendering.scene_frames import open_scene
 
 
 def test_shares_and_ratios():

@@ -72,6 +72,6 @@ def test_the_check_finds_what_unpickles(source):
 def test_the_yaml_loader_is_a_safe_one():
     import yaml
 
-    from neural_shadows import config
+    from neural_shadows.config import whole as config
 
     assert issubclass(config._NoDuplicates, yaml.SafeLoader)

@@ -19,23 +19,24 @@ os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
 # numba keeps compiled kernels by the age of their own file: one that calls a kernel of another
 # module would stay as it was when that module is edited. Keyed by the package's content it cannot.
 package = b"".join(
-    path.read_bytes() for path in sorted(WORKFLOW.glob("neural_shadows/*.py"))
+    path.read_bytes() for path in sorted(WORKFLOW.glob("neural_shadows/**/*.py"))
 )
 kernels = os.path.abspath(
     f".snakemake/numba/{hashlib.sha256(package).hexdigest()[:16]}"
 )
 os.environ.update(NUMBA_CACHE_DIR=kernels)
 
-from neural_shadows import layout
-from neural_shadows.config import check_duplicates, check_files, read_config
+from neural_shadows.layout import layout
+from neural_shadows.config.reading import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
-from neural_shadows.file_times import check_clock
-from neural_shadows.folder_checks import check_writable
-from neural_shadows.killed_jobs import tell_of_killed_jobs
-from neural_shadows.module_graph import kind_module, modules_of
-from neural_shadows.rerun import remember_configuration
-from neural_shadows.saved_states import forget_finished
-from neural_shadows.scheduler_waits import wait_once
+from neural_shadows.running.file_times import check_clock
+from neural_shadows.running.folder_checks import check_writable
+from neural_shadows.running.killed_jobs import tell_of_killed_jobs
+from neural_shadows.networks.kind_module import kind_module
+from neural_shadows.running.module_graph import modules_of
+from neural_shadows.running.jobs import remember_configuration
+from neural_shadows.training.checkpoints import forget_finished
+from neural_shadows.running.scheduler_waits import wait_once
 
 try:
     check_duplicates(workflow.configfiles)

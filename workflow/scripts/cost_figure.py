@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.cost_figure import write_cost_figure
-from neural_shadows.jobs import run_job
+from neural_shadows.reports.figures.cost import write_cost_figure
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -1,7 +1,7 @@
 """Write the description of a ray set beside its shards."""
 
-from neural_shadows.jobs import run_job
-from neural_shadows.ray_files import describe_rays
+from neural_shadows.rays.describe_rays import describe_rays
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

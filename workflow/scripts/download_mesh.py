@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.stanford import fetch_stanford_dragon
+from neural_shadows.meshes.download_mesh import fetch_stanford_dragon
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from neural_shadows.depth_bias_file import biases_by_method
-from neural_shadows.evaluation import evaluate
-from neural_shadows.jobs import run_job
-from neural_shadows.methods import biased_key
+from neural_shadows.evaluation.depth_biases import biases_by_method
+from neural_shadows.evaluation.evaluate import evaluate
+from neural_shadows.evaluation.method_names import biased_key
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

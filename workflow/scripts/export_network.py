@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.export import export_network
-from neural_shadows.jobs import run_job
+from neural_shadows.running.jobs import run_job
+from neural_shadows.viewer.export_network import export_network
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.field_slice import write_field_slice
-from neural_shadows.jobs import run_job
+from neural_shadows.reports.figures.field_slice import write_field_slice
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.depth_bias import find_depth_biases
-from neural_shadows.jobs import run_job
+from neural_shadows.evaluation.find_depth_biases import find_depth_biases
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

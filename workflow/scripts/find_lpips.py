@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.lpips_stage import find_lpips
+from neural_shadows.metrics.find_lpips import find_lpips
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

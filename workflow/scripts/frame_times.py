@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.frame_times import measure_frame_times
-from neural_shadows.jobs import run_job
+from neural_shadows.evaluation.measure_frame_times import measure_frame_times
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

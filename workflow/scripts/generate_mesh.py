@@ -1,7 +1,7 @@
 """Make a procedural mesh."""
 
-from neural_shadows.generated_mesh import generate_mesh
-from neural_shadows.jobs import run_job
+from neural_shadows.meshes.generate_mesh import generate_mesh
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.html_report import write_html_report
-from neural_shadows.jobs import run_job
+from neural_shadows.reports.page import write_html_report
+from neural_shadows.running.jobs import run_job
 
 
 def paths_of(files):

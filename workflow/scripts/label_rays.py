@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.ray_files import make_labels
+from neural_shadows.rays.label_rays import make_labels
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

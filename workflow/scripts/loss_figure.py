@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.loss_figure import write_loss_figure
+from neural_shadows.reports.figures.loss import write_loss_figure
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.cost import measure_cost
-from neural_shadows.jobs import run_job
+from neural_shadows.evaluation.measure_cost import measure_cost
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.networks_table import write_networks_table
+from neural_shadows.reports.tables.networks import write_networks_table
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

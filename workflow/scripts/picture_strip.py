@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.table_report import write_picture_strip
+from neural_shadows.reports.figures.pictures import write_picture_strip
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.mesh import prepare_mesh
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

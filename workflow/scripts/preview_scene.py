@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.preview import preview_scene
+from neural_shadows.reports.figures.scene import preview_scene
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from neural_shadows.files import read_json
-from neural_shadows.jobs import run_job
-from neural_shadows.ray_set import RaySet
-from neural_shadows.saved_states import UNFINISHED
-from neural_shadows.training import train
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.running.jobs import run_job
+from neural_shadows.training.checkpoints import UNFINISHED
+from neural_shadows.training.train import train
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.view_directions import make_directions
+from neural_shadows.rays.draw_directions import make_directions
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.claims import write_claims
-from neural_shadows.jobs import run_job
+from neural_shadows.reports.claims import write_claims
+from neural_shadows.running.jobs import run_job
 
 
 def paths_of(files):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from neural_shadows.jobs import run_job
-from neural_shadows.table_report import write_table_report
+from neural_shadows.reports.tables.comparison import write_table_report
+from neural_shadows.running.jobs import run_job
 
 
 def main(job):

@@ -22,10 +22,10 @@ from snakemake.utils import update_config
 ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT / "workflow"))
 
-from neural_shadows.cluster_plan import Job, plan_report, read_measured  # noqa: E402
-from neural_shadows.config import read_config  # noqa: E402
+from neural_shadows.config.reading import read_config  # noqa: E402
 from neural_shadows.errors import InputError  # noqa: E402
-from neural_shadows.layout import Layout  # noqa: E402
+from neural_shadows.layout.cluster_plan import Job, plan_report, read_measured  # noqa: E402
+from neural_shadows.layout.layout import Layout  # noqa: E402
 
 DEFAULT = ROOT / "config" / "config.yaml"
 

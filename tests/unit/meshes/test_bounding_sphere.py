@@ -1,0 +1,162 @@
+"""The minimal enclosing sphere against analytic answers and independent solutions."""
+
+from itertools import combinations, product
+from time import perf_counter
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize, nnls
+
+from neural_shadows.meshes.bounding_sphere import minimal_bounding_sphere
+
+CUBE = np.array(list(product((-1.0, 1.0), repeat=3)))
+TETRAHEDRON = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], dtype=float)
+
+
+def on_sphere(n, seed=0):
+    points = np.random.default_rng(seed).normal(size=(n, 3))
+    return points / np.linalg.norm(points, axis=1, keepdims=True)
+
+
+def assert_encloses(points, centre, radius):
+    assert np.linalg.norm(points - centre, axis=1).max() <= radius * (1 + 1e-12)
+
+
+@pytest.mark.parametrize(
+    ("points", "centre", "radius"),
+    [
+        ([[3, -4, 5]], [3, -4, 5], 0),
+        ([[3, -4, 5]] * 7, [3, -4, 5], 0),
+        ([[0, 0, 0], [2, 4, 4]], [1, 2, 2], 3),
+        (CUBE, [0, 0, 0], np.sqrt(3)),
+        (np.vstack([CUBE, 0.9 * on_sphere(100)]), [0, 0, 0], np.sqrt(3)),
+        (TETRAHEDRON, [0, 0, 0], np.sqrt(3)),
+        # obtuse and right triangles: the longest side is a diameter
+        ([[0, 0, 0], [10, 0, 0], [4, 1, 0]], [5, 0, 0], 5),
+        ([[0, 0, 0], [6, 0, 0], [0, 8, 0]], [3, 4, 0], 5),
+        # equilateral: the circumcircle, of radius side / sqrt(3)
+        ([[0, 0, 0], [1, 0, 0], [0.5, np.sqrt(0.75), 0]], [0.5, np.sqrt(1 / 12), 0], 3**-0.5),
+        # collinear, in no order
+        (np.outer([0.3, -1, 0, 1, 0.3, 0.99], [2, 3, 6]), [0, 0, 0], 7),
+        # a box in a plane, and its minimal sphere is neither that of the centroid
+        ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.1, 0, 0]], [0.5, 0.5, 0], 0.5**0.5),
+    ],
+)
+def test_analytic(points, centre, radius):
+    points = np.array(points, dtype=float)
+    found_centre, found_radius = minimal_bounding_sphere(points)
+    assert found_centre == pytest.approx(centre, abs=1e-14)
+    assert found_radius == pytest.approx(radius, rel=1e-14)
+    assert_encloses(points, found_centre, found_radius)
+
+
+def test_of_a_set_off_centre_is_not_that_of_its_box_or_centroid():
+    # An acute triangle: the centre of its box is (0, 1), its centroid (0, 1), its
+    # circumcentre (0, 3/4) with radius 5/4.
+    points = np.array([[-1, 0, 0], [1, 0, 0], [0, 2, 0], [0, 1, 0]], dtype=float)
+    centre, radius = minimal_bounding_sphere(points)
+    assert centre == pytest.approx([0, 0.75, 0])
+    assert radius == pytest.approx(1.25)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1, 1e3, 1e-200, 1e200], ids="{:g}".format)
+def test_scales_with_the_unit(scale):
+    points = np.random.default_rng(1).normal(size=(500, 3))
+    centre, radius = minimal_bounding_sphere(points)
+    scaled_centre, scaled_radius = minimal_bounding_sphere(points * scale)
+    assert scaled_centre / scale == pytest.approx(centre, abs=1e-13)
+    assert scaled_radius / scale == pytest.approx(radius, rel=1e-13)
+
+
+def test_offset():
+    points = on_sphere(20_000) * 0.01 + 1e6
+    centre, radius = minimal_bounding_sphere(points)
+    # Coordinates at 1e6 are multiples of 1.2e-10.
+    assert centre == pytest.approx([1e6] * 3, abs=5e-10)
+    assert radius == pytest.approx(0.01, abs=5e-10)
+    assert_encloses(points, centre, radius)
+
+
+def test_many_points_on_a_sphere_quickly():
+    points = on_sphere(200_000)
+    start = perf_counter()
+    centre, radius = minimal_bounding_sphere(points)
+    assert perf_counter() - start < 1
+    assert centre == pytest.approx([0, 0, 0], abs=1e-13)
+    assert radius == pytest.approx(1, abs=1e-13)
+    assert_encloses(points, centre, radius)
+
+
+def smallest_by_brute_force(points):
+    """Radius of the best circumsphere of one to four points (normal equations, no tolerance)."""
+    best = np.inf
+    for size in range(1, 5):
+        for chosen in combinations(points, size):
+            edges = np.array(chosen[1:]).reshape(-1, 3) - chosen[0]
+            weights = np.linalg.pinv(edges @ edges.T) @ (edges**2).sum(axis=1) / 2
+            centre = chosen[0] + weights @ edges
+            best = min(best, np.linalg.norm(points - centre, axis=1).max())
+    return best
+
+
+@pytest.mark.parametrize("kind", ["normal", "lattice", "plane", "sphere", "almost a line"])
+def test_against_brute_force(kind):
+    rng = np.random.default_rng(2)
+    for _ in range(25):
+        points = rng.normal(size=(rng.integers(2, 9), 3))
+        match kind:
+            case "lattice":
+                points = np.round(points)
+            case "plane":
+                points = points[:, :2] @ rng.normal(size=(2, 3))
+            case "sphere":
+                points /= np.linalg.norm(points, axis=1, keepdims=True)
+            case "almost a line":
+                points = points[:, :1] * [1, 2, 3] + 1e-6 * points
+        centre, radius = minimal_bounding_sphere(points)
+        assert radius == pytest.approx(smallest_by_brute_force(points), rel=1e-10)
+        assert_encloses(points, centre, radius)
+
+
+def test_against_an_optimiser():
+    points = np.random.default_rng(3).gamma(2, size=(300, 3))
+    centre, radius = minimal_bounding_sphere(points)
+    # smallest q with |p|^2 - 2 p.c + |c|^2 <= q for all p
+    found = minimize(
+        lambda x: x[3],
+        np.append(points.mean(axis=0), 100),
+        constraints={
+            "type": "ineq",
+            "fun": lambda x: x[3] - ((points - x[:3]) ** 2).sum(axis=1),
+        },
+        tol=1e-12,
+    )
+    assert found.success
+    assert radius == pytest.approx(np.sqrt(found.x[3]), rel=1e-6)
+    assert centre == pytest.approx(found.x[:3], abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        np.random.default_rng(4).normal(size=(50_000, 3)),
+        on_sphere(50_000) * [1, 2, 3] + 5,
+        # almost on a sphere, so that almost every point matters
+        on_sphere(50_000).astype(np.float32).astype(float),
+        on_sphere(50_000) * (1 + 1e-8 * np.random.default_rng(5).random((50_000, 1))),
+    ],
+)
+def test_is_optimal_for_many_points(points):
+    # A sphere is minimal exactly if its centre is a convex combination of points on it.
+    centre, radius = minimal_bounding_sphere(points)
+    touching = points[np.linalg.norm(points - centre, axis=1) > radius * (1 - 1e-12)]
+    assert 2 <= len(touching) <= 10
+    system = np.vstack([(touching - centre).T, np.ones(len(touching))])
+    _, residual = nnls(system, [0, 0, 0, 1])
+    assert residual < 1e-9
+
+
+@pytest.mark.parametrize("points", [np.empty((0, 3)), np.zeros(3), [[0, 0, np.nan]]])
+def test_refuses(points):
+    with pytest.raises(ValueError, match="points must be"):
+        minimal_bounding_sphere(np.array(points))

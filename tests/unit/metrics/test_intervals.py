@@ -1,0 +1,78 @@
+import numpy as np
+import pytest
+from scipy import stats
+
+from neural_shadows.metrics.intervals import (
+    difference_interval,
+    mean_interval,
+    median_ratio_interval,
+)
+
+
+def test_width_is_that_of_normal_theory():
+    values = np.random.default_rng(1).normal(5.0, 2.0, 2000)
+    mean, low, high = mean_interval(values, seed=2, resamples=8000)
+    half = stats.norm.ppf(0.975) * values.std() / np.sqrt(values.size)
+    assert mean == pytest.approx(values.mean())
+    assert low == pytest.approx(mean - half, abs=0.06 * half)
+    assert high == pytest.approx(mean + half, abs=0.06 * half)
+
+
+def test_a_share_gives_the_binomial_percentiles():
+    # The resampled mean of k ones among n is exactly Binomial(n, k/n)/n. So few are skew:
+    # percentiles 0 and 5 of 40 about a mean of 2, where other bootstraps give -1 and 4.
+    _, low, high = mean_interval(np.repeat([1.0, 0.0], [2, 38]), seed=3, resamples=20_000)
+    exact = stats.binom(40, 2 / 40)
+    assert low == pytest.approx(exact.ppf(0.025) / 40, abs=1e-12)
+    assert high == pytest.approx(exact.ppf(0.975) / 40, abs=1e-12)
+
+
+def test_covers_the_true_mean_as_often_as_it_says():
+    rng = np.random.default_rng(4)
+    trials, covered = 400, 0
+    for seed in range(trials):
+        _, low, high = mean_interval(rng.normal(0.0, 1.0, 60), seed, resamples=500)
+        covered += low <= 0.0 <= high
+    # Percentile intervals of 60 views are a little short: t/z of 59 degrees and the n/(n-1)
+    # of the variance give 0.94. Four standard errors of 400 trials are 0.047.
+    assert covered / trials == pytest.approx(0.94, abs=0.047)
+
+
+def test_a_single_value_has_no_width():
+    assert mean_interval(np.array([0.25]), seed=0) == (0.25, 0.25, 0.25)
+
+
+def test_equal_values_have_no_width():
+    assert mean_interval(np.full(8, 0.5), seed=0) == (0.5, 0.5, 0.5)
+
+
+def test_the_seed_decides():
+    values = np.random.default_rng(5).exponential(size=50)
+    assert mean_interval(values, seed=7) == mean_interval(values, seed=7)
+    assert mean_interval(values, seed=7) != mean_interval(values, seed=8)
+
+
+def test_difference_has_the_width_of_both_samples():
+    rng = np.random.default_rng(6)
+    a, b = rng.normal(3.0, 2.0, 1500), rng.normal(1.0, 1.0, 500)
+    difference, low, high = difference_interval(a, b, seed=2, resamples=8000)
+    half = stats.norm.ppf(0.975) * np.sqrt(a.var() / a.size + b.var() / b.size)
+    assert difference == pytest.approx(a.mean() - b.mean())
+    assert low == pytest.approx(difference - half, abs=0.06 * half)
+    assert high == pytest.approx(difference + half, abs=0.06 * half)
+
+
+def test_ratio_of_medians_in_the_same_rounds():
+    # What a round has in common cancels: a is 1.5 b in each, so in each resampling too.
+    b = np.random.default_rng(7).lognormal(0.0, 1.0, 15)
+    assert median_ratio_interval(1.5 * b, b, seed=1) == pytest.approx((1.5, 1.5, 1.5))
+
+
+def test_ratio_of_medians_has_the_order_statistics_width():
+    # With b fixed at 1 the ratio is a's median, whose 95 % order-statistic interval of 101
+    # values is from the 41st to the 61st (binomial: 50.5 +- 1.96 * 5.02).
+    a = np.sort(np.random.default_rng(8).uniform(1.0, 2.0, 101))
+    ratio, low, high = median_ratio_interval(a, np.ones(101), seed=3, resamples=8000)
+    assert ratio == np.median(a)
+    assert a[38] <= low <= a[42]
+    assert a[58] <= high <= a[62]

@@ -1,0 +1,134 @@
+"""The network against the thesis's sizes, a direct float64 formula, and its dead outputs."""
+
+import numpy as np
+import pytest
+import torch
+
+from neural_shadows.networks.object_space.frequency_network import (
+    FrequencyEncoding,
+    FrequencyNetwork,
+)
+
+WIDTHS = (256, 128, 64)  # of the thesis [4.4.2]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def one_thread():
+    """Tiny products on two threads mostly wait for each other where cores are shared."""
+    before = torch.get_num_threads()
+    torch.set_num_threads(1)
+    yield
+    torch.set_num_threads(before)
+
+
+def sphere_rays(count: int) -> tuple[torch.Tensor, torch.Tensor]:
+    """Random origins on the unit sphere and inward directions, (count, 3) float32."""
+    vectors = np.random.default_rng(5).normal(size=(2, count, 3))
+    origins, directions = vectors / np.linalg.norm(vectors, axis=2, keepdims=True)
+    directions *= -np.sign(np.sum(origins * directions, axis=1, keepdims=True))
+    return torch.from_numpy(origins).float(), torch.from_numpy(directions).float()
+
+
+def thesis_network(width: int, seed: int = 0) -> FrequencyNetwork:
+    network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
+    network.initialise(seed)
+    return network
+
+
+@pytest.mark.parametrize(("width", "count"), [(256, 556_800), (128, 147_328), (64, 40_896)])
+def test_parameter_counts_of_the_thesis(width, count):
+    assert thesis_network(width).parameter_count() == count
+
+
+def test_layers_are_matrices_without_biases():
+    network = thesis_network(64)
+    shapes = [tuple(weight.shape) for weight in [*network.layers, network.output]]
+    assert shapes == [(64, 126)] + [(64, 64)] * 8 + [(1, 64)]
+    assert len(list(network.parameters())) == 10
+
+
+def test_encoding_of_known_values():
+    x = torch.tensor([[0.0, 0.25, 0.5, 1.0, 0.125, 0.75]])
+    encoded = FrequencyEncoding(2)(x)[0].tolist()
+    half = 0.5**0.5
+    assert encoded[:6] == x[0].tolist()
+    # sin πx, sin 2πx of the first four scalars, then cos πx, cos 2πx of them
+    assert encoded[6:14] == pytest.approx([0, 0, half, 1, 1, 0, 0, 0], abs=1e-6)
+    assert encoded[18:26] == pytest.approx([1, 1, half, 0, 0, -1, -1, 1], abs=1e-6)
+    assert len(encoded) == 30
+
+
+def test_encoding_without_frequencies_is_the_identity():
+    encoding = FrequencyEncoding(0)
+    x = torch.rand(5, 6, generator=torch.Generator().manual_seed(0))
+    assert encoding.size == 6
+    assert torch.equal(encoding(x), x)
+
+
+def test_encoding_against_float64():
+    x = torch.rand(2048, 6, generator=torch.Generator().manual_seed(0))
+    encoding = FrequencyEncoding(10)
+    encoded = encoding(x).double().numpy()
+    assert encoded.shape == (2048, 126) and encoding.size == 126
+
+    phase = np.pi * 2.0 ** np.arange(10) * x.double().numpy()[:, :, None]
+    error = np.abs(encoded[:, 6:] - np.hstack([np.sin(phase), np.cos(phase)]).reshape(2048, -1))
+    error = error.reshape(2048, 2, 6, 10).max(axis=(0, 1, 2))
+    # A phase of up to 2^k π is rounded to a spacing of 2^(k+1) 2^-23, and float32's π is off
+    # by 3e-8 of itself: together at most 4e-7 · 2^k, which is 2e-4 at the highest frequency.
+    assert (error < 4e-7 * 2.0 ** np.arange(10)).all()
+    assert error[9] > 1e-6  # float32 indeed, so that this test measures what it says
+
+
+@pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
+def test_output_is_never_negative(dtype):
+    network = thesis_network(64)
+    with torch.no_grad():
+        network.output.sub_(network.output.mean())  # both signs: about half the rays below zero
+        t = network(*sphere_rays(512), dtype)
+    assert t.shape == (512,) and t.dtype == torch.float32
+    assert t.min() == 0 < t.max()
+
+
+def test_output_is_twice_the_last_layer():
+    network = FrequencyNetwork(frequencies=0, width=8, hidden_layers=1)
+    with torch.no_grad():
+        for weight in network.layers:
+            weight.copy_(torch.eye(8, weight.shape[1]))
+        network.output.copy_(torch.tensor([[1.0, 0, 0, 0, 1, 0, 0, 0]]))
+        t = network(
+            torch.tensor([[0.6, 0.0, -0.8]]), torch.tensor([[0.0, -1.0, 0.0]]), torch.float32
+        )
+    # 2 · ((0.6 + 1) / 2 + (−1 + 1) / 2)
+    assert t.item() == pytest.approx(1.6, abs=1e-6)
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_no_seed_gives_a_dead_network(width):
+    rays = sphere_rays(128)
+    means = []
+    for seed in range(64):
+        with torch.inference_mode():
+            half = thesis_network(width, seed)(*rays, torch.float32) / 2
+        assert half.min() > 0  # every ray has a gradient, not just the mean
+        means.append(half.mean().item())
+    assert 0.1 < min(means) and max(means) < 1.2
+    assert np.mean(means) == pytest.approx(0.47, abs=0.1)
+
+
+def test_seed_decides_the_weights():
+    first, again, other = (
+        [weight.detach() for weight in thesis_network(64, seed).parameters()] for seed in (1, 1, 2)
+    )
+    assert all(map(torch.equal, first, again))
+    assert not any(map(torch.equal, first, other))
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_bfloat16_is_near_float32(width):
+    """Ten roundings to 8 bits, 2^-9 each at worst, add up to less than 3 % of t (seen: 1.5 %)."""
+    network, rays = thesis_network(width), sphere_rays(512)
+    with torch.inference_mode():
+        exact, rounded = (network(*rays, dtype) for dtype in (torch.float32, torch.bfloat16))
+    error = ((rounded - exact).abs() / exact).max().item()
+    assert 1e-5 < error < 0.03

@@ -1,0 +1,289 @@
+"""Occupancy fields: what they interpolate, where rays cross them, and that they learn surfaces."""
+
+import math
+
+import numpy as np
+import pytest
+import torch
+import trimesh
+from rays import ball_rays
+from shapes import bumpy_sphere, prepared, sheet
+
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space import field_marching as field_query
+from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+from neural_shadows.networks.object_space.field_marching import SOLID, skips
+from neural_shadows.networks.object_space.occupancy_field_network import LIMIT, lay_out
+from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
+from neural_shadows.networks.object_space.shadow_query import network_lit
+from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.rays.labels import dual_bounds
+
+SOLID_32 = {"encoding": "occupancy_field", "resolution": 32, "surface": "solid", "stored": "int8"}
+SHEET_32 = SOLID_32 | {"surface": "sheet"}
+
+
+def made(shape: trimesh.Trimesh, tmp_path, settings):
+    shape.export(tmp_path / "mesh.ply")
+    network = make_network(settings)
+    network.prepare(tmp_path / "mesh.ply")
+    network.initialise(1)
+    return network
+
+
+def positions(network) -> torch.Tensor:
+    """Where the network's values are, (count, 3)."""
+    size = network.resolution // 4
+    cells = np.argwhere(network.grid.view(size, size, size).numpy() >= 0)
+    corners = np.stack(np.unravel_index(np.arange(125), (5, 5, 5)), axis=1)
+    places = (4 * cells[:, None] + corners).reshape(-1, 3) / (network.resolution / 2) - 1
+    found = np.full((len(network.values), 3), np.nan)
+    found[network.table.numpy()] = places
+    return torch.from_numpy(found).float()
+
+
+def set_logits(network, function) -> None:
+    """Make the logits those of a function of positions (n, 3), within the limit."""
+    with torch.no_grad():
+        shares = (function(positions(network)) / LIMIT).clamp(-0.99, 0.99)
+        network.values.copy_(LIMIT * shares.atanh())
+
+
+def ball(p):
+    return 40 * (0.5 - p.norm(dim=1))
+
+
+def test_vertices_of_neighbouring_bricks_are_shared():
+    surface = np.zeros((4, 4, 4), bool)
+    surface[1, 1, 1] = surface[1, 1, 2] = surface[3, 3, 3] = True
+    layout = lay_out(surface, solid=True)
+    assert layout.count == 3 * 125 - 25
+    assert np.array_equal(layout.grid >= 0, surface)
+    assert sorted(layout.grid[surface]) == [0, 1, 2]
+    assert np.array_equal(np.unique(layout.table), np.arange(layout.count))
+    # Brick 0's far face along z is brick 1's near one.
+    first, second = layout.table[:2].reshape(2, 5, 5, 5)
+    assert np.array_equal(first[:, :, 4], second[:, :, 0])
+
+
+def test_enclosed_bricks_are_solid_of_a_solid_alone():
+    surface = np.ones((5, 5, 5), bool)
+    surface[2, 2, 2] = False
+    assert lay_out(surface, solid=True).grid[2, 2, 2] == SOLID
+    assert lay_out(surface, solid=False).grid[2, 2, 2] == -1
+
+
+def test_empty_bricks_know_how_far_the_next_is():
+    surface = np.zeros((9, 9, 9), bool)
+    surface[0, 4, 4] = True
+    assert skips(surface)[:, 4, 4].tolist() == [1, 1, 2, 3, 4, 5, 6, 7, 8]
+    assert skips(surface)[3, 8, 0] == 4  # the larger of the distances along the axes
+    assert (skips(np.zeros((3, 3, 3), bool)) == 3).all()
+
+
+def test_linear_functions_are_interpolated_exactly(tmp_path):
+    network = made(bumpy_sphere(4), tmp_path, SOLID_32)
+    slope = torch.tensor([2.0, -3, 1])
+    set_logits(network, lambda p: p @ slope)
+    p = torch.rand(4000, 3, generator=torch.Generator().manual_seed(0)) * 2 - 1
+    bricks = network.bricks_at(p)
+    held = bricks >= 0
+    assert 0.1 < held.float().mean() < 0.9
+    found = network.logits_at(p[held], bricks[held], network.logits())
+    assert torch.allclose(found, p[held] @ slope, atol=1e-4)
+
+
+@pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
+def test_rays_cross_a_ball_where_it_is(tmp_path, settings):
+    network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)
+    set_logits(network, ball)
+    o, d, t_lb, t_ub = map(torch.from_numpy, ball_rays(3000))
+    with torch.inference_mode():
+        t = network(o, d, torch.float32)
+    hit = hits(LabelledBatch(o, d, t_lb, t_ub))
+    # Not where a ray only grazes the ball: the field's own surface is off by 1e-3 there.
+    through = hit & (t_ub - t_lb > 0.2)
+    assert (t - t_lb)[through].abs().max() < 0.01
+    missed = ~hit & ((o - (o * d).sum(1, keepdim=True) * d).norm(dim=1) > 0.51)
+    assert (t[missed] == LIT).all()
+
+
+@pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
+def test_behind_rays_that_miss_all_is_lit(tmp_path, settings):
+    """Without a depth bias too: a depth of ℓ, once more rounded, put a tenth in shadow."""
+    network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)
+    set_logits(network, ball)
+    rng = np.random.default_rng(0)
+    light = rng.normal(size=3)
+    light /= np.linalg.norm(light)
+    p = rng.normal(size=(20_000, 3)) * 3
+    across = np.linalg.norm(p - (p @ light)[:, None] * light, axis=1)
+    p, light = (torch.from_numpy(part).float() for part in (p[across > 0.51], light))
+    assert (across < 1).sum() - (across < 0.51).sum() > 500
+    assert network_lit(network, p, light, dtype=torch.float32).all()
+
+
+@pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
+@pytest.mark.parametrize("stored", ["int8", "float32"])
+def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored):
+    """The CPU's march against the form that looks at every sample, on random logits."""
+    settings = settings | {"stored": stored}
+    made(bumpy_sphere(4), tmp_path, settings)
+    network = made(bumpy_sphere(4), tmp_path, settings)
+    set_logits(network, lambda p: 6 * torch.sin(40 * p).prod(1) + 20 * (0.85 - p.norm(dim=1)))
+    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
+    network, _ = load_network(tmp_path / "weights.safetensors")
+    rng = np.random.default_rng(0)
+    for d in (*rng.normal(size=(6, 3)), [0, 0, 1], [0, -1, 0], [1, 1e-7, 0]):
+        d = torch.tensor(d / np.linalg.norm(d), dtype=torch.float32)
+        o = torch.from_numpy(rng.normal(size=(700, 3))).float()
+        o /= o.norm(dim=1, keepdim=True)
+        o = o[o @ d < -0.01]
+        found = network.depths(o, d, torch.float32)
+        with torch.inference_mode():
+            expected = network(o, d.expand(len(o), 3), None)
+        # A sample on a brick's border may be counted to either side.
+        same = (found - expected).abs() < 1e-4
+        assert same.float().mean() > 0.99
+        assert (found < -2 * o @ d - 1e-3).float().mean() > 0.3
+
+
+def test_new_weights_are_seen_by_the_next_query(tmp_path):
+    network = made(trimesh.creation.icosphere(3, radius=0.5), tmp_path, SOLID_32)
+    o, d = torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0])
+    set_logits(network, ball)
+    assert network.depths(o, d, torch.float32).item() == pytest.approx(0.5, abs=0.01)
+    set_logits(network, lambda p: -ball(p) - 100)
+    assert network.depths(o, d, torch.float32).item() > 0.5
+
+
+def test_a_ray_into_an_enclosed_brick_ends_there(tmp_path):
+    network = made(trimesh.creation.icosphere(4, radius=0.9), tmp_path, SOLID_32)
+    with torch.no_grad():
+        network.values.fill_(-10.0)  # all that is held says outside
+    t = network.depths(torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0]), None)
+    size = 2 / 8
+    assert 0.1 < t[0] < 0.1 + 2 * size
+
+
+def learn(network, batch: LabelledBatch, steps: int) -> None:
+    generator = torch.Generator().manual_seed(0)
+    optimiser = torch.optim.Adam(network.parameters(), lr=0.5)
+    for _ in range(steps):
+        losses, _ = network.losses(batch, DeadZone(), torch.float32, generator)
+        optimiser.zero_grad()
+        losses.mean().backward()
+        optimiser.step()
+
+
+def test_it_learns_a_ball(tmp_path):
+    network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, SOLID_32)
+    learn(network, LabelledBatch(*map(torch.from_numpy, ball_rays(30_000))), 60)
+    o, d, t_lb, t_ub = map(torch.from_numpy, ball_rays(2000, seed=3))
+    with torch.inference_mode():
+        t = network(o, d, torch.float32)
+    hit = hits(LabelledBatch(o, d, t_lb, t_ub))
+    wrong = torch.where(hit, (t < t_lb - 0.02) | (t > t_ub), t < chords(o, d) - 1e-3)
+    assert wrong.float().mean() < 0.01
+
+
+def rays_at_a_sheet(tracer) -> LabelledBatch:
+    o, d = ball_rays(20_000)[:2]
+    return LabelledBatch(*map(torch.from_numpy, (o, d, *dual_bounds(tracer, o, d))))
+
+
+@pytest.mark.parametrize("winding", [1, -1])
+def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
+    shape = sheet(0.1, 0.6, winding)
+    network = made(shape, tmp_path, SHEET_32)
+    _, tracer = prepared(shape)
+    batch = rays_at_a_sheet(tracer)
+    learn(network, batch, 60)
+    with torch.inference_mode():
+        t = network(batch.origins[:3000], batch.directions[:3000], None)
+    hit = hits(batch)[:3000]
+    o, d = batch.origins[:3000], batch.directions[:3000]
+    # Around its border a sheet's shadow reaches to its bricks' end: there the signs of both
+    # sides meet without a surface between them.
+    at = o + ((0.1 - o[:, 1]) / d[:, 1])[:, None] * d
+    past = ~hit & (at[:, [0, 2]].abs().amax(1) > 0.6 + 2 * 0.25)
+    for side in (d[:, 1] > 0.3, d[:, 1] < -0.3):
+        near = (t - batch.t_lb[:3000]).abs() < 0.02
+        assert near[hit & side].float().mean() > 0.95
+        assert (past & side).sum() > 20 and (t[past & side] == LIT).all()
+
+
+def test_a_solid_cannot_learn_a_sheet(tmp_path):
+    """Why there are two: from above and from below, the other side of a sheet is inside."""
+    shape = sheet(0.1, 0.6)
+    network = made(shape, tmp_path, SOLID_32)
+    _, tracer = prepared(shape)
+    batch = rays_at_a_sheet(tracer)
+    learn(network, batch, 60)
+    with torch.inference_mode():
+        t = network(batch.origins[:3000], batch.directions[:3000], None)
+    near = (t - batch.t_lb[:3000]).abs() < 0.02
+    assert near[hits(batch)[:3000]].float().mean() < 0.8
+
+
+def test_the_loss_repeats_itself_and_counts_near_points_on_both_sides(tmp_path):
+    network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, SOLID_32)
+    set_logits(network, ball)
+    batch = LabelledBatch(*map(torch.from_numpy, ball_rays(2000)))
+
+    def loss(seed):
+        generator = torch.Generator().manual_seed(seed)
+        return network.losses(batch, DeadZone(), torch.float32, generator)
+
+    assert torch.equal(loss(1)[0], loss(1)[0]) and not torch.equal(loss(1)[0], loss(2)[0])
+    losses, logits = loss(1)
+    # The field is right: what is left is the entropy close to the border.
+    assert losses.mean() < 0.4 and (logits > 0).any() and (logits < 0).any()
+    set_logits(network, lambda p: -ball(p))
+    assert loss(1)[0].mean() > 2
+
+
+def test_an_empty_batch_of_points_is_no_error(tmp_path):
+    network = made(trimesh.creation.icosphere(4, radius=0.2), tmp_path, SOLID_32)
+    o = torch.tensor([[-math.sqrt(1 - 0.9**2), 0.9, 0]])
+    d = torch.tensor([[1.0, 0, 0]])
+    batch = LabelledBatch(o, d, chords(o, d), torch.tensor([math.inf]))
+    losses, outputs = network.losses(batch, DeadZone(), torch.float32, torch.Generator())
+    assert len(losses) == len(outputs) == 0
+
+
+@pytest.mark.parametrize(("stored", "step"), [("int8", 2 / 127), ("float16", 1e-3), ("float32", 0)])
+def test_what_a_file_keeps(tmp_path, stored, step):
+    settings = SOLID_32 | {"stored": stored}
+    network = made(bumpy_sphere(4), tmp_path, settings)
+    set_logits(network, lambda p: 30 * (0.85 - p.norm(dim=1)))
+    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
+    loaded, _ = load_network(tmp_path / "weights.safetensors")
+    assert torch.equal(loaded.grid, network.grid) and torch.equal(loaded.table, network.table)
+    error = (loaded.logits() - network.logits()).abs().max().item()
+    assert error <= LIMIT * step / 2 * 1.01 + 1e-3
+    width = {"int8": 1, "float16": 2, "float32": 4}[stored]
+    size = sum(tensor.nbytes for tensor in network.stored().values())
+    scale = 4 if stored == "int8" else 0
+    assert size == width * len(network.values) + 8**3 // 8 + scale
+    save_network(tmp_path / "again.safetensors", loaded, {"network": settings})
+    again, _ = load_network(tmp_path / "again.safetensors")
+    assert torch.allclose(again.logits(), loaded.logits(), atol=1e-3)
+
+
+@pytest.mark.parametrize("d", [[1.0, 0, 0], [0.6, -0.8, 0], [0, 0, -1]])
+def test_empty_bricks_are_skipped_along_an_axis_too(monkeypatch, tmp_path, d):
+    """A component of exactly zero must not end the skip: a light on one axis has one always."""
+    reads = []
+
+    class Counting(np.ndarray):
+        def __getitem__(self, index):
+            reads.append(index)
+            return super().__getitem__(index)
+
+    grid = np.full((64, 64, 64), -64, np.int32).view(Counting)
+    d = np.array(d, np.float32)
+    o = -d[None]
+    t = np.empty(1, np.float32)
+    field_query._march.py_func(o, d, grid, np.zeros((1, 125), np.float32), 512, False, t)
+    assert len(reads) <= 2 and t[0] == pytest.approx(2, abs=1e-5)

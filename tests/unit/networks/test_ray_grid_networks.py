@@ -1,0 +1,188 @@
+"""Ray grids: what they interpolate, where their points lie, and that they learn a ball."""
+
+import math
+
+import pytest
+import torch
+import trimesh
+from rays import ball_rays
+from shapes import bumpy_sphere, prepared
+
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+from neural_shadows.networks.object_space.hash_grid_network import HashedGrid
+from neural_shadows.networks.object_space.ray_grid_network import FeatureGrid
+from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
+from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.rays.labels import dual_bounds
+
+SMALL = {
+    "points": 4,
+    "grids": [6, 12],
+    "channels": 3,
+    "width": 32,
+    "hidden_layers": 2,
+    "head": "depth",
+    "stored": "float32",
+}
+KINDS = {
+    "ray_grid": SMALL | {"encoding": "ray_grid"},
+    "occupancy_ray_grid": SMALL | {"encoding": "occupancy_ray_grid", "occupancy": 16},
+    "hash_grid": SMALL | {"encoding": "hash_grid", "occupancy": 16, "table_size": 512},
+}
+
+
+@pytest.fixture(scope="module")
+def ball_ply(tmp_path_factory):
+    path = tmp_path_factory.mktemp("ball") / "mesh.ply"
+    trimesh.creation.icosphere(4, radius=0.5).export(path)
+    return path
+
+
+def made(kind: str, mesh_ply, **changes):
+    network = make_network(KINDS[kind] | changes)
+    if kind != "ray_grid":
+        network.prepare(mesh_ply)
+    network.initialise(1)
+    return network
+
+
+def test_a_grid_interpolates_linear_functions_exactly():
+    grid = FeatureGrid(7, 2)
+    axis = torch.linspace(-1, 1, 7)
+    x, y, z = torch.meshgrid(axis, axis, axis, indexing="ij")
+    values = torch.stack([x + 2 * y - 3 * z, 1 - x], dim=-1)
+    grid.values.data = values.reshape(-1, 2)
+    p = torch.rand(500, 3, generator=torch.Generator().manual_seed(0)) * 2 - 1
+    expected = torch.stack([p @ torch.tensor([1.0, 2, -3]), 1 - p[:, 0]], dim=1)
+    assert torch.allclose(grid(p), expected, atol=1e-5)
+    # The cube's corners are vertices, and what is outside is clamped to it.
+    assert torch.allclose(grid(torch.tensor([[2.0, 1, 1]])), torch.tensor([[0.0, 0]]), atol=1e-6)
+
+
+def test_a_grid_is_hashed_only_where_it_is_larger_than_its_table():
+    grids = HashedGrid(8, 2, 512), HashedGrid(9, 2, 512)
+    assert [len(grid.values) for grid in grids] == [512, 512]
+    vertices = torch.cartesian_prod(*[torch.arange(8)] * 3)
+    assert torch.equal(grids[0].index(vertices), torch.arange(512))
+    hashed = grids[1].index(torch.cartesian_prod(*[torch.arange(9)] * 3))
+    assert hashed.min() >= 0 and hashed.max() < 512
+    # Of 729 random entries, 512 (1 - e^(-729/512)) = 389 differ.
+    assert 340 < len(hashed.unique()) < 440
+
+
+def test_points_lie_around_every_hit(tmp_path):
+    shape = bumpy_sphere(4)
+    shape.export(tmp_path / "mesh.ply")
+    network = made("occupancy_ray_grid", tmp_path / "mesh.ply", occupancy=48)
+    _, tracer = prepared(shape)
+    o, d = (torch.from_numpy(part) for part in ball_rays(20_000)[:2])
+    t_lb, t_ub = map(torch.from_numpy, dual_bounds(tracer, o.numpy(), d.numpy()))
+    t_a, t_b, meets = network.span(o, d)
+    hit = hits(LabelledBatch(o, d, t_lb, t_ub))
+    assert 0.2 < hit.float().mean() < 0.95
+    assert meets[hit].all() and meets[~hit].float().mean() < 0.95
+    before, behind = (t_lb - t_a)[hit], (t_b - t_lb)[hit]
+    assert (before > -1e-4).float().mean() > 0.99 and (behind > -1e-4).float().mean() > 0.99
+    # Of a corner that is cut between two steps, a step of half a cell is lost.
+    assert before.min() > -1 / 48 and behind.min() > -1 / 48
+    assert (t_a >= 0).all() and (t_b <= chords(o, d) + 1e-6).all()
+    # Where nothing is, they take up less of the ray than the whole.
+    assert ((t_b - t_a)[meets] / chords(o, d)[meets]).mean() < 0.95
+
+
+@pytest.mark.parametrize("kind", ["occupancy_ray_grid", "hash_grid"])
+def test_a_ray_past_all_occupied_cells_is_lit(ball_ply, kind):
+    network = made(kind, ball_ply)
+    o = torch.tensor([[-math.sqrt(1 - 0.8**2), 0.8, 0], [-1, 0, 0]])
+    d = torch.tensor([[1.0, 0, 0], [1, 0, 0]])
+    t = network(o, d, torch.float32)
+    assert t[0].item() == LIT
+    assert t[1].item() != pytest.approx(LIT, abs=1e-3)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("head", ["depth", "depth_confidence"])
+def test_it_learns_a_ball(ball_ply, kind, head):
+    """Half of the rays hit; a lit point in front and a shadowed one behind tell right from wrong."""
+    network = made(kind, ball_ply, head=head)
+    batch = LabelledBatch(*map(torch.from_numpy, ball_rays(4096)))
+    generator = torch.Generator().manual_seed(0)
+    optimiser = torch.optim.Adam(network.parameters(), lr=5e-3)
+    for _ in range(150):
+        losses, outputs = network.losses(batch, DeadZone(), torch.float32, generator)
+        assert len(outputs) <= 4096
+        optimiser.zero_grad()
+        (losses.sum() / 4096).backward()
+        optimiser.step()
+    o, d, t_lb, t_ub = map(torch.from_numpy, ball_rays(4096, seed=5))
+    with torch.inference_mode():
+        t = network(o, d, torch.float32)
+    hit = hits(LabelledBatch(o, d, t_lb, t_ub))
+    lit_in_front = t_lb - 0.05 <= t
+    lit_behind = chords(o, d) <= t + 0.02
+    assert lit_in_front.float().mean() > 0.97
+    assert lit_behind[~hit].float().mean() > 0.9
+    assert (~lit_behind[hit]).float().mean() > 0.9
+
+
+def test_confidence_decides_alone_between_hit_and_miss(ball_ply):
+    network = made("ray_grid", ball_ply, head="depth_confidence")
+    o, d = (torch.from_numpy(part) for part in ball_rays(64)[:2])
+    with torch.no_grad():
+        network.output.weight.zero_()
+        network.output.bias.copy_(torch.tensor([0.3, 1e-6]))
+        assert torch.allclose(network(o, d, torch.float32), torch.tensor(0.3))
+        network.output.bias.copy_(torch.tensor([0.3, -1e-6]))
+        assert (network(o, d, torch.float32) == LIT).all()
+
+
+def test_the_depth_is_trained_on_hits_alone(ball_ply):
+    network = made("ray_grid", ball_ply, head="depth_confidence")
+    batch = LabelledBatch(*map(torch.from_numpy, ball_rays(256)))
+    with torch.no_grad():
+        network.output.weight.zero_()
+        network.output.bias.zero_()
+    losses, _ = network.losses(batch, DeadZone(), torch.float32, torch.Generator())
+    entropy = 0.1 * math.log(2)
+    assert torch.allclose(losses[~hits(batch)], torch.tensor(entropy))
+    expected = batch.t_lb[hits(batch)] + entropy
+    assert torch.allclose(losses[hits(batch)], expected, atol=1e-6)
+
+
+def test_a_batch_that_meets_nothing_costs_nothing(ball_ply):
+    network = made("occupancy_ray_grid", ball_ply)
+    o, d, t_lb, t_ub = map(torch.from_numpy, ball_rays(2000))
+    past = (o - (o * d).sum(1, keepdim=True) * d).norm(dim=1) > 0.8
+    batch = LabelledBatch(o[past], d[past], t_lb[past], t_ub[past])
+    losses, outputs = network.losses(batch, DeadZone(), torch.float32, torch.Generator())
+    assert len(losses) == len(outputs) == 0 < past.sum()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(("stored", "error"), [("float32", 0), ("float16", 2e-3), ("int8", 0.1)])
+def test_what_a_file_keeps(tmp_path, ball_ply, kind, stored, error):
+    settings = KINDS[kind] | {"stored": stored}
+    network = made(kind, ball_ply, stored=stored)
+    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
+    loaded, _ = load_network(tmp_path / "weights.safetensors")
+    o, d = (torch.from_numpy(part) for part in ball_rays(500)[:2])
+    with torch.inference_mode():
+        expected, found = (net(o, d, torch.float32) for net in (network, loaded))
+    assert (found - expected).abs().max() <= error
+    # As the answers of a file are those of the network it makes, writing it again is the same.
+    save_network(tmp_path / "again.safetensors", loaded, {"network": settings})
+    again, _ = load_network(tmp_path / "again.safetensors")
+    assert torch.equal(again(o, d, torch.float32), found)
+
+
+def test_bfloat16_products_are_near(ball_ply):
+    network = made("ray_grid", ball_ply)
+    o, d = (torch.from_numpy(part) for part in ball_rays(300)[:2])
+    direction = d[0]
+    near = o @ direction < 0
+    float32, bfloat16 = (
+        network.depths(o[near], direction, dtype) for dtype in (torch.float32, torch.bfloat16)
+    )
+    assert float32.shape == (near.sum(),) and float32.dtype == torch.float32
+    torch.testing.assert_close(bfloat16, float32, rtol=0, atol=0.03)

@@ -1,0 +1,321 @@
+"""The query with an oracle in place of the network against the exact shadow of a ball."""
+
+import numpy as np
+import pytest
+import torch
+from shapes import AXES
+
+from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.object_space.shadow_network import QUERY_CHUNKS, ShadowNetwork
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device, sphere_rays
+
+BALL = 0.5  # radius of the occluder about the origin
+BORDER = 1e-5  # points this near to a border of the shadow may go either way: float32 at |p| = 8
+
+
+class Oracle(ShadowNetwork):
+    """Stands in for a network."""
+
+    def __init__(self):
+        super().__init__()
+        self.output = torch.nn.Parameter(torch.zeros(1))
+
+    def initialise(self, seed):
+        raise NotImplementedError
+
+
+class BallOracle(Oracle):
+    """The exact t_lb of rays at the ball.
+
+    A ray that misses gets ℓ, what training asks for. The 5e-6 on top are what float32 costs
+    ℓ = −2 o·d at |p| = 8; a network is as good with anything above ℓ.
+    """
+
+    def __init__(self):
+        super().__init__()
+        self.calls = []
+
+    def forward(self, origins, directions, dtype):
+        assert origins.dtype == directions.dtype == torch.float32
+        self.calls.append((origins.numpy(), directions.numpy(), dtype))
+        b = (origins.double() * directions.double()).sum(1)
+        discriminant = b**2 - (1 - BALL**2)
+        hit = -b - discriminant.clamp(min=0).sqrt()
+        return torch.where(discriminant > 0, hit, -2 * b + 5e-6).float()
+
+    @property
+    def rays(self) -> int:
+        return sum(len(origins) for origins, _, _ in self.calls)
+
+
+class Constant(Oracle):
+    """A network that predicts one depth."""
+
+    def __init__(self, t: float):
+        super().__init__()
+        self.t = t
+
+    def forward(self, origins, directions, dtype):
+        return torch.full((len(origins),), self.t)
+
+
+def lit(network, p, light, **settings) -> np.ndarray:
+    return network_lit(network, *tensors(p, light), dtype=torch.float32, **settings).numpy()
+
+
+def tensors(p: np.ndarray, light: np.ndarray) -> tuple[torch.Tensor, torch.Tensor]:
+    return on_device(p, light, torch.device("cpu"))
+
+
+def frame_of(light: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    u = np.cross(light, [0.3, -0.5, 0.8])
+    u /= np.linalg.norm(u)
+    return u, np.cross(light, u)
+
+
+def points_at(light, radius, height) -> np.ndarray:
+    """Points at distances `radius` from the line through 0 along the light, and at heights."""
+    u, v = frame_of(light)
+    angle = np.random.default_rng(2).uniform(0, 2 * np.pi, len(radius))
+    across = radius * np.cos(angle) * u[:, None] + radius * np.sin(angle) * v[:, None]
+    return (across + height * light[:, None]).T.astype(np.float32)
+
+
+def exact(p, light) -> tuple[np.ndarray, np.ndarray]:
+    """Lit by the ball, and whether the point is farther than `BORDER` from where that changes."""
+    p = p.astype(float)
+    along = p @ light
+    squared = np.sum((p - along[:, None] * light) ** 2, axis=1)
+    inside = np.sqrt(np.maximum(BALL**2 - squared, 0))
+    shadowed = (squared < BALL**2) & (along < inside)
+    # On the lit side of the ball the border is its surface, seen from the light.
+    clear = np.abs(np.sqrt(squared) - BALL) > BORDER
+    clear &= (squared > BALL**2) | (np.abs(along - inside) > BORDER)
+    return ~shadowed, clear
+
+
+LIGHTS = [(0.0, 1.0, 0.0), (0.48, 0.6, -0.64), (-0.8, 0.36, 0.48)]
+
+REGIONS = {  # radius from the line through the centre along the light, height along the light
+    "inside": ((0, 0.6), (-0.7, 0.7)),
+    "behind": ((0, 0.99), (-3, -1)),
+    "beside": ((1.01, 3), (-3, 3)),
+    "in front": ((0, 0.99), (1, 3)),
+    "around": ((0, 1.2), (-1.5, 1.5)),
+}
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+@pytest.mark.parametrize("region", REGIONS)
+def test_against_the_exact_shadow(region, light):
+    rng, light = np.random.default_rng(1), np.array(light)
+    radii, heights = REGIONS[region]
+    p = points_at(light, rng.uniform(*radii, 20_000), rng.uniform(*heights, 20_000))
+    expected, clear = exact(p, light)
+    assert clear.mean() > 0.999
+    assert (lit(BallOracle(), p, light) == expected)[clear].all()
+    share = (~expected).mean()
+    if region in ("beside", "in front"):
+        assert share == 0
+    else:
+        assert 0.1 < share < 0.9
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_far_points_of_the_ground(light):
+    """A ground plane under the sphere, up to |p| = 8 away, with the light slanting over it."""
+    rng, light = np.random.default_rng(3), np.array(light)
+    p = rng.uniform(-8, 8, (40_000, 3))
+    p[:, 1] = -1
+    half = len(p) // 2  # and half of them in and about the shadow
+    centre = -light / light[1]
+    p[:half] = centre + rng.uniform(-1.5, 1.5, (half, 3)) / light[1]
+    p[:half, 1] = -1
+    p = p[np.linalg.norm(p, axis=1) < 8].astype(np.float32)
+    expected, clear = exact(p, light)
+    assert 0.01 < (~expected).mean() < 0.5 and clear.mean() > 0.999
+    assert (lit(BallOracle(), p, light) == expected)[clear].all()
+
+
+@pytest.mark.parametrize("light", AXES)
+def test_light_along_an_axis(light):
+    rng = np.random.default_rng(9)
+    p = points_at(light, rng.uniform(0, 1.2, 20_000), rng.uniform(-3, 1.5, 20_000))
+    expected, clear = exact(p, light)
+    assert clear.mean() > 0.999 and 0.1 < (~expected).mean() < 0.9
+    assert (lit(BallOracle(), p, light) == expected)[clear].all()
+    # On the axis itself, all is exact.
+    along = np.linspace(-2, 1, 97)  # steps of 1/32
+    rays = sphere_rays(*tensors((along[:, None] * light).astype(np.float32), light))
+    assert np.array_equal(rays.index, np.flatnonzero(along < 1))
+    assert np.array_equal(rays.s, 1 - along[along < 1])
+    assert (rays.chord == 2).all()
+    assert np.array_equal(rays.origins, np.tile(light, (len(rays.s), 1)))
+
+
+def test_light_tangent_to_the_sphere():
+    """On the tangent there is no chord, and a point is lit; a rounding within it is √(2⁻²³)."""
+    light = np.array([0.0, 1.0, 0.0])
+    within = np.nextafter(np.float32(1), np.float32(0))
+    p = np.array([[1, -2, 0], [within, -2, 0], [-1, 0.5, 0], [0, 0, within]], np.float32)
+    rays = sphere_rays(*tensors(p, light))
+    assert rays.index.tolist() == [1, 3]
+    half_chord = 2**-11.5
+    assert rays.chord.numpy() == pytest.approx(2 * half_chord, rel=1e-6)
+    assert rays.s.numpy() == pytest.approx([2 + half_chord, half_chord], rel=1e-6)
+    assert lit(BallOracle(), p, light).all()
+    # Whatever it predicts, a point beside the chord is not asked for; one within it is.
+    assert lit(Constant(0.0), p, light).tolist() == [True, False, True, False]
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_points_about_a_tangent_are_lit(light):
+    light = np.array(light)
+    rng = np.random.default_rng(10)
+    p = points_at(light, 1 + rng.uniform(-1e-6, 1e-6, 20_000), rng.uniform(-2, 0.5, 20_000))
+    rays = sphere_rays(*tensors(p, light))
+    assert 5000 < len(rays.index) < 15_000
+    for part in (rays.origins, rays.s, rays.chord):
+        assert torch.isfinite(part).all()
+    # 2 √(1 − r²), r a rounding of a few 1e-7 nearer to the axis than 1 − 1e-6.
+    assert 0 < rays.chord.min() and rays.chord.max() < 2 * np.sqrt(2 * 1.5e-6)
+    assert lit(BallOracle(), p, light).all()
+
+
+def test_a_vertex_on_the_sphere():
+    """The object's points on the sphere: none of it is behind those towards the light."""
+    light = np.array([0.0, 1.0, 0.0])
+    p = np.array([[0, 1, 0], [0, -1, 0]], np.float32)
+    rays = sphere_rays(*tensors(p, light))
+    assert rays.index.tolist() == [1]
+    assert rays.s.tolist() == rays.chord.tolist() == [2]
+    # The far one is behind the ball, and in no shadow of a ray that misses (t_pred = ℓ).
+    assert lit(BallOracle(), p, light).tolist() == [True, False]
+    assert lit(Constant(2.0), p, light).tolist() == [True, True]
+
+
+def test_behind_at_a_distance_of_eight():
+    light = np.array(LIGHTS[1])
+    rng = np.random.default_rng(4)
+    p = points_at(light, rng.uniform(0, 1.2, 20_000), np.full(20_000, -8.0))
+    expected, clear = exact(p, light)
+    assert 0.3 < expected.mean() < 0.7
+    assert (lit(BallOracle(), p, light) == expected)[clear].all()
+
+
+def test_clamp_to_the_chord():
+    """Receivers behind the sphere whose ray misses the ball are lit, for the clamp's sake only."""
+    light = np.array(LIGHTS[2])
+    rng = np.random.default_rng(5)
+    p = points_at(light, rng.uniform(BALL + 1e-3, 0.999, 10_000), rng.uniform(-8, -1, 10_000))
+    oracle = BallOracle()
+    assert lit(oracle, p, light).all()
+
+    p, light = tensors(p, light)
+    rays = sphere_rays(p, light)
+    assert (rays.s > rays.chord).sum() > 9000
+    unclamped = rays.s > oracle.depths(rays.origins, -light, torch.float32)
+    assert unclamped.float().mean() > 0.9  # what would be in shadow without it
+
+
+def test_rays_that_pass_the_sphere_never_reach_the_network():
+    light = np.array(LIGHTS[1])
+    rng = np.random.default_rng(6)
+    radius, height = rng.uniform(0, 2, 30_000), rng.uniform(-3, 3, 30_000)
+    p = points_at(light, radius, height)
+    passing = (radius < 1) & (np.sqrt(np.maximum(1 - radius**2, 0)) - height > 0)
+    border = np.abs(radius - 1) < BORDER
+    border |= np.abs(height - np.sqrt(np.maximum(1 - radius**2, 0))) < BORDER
+    oracle = BallOracle()
+    lit(oracle, p, light)
+    assert abs(oracle.rays - passing.sum()) <= border.sum() < 10
+    assert 5000 < oracle.rays < 25_000
+    index = sphere_rays(*tensors(p, light)).index
+    assert (np.isin(np.arange(30_000), index) == passing)[~border].all()
+
+    outside = p[~passing & ~border]
+    oracle = BallOracle()
+    assert lit(oracle, outside, light).all()
+    assert oracle.rays == 0
+
+
+def test_no_points():
+    none = np.empty((0, 3), np.float32)
+    assert lit(BallOracle(), none, np.array(LIGHTS[0])).shape == (0,)
+
+
+def test_batches_fit_the_cache():
+    light = np.array(LIGHTS[0])
+    p = points_at(light, np.full(10_000, 0.7), np.full(10_000, -2.0))
+    oracle = BallOracle()
+    network_lit(oracle, *tensors(p, light), dtype=torch.bfloat16)
+    sizes = [len(origins) for origins, _, _ in oracle.calls]
+    assert sizes == [QUERY_CHUNKS["cpu"]] * 2 + [10_000 - 2 * QUERY_CHUNKS["cpu"]]
+    assert {dtype for _, _, dtype in oracle.calls} == {torch.bfloat16}
+
+
+@pytest.mark.parametrize("distance", [1.0, 2.0, 8.0])
+def test_entry_points(distance):
+    """On the unit sphere, on the light's side, and s before p, to float32 at |p|."""
+    light = np.array(LIGHTS[2])
+    rng = np.random.default_rng(7)
+    radius, height = 0.99 * np.sqrt(rng.random(20_000)), rng.uniform(-distance, 1, 20_000)
+    p = points_at(light, radius, height)
+    rays = sphere_rays(*tensors(p, light))
+    assert rays.origins.dtype == rays.s.dtype == rays.chord.dtype == torch.float32
+    assert len(rays.index) > 15_000
+
+    # At |p| = 8 a coordinate is rounded by 5e-7.
+    tolerance = 1e-6 if distance <= 2 else 3e-6
+    d = -light
+    o, s, chord = (part.double().numpy() for part in (rays.origins, rays.s, rays.chord))
+    assert np.abs(np.linalg.norm(o, axis=1) - 1).max() < tolerance
+    assert (o @ d).max() < -0.1
+    assert np.abs(chord + 2 * o @ d).max() < 2 * tolerance
+    assert 0 < chord.min() and chord.max() <= 2
+    assert 0 < s.min()
+    met = o + s[:, None] * d
+    assert np.abs(met - p[rays.index]).max() < 2 * tolerance
+
+
+def test_network_gets_inward_directions():
+    light = np.array(LIGHTS[1])
+    p = points_at(light, np.full(100, 0.5), np.full(100, -2.0))
+    oracle = BallOracle()
+    lit(oracle, p, light)
+    ((origins, directions, _),) = oracle.calls
+    assert np.array_equal(directions, np.tile(-light.astype(np.float32), (100, 1)))
+    assert (np.sum(origins * directions, axis=1) < 0).all()
+
+
+def test_depth_bias():
+    """On the axis behind the front s is 1 + depth: lit as far as t_pred + depth_bias goes."""
+    light = np.array([0.0, 1.0, 0.0])
+    depth = np.linspace(-0.95, 3, 400)
+    p = (-depth[:, None] * light).astype(np.float32)
+    s = np.minimum(1 + depth, 2)
+    for bias in (0.0, 0.1, 0.5):
+        assert np.array_equal(lit(Constant(0.7), p, light, depth_bias=bias), s <= 0.7 + bias)
+    # From 2 on, the chord, everything is lit.
+    assert not lit(Constant(1.9), p, light).all()
+    assert lit(Constant(1.9), p, light, depth_bias=0.1 + 1e-6).all()
+
+
+@pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
+def test_with_a_network(dtype):
+    network = FrequencyNetwork(frequencies=2, width=16, hidden_layers=1)
+    network.initialise(0)
+    light = np.array(LIGHTS[1])
+    rng = np.random.default_rng(8)
+    p = points_at(light, rng.uniform(0, 1.2, 5000), rng.uniform(-2, 2, 5000))
+    p, light = tensors(p, light)
+    rays = sphere_rays(p, light)
+    t = network.depths(rays.origins, -light, dtype)
+    assert t.shape == rays.s.shape and t.dtype == torch.float32
+    with torch.inference_mode():  # one by one what the batches give
+        alone = network(rays.origins[:10], -light.expand(10, 3), dtype)
+    torch.testing.assert_close(t[:10], alone, rtol=0.01, atol=0)
+    found = network_lit(network, p, light, dtype=dtype)
+    expected = torch.ones(5000, dtype=torch.bool)
+    expected[rays.index] = torch.minimum(rays.s, rays.chord) <= t
+    assert torch.equal(found, expected)

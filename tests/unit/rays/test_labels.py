@@ -1,0 +1,383 @@
+import numpy as np
+import pytest
+import trimesh
+from shapes import AXES, box, octahedron, prepared, sheet, unit
+
+from neural_shadows.rays.labels import SECOND_HIT_STEP, check_bounds, chord_lengths, dual_bounds
+
+
+def parallel_rays(direction, a, b):
+    """Rays along an axis through the points (a, b) of the two others; float32, (n, 3) and (3,)."""
+    along = np.flatnonzero(direction)[0]
+    origins = np.empty((len(a), 3), np.float32)
+    origins[:, along - 2], origins[:, along - 1] = a, b
+    a, b = origins[:, along - 2].astype(float), origins[:, along - 1].astype(float)
+    origins[:, along] = -direction[along] * np.sqrt(1 - a**2 - b**2)
+    return origins, direction.astype(np.float32)
+
+
+def checked_bounds(tracer, origins, directions):
+    """`dual_bounds` of rays (n, 3), which keep the rules of bounds."""
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    directions = np.ascontiguousarray(np.broadcast_to(directions, origins.shape))
+    check_bounds(directions, origins[:, None], np.stack([t_lb, t_ub], 1)[:, None], name="test")
+    return t_lb, t_ub
+
+
+def rays_through(count, seed, reach=1.0):
+    """Rays that enter the unit sphere at random and aim at a random point within `reach`."""
+    rng = np.random.default_rng(seed)
+    origins = rng.normal(size=(count, 3))
+    origins /= np.linalg.norm(origins, axis=1, keepdims=True)
+    targets = rng.uniform(-1, 1, size=(count, 3)) * reach / np.sqrt(3)
+    directions = targets - origins
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return origins.astype(np.float32), directions.astype(np.float32)
+
+
+def slab_method(origins, directions, low, high):
+    """Entry and exit of a box in float64; NaN where the ray misses it."""
+    o, d = origins.astype(float), directions.astype(float)
+    with np.errstate(divide="ignore"):
+        near, far = np.sort([(low - o) / d, (high - o) / d], axis=0)
+    entry, leave = near.max(axis=1), far.min(axis=1)
+    return np.where([entry < leave] * 2, [entry, leave], np.nan)
+
+
+def expected_of_box(origins, directions, extents):
+    half = np.array(extents) / 2
+    entry, leave = slab_method(origins, directions, -half, half)
+    chord = -2 * np.sum(origins.astype(float) * directions, axis=1)
+    missed = np.isnan(entry)
+    return np.where(missed, chord, entry), np.where(missed, np.inf, leave), missed
+
+
+@pytest.mark.parametrize("extents", [(0.8, 0.5, 0.6), (1.1, 1.1, 0.02)])
+def test_box_gives_entry_and_exit(extents):
+    tracer = prepared(box(*extents))[1]
+    origins, directions = rays_through(20_000, 0)
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    assert t_lb.dtype == t_ub.dtype == np.float32
+    lower, upper, missed = expected_of_box(origins, directions, extents)
+    assert 0.2 < missed.mean() < 0.9
+    # Within float32 of an edge either answer is right: chords below 1e-4 are left out.
+    clear = ~(upper - lower < 1e-4)
+    assert clear.mean() > 0.999
+    assert np.abs(t_lb - lower)[clear].max() < 1e-5
+    hit = clear & ~missed
+    assert np.abs(t_ub[hit] - upper[hit]).max() < 1e-5
+    assert np.isinf(t_ub[missed]).all()
+
+
+def test_fine_sphere_gives_the_chord_of_the_analytic_one():
+    radius = 0.7
+    shape = trimesh.creation.icosphere(subdivisions=6, radius=radius)
+    tracer = prepared(shape)[1]
+    origins, directions = rays_through(20_000, 1)
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    o, d = origins.astype(float), directions.astype(float)
+    middle = -np.sum(o * d, axis=1)
+    distance = np.sqrt(1 - middle**2)  # of the ray from the centre
+    # The faces lie this far inside the sphere; flat hits amplify it by 1 / cos.
+    sag = radius - np.linalg.norm(shape.triangles_center, axis=1).min()
+    assert sag < 2e-4
+    hit = distance < 0.9 * radius
+    half = np.sqrt(radius**2 - distance[hit] ** 2)
+    tolerance = 1.2 * sag * radius / half + 1e-5
+    assert hit.mean() > 0.5
+    assert (np.abs(t_lb[hit] - (middle[hit] - half)) < tolerance).all()
+    assert (np.abs(t_ub[hit] - (middle[hit] + half)) < tolerance).all()
+    missed = distance > radius
+    assert t_lb[missed] == pytest.approx(2 * middle[missed], abs=1e-6)
+    assert np.isinf(t_ub[missed]).all()
+
+
+def test_a_sheet_is_hit_once_and_bounds_nothing_behind():
+    tracer = prepared(sheet(0.1, 0.5))[1]
+    origins = np.array([[0, 1, 0], [0.6, 0.8, 0]], np.float32)
+    t_lb, t_ub = dual_bounds(tracer, origins, np.array([0, -1, 0], np.float32))
+    # The second ray passes the sheet: its lower bound is its chord.
+    assert t_lb == pytest.approx([0.9, 1.6], abs=1e-6)
+    assert np.isinf(t_ub).all()
+
+
+def test_misses_have_the_chord_exactly():
+    tracer = prepared(box(0.01, 0.01, 0.01))[1]
+    origins, directions = rays_through(5000, 2)
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    chord = -2 * np.sum(origins.astype(float) * directions, axis=1)
+    assert np.array_equal(chord_lengths(origins, directions), chord.astype(np.float32))
+    missed = np.isinf(t_ub)
+    assert missed.mean() > 0.9
+    assert np.array_equal(t_lb[missed], chord.astype(np.float32)[missed])
+
+
+def test_the_second_hit_of_nested_spheres_is_the_inner_front():
+    outer = trimesh.creation.icosphere(subdivisions=4, radius=0.8)
+    inner = trimesh.creation.icosphere(subdivisions=4, radius=0.4)
+    tracer = prepared(outer + inner)[1]
+    origins, directions = rays_through(3000, 3, reach=0.25)
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    middle = -np.sum(origins.astype(float) * directions, axis=1)
+    distance2 = 1 - middle**2
+    aimed = distance2 < 0.3**2
+    assert aimed.mean() > 0.9
+    for bound, radius in [(t_lb, 0.8), (t_ub, 0.4)]:
+        analytic = middle - np.sqrt(np.maximum(radius**2 - distance2, 0))
+        assert bound[aimed] == pytest.approx(analytic[aimed], abs=5e-3)
+
+
+@pytest.mark.parametrize("thickness", [1e-3, 1e-4])
+def test_thin_slabs_are_resolved(thickness):
+    """Walls of the thinnest features, and a tenth of that, from flat and steep sides."""
+    extents = (1.2, thickness, 1.2)
+    tracer = prepared(box(*extents))[1]
+    rng = np.random.default_rng(4)
+    targets = rng.uniform(-0.3, 0.3, (5000, 3)) * [1, 0, 1]
+    directions = rng.normal(size=(5000, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    directions = directions[np.abs(directions[:, 1]) > 0.1]
+    targets = targets[: len(directions)]
+    along = np.sum(targets * directions, axis=1)
+    back = along + np.sqrt(along**2 + 1 - np.sum(targets**2, axis=1))
+    origins = (targets - back[:, None] * directions).astype(np.float32)
+    directions = directions.astype(np.float32)
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    depth = thickness / np.abs(directions[:, 1])
+    assert np.abs((t_ub - t_lb) - depth).max() < 5e-6
+
+
+def test_rays_through_edges_and_vertices_of_a_box_reach_the_other_side():
+    """Faces that meet under a ray are hit together; the hit behind them is the second one.
+
+    The box's corners are no float32 numbers, so that rays meet edges by rounding, not exactly.
+    """
+    extents = np.array([0.7, 0.9, 0.5])
+    tracer = prepared(box(*extents))[1]
+    corners = np.array(box(*extents).vertices)
+    rng = np.random.default_rng(5)
+    # On the twelve edges, the face diagonals, and at the corners themselves.
+    edges = np.array(box(*extents).edges_unique)
+    chosen = corners[edges[rng.integers(len(edges), size=20_000)]]
+    at = rng.choice([0.0, 1.0, np.nan], size=20_000, p=[0.1, 0.1, 0.8])
+    at = np.where(np.isnan(at), rng.random(20_000), at)[:, None]
+    targets = (1 - at) * chosen[:, 0] + at * chosen[:, 1]
+    # Through the target and a point well inside the box.
+    inner = rng.uniform(-0.3, 0.3, (20_000, 3)) * extents
+    directions = inner - targets
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    along = np.sum(targets * directions, axis=1)
+    back = along + np.sqrt(along**2 + 1 - np.sum(targets**2, axis=1))
+    origins = (targets - back[:, None] * directions).astype(np.float32)
+    directions = directions.astype(np.float32)
+
+    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    _, leave = slab_method(origins, directions, -extents / 2, extents / 2)
+    assert not np.isnan(leave).any()
+    artefacts = t_ub - t_lb < 10 * SECOND_HIT_STEP
+    assert artefacts.mean() == 0
+    # Embree's test lets some rays slip between two faces: they see the far side alone.
+    leaked = np.isinf(t_ub)
+    assert leaked.mean() < 1e-3
+    assert np.abs(t_lb - back)[~leaked].max() < 1e-5
+    assert np.abs(t_ub - leave)[~leaked].max() < 1e-5
+
+
+def test_coinciding_faces_count_as_one():
+    # What the mesh stage would have dropped: every face twice.
+    shape = box(0.6, 0.6, 0.6)
+    shape.faces = np.concatenate([shape.faces, shape.faces])
+    origins, directions = rays_through(5000, 6, reach=0.3)
+    single = dual_bounds(prepared(box(0.6, 0.6, 0.6))[1], origins, directions)
+    double = dual_bounds(prepared(shape)[1], origins, directions)
+    assert np.array_equal(single, double)
+
+
+def test_a_triangle_found_again_behind_the_step_is_no_second_hit():
+    """Nearly along a triangle, the origin moved past its hit can still be before it."""
+
+    class Again:
+        """Reports the triangle 7 at t = 0.5, once more 1e-5 behind the step, then 9 at 1.5."""
+
+        calls = 0
+
+        def first_hit(self, origins, directions):
+            passed = origins @ directions[0] + 1  # distance already gone from (-1, 0, 0)
+            self.calls += 1
+            t, face = [(0.5, 7), (0.50003, 7), (1.5, 9)][self.calls - 1]
+            return (t - passed).astype(np.float32), np.full(len(origins), face, np.int32)
+
+    tracer = Again()
+    along = np.array([[1, 0, 0]], np.float32)
+    t_lb, t_ub = dual_bounds(tracer, -along, along)
+    assert tracer.calls == 3
+    assert (t_lb[0], t_ub[0]) == (0.5, pytest.approx(1.5, abs=1e-6))
+
+
+@pytest.mark.parametrize("direction", AXES)
+def test_light_along_an_axis(direction):
+    """Two components of the direction are 0: no slab or edge test may divide by them."""
+    half = np.array([0.25, 0.375, 0.5])
+    grid = np.linspace(-0.625, 0.625, 41)  # steps of 1/32: rays meet edges and diagonals exactly
+    a, b = (values.ravel() for values in np.meshgrid(grid, grid))
+    origins, direction = parallel_rays(direction, a, b)
+    t_lb, t_ub = checked_bounds(prepared(box(*2 * half))[1], origins, direction)
+    along = np.flatnonzero(direction)[0]
+    beyond = np.delete(np.abs(origins) - half, along, axis=1).max(axis=1)
+    middle = np.abs(origins[:, along].astype(float))
+    inside, outside = beyond < 0, beyond > 0
+    assert inside.sum() > 300 and outside.sum() > 300
+    assert t_lb[inside] == pytest.approx((middle - half[along])[inside], abs=3e-7)
+    assert t_ub[inside] == pytest.approx((middle + half[along])[inside], abs=3e-7)
+    assert t_lb[outside] == pytest.approx(2 * middle[outside], abs=3e-7)
+    assert np.isinf(t_ub[outside]).all()
+    # In the plane of a side face, edge-on, a ray may pass the box or run along it.
+    edge_on = beyond == 0
+    assert edge_on.sum() > 50
+    passed = edge_on & np.isinf(t_ub)
+    assert t_lb[passed] == pytest.approx(2 * middle[passed], abs=3e-7)
+    assert t_lb[edge_on & ~passed] == pytest.approx((middle - half[along])[edge_on & ~passed])
+
+
+@pytest.mark.parametrize("height", [0.25, 0.3])
+def test_a_sheet_edge_on_is_not_there(height):
+    """Rays within a sheet's plane and a rounding beside it: their lower bound is the chord."""
+    tracer = prepared(sheet(height, 0.5))[1]
+    z = np.linspace(-0.6, 0.6, 101)
+    for beside in (0, 1, -1):
+        y = np.full(101, np.float32(height) + beside * np.spacing(np.float32(height)))
+        origins, direction = parallel_rays(np.array([1.0, 0, 0]), y, z)
+        t_lb, t_ub = checked_bounds(tracer, origins, direction)
+        assert t_lb == pytest.approx(2 * np.sqrt(1 - y**2 - z**2), abs=2e-7)
+        assert np.isinf(t_ub).all()
+
+
+@pytest.mark.parametrize("cosine", [1.0, 0.1, 0.03])
+def test_coplanar_faces_count_as_one(cosine):
+    """A sheet cut along both diagonals: each point is covered twice, by different triangles."""
+    corners, turned = (
+        sheet(0.0, 0.5).vertices,
+        trimesh.transformations.rotation_matrix(1, [1, 2, 3]),
+    )
+    corners = corners @ turned[:3, :3].T
+    faces = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]]
+    tracer = prepared(trimesh.Trimesh(corners, faces, process=False))[1]
+    rng = np.random.default_rng(8)
+    angle = rng.uniform(0, 2 * np.pi, 20_000)
+    sine = np.sqrt(1 - cosine**2)
+    local = np.stack([sine * np.cos(angle), np.full(20_000, -cosine), sine * np.sin(angle)], 1)
+    targets = rng.uniform(-0.45, 0.45, (20_000, 3)) * [1, 0, 1] @ turned[:3, :3].T
+    directions = local @ turned[:3, :3].T
+    along = np.sum(targets * directions, axis=1)
+    t = along + np.sqrt(along**2 + 1 - np.sum(targets**2, axis=1))
+    origins = (targets - t[:, None] * directions).astype(np.float32)
+    t_lb, t_ub = checked_bounds(tracer, origins, directions.astype(np.float32))
+    # Embree's rounding grows as a ray gets flatter: from 0.01 on it is that of the step itself.
+    assert np.abs(t_lb - t).max() < 4e-7 / cosine
+    assert np.isinf(t_ub).all()
+
+
+def test_rays_that_graze_the_sphere():
+    """Chords down to 2e-3, the shortest that are drawn, and a thousandth of it."""
+    tracer = prepared(box(0.1, 0.1, 0.1))[1]
+    inward = np.array([1e-3, 1e-4, 1e-5, 1e-6])
+    directions = np.stack([np.sqrt(1 - inward**2), -inward, 0 * inward], 1).astype(np.float32)
+    origins = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
+    t_lb, t_ub = checked_bounds(tracer, origins, directions)
+    assert t_lb == pytest.approx(2 * inward, rel=1e-6)
+    assert np.isinf(t_ub).all()
+
+
+def test_bounds_hold_where_the_object_touches_the_sphere():
+    shape = trimesh.creation.icosphere(subdivisions=3, radius=1.0)  # its vertices are on it
+    tracer = prepared(shape)[1]
+    checked_bounds(tracer, *rays_through(50_000, 7))
+    # Straight at a vertex, from either side of it.
+    vertices = shape.vertices.astype(np.float32)
+    checked_bounds(tracer, vertices, -vertices)
+
+
+def test_a_vertex_on_the_sphere():
+    """Exactly on it, as two and more of every mesh are: hit at t = 0, or at the chord's end."""
+    tracer = prepared(octahedron())[1]
+    vertices = np.array(AXES, np.float32)
+    t_lb, t_ub = checked_bounds(tracer, vertices, -vertices)
+    assert ((0 < t_lb) & (t_lb < 2e-7)).all()
+    assert (t_ub == 2).all()
+    # Chords of the sphere about a vertex at its end: |x| + |y| + |z| = 1 is met on the way.
+    origins, directions = rays_through(20_000, 9)
+    t_lb, t_ub = checked_bounds(tracer, origins, directions)
+    normals = np.array(np.meshgrid([1, -1], [1, -1], [1, -1])).reshape(3, 8)
+    o, d = origins.astype(float), directions.astype(float)
+    # A convex body is left where the first of its half-spaces is.
+    across, beyond = d @ normals, 1 - o @ normals
+    with np.errstate(divide="ignore"):
+        t = beyond / across
+    enter = np.where(across < 0, t, -np.inf).max(axis=1)
+    leave = np.where(across > 0, t, np.inf).min(axis=1)
+    hit, missed = leave - enter > 1e-4, enter - leave > 1e-4
+    assert hit.sum() > 5000 and missed.sum() > 500
+    assert t_lb[hit] == pytest.approx(enter[hit], abs=1e-5)
+    assert t_ub[hit] == pytest.approx(leave[hit], abs=1e-5)
+    assert t_lb[missed] == pytest.approx(-2 * np.sum(o * d, axis=1)[missed], abs=3e-7)
+
+
+def bounds_of(*values):
+    """One direction whose rays enter at (0, 1, 0) along −y, ℓ = 2, with these bounds."""
+    origins = np.tile(np.array([0, 1, 0], np.float32), (1, len(values), 1))
+    return np.array([[0, -1, 0]], np.float32), origins, np.array([values], np.float32)
+
+
+GOOD = [(0.5, 1.5), (2.0, np.inf), (0.5, np.inf), (1.0, 1.0), (1e-7, 2.0), (0.5, 2.00001)]
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        (0.0, 1.0),
+        (0.0, 0.0),  # what nothing was written to
+        (-1e-7, 1.0),
+        (1.0, 0.999),
+        (2.000001, np.inf),
+        (np.nan, 1.0),
+        (0.5, np.nan),
+        (np.inf, np.inf),
+        (0.5, -np.inf),
+    ],
+)
+def test_broken_rules_of_bounds_are_an_error_that_names_the_ray(bad):
+    check_bounds(*bounds_of(*GOOD), name="good")
+    with pytest.raises(RuntimeError) as caught:
+        check_bounds(*bounds_of(*GOOD, bad), name="labels x.npy (seed 3)", first=17)
+    message = str(caught.value)
+    assert message.startswith("labels x.npy (seed 3): ray 6 of direction 17 from [0.0, 1.0, 0.0] ")
+    assert f"t_lb = {np.float32(bad[0])}, t_ub = {np.float32(bad[1])} on a chord of 2.0" in message
+    assert "\n" not in message
+
+
+def test_rays_that_are_none_are_an_error():
+    # Tangent, outward, and not a number: there is no chord to have bounds on.
+    for direction in (unit(1, 0, 0), unit(0.1, 1, 0), np.full(3, np.nan)):
+        d, o, bounds = bounds_of((1e-7, np.inf))
+        with pytest.raises(RuntimeError, match="ray 0 of direction 0"):
+            check_bounds(direction[None].astype(np.float32), o, bounds, name="rays")
+    # An object that is outside the sphere.
+    tracer = prepared(sheet(-1.5, 0.5))[1]
+    d, o, _ = bounds_of((1, 2))
+    bounds = np.stack(dual_bounds(tracer, o[0], d), axis=1)[None]
+    with pytest.raises(RuntimeError, match="unit sphere, the mesh is not inside it"):
+        check_bounds(d, o, bounds, name="rays")
+
+
+def test_lower_bounds_of_hits_end_with_the_chord():
+    """A vertex on the far side of the sphere may be found a little behind the chord's end."""
+
+    class Behind:
+        def first_hit(self, origins, directions):
+            miss = origins[:, 0] > -1  # the trace from behind the hit
+            t = np.where(miss, np.inf, 2.0001).astype(np.float32)
+            return t, np.where(miss, -1, 0).astype(np.int32)
+
+    along = np.array([[1, 0, 0]], np.float32)
+    t_lb, t_ub = dual_bounds(Behind(), -along, along)
+    assert (t_lb[0], t_ub[0]) == (2, np.inf)

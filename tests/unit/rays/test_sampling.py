@@ -1,0 +1,237 @@
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import trimesh
+from scipy.spatial import cKDTree
+from scipy.stats import chi2, chisquare
+from shapes import prepared, unit
+
+from neural_shadows.rays.poisson_disk import PatternBank
+from neural_shadows.rays.quadtree import DISK_RADIUS, build_quadtree, disk_area
+from neural_shadows.rays.sampling import (
+    SAMPLERS,
+    sample_density,
+    sample_quads,
+    sample_rays,
+    uniform_on_disk,
+)
+from neural_shadows.rays.silhouette import plane_basis, silhouette
+
+RESOLUTION = 16
+CELLS = 3  # a quad is divided into 3 × 3 cells, the smallest quads too
+BANKS = {"poisson_quadtree": PatternBank(1), "uniform_quadtree": None}
+
+
+@pytest.fixture(scope="module")
+def quads():
+    """Quads of 1 to 4 texels around a disc, some of them cut by the rim."""
+    axis = (2 * np.arange(RESOLUTION) + 1) / RESOLUTION - 1
+    a, b = np.meshgrid(axis, axis)
+    return build_quadtree(np.hypot(a - 0.5, b + 0.3) < 0.3, 1)
+
+
+def texels(points):
+    return (points + 1) / 2 * RESOLUTION
+
+
+def quad_of(quads, points):
+    """Index of the quad that each point is in."""
+    index = np.full((RESOLUTION, RESOLUTION), -1)
+    for i, (row, column, size) in enumerate(quads):
+        index[row : row + size, column : column + size] = i
+    column, row = np.floor(texels(points)).astype(int).T
+    return index[row, column]
+
+
+def draw_in_quads(quads, sampler, per_quad, draws):
+    """(q, draws, 2): one random point of each of many draws of `per_quad` points in each quad.
+
+    Points of a pattern keep away from each other; one of each pattern is independent of the
+    others, as the chi-square test wants them. A repeated quad is as good as a repeated draw.
+    """
+    rng = np.random.default_rng(0)
+    count = len(quads) * draws
+    repeated = np.repeat(quads, draws, axis=0)
+    points = sample_quads(repeated, RESOLUTION, per_quad * count, rng, BANKS[sampler])
+    points = points.reshape(count, per_quad, 2)  # they come in the order of the quads
+    return points[np.arange(count), rng.integers(per_quad, size=count)].reshape(-1, draws, 2)
+
+
+def density_p_value(quads, points):
+    """Chi-square test of points (q, draws, 2) in the cells of each quad, by the stated density."""
+    statistic = degrees = 0
+    for (row, column, size), drawn in zip(quads, points, strict=True):
+        lines = size * np.arange(CELLS + 1) / CELLS
+        rows, columns = 2 * (row + lines) / RESOLUTION - 1, 2 * (column + lines) / RESOLUTION - 1
+        counts = np.histogram2d(drawn[:, 1], drawn[:, 0], bins=(rows, columns))[0]
+        assert counts.sum() == len(drawn)  # none is outside its quad
+        density = sample_density(quads, RESOLUTION, drawn[:1])[0]
+        areas = [
+            [max(0, disk_area(left, bottom, right, top)) for left, right in pairwise(columns)]
+            for bottom, top in pairwise(rows)
+        ]
+        # 1 / q of all draws' points are of this quad: one draw in each.
+        expected = density * np.array(areas) * len(quads) * len(drawn)
+        assert expected.sum() == pytest.approx(len(drawn))
+        few = expected < 5
+        assert counts[few].sum() < 40  # slivers of cells
+        statistic += np.sum((counts - expected)[~few] ** 2 / expected[~few])
+        degrees += np.sum(~few) - 1
+    return chi2.sf(statistic, degrees)
+
+
+@pytest.mark.parametrize("sampler", BANKS)
+@pytest.mark.parametrize("per_quad", [2, 3, 15])
+def test_quadtree_samplers_keep_to_their_density(quads, sampler, per_quad):
+    points = draw_in_quads(quads, sampler, per_quad, 20_000)
+    assert density_p_value(quads, points) > 1e-3
+
+
+@pytest.mark.parametrize("sampler", BANKS)
+def test_quads_at_the_rim_keep_to_their_density(quads, sampler):
+    """Alone, with more draws: what is thinned at the rim must not thin out towards it."""
+    far = 2 * np.abs(2 * quads[:, :2] + quads[:, 2:] - RESOLUTION) + 2 * quads[:, 2:]
+    rim = quads[np.hypot(*far.T) > 2 * RESOLUTION]
+    assert 5 < len(rim) < len(quads) / 2
+    points = draw_in_quads(rim, sampler, 2, 100_000)
+    assert density_p_value(rim, points) > 1e-3
+
+
+def test_the_density_test_finds_points_crowded_at_the_edges_of_quads(quads):
+    points = draw_in_quads(quads, "poisson_quadtree", 3, 20_000)
+    for (row, column, size), drawn in zip(quads, points, strict=True):
+        centre = (2 * np.array([column, row]) + size) / RESOLUTION - 1
+        side = 2 * size / RESOLUTION
+        within = 2 * (drawn - centre) / side
+        crowded = centre + np.sign(within) * np.abs(within) ** 0.95 * side / 2
+        inside = np.linalg.norm(crowded, axis=1) < DISK_RADIUS
+        drawn[inside] = crowded[inside]
+    assert density_p_value(quads, points) < 1e-6
+
+
+def test_uniform_sampler_keeps_to_its_density():
+    """In 8 rings of equal area, 12 sectors each; its quadtree is the one square."""
+    points = uniform_on_disk(200_000, np.random.default_rng(3))
+    distance = np.linalg.norm(points, axis=1)
+    assert distance.max() < DISK_RADIUS
+    angle = np.arctan2(points[:, 1], points[:, 0])
+    bins = (np.linspace(0, DISK_RADIUS**2, 9), np.linspace(-np.pi, np.pi, 13))
+    assert chisquare(np.histogram2d(distance**2, angle, bins)[0].ravel()).pvalue > 1e-3
+    square = np.array([[0, 0, RESOLUTION]], np.int32)
+    density = sample_density(square, RESOLUTION, points)
+    assert density == pytest.approx(1 / (np.pi * DISK_RADIUS**2), rel=1e-12)
+
+
+def test_the_stated_density_integrates_to_one(quads):
+    axis = (2 * np.arange(1200) + 1) / 1200 - 1
+    points = np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
+    density = sample_density(quads, RESOLUTION, points)
+    assert density.mean() * 4 == pytest.approx(1, abs=2e-3)
+    assert (density[np.linalg.norm(points, axis=1) > DISK_RADIUS] == 0).all()
+    # Texel-sized quads are as likely as ones of 4 × 4 texels, on a 16th of the area.
+    assert density.max() > 15.9 * density[density > 0].min()
+
+
+@pytest.mark.parametrize("sampler", BANKS)
+@pytest.mark.parametrize("extra", [-9, 0, 5])
+def test_points_are_divided_evenly_and_the_remainder_at_random(quads, sampler, extra):
+    q = len(quads)
+    m = 4 * q + extra if extra >= 0 else q + extra  # less points than quads: one or none each
+    gets_more = np.zeros(q)
+    for seed in range(1500):
+        rng = np.random.default_rng(seed)
+        points = sample_quads(quads, RESOLUTION, m, rng, BANKS[sampler])
+        assert points.shape == (m, 2)
+        counts = np.bincount(quad_of(quads, points), minlength=q)
+        assert set(counts - m // q) <= {0, 1}
+        gets_more += counts - m // q
+    assert gets_more.sum() == 1500 * (m % q)
+    if m % q:
+        # Without replacement the counts scatter less than chi-square's by 1 − (m mod q) / q.
+        variance = 1500 * (m % q) / q * (1 - m % q / q)
+        statistic = np.sum((gets_more - gets_more.mean()) ** 2) / variance * (q - 1) / q
+        assert chi2.sf(statistic, q - 1) > 1e-3
+
+
+def closest_in_quads(quads, points):
+    """Smallest distance in each quad, in units of the quad's side."""
+    which = quad_of(quads, points)
+    sides = 2 * quads[:, 2] / RESOLUTION
+    groups = [points[which == i] for i in range(len(quads))]
+    return np.array([cKDTree(p).query(p, k=2)[0][:, 1].min() for p in groups]) / sides
+
+
+def test_patterns_keep_their_distance_in_whole_quads():
+    quads = np.array([[4, 4, 4], [4, 8, 4], [8, 8, 2], [10, 8, 1], [7, 2, 1]])
+    n = 12
+    for seed in range(50):
+        rng = np.random.default_rng(seed)
+        points = sample_quads(quads, RESOLUTION, n * len(quads), rng, BANKS["poisson_quadtree"])
+        # n r² = 0.615 of full sets, less what the search for r goes down.
+        assert closest_in_quads(quads, points).min() > np.sqrt(0.5 / n)
+
+
+def test_slivers_at_the_rim_get_their_points_too():
+    # A checkerboard is split down to texels; of some, the disk has less than a thousandth.
+    quads = build_quadtree(np.indices((128, 128)).sum(axis=0) % 2 == 0, 1)
+    left, bottom = 2 * quads[:, 1] / 128 - 1, 2 * quads[:, 0] / 128 - 1
+    side = 2 / 128
+    areas = [disk_area(a, b, a + side, b + side) for a, b in zip(left, bottom, strict=True)]
+    assert 0 < min(areas) < 1e-3 * side**2
+    for bank in BANKS.values():
+        points = sample_quads(quads, 128, 5 * len(quads), np.random.default_rng(0), bank)
+        assert np.linalg.norm(points, axis=1).max() < DISK_RADIUS
+        column, row = np.floor((points.T + 1) * 64).astype(int)
+        assert np.array_equal(row, np.repeat(quads[:, 0], 5))
+        assert np.array_equal(column, np.repeat(quads[:, 1], 5))
+
+
+@pytest.fixture(scope="module")
+def ball():
+    return prepared(trimesh.creation.icosphere(subdivisions=3, radius=0.5))[1]
+
+
+def rays_of(tracer, sampler, direction, m=2000, **settings):
+    settings = {"silhouette_resolution": 64, "min_quad": 1} | settings
+    rng = np.random.default_rng(5)
+    return sample_rays(tracer, direction, m, sampler, rng=rng, bank=PatternBank(1), **settings)
+
+
+@pytest.mark.parametrize("sampler", SAMPLERS)
+@pytest.mark.parametrize("direction", [unit(1, 2, 3), unit(0, 0, -1), unit(-1, 0.001, 0)])
+def test_rays_start_on_the_sphere_and_go_in(ball, sampler, direction):
+    origins = rays_of(ball, sampler, direction.astype(np.float32))
+    assert origins.shape == (2000, 3) and origins.dtype == np.float32
+    assert np.abs(np.linalg.norm(origins.astype(float), axis=1) - 1).max() < 1e-6
+    assert (origins @ direction < -9e-4).all()
+
+
+def test_quadtree_samplers_follow_the_silhouette_and_uniform_does_not(ball):
+    direction = unit(0.3, -1, 0.5)
+
+    def share_at_border(sampler):
+        origins = rays_of(ball, sampler, direction)
+        offsets = origins @ np.stack(plane_basis(direction), axis=1)
+        return np.mean(np.abs(np.linalg.norm(offsets, axis=1) - 0.5) < 0.05)
+
+    # The ring of 0.45 to 0.55 is 10 % of the disk.
+    assert share_at_border("uniform") == pytest.approx(0.1, abs=0.03)
+    assert share_at_border("uniform_quadtree") > 0.6
+    assert share_at_border("poisson_quadtree") > 0.6
+
+
+def test_rays_follow_the_quads_of_their_own_silhouette(ball):
+    direction = unit(2, 1, -1)
+    quads = build_quadtree(silhouette(ball, direction, RESOLUTION), 2)
+    m = 3 * len(quads)
+    origins = rays_of(
+        ball, "uniform_quadtree", direction, m=m, silhouette_resolution=RESOLUTION, min_quad=2
+    )
+    offsets = origins @ np.stack(plane_basis(direction), axis=1)
+    assert np.bincount(quad_of(quads, offsets)).tolist() == [3] * len(quads)
+
+
+def test_unknown_samplers_are_refused(ball):
+    with pytest.raises(ValueError, match="poisson_quadtree, uniform_quadtree, uniform"):
+        rays_of(ball, "sobol", unit(1, 0, 0))

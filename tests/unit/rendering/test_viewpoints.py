@@ -1,0 +1,148 @@
+import numpy as np
+import pytest
+import trimesh
+from scipy.stats import kstest
+from shapes import Y_UP, box, prepared, sheet
+
+from neural_shadows.errors import InputError
+from neural_shadows.rendering.gbuffer import ground_height, primary_hits
+from neural_shadows.rendering.shading import reference_visibility, visibility
+from neural_shadows.rendering.viewpoints import VIEW_SETS, draw_viewpoints, surface_points
+
+W, H = 150, 100
+SPHERE = {"domain": "sphere", "min_elevation_deg": 20}
+ARC = {"domain": "single_axis", "axis": "x", "min_elevation_deg": 20}
+
+
+@pytest.fixture(scope="module")
+def torus():
+    return prepared(trimesh.creation.torus(0.7, 0.3))
+
+
+def draw(scene, view_sets, indices, **changes):
+    settings = {"up": Y_UP, "ground": True, "light_domain": SPHERE, "seed": 11} | changes
+    return draw_viewpoints(
+        *scene, view_sets=view_sets, indices=indices, width=W, height=H, **settings
+    )
+
+
+def same(a, b):
+    return (a.view_set, a.index, a.fov) == (b.view_set, b.index, b.fov) and all(
+        np.array_equal(getattr(a, name), getattr(b, name))
+        for name in ("eye", "target", "up", "light")
+    )
+
+
+@pytest.fixture(scope="module")
+def shadow_views(torus):
+    return draw(torus, ["shadow"], range(50))
+
+
+@pytest.fixture(scope="module")
+def surface_views(torus):
+    return draw(torus, ["surface"], range(50))
+
+
+def test_shadow_frames_are_filled_with_cast_shadow(torus, shadow_views):
+    mesh, tracer = torus
+    cast, covered = [], []
+    for view in shadow_views:
+        points = primary_hits(mesh, tracer, view, W, H, ground_height(mesh, Y_UP))
+        dark = ~visibility(points, reference_visibility(tracer, points))
+        cast.append(np.count_nonzero(dark & ~points.is_object) / (W * H))
+        covered.append(np.count_nonzero(points.is_object) / (W * H))
+    assert np.mean(cast) > 0.35 and np.quantile(cast, 0.2) > 0.2
+    assert np.mean(covered) < 0.2
+
+
+def test_shadow_views_aim_at_the_ground(torus, shadow_views):
+    ground = ground_height(torus[0], Y_UP)
+    for view in shadow_views:
+        assert view.target[1] == pytest.approx(ground, abs=1e-6)
+        assert view.eye[1] > ground + 0.1
+
+
+def test_surface_frames_show_the_surface_in_their_middle(torus, surface_views):
+    mesh, tracer = torus
+    ground = ground_height(mesh, Y_UP)
+    covered = []
+    for view in surface_views:
+        points = primary_hits(mesh, tracer, view, W + 1, H + 1, ground)  # odd: a pixel's centre
+        middle = np.flatnonzero(points.pixel == (H // 2) * (W + 1) + W // 2)
+        assert points.is_object[middle].all() and len(middle) == 1
+        # It is the target, and not something before it; and it faces the light.
+        query = np.flatnonzero(points.facing == middle)
+        assert len(query) == 1
+        assert np.linalg.norm(points.p[query] - view.target) < 2e-3
+        covered.append(points.is_object.mean() * len(points.pixel) / ((W + 1) * (H + 1)))
+        assert view.eye[1] > ground and np.linalg.norm(view.eye) > 1
+    assert np.mean(covered) > 0.4
+
+
+def test_surface_points_are_uniform_by_area():
+    # Two triangles, of areas 1 : 3, apart from each other.
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 0, 1], [5, 0, 0], [8, 0, 0], [5, 0, 1]], float)
+    mesh, _ = prepared(trimesh.Trimesh(corners, [[0, 1, 2], [3, 4, 5]], process=False))
+    points, normals = surface_points(mesh, np.array([1.0, 4.0]), 8000, np.random.default_rng(2))
+    np.testing.assert_array_equal(normals, np.tile([0.0, -1.0, 0.0], (8000, 1)))
+    first = points[:, 0] < 2
+    assert first.mean() == pytest.approx(0.25, abs=0.02)
+    for chosen, origin, width in [(first, 0, 1), (~first, 5, 3)]:
+        u, v = (points[chosen, 0] - origin) / width, points[chosen, 2]
+        # A weight w of a point uniform over a triangle exceeds x with probability (1 − x)².
+        for weight in (u, v, 1 - u - v):
+            assert kstest((1 - weight) ** 2, "uniform").pvalue > 1e-3
+
+
+def test_surface_that_no_light_reaches_is_refused():
+    upright = sheet(0.0, 0.5)
+    upright.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 0, 1]))
+    scene = prepared(upright)
+    scene[0].face_normals[:] = [1, 0, 0]  # and the arc about x has no light along x
+    with pytest.raises(InputError, match="view_sets: surface"):
+        draw(scene, ["surface"], range(1), light_domain=ARC)
+
+
+def test_centre_views_look_down_at_the_centre(torus):
+    for view in draw(torus, ["centre"], range(50), ground=False, light_domain=ARC):
+        np.testing.assert_array_equal(view.target, 0)
+        elevation = np.degrees(np.arcsin(view.eye[1] / np.linalg.norm(view.eye)))
+        assert 20 <= elevation <= 70
+        assert np.linalg.norm(view.eye) > 1
+        assert view.light[0] == 0  # on the arc about x
+
+
+def test_viewpoints_depend_on_seed_set_and_index_alone(torus, shadow_views, surface_views):
+    # In two batches, both sets at once, and in another order.
+    batch = draw(torus, ["surface", "shadow"], [7, 3])
+    assert [(view.view_set, view.index) for view in batch] == [
+        ("surface", 7),
+        ("surface", 3),
+        ("shadow", 7),
+        ("shadow", 3),
+    ]
+    expected = [surface_views[7], surface_views[3], shadow_views[7], shadow_views[3]]
+    assert all(same(a, b) for a, b in zip(batch, expected))
+    assert not same(draw(torus, ["surface"], [7], seed=12)[0], surface_views[7])
+    lights = [view.light for view in shadow_views + surface_views]
+    assert len(np.unique(np.round(lights, 9), axis=0)) == 100
+
+
+@pytest.mark.parametrize("up", np.eye(3))
+def test_every_axis_can_be_up(torus, up):
+    mesh, tracer = prepared(box(0.9, 1.0, 1.1))
+    ground = ground_height(mesh, up)
+    for view in draw((mesh, tracer), VIEW_SETS, range(4), up=up):
+        assert view.eye @ up > ground
+        assert view.light @ up >= np.sin(np.radians(20))
+        points = primary_hits(mesh, tracer, view, W, H, ground)
+        dark = ~visibility(points, reference_visibility(tracer, points))
+        shown = points.is_object if view.view_set != "shadow" else dark & ~points.is_object
+        assert np.count_nonzero(shown) > 0.1 * W * H
+
+
+def test_sets_that_cannot_be_drawn_are_named(torus):
+    with pytest.raises(InputError, match="view_sets: shadow needs a ground"):
+        draw(torus, ["surface", "shadow"], range(1), ground=False)
+    with pytest.raises(InputError, match="view_sets: 'orbit'"):
+        draw(torus, ["orbit"], range(1))

@@ -1,0 +1,53 @@
+import numpy as np
+import pytest
+import trimesh
+from shapes import Y_UP, box, prepared
+
+from neural_shadows.reports.figures.mesh_slice import slice_mesh, slice_rays
+
+RADIUS = 0.5
+
+
+@pytest.fixture(scope="module")
+def ball():
+    return slice_mesh(*prepared(trimesh.creation.icosphere(5, RADIUS)), Y_UP)
+
+
+def test_bounds_of_a_sphere_are_its_chords(ball):
+    rays = slice_rays(ball, 101)
+    inside = np.abs(rays.offset) < 0.98 * RADIUS
+    half = np.sqrt(RADIUS**2 - rays.offset[inside] ** 2)
+    middle = np.sqrt(1 - rays.offset[inside] ** 2)
+    np.testing.assert_allclose(rays.t_lb[inside], middle - half, atol=5e-3)
+    np.testing.assert_allclose(rays.t_ub[inside], middle + half, atol=5e-3)
+    beside = np.abs(rays.offset) > RADIUS
+    assert not rays.hit[beside].any()
+    assert rays.hit[inside].all()
+    np.testing.assert_allclose(rays.t_lb[beside], rays.chord[beside], atol=1e-5)
+    assert np.isinf(rays.t_ub[beside]).all()
+
+
+def test_rays_cross_the_unit_circle(ball):
+    rays = slice_rays(ball, 20)
+    np.testing.assert_allclose(np.linalg.norm(rays.origins, axis=1), 1)
+    np.testing.assert_allclose(np.linalg.norm(rays.at(rays.chord), axis=1), 1)
+    assert rays.direction @ [1, -1] > 0  # from the upper left
+    first_hits = rays.at(rays.t_lb)[rays.hit]
+    np.testing.assert_allclose(np.linalg.norm(first_hits, axis=1), RADIUS, atol=3e-3)
+
+
+def test_outline_of_a_sphere_is_a_circle(ball):
+    np.testing.assert_allclose(np.linalg.norm(ball.outline, axis=2), RADIUS, atol=3e-3)
+
+
+@pytest.mark.parametrize(("extents", "across"), [((1, 0.5, 0.2), 0), ((0.2, 0.5, 1), 2)])
+def test_slice_runs_along_the_greatest_horizontal_extent(extents, across):
+    cut = slice_mesh(*prepared(box(*extents)), Y_UP)
+    np.testing.assert_array_equal(cut.across, np.eye(3)[across])
+    np.testing.assert_allclose(np.abs(cut.outline[..., 0]).max(), 0.5)
+    np.testing.assert_allclose(np.abs(cut.outline[..., 1]).max(), 0.25)
+
+
+def test_plane_and_space_agree(ball):
+    points = np.random.default_rng(1).normal(size=(5, 2))
+    np.testing.assert_allclose(ball.to_plane(ball.to_space(points)), points)

@@ -1,0 +1,124 @@
+"""ONNX Runtime answers as PyTorch does, and the written conventions give the pipeline's shadow."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+import pytest
+import torch
+from sample_records import MESH
+from shapes import bumpy_sphere, looking, prepared, unit
+
+from neural_shadows.errors import InputError
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.rendering.gbuffer import primary_hits
+from neural_shadows.viewer.export_network import export_network
+
+GRID = {
+    "points": 3,
+    "grids": [5, 9],
+    "channels": 2,
+    "width": 16,
+    "hidden_layers": 1,
+    "head": "depth_confidence",
+    "stored": "float16",
+}
+FIELD = {"encoding": "occupancy_field", "resolution": 32, "stored": "int8"}
+KINDS = [
+    {"encoding": "frequency", "frequencies": 4, "width": 16, "hidden_layers": 2},
+    GRID | {"encoding": "ray_grid"},
+    GRID | {"encoding": "occupancy_ray_grid", "occupancy": 16},
+    GRID | {"encoding": "hash_grid", "occupancy": 16, "table_size": 64},
+    FIELD | {"surface": "solid"},
+    FIELD | {"surface": "sheet"},
+]
+
+
+@pytest.fixture
+def export(tmp_path):
+    shape = bumpy_sphere(4)
+    shape.export(tmp_path / "mesh.ply")
+    (tmp_path / "mesh.json").write_text(json.dumps(MESH))
+    (tmp_path / "biases.json").write_text(json.dumps({"net": {"depth_bias": 0.02}}))
+
+    def export(settings, biased=True):
+        network = make_network(settings)
+        if settings["encoding"] not in ("frequency", "ray_grid"):
+            network.prepare(tmp_path / "mesh.ply")
+        network.initialise(3)
+        if settings["encoding"] == "occupancy_field":
+            network.values.data.normal_(generator=torch.Generator().manual_seed(0))
+        if "head" in settings:
+            network.output.bias.data = torch.tensor([0.8, 1.0])  # shadow, behind the front
+        header = {"name": "net", "network": settings, "training": {"steps": 1}}
+        save_network(tmp_path / "weights.safetensors", network, header)
+        export_network(
+            tmp_path / "weights.safetensors",
+            tmp_path / "mesh.json",
+            tmp_path / "biases.json" if biased else None,
+            0.125,
+            tmp_path / "network.onnx",
+            tmp_path / "network.json",
+        )
+        return json.loads((tmp_path / "network.json").read_text())
+
+    return export
+
+
+@pytest.mark.parametrize("settings", KINDS, ids=lambda s: f"{s['encoding']}-{s.get('surface')}")
+def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
+    """The query as network.json words it, with ONNX Runtime, against `network_lit`."""
+    conventions = export(settings)
+    network, _ = load_network(tmp_path / "weights.safetensors")
+    session = onnxruntime.InferenceSession(tmp_path / "network.onnx")
+    mesh, tracer = prepared(bumpy_sphere(4))
+    points = primary_hits(mesh, tracer, looking((0, 1, 3), unit(1, 1, 0.3)), 90, 60, -1.0)
+    p, light = points.p.astype(np.float64), points.light
+
+    along = p @ light
+    across = p - along[:, None] * light
+    inside = (across**2).sum(axis=1) < 1
+    h = np.sqrt(np.maximum(1 - (across**2).sum(axis=1), 0))
+    s = h - along
+    asked = inside & (s > 0)
+    origins = (across + h[:, None] * light)[asked].astype(np.float32)
+    directions = np.tile(-light, (len(origins), 1)).astype(np.float32)
+    (t_pred,) = session.run(None, {"origins": origins, "directions": directions})
+    lit = np.ones(len(p), bool)
+    bias = conventions["query"]["depth_bias"]
+    lit[asked] = np.minimum(s[asked], 2 * h[asked]) <= t_pred + bias
+
+    tensors = on_device(points.p, light, network.device)
+    expected = network_lit(network, *tensors, dtype=torch.float32, depth_bias=bias).numpy()
+    assert 0 < (~expected).sum() < len(p)
+    assert (lit == expected).mean() > 0.995  # rounding turns points on the border
+    assert conventions["sphere"] == {
+        "centre": [1, 2, 3],
+        "radius": 4,
+        "units": "of the mesh's file",
+    }
+    assert conventions["network"] == settings
+    assert conventions["onnx"]["difference_from_pytorch"] < 1e-4
+    # It is given away: nothing in it is of this machine's folders.
+    content = (tmp_path / "network.onnx").read_bytes()
+    for folder in (Path(__file__).parents[3], Path(torch.__file__).parents[1], tmp_path):
+        assert str(folder).encode() not in content
+
+
+def test_any_number_of_rays(tmp_path, export):
+    assert export(KINDS[0], biased=False)["query"]["depth_bias"] == 0.125
+    session = onnxruntime.InferenceSession(tmp_path / "network.onnx")
+    for count in (1, 7, 3000):
+        rays = np.tile(np.array([[0, 0, 1]], np.float32), (count, 1))
+        (t,) = session.run(None, {"origins": rays, "directions": -rays})
+        assert t.shape == (count,) and t.dtype == np.float32
+
+
+def test_an_export_that_answers_otherwise_is_not_kept(tmp_path, export, monkeypatch):
+    monkeypatch.setattr("neural_shadows.viewer.export_network.largest_difference", lambda *_: 0.1)
+    with pytest.raises(InputError, match=r"network\.onnx: ONNX Runtime's depths differ"):
+        export(KINDS[0])
+    assert not (tmp_path / "network.onnx").exists() and not (tmp_path / "network.json").exists()

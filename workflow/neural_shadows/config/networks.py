@@ -1,0 +1,104 @@
+"""`networks`: what is trained, by encoding."""
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from neural_shadows.config.base import Model, _check_power_of_two
+
+
+class FrequencyNetwork(Model):
+    """The thesis's fully connected network [3.3, 4.1]."""
+
+    needs_mesh: ClassVar[bool] = False
+    encoding: Literal["frequency"] = Field("frequency", description="`frequency`, the default")
+    frequencies: int = Field(ge=0, le=30, description="L of the frequency encoding; 0 is identity")
+    width: int = Field(ge=8, le=4096, description="neurons per layer")
+    hidden_layers: int = Field(ge=1, le=64, description="width × width layers")
+
+
+Stored = Literal["float32", "float16", "int8"]
+
+
+class RayGrid(Model):
+    """Features of points along the ray, from dense 3-D grids, into a small network."""
+
+    needs_mesh: ClassVar[bool] = False
+    encoding: Literal["ray_grid"] = Field(description="`ray_grid`: points on the whole chord")
+    points: int = Field(8, ge=1, le=256, description="K, points along the ray")
+    grids: list[Annotated[int, Field(ge=2, le=512)]] = Field(
+        [16, 32, 60], min_length=1, description="vertices along an axis of each grid"
+    )
+    channels: int = Field(4, ge=1, le=64, description="trained features of a grid's vertex")
+    width: int = Field(64, ge=8, le=4096, description="neurons per layer")
+    hidden_layers: int = Field(3, ge=1, le=64, description="layers before the output")
+    head: Literal["depth", "depth_confidence"] = Field(
+        "depth_confidence", description="whether a second output tells hit from miss"
+    )
+    stored: Stored = Field("float16", description="how the weight file holds the weights")
+
+
+class OccupancyRayGrid(RayGrid):
+    """A ray grid whose points lie between the first and the last occupied cell on the ray."""
+
+    needs_mesh: ClassVar[bool] = True
+    encoding: Literal["occupancy_ray_grid"] = Field(
+        description="`occupancy_ray_grid`: points where the ray is near the surface"
+    )
+    occupancy: int = Field(64, ge=2, le=512, description="cells along an axis of the occupancy")
+
+
+class HashGrid(OccupancyRayGrid):
+    """An occupancy-clipped ray grid whose large grids are hash tables (Instant-NGP)."""
+
+    encoding: Literal["hash_grid"] = Field(description="`hash_grid`: multiresolution hash tables")
+    table_size: int = Field(
+        65536, ge=16, le=1 << 24, description="entries of a grid's hash table, a power of two"
+    )
+
+    @model_validator(mode="after")
+    def _check(self):
+        _check_power_of_two(self.table_size, "table_size")
+        return self
+
+
+class OccupancyField(Model):
+    """One trained logit at each grid vertex near the surface; a ray marches through them."""
+
+    needs_mesh: ClassVar[bool] = True
+    encoding: Literal["occupancy_field"] = Field(
+        description="`occupancy_field`: inside or outside, without a direction"
+    )
+    resolution: int = Field(256, ge=8, le=1024, description="cells along an axis, a multiple of 4")
+    surface: Literal["solid", "sheet"] = Field(
+        "solid", description="`solid`: the object has an inside; `sheet`: one open surface"
+    )
+    stored: Stored = Field("int8", description="how the weight file holds the logits")
+
+    @model_validator(mode="after")
+    def _check(self):
+        if self.resolution % 4:
+            raise ValueError(f"resolution = {self.resolution}: must be a multiple of 4")
+        return self
+
+
+ENCODINGS = ("frequency", "ray_grid", "occupancy_ray_grid", "hash_grid", "occupancy_field")
+
+
+def _encoding(value: Any) -> str | None:
+    name = value.get("encoding", "frequency") if isinstance(value, dict) else "frequency"
+    return name if name in ENCODINGS else None
+
+
+Network = Annotated[
+    Annotated[FrequencyNetwork, Tag("frequency")]
+    | Annotated[RayGrid, Tag("ray_grid")]
+    | Annotated[OccupancyRayGrid, Tag("occupancy_ray_grid")]
+    | Annotated[HashGrid, Tag("hash_grid")]
+    | Annotated[OccupancyField, Tag("occupancy_field")],
+    Discriminator(
+        _encoding,
+        custom_error_type="encoding",
+        custom_error_message=f"`encoding` should be one of {', '.join(ENCODINGS)}",
+    ),
+]

@@ -1,0 +1,119 @@
+"""Reading the configuration, and the mistakes that YAML lets pass."""
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import ValidationError
+
+from neural_shadows.config.messages import _describe
+from neural_shadows.config.scenes import MeshFile
+from neural_shadows.config.whole import Config
+from neural_shadows.errors import InputError
+
+
+def _without_nulls(scene: Any) -> Any:
+    """A scene whose `mesh` and `light` lack the keys that an overlay set to null to drop them."""
+    if not isinstance(scene, dict):
+        return scene
+    return scene | {
+        key: {name: value for name, value in scene[key].items() if value is not None}
+        for key in ("mesh", "light")
+        if isinstance(scene.get(key), dict)
+    }
+
+
+def _mesh_of_shorthand(value: str) -> dict[str, str]:
+    match value:
+        case "wyrm":
+            return {"generate": "wyrm"}
+        case "stanford":
+            return {"download": "stanford_dragon"}
+        case path:
+            return {"path": path}
+
+
+class _NoDuplicates(yaml.SafeLoader):
+    """Reads YAML, but refuses a key that is given twice, of which YAML keeps the last."""
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key, _ in node.value:
+            if str(key.value) in seen:
+                raise InputError(
+                    f"config: {key.start_mark.name}, line {key.start_mark.line + 1}: "
+                    f"{key.value!r} is there twice; give each name once"
+                )
+            seen.add(str(key.value))
+        return super().construct_mapping(node, deep)
+
+
+def check_duplicates(paths: Iterable[str | Path]) -> None:
+    """Check that no section of these config files gives a name twice.
+
+    Raises:
+        InputError: one does; one line with the file, the line and the name. Or a file is no
+            YAML, or has no sections.
+    """
+    for path in paths:
+        try:
+            with Path(path).open(encoding="utf-8") as file:
+                sections = yaml.load(file, _NoDuplicates)
+        except (OSError, ValueError, yaml.YAMLError, RecursionError) as error:
+            reason = " ".join(str(error).split())[:300]
+            raise InputError(f"config: {path}: cannot be read as YAML ({reason})") from error
+        if not isinstance(sections, dict):
+            raise InputError(f"config: {path}: holds no sections; write `section: ...` at its top")
+
+
+def read_config(values: dict[str, Any]) -> Config:
+    """Check a configuration as Snakemake merged it.
+
+    Args:
+        values: the merged config files and `--config` values.
+
+    Raises:
+        InputError: a key is unknown or missing, a value has the wrong type or range, or a
+            name refers to nothing; one line that names key, value and what is allowed.
+    """
+    values = dict(values)
+    scenes = values.get("scenes")
+    if isinstance(scenes, dict):
+        values["scenes"] = scenes = {name: _without_nulls(scene) for name, scene in scenes.items()}
+    shorthand = values.get("dragon")
+    if isinstance(shorthand, str) and shorthand:
+        if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):
+            raise InputError("config: dragon: there is no scene named `dragon` in `scenes`")
+        mesh = _mesh_of_shorthand(shorthand)
+        old = scenes["dragon"].get("mesh")
+        # `--config dragon=wyrm` over a scene that is a wyrm already keeps its resolution.
+        if not (isinstance(old, dict) and mesh.items() <= old.items()):
+            scenes["dragon"] = scenes["dragon"] | {"mesh": mesh}
+    try:
+        return Config.model_validate(values)
+    except ValidationError as error:
+        raise InputError(f"config: {_describe(error)}") from error
+
+
+def check_files(config: Config) -> None:
+    """Check that the files that a configuration names are there.
+
+    Snakemake does not, where an older result exists: it then takes that for up to date.
+
+    Raises:
+        InputError: a mesh file or LPIPS's trunk is missing; one line with its key.
+    """
+    named = {
+        f"scenes.{name}.mesh.path": scene.mesh.path
+        for name, scene in config.scenes.items()
+        if isinstance(scene.mesh, MeshFile)
+    }
+    if config.metrics.lpips.trunk is not None:
+        named["metrics.lpips.trunk"] = config.metrics.lpips.trunk
+    for key, path in named.items():
+        if not Path(path).is_file():
+            raise InputError(
+                f"config: {key} = {path!r}: no such file; "
+                "give a path from the working directory, or an absolute one"
+            )

@@ -1,0 +1,48 @@
+"""`samplings`: how training rays are drawn."""
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from neural_shadows.config.base import Model, _check_power_of_two
+
+
+class Sampling(Model):
+    """How training rays are drawn [3.4]."""
+
+    sampler: Literal["poisson_quadtree", "uniform_quadtree", "uniform"] = Field(
+        description="the sampling methods of table 4.1"
+    )
+    domain: Literal["sphere", "hemisphere", "light"] = Field(
+        "sphere",
+        description=(
+            "view directions: the whole sphere, those of light above the horizon, or of the "
+            "scene's light domain alone"
+        ),
+    )
+    directions: int = Field(ge=1, le=1_000_000, description="view directions")
+    points_per_direction: int = Field(
+        ge=1, le=10_000_000, description="m, rays per view direction [3.4.2]"
+    )
+    silhouette_resolution: int = Field(
+        128, ge=8, le=4096, description="texels along a silhouette's side, a power of two"
+    )
+    min_quad: int = Field(
+        1, ge=1, le=4096, description="side of the smallest quad in texels, a power of two"
+    )
+    shards: int = Field(2, ge=1, le=10_000, description="files (and jobs) the rays are split into")
+
+    @model_validator(mode="after")
+    def _check(self):
+        _check_power_of_two(self.silhouette_resolution, "silhouette_resolution")
+        _check_power_of_two(self.min_quad, "min_quad")
+        if self.min_quad > self.silhouette_resolution:
+            raise ValueError(
+                f"min_quad = {self.min_quad}: must not exceed silhouette_resolution "
+                f"({self.silhouette_resolution})"
+            )
+        if self.shards > self.directions:
+            raise ValueError(
+                f"shards = {self.shards}: must not exceed directions ({self.directions})"
+            )
+        return self

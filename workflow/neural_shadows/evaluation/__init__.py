@@ -1,0 +1,1 @@
+"""Every method on the same viewpoints: quality, time, memory, cost [4]."""

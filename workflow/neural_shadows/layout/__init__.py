@@ -1,0 +1,1 @@
+"""Where each result lies, and which part of the work each job does."""

@@ -1,0 +1,1 @@
+"""Networks of one object: a ray on its sphere to the depth of its shadow."""

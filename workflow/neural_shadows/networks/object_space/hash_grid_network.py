@@ -1,0 +1,51 @@
+"""Ray grid over multiresolution hash tables (Müller et al. 2022, Instant-NGP)."""
+
+from typing import Any
+
+from torch import Tensor
+
+from neural_shadows.networks.object_space.occupancy_ray_grid_network import OccupancyRayGridNetwork
+from neural_shadows.networks.object_space.ray_grid_network import FeatureGrid
+
+# Of Instant-NGP's hash of a vertex.
+PRIMES = (1, 2654435761, 805459861)
+
+
+class HashedGrid(FeatureGrid):
+    """A feature grid whose vertices share the entries of a table; dense if all fit into it.
+
+    Args:
+        table_size: entries, a power of two.
+    """
+
+    def __init__(self, resolution: int, channels: int, table_size: int):
+        self.table_size = table_size
+        super().__init__(resolution, channels)
+
+    def size(self) -> int:
+        """See `FeatureGrid.size`."""
+        return min(super().size(), self.table_size)
+
+    def index(self, vertices: Tensor) -> Tensor:
+        """See `FeatureGrid.index`."""
+        if super().size() <= self.table_size:
+            return super().index(vertices)
+        x, y, z = (vertices * vertices.new_tensor(PRIMES)).unbind(-1)
+        return (x ^ y ^ z) & (self.table_size - 1)
+
+
+class HashGridNetwork(OccupancyRayGridNetwork):
+    """t_pred(o, d) from hashed features of points on the occupied part of the ray.
+
+    Args:
+        table_size: entries of each grid's hash table, a power of two.
+        settings: of the occupancy-clipped ray grid.
+    """
+
+    def __init__(self, *, table_size: int, **settings: Any):
+        self.table_size = table_size
+        super().__init__(**settings)
+
+    def feature_grid(self, resolution: int, channels: int) -> HashedGrid:
+        """See `RayGridNetwork.feature_grid`."""
+        return HashedGrid(resolution, channels, self.table_size)

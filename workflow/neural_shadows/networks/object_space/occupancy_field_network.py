@@ -1,0 +1,272 @@
+"""Occupancy field: one trained logit at each grid vertex near the surface; positive is inside.
+
+A network of one layer, trilinear interpolation, and no direction: where the surface is does not
+depend on the ray. The cube [−1, 1]³ is divided into bricks of 4³ cells. Only bricks that the
+surface touches hold values; the others are empty, or enclosed and so in shadow. t_pred is the
+first sample on the ray with a positive logit, or on an open sheet, which has no inside, the
+first change of sign. (Around the border of a sheet its shadow then reaches to its bricks' end,
+where the signs of both sides meet.) The field is trained on points of the labelled rays by
+cross-entropy: points before the first hit are outside, those between the two hits inside.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+from neural_shadows.networks.object_space.field_marching import (
+    BRICK,
+    BRICK_VERTICES,
+    SOLID,
+    first_crossings,
+    skips,
+)
+from neural_shadows.networks.object_space.occupancy import enclosed_cells, surface_cells
+from neural_shadows.networks.object_space.shadow_network import (
+    LIT,
+    LabelledBatch,
+    ShadowNetwork,
+    chords,
+    hits,
+)
+from neural_shadows.networks.quantisation import pack_bits, quantise, restore_values, unpack_bits
+from neural_shadows.scenes.tracing import Tracer
+
+# Logits end here: smoothly, so that int8 holds them. At 8 the surface blurs (−1.1 dB at 128³),
+# and without an end int8's steps are too coarse (−3 dB).
+LIMIT = 16.0
+
+# Points drawn on each ray in training: half close to its first hit, half anywhere before and
+# between the hits. Those in bricks without values are dropped.
+POINTS_PER_RAY = 8
+NEAR = 0.7  # of the close points' distances, in cells: a normal times an exponential variable
+SHEET_REACH = 4.0  # cells around a sheet's hit that its points lie in; farther is another surface
+
+# Of a ray along an axis. With four, the Stanford dragon at 256³ came out no better (40.2 and
+# 40.3 dB), and each sample is a look-up.
+SAMPLES_PER_CELL = 2
+
+
+class Layout(NamedTuple):
+    """Where the values of a set of bricks are."""
+
+    grid: np.ndarray  # (B, B, B) int32: the brick's number, −distance if empty, or SOLID
+    table: np.ndarray  # (bricks, 125) int32, into the values
+    count: int  # of values: the vertices of all bricks, shared ones once
+
+
+def lay_out(surface: np.ndarray, solid: bool) -> Layout:
+    """Number the bricks (B, B, B) bool that hold values, and their vertices."""
+    size = len(surface)
+    grid = -skips(surface)
+    grid[surface] = np.arange(surface.sum())
+    if solid:
+        grid[enclosed_cells(surface)] = SOLID
+    corner = BRICK * np.argwhere(surface)
+    offsets = np.stack(np.unravel_index(np.arange(BRICK_VERTICES), (BRICK + 1,) * 3), axis=1)
+    places = (corner[:, None] + offsets).reshape(-1, 3).T
+    # A vertex's place in the whole grid is its name, in int64: 1025³ is past int32's end.
+    names = np.ravel_multi_index(tuple(places), (BRICK * size + 1,) * 3)
+    used, table = np.unique(names, return_inverse=True)
+    return Layout(grid, table.reshape(-1, BRICK_VERTICES).astype(np.int32), len(used))
+
+
+class OccupancyFieldNetwork(ShadowNetwork):
+    """t_pred(o, d) by marching through a field of logits.
+
+    Args:
+        resolution: cells along an axis, a multiple of 4.
+        surface: `solid`, an object with an inside; or `sheet`, an open surface, on which the
+            sign tells the side that its faces turn to.
+        stored: how values are written: `float32`, `float16` or `int8`.
+    """
+
+    # Gradients of all values are added for each chunk: few, large ones.
+    training_chunk = 1 << 15
+    # The torch form looks at all samples of all rays at once.
+    query_chunks = {"cpu": 256, "cuda": 1 << 14}
+
+    def __init__(self, *, resolution: int, surface: str, stored: str):
+        super().__init__()
+        if surface not in ("solid", "sheet"):
+            raise ValueError(f"surface {surface!r}")
+        self.resolution, self.surface, self.precision = resolution, surface, stored
+        corners = torch.cartesian_prod(*[torch.arange(2)] * 3)
+        offsets = torch.tensor([(BRICK + 1) ** 2, BRICK + 1, 1])
+        self.register_buffer("corners", corners, persistent=False)
+        self.register_buffer("offsets", offsets, persistent=False)
+        # One brick's place, until `prepare` or `restore` knows better: a file may say any resolution.
+        self._use(lay_out(np.zeros((1, 1, 1), bool), solid=False))
+
+    def _use(self, layout: Layout) -> None:
+        self.register_buffer("grid", torch.from_numpy(layout.grid.reshape(-1)), persistent=False)
+        self.register_buffer("table", torch.from_numpy(layout.table.reshape(-1)), persistent=False)
+        self.values = nn.Parameter(torch.zeros(layout.count))
+        self._bricks: tuple[int, np.ndarray] | None = None
+
+    def prepare(self, mesh_ply: Path) -> None:
+        """Lay out the bricks that the surface touches."""
+        mesh = read_prepared(mesh_ply)
+        surface = surface_cells(mesh.vertices, mesh.faces, self.resolution // BRICK)
+        self._use(lay_out(surface, self.surface == "solid"))
+        if self.surface == "sheet":
+            self._tracer = Tracer(mesh.vertices, mesh.faces)
+            self._face_normals = mesh.face_normals
+
+    def initialise(self, seed: int) -> None:
+        """Undecided everywhere: logits of next to zero."""
+        generator = torch.Generator().manual_seed(seed)
+        with torch.no_grad():
+            self.values.uniform_(-0.01, 0.01, generator=generator)
+
+    def logits(self) -> Tensor:
+        """The logits at all vertices, (count,) float32, in (−LIMIT, LIMIT)."""
+        return LIMIT * torch.tanh(self.values / LIMIT)
+
+    def bricks_at(self, p: Tensor) -> Tensor:
+        """The `grid` entry (n,) int64 of the brick that each point (n, 3) is in."""
+        size = self.resolution // BRICK
+        x, y, z = ((p + 1) * (size / 2)).long().clamp(0, size - 1).unbind(-1)
+        return self.grid[(x * size + y) * size + z].long()
+
+    def logits_at(self, p: Tensor, bricks: Tensor, logits: Tensor) -> Tensor:
+        """Interpolated logits (n,) at points (n, 3) in these bricks (n,), none of them empty."""
+        size = self.resolution // BRICK
+        u = ((p + 1) * (size / 2)).clamp(0, size)
+        u = (u - u.long().clamp(max=size - 1)) * BRICK
+        cell = u.long().clamp(max=BRICK - 1)
+        w = u - cell
+        index = bricks * BRICK_VERTICES + (cell * self.offsets).sum(-1)
+        index = index[:, None] + (self.corners * self.offsets).sum(-1)
+        values = logits.index_select(0, self.table.index_select(0, index.flatten()))
+        values = values.unflatten(0, (-1, 2, 2, 2))
+        for axis in range(3):
+            part = w[:, axis].view(-1, *[1] * (2 - axis))
+            values = values[:, 0] * (1 - part) + values[:, 1] * part
+        return values
+
+    def losses(
+        self,
+        batch: LabelledBatch,
+        dead_zone: DeadZone,
+        dtype: torch.dtype,
+        generator: torch.Generator | None,
+    ) -> tuple[Tensor, Tensor]:
+        """Cross-entropy of points on the rays; there is no depth for the dead zone to judge."""
+        origins, directions, t_lb, t_ub = batch
+        chord, hit = chords(origins, directions), hits(batch)
+        cell = 2 / self.resolution
+        half = POINTS_PER_RAY // 2
+        shape = (len(origins), half)
+        uniform = torch.rand(
+            len(origins), POINTS_PER_RAY, generator=generator, device=origins.device
+        )
+        normal = torch.randn(shape, generator=generator, device=origins.device)
+        spread = -torch.log1p(-torch.rand(shape, generator=generator, device=origins.device))
+        low = torch.zeros_like(chord)
+        high = torch.minimum(t_ub, chord)
+        if self.surface == "sheet":
+            # Far from the hit, a sheet's own side says nothing of other parts of it.
+            low = torch.where(hit, t_lb - SHEET_REACH * cell, low).clamp(min=0)
+            high = torch.where(hit, torch.minimum(high, t_lb + SHEET_REACH * cell), low)
+        t = low[:, None] + uniform * (high - low)[:, None]
+        near = t_lb[:, None] + NEAR * cell * normal * spread
+        t[:, :half] = torch.where(hit[:, None], near, t[:, :half])
+
+        inside = (t > t_lb[:, None]) & hit[:, None]
+        if self.surface == "sheet":
+            inside = inside ^ self._meets_back(origins, directions)[:, None]
+        p = origins[:, None] + t[:, :, None] * directions[:, None]
+        bricks = self.bricks_at(p)
+        kept = (t > low[:, None]) & (t < high[:, None]) & (bricks >= 0)
+        logits = self.logits_at(p[kept], bricks[kept], self.logits())
+        loss = nn.functional.binary_cross_entropy_with_logits(
+            logits, inside[kept].float(), reduction="none"
+        )
+        return loss, logits
+
+    def _meets_back(self, origins: Tensor, directions: Tensor) -> Tensor:
+        """Whether each ray's first hit is on the side that the faces turn away from, (n,) bool."""
+        d = directions.cpu().numpy()
+        _, face = self._tracer.first_hit(origins.cpu().numpy(), d)
+        normals = self._face_normals[np.maximum(face, 0)]
+        back = (np.einsum("ij,ij->i", normals, d) > 0) & (face >= 0)
+        return torch.from_numpy(back).to(origins.device)
+
+    def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
+        """See `ShadowNetwork.forward`; `LIT` for rays without a crossing.
+
+        All samples of all rays at once: for a GPU and for export. On a CPU `depths` answers the
+        same, and skips what is empty.
+        """
+        steps = SAMPLES_PER_CELL * self.resolution
+        step = 2 / steps
+        t = (torch.arange(steps, device=origins.device) + 0.5) * step
+        chord = chords(origins, directions)
+        p = (origins[:, None] + t[:, None] * directions[:, None]).flatten(0, 1)
+        bricks = self.bricks_at(p)
+        value = self.logits_at(p, bricks.clamp(min=0), self.logits()).view(-1, steps)
+        bricks = bricks.view(-1, steps)
+        before = torch.cat([value[:, :1], value[:, :-1]], dim=1)
+        follows = (bricks[:, 1:] >= 0) & (bricks[:, :-1] >= 0)
+        follows = torch.cat([torch.zeros_like(follows[:, :1]), follows], dim=1)
+        if self.surface == "sheet":
+            crossing = follows & ((value > 0) != (before > 0))
+        else:
+            crossing = (bricks == SOLID) | ((bricks >= 0) & (value > 0))
+        crossing = crossing & (t < chord[:, None])
+        first = crossing.to(torch.uint8).argmax(1, keepdim=True)
+        value, before = value.gather(1, first), before.gather(1, first)
+        # Where the sample before is in a brick too, the crossing lies between the two.
+        back = torch.where(follows.gather(1, first), value / (value - before), 0)
+        depth = (t[first] - step * back).squeeze(1)
+        return torch.where(crossing.any(1), depth, LIT)
+
+    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
+        """See `ShadowNetwork.depths`."""
+        if self.device.type != "cpu":
+            return super().depths(origins, d, dtype)
+        size = self.resolution // BRICK
+        t_pred = first_crossings(
+            origins.numpy(),
+            d.numpy(),
+            self.grid.view(size, size, size).numpy(),
+            self._brick_values(),
+            SAMPLES_PER_CELL * self.resolution,
+            self.surface == "sheet",
+        )
+        return torch.from_numpy(t_pred)
+
+    def _brick_values(self) -> np.ndarray:
+        """The values of each brick, (bricks, 125), in int8 if they are stored so, on any scale.
+
+        Kept until the weights change: an evaluation asks for them in each of its frames.
+        """
+        if self._bricks is None or self._bricks[0] != self.values._version:
+            precision = "int8" if self.precision == "int8" else "float32"
+            values = quantise({"": self._shares()}, precision)[""][self.table.long()]
+            self._bricks = self.values._version, values.view(-1, BRICK_VERTICES).numpy()
+        return self._bricks[1]
+
+    def _shares(self) -> Tensor:
+        """Logits as shares of LIMIT, which is how they are stored."""
+        return (self.logits() / LIMIT).detach()
+
+    def stored(self) -> dict[str, Tensor]:
+        """Values in the chosen precision, and a bit for each brick that has some."""
+        values = quantise({"values": self._shares()}, self.precision)
+        return values | {"bricks": pack_bits(self.grid >= 0)}
+
+    def restore(self, tensors: dict[str, Tensor]) -> None:
+        """See `ShadowNetwork.restore`."""
+        tensors = dict(tensors)
+        size = self.resolution // BRICK
+        surface = unpack_bits(tensors.pop("bricks"), size**3).view(size, size, size).numpy()
+        self._use(lay_out(surface, self.surface == "solid"))
+        values = restore_values(tensors, self.precision)["values"]
+        # Inside the limit, or its inverse would be infinite.
+        self.load_state_dict({"values": LIMIT * values.clamp(-0.99999, 0.99999).atanh()})

@@ -1,0 +1,135 @@
+"""What every shadow network can do, whatever it is made of [3.1, 3.3]."""
+
+from abc import ABC, abstractmethod
+from pathlib import Path
+from typing import ClassVar, NamedTuple
+
+import torch
+from torch import Tensor, nn
+
+from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+
+# Rays per forward pass: on a CPU one layer's activations of 256 × bfloat16 are then 2 MiB and
+# stay in the cache; on a GPU a whole frame goes at once.
+QUERY_CHUNKS = {"cpu": 4096, "cuda": 1 << 20}
+
+# Rays per forward and backward pass on a CPU, at most: at 256 wide one layer's activations are
+# then 1 MiB and stay in a core's cache.
+TRAINING_CHUNK = 2048
+
+
+class LabelledBatch(NamedTuple):
+    """Rays with their labels, all float32 and on one device, in normalised space."""
+
+    origins: Tensor  # (n, 3), on the unit sphere
+    directions: Tensor  # (n, 3), unit, pointing inward
+    t_lb: Tensor  # (n,)
+    t_ub: Tensor  # (n,), may be ∞
+
+
+# t_pred of a ray without shadow: a diameter, which no point's min(s, ℓ) exceeds. Not ℓ itself:
+# found from o and d it differs from the point's own ℓ by a rounding, and without a depth bias a
+# tenth of the points behind a ray that misses were in shadow.
+LIT = 2.0
+
+
+def chords(origins: Tensor, directions: Tensor) -> Tensor:
+    """ℓ = −2 o·d of each ray, the length of its chord of the unit sphere: (n,)."""
+    return -2 * (origins * directions).sum(1)
+
+
+def hits(batch: LabelledBatch) -> Tensor:
+    """Which rays meet the object, (n,) bool: of a miss t_lb is ℓ itself, up to rounding."""
+    return batch.t_lb < chords(batch.origins, batch.directions) - 1e-5
+
+
+class ShadowNetwork(nn.Module, ABC):
+    """A function t_pred(o, d) with trained weights: behind that depth, all is in shadow.
+
+    A kind of network is a subclass in a module of its own, named for the config's `encoding`
+    (see `network_kinds`), and its arguments a model in `config.py`.
+    """
+
+    training_chunk: ClassVar[int] = TRAINING_CHUNK
+    query_chunks: ClassVar[dict[str, int]] = QUERY_CHUNKS
+    # Whether the losses have the same shapes whatever the batch, draw nothing, and read nothing
+    # back from a GPU, so that a GPU can record a training step and repeat it.
+    recordable: ClassVar[bool] = False
+
+    def prepare(self, mesh_ply: Path) -> None:
+        """Lay out what depends on the object and is not trained; called before training.
+
+        Args:
+            mesh_ply: the prepared mesh.
+
+        Raises:
+            InputError: the file is not whole.
+        """
+        raise NotImplementedError(f"{type(self).__name__} needs no mesh")
+
+    @abstractmethod
+    def initialise(self, seed: int) -> None:
+        """Set the weights that a training starts from."""
+
+    @abstractmethod
+    def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
+        """Predicted shadow depth t_pred, (n,) float32, in units of the sphere's radius.
+
+        Args:
+            origins: (n, 3) float32, on the unit sphere.
+            directions: (n, 3) float32, unit, pointing inward.
+            dtype: of the matrix products, float32 or bfloat16.
+        """
+
+    def losses(
+        self,
+        batch: LabelledBatch,
+        dead_zone: DeadZone,
+        dtype: torch.dtype,
+        generator: torch.Generator | None,
+    ) -> tuple[Tensor, Tensor]:
+        """Losses whose sum is the batch's, and outputs that differ as long as the network lives.
+
+        Here a loss for each ray (n,); a kind may leave out rays that need no network, or judge
+        points on them.
+
+        Args:
+            dead_zone: the loss of a depth.
+            generator: for a loss that draws points, on the batch's device; None for a
+                `recordable` network.
+        """
+        t = self(batch.origins, batch.directions, dtype)
+        return dead_zone(t, batch.t_lb, batch.t_ub), t
+
+    @property
+    def device(self) -> torch.device:
+        """Where its weights are."""
+        return next(self.parameters()).device
+
+    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
+        """t_pred of parallel rays: (k,) float32.
+
+        Args:
+            origins: (k, 3) float32 entry points on the unit sphere, on this device.
+            d: (3,) float32, unit, there too.
+            dtype: of the matrix products, float32 or bfloat16.
+        """
+        with torch.inference_mode():
+            chunks = origins.split(self.query_chunks[self.device.type])
+            return torch.cat([self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks])
+
+    def parameter_count(self) -> int:
+        """Number of trained weights: 556,800 for the thesis's network at width 256 [4.4.2]."""
+        return sum(weight.numel() for weight in self.parameters())
+
+    def stored(self) -> dict[str, Tensor]:
+        """The tensors of a weight file; a network made from them answers as the file will."""
+        return dict(self.state_dict())
+
+    def restore(self, tensors: dict[str, Tensor]) -> None:
+        """Take the tensors that `stored` gave.
+
+        Raises:
+            RuntimeError, KeyError, ValueError: they are not of this network.
+        """
+        self.load_state_dict(tensors)

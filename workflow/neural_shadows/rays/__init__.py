@@ -1,0 +1,1 @@
+"""Training rays: directions, silhouettes, quadtrees, points, labels; ray sets on disk [3.4]."""

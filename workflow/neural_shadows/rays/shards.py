@@ -1,0 +1,57 @@
+"""The stages rays and labels, and the description of the ray set that they leave [3.4]."""
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.errors import InputError
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.running.progress import progress_bar
+from neural_shadows.scenes.tracing import Tracer
+
+# Rays that one task of a thread traces at least: below that, starting the task shows.
+_TASK_RAYS = 8192
+
+
+def _run_tasks(
+    task: Callable[[int, int], None], directions: int, points: int, threads: int, title: str
+) -> None:
+    """Run task(begin, end) over consecutive ranges of directions in threads, with a bar.
+
+    Embree and the numba kernels release the interpreter's lock, so that threads scale.
+    """
+    step = -(-_TASK_RAYS // points)
+    begins = range(0, directions, step)
+    ends = [min(begin + step, directions) for begin in begins]
+    with (
+        progress_bar(directions * points, "samples", title) as bar,
+        ThreadPoolExecutor(threads) as pool,
+    ):
+        for begin, end, _ in zip(begins, ends, pool.map(task, begins, ends), strict=True):
+            bar.update((end - begin) * points)
+
+
+def _tracer(mesh_ply: str | Path) -> Tracer:
+    mesh = read_prepared(mesh_ply)
+    return Tracer(mesh.vertices, mesh.faces)
+
+
+def _new_array(path: Path, shape: tuple[int, ...]) -> np.memmap:
+    """A new float32 `.npy` file, memory-mapped for writing: it may be larger than memory."""
+    array = np.lib.format.open_memmap(path, mode="w+", dtype=np.float32, shape=shape)
+    if hasattr(os, "posix_fallocate"):
+        # A full disk is an error here; found when a page is written, it kills the process.
+        with path.open("rb+") as file:
+            os.posix_fallocate(file.fileno(), 0, path.stat().st_size)
+    return array
+
+
+def _check_range(first: int, last: int, directions: int, directions_npy: str | Path) -> None:
+    if not 0 <= first < last <= directions:
+        raise InputError(
+            f"first, last: {first} to {last} is no range of the {directions} directions in "
+            f"{directions_npy}; give 0 <= first < last <= {directions}"
+        )

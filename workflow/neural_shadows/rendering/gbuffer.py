@@ -1,0 +1,137 @@
+"""What a camera sees, where it must ask for shadow, and the grey picture made of the answers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from neural_shadows.meshes.prepared_mesh import PreparedMesh
+from neural_shadows.scenes.cameras import Viewpoint, camera_axes
+from neural_shadows.scenes.tracing import Tracer
+
+# Every method shades p + SHADING_OFFSET n_g (normalised space): some 10,000 roundings of a
+# float32 there, so that no ray meets the triangle it starts from, and 1/2000 of the object.
+SHADING_OFFSET = 1e-3
+# The ground is a disc round the object's foot, wide enough to be the horizon of most frames.
+GROUND_RADIUS = 20.0
+
+
+@dataclass(frozen=True, eq=False)
+class ShadingPoints:
+    """A frame's surface points, and those m of its n that face the light.
+
+    Points with n_g·l ≤ 0 are dark whatever the method, so that only the m others are
+    queried: a method maps their `p` to `lit` (m,) bool.
+    """
+
+    width: int
+    height: int
+    light: np.ndarray  # (3,) float64, unit vector towards the light
+    pixel: np.ndarray  # (n,) int64, row · width + column of each pixel that shows a surface
+    is_object: np.ndarray  # (n,) bool, the object (True) or the ground
+    facing: np.ndarray  # (m,) int64, indices into the n points
+    p: np.ndarray  # (m, 3) float32, already moved by SHADING_OFFSET n_g
+    cos_theta: np.ndarray  # (m,) float32, n_g·l > 0 of the geometric normal on the camera's side
+    cosine: np.ndarray  # (m,) float32, max(0, n·l) of the interpolated normal n
+
+
+def ground_height(mesh: PreparedMesh, up: np.ndarray) -> float:
+    """Height along `up` of the ground plane: the object's lowest vertex."""
+    return float((mesh.vertices @ np.asarray(up, np.float32)).min())
+
+
+def _pixel_directions(view: Viewpoint, width: int, height: int) -> np.ndarray:
+    """Rays through the pixel centres, rows from the top: (height · width, 3) float32, not unit."""
+    right, upward, forward = camera_axes(view.eye, view.target, view.up)
+    half = np.tan(np.radians(view.fov) / 2)
+    x = (2 * (np.arange(width) + 0.5) / width - 1) * half * width / height
+    y = (1 - 2 * (np.arange(height) + 0.5) / height) * half
+    directions = np.empty((height, width, 3), np.float32)
+    for k in range(3):  # by component: a broadcast over a last axis of 3 is several times slower
+        column = (forward[k] + y * upward[k]).astype(np.float32)
+        np.add(column[:, None], (x * right[k]).astype(np.float32), out=directions[..., k])
+    return directions.reshape(-1, 3)
+
+
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.einsum("ij,ij->i", a, b)
+
+
+def primary_hits(
+    mesh: PreparedMesh,
+    tracer: Tracer,
+    view: Viewpoint,
+    width: int,
+    height: int,
+    ground: float | None,
+) -> ShadingPoints:
+    """Trace one ray through each pixel centre and prepare its surface points for shading.
+
+    Args:
+        ground: height of the ground plane along `view.up`; None for a scene without one.
+            The eye must be above it and the object on it, so that a ray meets the object
+            first.
+    """
+    light = view.light.astype(np.float32)
+    directions = _pixel_directions(view, width, height)
+    eye = view.eye.astype(np.float32)
+    hit, face, u, v = tracer.first_hit_barycentric(np.tile(eye, (len(directions), 1)), directions)
+
+    # np.take throughout: on rows of three it is ten times as fast as an index in brackets.
+    pixel = np.flatnonzero(hit)
+    count = len(pixel)
+    face, u, v = face[pixel], u[pixel], v[pixel]
+    n_g = np.take(mesh.face_normals, face, axis=0)
+    # Both normals are turned by the geometric one: the far side of an open sheet is shaded too.
+    side = -np.sign(_dot(n_g, np.take(directions, pixel, axis=0)))
+    cos_theta = side * (n_g @ light)
+    facing = np.flatnonzero(cos_theta > 0)
+    side, cos_theta, u, v = side[facing], cos_theta[facing], u[facing], v[facing]
+    corners = np.take(mesh.faces, face[facing], axis=0).T
+    # From the triangle and not from t, whose rounding grows with the distance of the eye.
+    p = _interpolate(mesh.vertices, corners, u, v)
+    p += (np.float32(SHADING_OFFSET) * side)[:, None] * np.take(n_g, facing, axis=0)
+    n = _interpolate(mesh.vertex_normals, corners, u, v)
+    cosine = side * (n @ light) / np.maximum(np.sqrt(_dot(n, n)), np.float32(1e-12))
+
+    if ground is not None:
+        below, p_ground = _ground_hits(view, directions.reshape(height, width, 3), hit, ground)
+        facing = np.concatenate([facing, np.arange(count, count + len(below))])
+        pixel = np.concatenate([pixel, below])
+        p_ground += np.float32(SHADING_OFFSET) * view.up.astype(np.float32)
+        p = np.concatenate([p, p_ground])
+        cos_ground = np.full(len(below), view.up @ view.light, np.float32)
+        cos_theta = np.concatenate([cos_theta, cos_ground])
+        cosine = np.concatenate([cosine, cos_ground])
+    return ShadingPoints(
+        width=width,
+        height=height,
+        light=view.light,
+        pixel=pixel,
+        is_object=np.arange(len(pixel)) < count,
+        facing=facing,
+        p=p,
+        cos_theta=cos_theta,
+        cosine=np.maximum(cosine, 0),
+    )
+
+
+def _interpolate(values: np.ndarray, corners: np.ndarray, u: np.ndarray, v: np.ndarray):
+    """Values (V, 3) at weights u, v of the second and third of `corners` (3, n): (n, 3)."""
+    result = (1 - u - v)[:, None] * np.take(values, corners[0], axis=0)
+    result += u[:, None] * np.take(values, corners[1], axis=0)
+    result += v[:, None] * np.take(values, corners[2], axis=0)
+    return result
+
+
+def _ground_hits(view: Viewpoint, directions: np.ndarray, hit: np.ndarray, ground: float):
+    """Pixels (g,) whose rays pass the object and meet the ground's disc, and where: (g, 3)."""
+    # The camera has no roll, so that all rays of a row descend alike.
+    slope = directions[:, 0] @ view.up.astype(np.float32)
+    t = np.float32(ground - view.eye @ view.up) / np.minimum(slope, np.float32(-1e-30))
+    width = directions.shape[1]
+    pixel = np.flatnonzero(np.repeat(slope < 0, width) & ~hit)
+    p = np.take(directions.reshape(-1, 3), pixel, axis=0)
+    p *= np.take(t, pixel // width)[:, None]
+    p += view.eye.astype(np.float32)
+    inside = np.flatnonzero(_dot(p, p) < GROUND_RADIUS**2 + ground**2)
+    return pixel[inside], np.take(p, inside, axis=0)

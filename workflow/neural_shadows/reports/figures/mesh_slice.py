@@ -1,0 +1,78 @@
+"""A slice through an object, and one light's rays in the slice's plane."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import trimesh
+
+from neural_shadows.meshes.prepared_mesh import PreparedMesh
+from neural_shadows.rays.labels import check_bounds, dual_bounds
+from neural_shadows.scenes.tracing import Tracer
+
+LIGHT_ELEVATION = 50.0  # degrees in the plane: shadows as long as the object is high
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSlice:
+    """The upright plane through the origin along the object's greatest horizontal extent."""
+
+    across: np.ndarray  # (3,) unit vector, drawn to the right
+    up: np.ndarray  # (3,) unit vector, drawn upwards
+    outline: np.ndarray  # (k, 2, 2) float64, the mesh's segments in the plane, (x, y)
+    direction: np.ndarray  # (3,) d = −l, down to the right
+    tracer: Tracer
+
+    def to_space(self, points: np.ndarray) -> np.ndarray:
+        """Points of the plane (n, 2) in normalised space: (n, 3)."""
+        return points @ np.stack([self.across, self.up])
+
+    def to_plane(self, points: np.ndarray) -> np.ndarray:
+        """Coordinates (n, 2) of points (n, 3) of the plane."""
+        return points @ np.stack([self.across, self.up], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class SliceRays:
+    """Parallel rays through a slice, from the unit circle, with the bounds of their labels."""
+
+    offset: np.ndarray  # (n,) across the rays
+    origins: np.ndarray  # (n, 2) entry points o in the plane
+    direction: np.ndarray  # (2,) d in the plane
+    chord: np.ndarray  # (n,) ℓ
+    t_lb: np.ndarray  # (n,)
+    t_ub: np.ndarray  # (n,), ∞ without a second hit
+
+    @property
+    def hit(self) -> np.ndarray:
+        """Whether each ray meets the object, (n,) bool."""
+        return self.t_lb < self.chord - 1e-6
+
+    def at(self, t: np.ndarray) -> np.ndarray:
+        """Points o + t d of the plane, (n, 2)."""
+        return self.origins + np.asarray(t)[:, None] * self.direction
+
+
+def slice_mesh(mesh: PreparedMesh, tracer: Tracer, up: np.ndarray) -> MeshSlice:
+    """Cut a mesh by the upright plane along its greatest horizontal extent."""
+    horizontal = [axis for axis in np.eye(3) if axis @ up == 0]
+    across = max(horizontal, key=lambda axis: np.ptp(mesh.vertices @ axis))
+    shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    segments = trimesh.intersections.mesh_plane(shape, np.cross(across, up), np.zeros(3))
+    elevation = np.radians(LIGHT_ELEVATION)
+    direction = np.cos(elevation) * across - np.sin(elevation) * up
+    basis = np.stack([across, up], axis=1)
+    outline = np.asarray(segments).reshape(-1, 2, 3) @ basis
+    return MeshSlice(across, up, outline, direction, tracer)
+
+
+def slice_rays(cut: MeshSlice, count: int) -> SliceRays:
+    """`count` parallel rays of the slice's light, evenly spaced across it, labelled."""
+    offset = (2 * np.arange(count) + 1) / count - 1
+    # A little inside the circle, as training rays are: no tangents.
+    offset *= 0.995
+    d = cut.to_plane(cut.direction[None])[0]
+    origins = offset[:, None] * np.array([-d[1], d[0]]) - np.sqrt(1 - offset**2)[:, None] * d
+    o, along = cut.to_space(origins).astype(np.float32), cut.direction.astype(np.float32)
+    t_lb, t_ub = dual_bounds(cut.tracer, o, along)
+    check_bounds(along[None], o[None], np.stack([t_lb, t_ub], axis=1)[None], name="slice")
+    return SliceRays(offset, origins, d, 2 * np.sqrt(1 - offset**2), t_lb, t_ub)

@@ -1,0 +1,41 @@
+"""Which modules of the package a script's result depends on."""
+
+import ast
+from functools import cache
+from pathlib import Path
+
+PACKAGE = Path(__file__).parents[1]
+
+# What every script does around its one call: the log, its record, the message of an error. No
+# result depends on it, and an edit of a log's wording must not train a network.
+_AROUND = PACKAGE / "running" / "jobs.py"
+
+
+@cache
+def _imported(source: Path) -> frozenset[Path]:
+    """Modules of this package that a file imports, at its top or inside a function."""
+    names = set()
+    for node in ast.walk(ast.parse(source.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+    parts = [name.split(".")[1:] for name in names if name.startswith(f"{PACKAGE.name}.")]
+    paths = {PACKAGE.joinpath(*part).with_suffix(".py") for part in parts}
+    return frozenset(path for path in paths if path.is_file())
+
+
+def modules_of(script: Path) -> list[Path]:
+    """The package's modules that `script` imports, directly or through others, sorted.
+
+    Snakemake tracks a script but not what it imports. With these files as a rule's input an
+    edited module reruns the rules whose results depend on it, and no others. `jobs.py` is not
+    among them, nor what it alone imports.
+    """
+    found: set[Path] = set()
+    queue = [script]
+    while queue:
+        new = _imported(queue.pop()) - found - {_AROUND}
+        found |= new
+        queue += new
+    return sorted(found)

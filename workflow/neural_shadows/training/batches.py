@@ -1,0 +1,106 @@
+"""Where training's samples come from: a ray set on disk, or laid out on the GPU."""
+
+from typing import Protocol
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from neural_shadows.networks.object_space.shadow_network import LabelledBatch
+from neural_shadows.rays.ray_set import RaySet
+
+# SplitMix64 (Steele, Lea and Flood 2014), in signed numbers, which wrap in the same way.
+GAMMA = 0x9E3779B97F4A7C15 - 2**64
+_MIX = ((30, 0xBF58476D1CE4E5B9 - 2**64), (27, 0x94D049BB133111EB - 2**64), (31, 1))
+
+
+class LabelledRays(Protocol):
+    """What training needs of rays in the computer's own memory, or on its disk."""
+
+    count: int
+
+    def gather(self, indices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Origins (n, 3), directions (n, 3), t_lb (n,) and t_ub (n,), all float32."""
+
+
+class BatchSource(Protocol):
+    """Labelled rays by their indices, on the device that the network is on."""
+
+    def gather(self, indices: Tensor) -> LabelledBatch:
+        """The rays `indices` (n,) int64, which are on that device too."""
+
+
+class HostRays:
+    """Rays that stay where they are; each batch is copied to the device."""
+
+    def __init__(self, rays: LabelledRays, device: torch.device):
+        self._rays, self._device = rays, device
+
+    def gather(self, indices: Tensor) -> LabelledBatch:
+        """See `BatchSource.gather`."""
+        parts = self._rays.gather(indices.cpu().numpy())
+        return LabelledBatch(*(torch.from_numpy(part).to(self._device) for part in parts))
+
+
+class DeviceRays:
+    """A whole ray set in a device's memory: 20 bytes a ray, 5 GB for the thesis's 250 million."""
+
+    def __init__(self, rays: RaySet, device: torch.device):
+        self._points = rays.points_per_direction
+        self._directions = torch.from_numpy(rays.directions).to(device)
+        self._origins = torch.empty(rays.count, 3, device=device)
+        self._bounds = torch.empty(rays.count, 2, device=device)
+        for whole, shards in ((self._origins, rays.origins), (self._bounds, rays.bounds)):
+            first = 0
+            for shard in shards:
+                # Copied before it goes: torch takes no array that cannot be written to.
+                part = torch.from_numpy(np.array(shard).reshape(-1, whole.shape[1]))
+                whole[first : first + len(part)].copy_(part)
+                first += len(part)
+
+    def gather(self, indices: Tensor) -> LabelledBatch:
+        """See `BatchSource.gather`."""
+        directions = torch.div(indices, self._points, rounding_mode="floor")
+        bounds = self._bounds.index_select(0, indices)
+        return LabelledBatch(
+            self._origins.index_select(0, indices),
+            self._directions.index_select(0, directions),
+            bounds[:, 0],
+            bounds[:, 1],
+        )
+
+
+def batch_source(rays: LabelledRays, device: torch.device) -> BatchSource:
+    """The rays laid out on a GPU if they take less than half of what is free there."""
+    if device.type == "cuda" and isinstance(rays, RaySet):
+        free, _ = torch.cuda.mem_get_info(device)
+        if 20 * rays.count < free / 2:
+            return DeviceRays(rays, device)
+    return HostRays(rays, device)
+
+
+def batch_indices(step: Tensor, *, seed: int, batch_size: int, count: int) -> Tensor:
+    """Indices of the samples of a step, drawn with replacement: (batch_size,) int64.
+
+    They depend on (seed, step) alone: a resumed run needs no state of a generator, and a GPU
+    draws what a CPU draws.
+
+    Args:
+        step: int64 without dimensions; the indices are made on its device.
+        count: of the rays to choose from.
+    """
+    start = int(np.random.SeedSequence(seed).generate_state(1, np.uint64)[0].astype(np.int64))
+    x = step * batch_size + torch.arange(1, batch_size + 1, device=step.device)
+    return _shifted(split_mix(start + GAMMA * x), 1) % count
+
+
+def split_mix(state: Tensor) -> Tensor:
+    """SplitMix64's numbers at its states, which are `GAMMA` apart, all int64."""
+    for shift, factor in _MIX:
+        state = (state ^ _shifted(state, shift)) * factor
+    return state
+
+
+def _shifted(x: Tensor, bits: int) -> Tensor:
+    """Shift to the right that fills with zeros, and not with the sign."""
+    return (x >> bits) & ((1 << (64 - bits)) - 1)
