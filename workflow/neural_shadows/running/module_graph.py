@@ -1,4 +1,4 @@
-"""Which modules of the package a script's result depends on."""
+"""Which modules of the package a stage's result depends on."""
 
 import ast
 from functools import cache
@@ -6,9 +6,9 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parents[1]
 
-# What every script does around its one call: the log, its record, the message of an error. No
-# result depends on it, and an edit of a log's wording must not train a network.
-_AROUND = PACKAGE / "running" / "jobs.py"
+# What every stage does around its one call: the log and the message of an error. No result
+# depends on it, and an edit of a log's wording must not train a network.
+_AROUND = PACKAGE / "running" / "stage.py"
 
 
 @cache
@@ -25,15 +25,16 @@ def _imported(source: Path) -> frozenset[Path]:
     return frozenset(path for path in paths if path.is_file())
 
 
-def modules_of(script: Path) -> list[Path]:
-    """The package's modules that `script` imports, directly or through others, sorted.
+def modules_of(stage: Path) -> list[Path]:
+    """A stage's file and the package's modules that it imports, directly or through others.
 
-    Snakemake tracks a script but not what it imports. With these files as a rule's input an
-    edited module reruns the rules whose results depend on it, and no others. `jobs.py` is not
-    among them, nor what it alone imports.
+    Snakemake tracks a script by its age and not what it imports. With these files as a rule's
+    input an edited module reruns the rules whose results depend on it, and no others.
+
+    Returns:
+        Sorted paths, without `stage.py` and what it alone imports.
     """
-    found: set[Path] = set()
-    queue = [script]
+    found, queue = {stage}, [stage]
     while queue:
         new = _imported(queue.pop()) - found - {_AROUND}
         found |= new

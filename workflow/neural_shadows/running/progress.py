@@ -1,46 +1,49 @@
-"""How much of what a process did in what time, noted by stages for the record of their job."""
+"""How far a job is: a bar where somebody watches, else a line now and then."""
 
-from typing import NamedTuple
+import sys
+from typing import TextIO
 
 from tqdm import tqdm
 
+TERMINAL: TextIO | None = None
+"""Where the person is, while stderr goes to a job's log (`stage.py`)."""
 
-class Rate(NamedTuple):
-    """`count` of `unit` (samples, views) in `seconds`, under a title."""
+# Between two lines where no bar can be drawn.
+_SECONDS = 20
 
-    title: str
-    unit: str
-    count: int
-    seconds: float
-
-    @property
-    def per_second(self) -> float:
-        return self.count / max(self.seconds, 1e-9)
+_LINE = "{desc}: {percentage:3.0f} % of {total_fmt}{unit}, {rate_fmt}, {remaining} left"
 
 
-RATES: list[Rate] = []
-"""Of this process, in the order in which they ended."""
+class _LogAndTerminal:
+    """Where a job's bar is written: each state a line of the log, and to the terminal."""
 
+    def __init__(self, terminal: TextIO):
+        self._terminal = terminal
 
-class _Bar(tqdm):
-    def close(self) -> None:
-        if not self.disable:  # as it is once it has been closed
-            seconds = self.format_dict["elapsed"]
-            RATES.append(Rate(self.desc, self.unit.strip(), self.n - self.initial, seconds))
-        super().close()
+    def write(self, text: str) -> None:
+        line = text.strip()
+        if line:
+            print(line, file=sys.stderr)
+        if self._terminal.isatty():
+            self._terminal.write(text)
+        elif line:
+            print(line, file=self._terminal)
+
+    def flush(self) -> None:
+        self._terminal.flush()
 
 
 def progress_bar(total: int, unit: str, title: str, initial: int = 0) -> tqdm:
-    """A bar on stderr that counts to `total` units (samples, viewpoints), SI-scaled.
-
-    Closed, it leaves its rate in `rates.RATES`.
-    """
-    return _Bar(
-        total=total,
-        initial=initial,
-        unit=f" {unit}",
-        unit_scale=True,
-        desc=title,
-        mininterval=2,
-        dynamic_ncols=True,
+    """A bar that counts to `total` units (samples, viewpoints), SI-scaled."""
+    settings = dict(total=total, initial=initial, unit=f" {unit}", unit_scale=True, desc=title)
+    if TERMINAL is None:
+        return tqdm(**settings, dynamic_ncols=True)
+    if TERMINAL.isatty():
+        return tqdm(**settings, file=_LogAndTerminal(TERMINAL), mininterval=2, ncols=80)
+    return tqdm(
+        **settings,
+        file=_LogAndTerminal(TERMINAL),
+        mininterval=_SECONDS,
+        maxinterval=_SECONDS,
+        bar_format=_LINE,
     )

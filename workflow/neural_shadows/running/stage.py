@@ -1,0 +1,97 @@
+"""A job of the workflow: one call of a stage's function, with its log and readable errors."""
+
+import faulthandler
+import inspect
+import os
+import shlex
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, get_type_hints
+
+from neural_shadows.errors import InputError
+from neural_shadows.running import progress
+
+# What a rule names for Snakemake alone: the modules that a result depends on, what else is to be
+# made when a table is asked for, and the kind of a table or figure, which names its script.
+_RULE_ONLY = {"code", "beside", "kind"}
+
+# The params of a kind, each an argument.
+_SPREAD = "settings"
+
+
+def run_stage(job: Any, function: Callable[..., None]) -> None:
+    """Call a stage's function with a job's files and params by argument name.
+
+    Output goes to the job's log, progress to the terminal as well. On an error the process ends
+    with status 1 after one line on the terminal; the traceback is in the log.
+
+    Args:
+        job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
+        function: takes keyword arguments named as in the rule: each named input (but `code`
+            and `beside`), output and param (but `kind`; those in `settings` one by one), and, if it has
+            arguments of these names, `threads` and wildcards.
+    """
+    path = Path(job.log[0])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    # A name of a file that is no text must not make an error of its own.
+    terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
+    with path.open("w", encoding="utf-8", errors="backslashreplace", buffering=1) as log:
+        # By file descriptor, so that what native libraries print is captured as well.
+        os.dup2(log.fileno(), 1)
+        os.dup2(log.fileno(), 2)
+        faulthandler.enable()  # where in the job native code crashed
+        sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
+        progress.TERMINAL = terminal
+        try:
+            function(**arguments_of(job, function))
+        except Exception as error:
+            line = f"{job.rule}: {_message(error)} [log: {shlex.quote(str(path))}]"
+            # First, for the log may lie on a disk that is full.
+            print(line, file=terminal)
+            print(traceback.format_exc(), line, sep="\n", file=log)
+            sys.exit(1)
+        finally:
+            progress.TERMINAL = None
+
+
+def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
+    """What a job hands to its stage's function.
+
+    Paths become what the argument's annotation says: `Path`, `Path | None` (None for no file) or
+    `list[Path]`; anything else stays as it is.
+
+    Raises:
+        TypeError: the rule gives a name that the function does not take, or misses one.
+    """
+    input, output, params, wildcards = (
+        dict(part.items()) for part in (job.input, job.output, job.params, job.wildcards)
+    )
+    given = {**input, **output, **params.pop(_SPREAD, {}), **params}
+    given = {name: value for name, value in given.items() if name not in _RULE_ONLY}
+    takes = inspect.signature(function).parameters
+    offered = {"threads": job.threads, **wildcards}
+    given |= {name: value for name, value in offered.items() if name in takes}
+    if given.keys() != takes.keys():
+        extra, missing = sorted(given.keys() - takes), sorted(takes.keys() - given)
+        raise TypeError(f"{function.__name__}: rule gives {extra} too much, {missing} too little")
+    types = get_type_hints(function)
+    return {name: _converted(value, types.get(name)) for name, value in given.items()}
+
+
+def _converted(value: Any, type_: Any) -> Any:
+    if type_ == list[Path]:
+        return [Path(path) for path in ([value] if isinstance(value, str) else value)]
+    if type_ is Path or type_ == Path | None:
+        # Snakemake gives a function's file as a list of one.
+        paths = [value] if isinstance(value, str) else list(value)
+        return Path(paths[0]) if paths else None
+    return value
+
+
+def _message(error: Exception) -> str:
+    """One line: these errors name the file and the reason, others need their type."""
+    readable = isinstance(error, InputError | OSError)
+    text = str(error) if readable else f"{type(error).__name__}: {error}"
+    return " ".join(text.split())
