@@ -1,4 +1,4 @@
-"""The stage that labels the rays of one shard."""
+"""Stage: label the rays of one shard of a ray set [3.4.3]."""
 
 from pathlib import Path
 
@@ -7,27 +7,28 @@ import numpy as np
 from neural_shadows.files.whole_files import whole_file
 from neural_shadows.rays.labels import check_bounds, dual_bounds
 from neural_shadows.rays.ray_set import open_array, read_directions
-from neural_shadows.rays.shards import _check_range, _new_array, _run_tasks, _tracer
+from neural_shadows.rays.shards import new_array, open_tracer, run_tasks
+from neural_shadows.running.stage import run_stage
 
 
-def make_labels(
-    mesh_ply: str | Path,
-    directions_npy: str | Path,
-    origins_npy: str | Path,
-    bounds_npy: str | Path,
+def label_rays(
     *,
+    mesh_ply: Path,
+    directions_npy: Path,
+    origins_npy: Path,
+    bounds_npy: Path,
     seed: int,
     first: int,
     last: int,
-    threads: int,
+    threads: int = 1,
 ) -> None:
-    """Trace the rays of a shard, write their bounds and check them as they are written [3.4.3].
+    """Trace the rays of the directions first to last − 1, write their bounds and check them.
 
     Args:
-        mesh_ply: the mesh in normalised space.
-        directions_npy, origins_npy: from `make_directions`, and from `make_rays` for the
-            directions first to last − 1.
-        bounds_npy: where the shard's bounds go.
+        mesh_ply: the prepared mesh, in normalised space.
+        directions_npy, origins_npy: from `draw_directions`, and from `sample_rays` for the same
+            first and last.
+        bounds_npy: gets (last − first, m, 2) float32, [t_lb, t_ub] of each ray.
         seed: what the rays were drawn with, for whoever must find a ray again.
 
     Raises:
@@ -35,16 +36,13 @@ def make_labels(
         RuntimeError: a ray with impossible bounds, named by shard, seed and index; the shard
             is not left behind then.
     """
-    directions = read_directions(directions_npy)
-    _check_range(first, last, len(directions), directions_npy)
-    directions = directions[first:last]
-    origins = open_array(origins_npy, (last - first, None, 3))
+    directions = read_directions(directions_npy)[first:last]
+    origins = open_array(origins_npy, (len(directions), None, 3))
     points = origins.shape[1]
-    tracer = _tracer(mesh_ply)
-    name = f"labels {bounds_npy} (seed {seed})"
+    tracer = open_tracer(mesh_ply)
 
     with whole_file(bounds_npy) as part:
-        bounds = _new_array(part, (last - first, points, 2))
+        bounds = new_array(part, (len(directions), points, 2))
 
         def label(begin: int, end: int) -> None:
             t_lb, t_ub = dual_bounds(
@@ -55,6 +53,13 @@ def make_labels(
             bounds[begin:end, :, 0] = t_lb.reshape(-1, points)
             bounds[begin:end, :, 1] = t_ub.reshape(-1, points)
 
-        _run_tasks(label, last - first, points, threads, "labels")
+        run_tasks(label, len(directions), points, threads, "labels")
         bounds.flush()
-        check_bounds(directions, origins, open_array(part, bounds.shape), name=name, first=first)
+        # As they lie on disk, not as they were in memory.
+        written = open_array(part, bounds.shape)
+        name = f"labels {bounds_npy} (seed {seed})"
+        check_bounds(directions, origins, written, name=name, first=first)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, label_rays)

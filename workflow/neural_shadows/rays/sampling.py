@@ -1,6 +1,8 @@
 """Training rays of one view direction, by the sampling methods of table 4.1 [3.4.2]."""
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -21,30 +23,21 @@ def check_sampler(sampler: str) -> None:
         raise InputError(f"sampler: {sampler!r} is unknown; use one of {', '.join(SAMPLERS)}")
 
 
-def check_positive(key: str, value: int) -> None:
-    """Raise InputError, naming `key`, for a number below 1."""
-    if value < 1:
-        raise InputError(f"{key}: {value} is too few; give 1 or more")
-
-
-def sample_rays(
+def sample_direction(
     tracer: Tracer,
     direction: np.ndarray,
-    m: int,
-    sampler: str,
+    sampling: Mapping[str, Any],
     *,
-    silhouette_resolution: int,
-    min_quad: int,
     rng: np.random.Generator,
     bank: PatternBank,
 ) -> np.ndarray:
-    """Origins of m rays along one direction [3.4.2].
+    """Origins of the rays along one direction [3.4.2].
 
     Args:
         tracer: the object, in normalised space.
         direction: (3,) unit vector d.
-        sampler: one of `SAMPLERS`.
-        silhouette_resolution, min_quad: texels; not used by `uniform`.
+        sampling: `sampler`, one of `SAMPLERS`; `points_per_direction` m; and, unless it is
+            `uniform`, `silhouette_resolution` and `min_quad` in texels.
         rng: used for this direction alone, so that rays do not depend on the order or the
             thread in which directions are done.
         bank: used by `poisson_quadtree` alone.
@@ -53,20 +46,19 @@ def sample_rays(
         (m, 3) float32 on the unit sphere, o·d <= −1e-3. Rays of a quad follow each other.
 
     Raises:
-        ValueError: an unknown sampler, or as `build_quadtree`.
+        InputError: an unknown sampler.
+        ValueError: as `build_quadtree`.
     """
+    sampler, m = sampling["sampler"], sampling["points_per_direction"]
+    check_sampler(sampler)
     direction = direction.astype(np.float64)
     direction /= np.linalg.norm(direction)
     if sampler == "uniform":
-        offsets = uniform_on_disk(m, rng)
-    elif sampler in SAMPLERS:
-        image = silhouette(tracer, direction, silhouette_resolution)
-        quads = build_quadtree(image, min_quad)
-        poisson = bank if sampler == "poisson_quadtree" else None
-        offsets = sample_quads(quads, silhouette_resolution, m, rng, poisson)
-    else:
-        raise ValueError(f"sampler {sampler!r}: is none of {', '.join(SAMPLERS)}")
-    return entry_points(direction, offsets)
+        return entry_points(direction, uniform_on_disk(m, rng))
+    resolution = sampling["silhouette_resolution"]
+    quads = build_quadtree(silhouette(tracer, direction, resolution), sampling["min_quad"])
+    poisson = bank if sampler == "poisson_quadtree" else None
+    return entry_points(direction, sample_quads(quads, resolution, m, rng, poisson))
 
 
 def sample_quads(

@@ -1,4 +1,4 @@
-"""The stages rays and labels, and the description of the ray set that they leave [3.4]."""
+"""How the stages go through a shard: a tracer, an array on disk, tasks in threads."""
 
 import os
 from collections.abc import Callable
@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from neural_shadows.errors import InputError
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.scenes.tracing import Tracer
@@ -16,7 +15,7 @@ from neural_shadows.scenes.tracing import Tracer
 _TASK_RAYS = 8192
 
 
-def _run_tasks(
+def run_tasks(
     task: Callable[[int, int], None], directions: int, points: int, threads: int, title: str
 ) -> None:
     """Run task(begin, end) over consecutive ranges of directions in threads, with a bar.
@@ -34,12 +33,13 @@ def _run_tasks(
             bar.update((end - begin) * points)
 
 
-def _tracer(mesh_ply: str | Path) -> Tracer:
+def open_tracer(mesh_ply: Path) -> Tracer:
+    """A tracer of a prepared mesh."""
     mesh = read_prepared(mesh_ply)
     return Tracer(mesh.vertices, mesh.faces)
 
 
-def _new_array(path: Path, shape: tuple[int, ...]) -> np.memmap:
+def new_array(path: Path, shape: tuple[int, ...]) -> np.memmap:
     """A new float32 `.npy` file, memory-mapped for writing: it may be larger than memory."""
     array = np.lib.format.open_memmap(path, mode="w+", dtype=np.float32, shape=shape)
     if hasattr(os, "posix_fallocate"):
@@ -47,11 +47,3 @@ def _new_array(path: Path, shape: tuple[int, ...]) -> np.memmap:
         with path.open("rb+") as file:
             os.posix_fallocate(file.fileno(), 0, path.stat().st_size)
     return array
-
-
-def _check_range(first: int, last: int, directions: int, directions_npy: str | Path) -> None:
-    if not 0 <= first < last <= directions:
-        raise InputError(
-            f"first, last: {first} to {last} is no range of the {directions} directions in "
-            f"{directions_npy}; give 0 <= first < last <= {directions}"
-        )

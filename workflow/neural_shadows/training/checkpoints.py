@@ -1,14 +1,43 @@
-"""States of trainings: where they lie in a run's folder, and until when they are kept."""
+"""Checkpoints of trainings: what they are called, where they lie, and until when they are kept."""
 
+import hashlib
+import json
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-# In the folder of a run's networks. In it a folder `<experiment>-<digest>` for each training.
-UNFINISHED = "unfinished"
+from neural_shadows.networks.kind_module import kind_module
+from neural_shadows.running.module_graph import modules_of
+
+# Beside the folders of a run's networks. In it a folder `<experiment>-<digest>` for each training.
+CHECKPOINTS = "checkpoints"
+
+STATE = "state.safetensors"  # in such a folder
+
+_STAGE = Path(__file__).with_name("train.py")
 
 
-def forget_finished(networks: Path) -> None:
-    """Remove the states of trainings whose networks are there.
+def checkpoint_folder(weights: Path, header: Mapping[str, Any]) -> Path:
+    """Where the checkpoint of a training lies: `networks/checkpoints/<experiment>-<digest>`.
+
+    Snakemake deletes the outputs of a job that failed, so that a checkpoint cannot be among them.
+    Its name holds a digest of the settings, the data and the code: changed ones thereby start
+    anew and never resume from a state that they did not make.
+
+    Args:
+        weights: `networks/<experiment>/weights.safetensors`.
+        header: what the weights' header says: `name`, `network`, `training`, `data`.
+    """
+    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
+    for module in (_STAGE, kind_module(header["network"]["encoding"])):
+        for path in (module, *modules_of(module)):
+            digest.update(path.read_bytes())
+    return weights.parents[1] / CHECKPOINTS / f"{header['name']}-{digest.hexdigest()[:16]}"
+
+
+def remove_finished(networks: Path) -> None:
+    """Remove the checkpoints of trainings whose weights are there.
 
     To be called when whoever asked for these has taken note of them. Before that Snakemake may
     yet delete one and ask for it again, after a kill or on a full disk; the training then ends
@@ -17,7 +46,7 @@ def forget_finished(networks: Path) -> None:
     Args:
         networks: the folder of a run's networks, each in a folder of its experiment's name.
     """
-    for state in (networks / UNFINISHED).glob("*"):
-        experiment = state.name.rpartition("-")[0]
+    for checkpoint in (networks / CHECKPOINTS).glob("*"):
+        experiment = checkpoint.name.rpartition("-")[0]
         if (networks / experiment / "weights.safetensors").exists():
-            shutil.rmtree(state, ignore_errors=True)
+            shutil.rmtree(checkpoint, ignore_errors=True)

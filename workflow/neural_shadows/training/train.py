@@ -1,26 +1,28 @@
-"""Training of a shadow network on a ray set: resumable, and reproducible from its seed."""
+"""Stage: train a shadow network on a ray set, resumable and reproducible from its seed [3.5, 4.1].
 
-import hashlib
-import json
+`train` puts the settings together; the run begins or goes on from its checkpoint
+(`start_or_resume`), the loop takes it to its end (`train_to_end`), its files are written
+(`write_results`).
+"""
+
 import math
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import torch
-from torch import Tensor
 
 from neural_shadows.errors import InputError
-from neural_shadows.files.whole_files import write_json, write_text
+from neural_shadows.files.whole_files import read_json, write_json, write_text
 from neural_shadows.networks.compute import choose_device, choose_dtype
-from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import save_network
+from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.running.hardware import describe_machine
-from neural_shadows.running.module_graph import modules_of
 from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.stage import run_stage
 from neural_shadows.training.batches import (
     BatchSource,
     DeviceRays,
@@ -28,72 +30,31 @@ from neural_shadows.training.batches import (
     batch_indices,
     batch_source,
 )
+from neural_shadows.training.checkpoints import STATE, checkpoint_folder
 from neural_shadows.training.cuda_graph import recorded
-from neural_shadows.training.training_run import (
-    TrainingRun,
-    chunk_size,
-    gradient_pool,
-    learning_rate_at,
-)
+from neural_shadows.training.training_run import TrainingRun, gradient_pool
 
 # Points of the loss curve, each the mean loss since the point before.
 CURVE_POINTS = 500
 
-
-def state_digest(description: dict) -> str:
-    """A name for a run's saved state: a digest of its settings, its data and the code.
-
-    Changed settings, rays or training code thereby start anew and never resume from a
-    state that they did not make.
-    """
-    digest = hashlib.sha256(json.dumps(description, sort_keys=True).encode())
-    for module in (Path(__file__), kind_module(description["network"]["encoding"])):
-        for path in (module, *modules_of(module)):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def may_be_recorded(network: ShadowNetwork, device: torch.device, source: BatchSource) -> bool:
-    """Whether a GPU can repeat a step on its own, with the samples that it has."""
-    return network.recordable and device.type == "cuda" and isinstance(source, DeviceRays)
-
-
-def check_alive(name: str, step: int, loss: float, spread: float) -> None:
-    """Stop a run that can learn nothing any more.
-
-    Raises:
-        InputError: the loss is not finite, or all predictions are the same.
-    """
-    problem = None
-    if not math.isfinite(loss):
-        problem = f"the loss is {loss}"
-    elif not spread > 0:
-        problem = "the network answers the same for every ray (its output died)"
-    if problem:
-        raise InputError(
-            f"training {name}: {problem} at step {step}; lower its `learning_rate` in the "
-            "config, or change the `seed`"
-        )
+# Between checkpoints. A kill costs at most that and one point of the loss curve, 1/500 of the run.
+CHECKPOINT_SECONDS = 30.0
 
 
 def train(
-    rays: LabelledRays,
+    *,
+    directions_npy: Path,
+    origins: list[Path],
+    bounds: list[Path],
+    rays_json: Path,
+    mesh_ply: Path | None,
     weights: Path,
     loss_csv: Path,
-    record_json: Path,
-    *,
-    name: str,
-    network: dict[str, Any],
-    steps: int,
-    batch_size: int,
-    learning_rate: float,
-    schedule: str,
-    loss: dict[str, float],
+    training_json: Path,
+    network: Mapping[str, Any],
+    training: Mapping[str, Any],
     seed: int,
-    mesh_ply: Path | None,
-    data: dict[str, Any],
-    state_folder: Path,
-    state_interval_s: float = 30.0,
+    experiment: str,
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
@@ -101,112 +62,163 @@ def train(
     """Train one network with Adam on its loss, the thesis's on the dead-zone loss [3.5, 4.1].
 
     Writes the weights, the loss curve and a record of the run (seconds, rate, machine). A
-    run that was killed continues from its last saved state when it is called again with the
-    same arguments, and on a CPU ends in the same weights as an undisturbed one (a GPU adds the
-    gradients of grids in any order).
+    run that was killed continues from its checkpoint when it is called again with the same
+    arguments, and on a CPU ends in the same weights as an undisturbed one (a GPU adds the
+    gradients of grids in any order). A run that saved a checkpoint leaves that of its end, so
+    that nothing is lost with the files that it writes; see `checkpoints.remove_finished`.
 
     Args:
-        rays: labelled rays.
-        weights, loss_csv, record_json: files to write.
-        name: of the experiment, for messages.
-        network: what `make_network` makes it from.
-        schedule: `constant` or `cosine`.
-        loss: weights of `DeadZone`.
+        directions_npy, origins, bounds, rays_json: the ray set and its description, which goes
+            into the weights' header and into the checkpoint's name.
         mesh_ply: prepared mesh of the object, for a network that needs it; None for others.
-        data: description of the rays (their digests and seeds); goes into the weights' header
-            and into the name of the saved state.
-        state_folder: where states of trainings live. If this one saved any, that of its end is
-            left there, so that nothing is lost with the files that it writes; see `saved_states`.
-        state_interval_s: seconds between saved states. A kill costs at most that and one point
-            of the loss curve, 1/500 of the run.
+        weights, loss_csv, training_json: files to write; the weights in a folder of the
+            experiment's, with `checkpoints` beside it.
+        network: what `make_network` makes it from.
+        training: `steps`, `batch_size`, `learning_rate`, `schedule` (`constant` or `cosine`) and
+            `loss`, the weights of `DeadZone`.
+        experiment: its name, for messages and the weights' header.
         threads: chunks of a batch computed side by side; the weights do not depend on it.
 
     Raises:
-        InputError: the loss is not finite or the output is constant.
+        InputError: the loss is not finite or the output is constant; or a file is missing or
+            damaged.
     """
     torch.set_num_threads(1)  # the pool's threads work side by side
+    started = time.monotonic()  # what is laid out before training counts too
     chosen = choose_device(device)
-    dtype = choose_dtype(precision, chosen)
-    settings = {
-        "steps": steps,
-        "batch_size": batch_size,
-        "learning_rate": learning_rate,
-        "schedule": schedule,
-        "loss": loss,
-        "seed": seed,
-        "device": chosen.type,
-        "precision": str(dtype).removeprefix("torch."),
+    header = {
+        "name": experiment,
+        "network": dict(network),
+        "training": {
+            **training,
+            "seed": seed,
+            "device": chosen.type,
+            "precision": str(choose_dtype(precision, chosen)).removeprefix("torch."),
+        },
+        "data": read_json(rays_json),
     }
-    header = {"name": name, "network": network, "training": settings, "data": data}
+    checkpoint = checkpoint_folder(weights, header)
+    run = start_or_resume(header, mesh_ply, checkpoint)
+    rays = RaySet(directions_npy, origins, bounds)
+    train_to_end(run, rays, header["name"], checkpoint, threads, started)
+    write_results(run, header, weights, loss_csv, training_json, threads)
 
-    started = last_saved = time.monotonic()  # what is laid out before training counts too
-    model = make_network(network)
+
+def start_or_resume(
+    header: Mapping[str, Any], mesh_ply: Path | None, checkpoint: Path
+) -> TrainingRun:
+    """A new run as the header says, or where its checkpoint left it."""
+    model = make_network(header["network"])
     if mesh_ply is not None:
         model.prepare(mesh_ply)
-    model.initialise(seed)
-    run = TrainingRun(model, chosen, DeadZone(**loss), seed)
-    run_folder = Path(state_folder) / f"{name}-{state_digest(header)}"
-    state_file = run_folder / "state.safetensors"
-    if state_file.exists():
-        run.restore(state_file)
+    model.initialise(header["training"]["seed"])
+    run = TrainingRun(model, header["training"])
+    if (checkpoint / STATE).exists():
+        run.restore(checkpoint / STATE)
+    return run
 
-    chunk = chunk_size(batch_size, chosen, model.training_chunk)
-    source = batch_source(rays, chosen)
+
+def train_to_end(
+    run: TrainingRun,
+    rays: LabelledRays,
+    name: str,
+    checkpoint: Path,
+    threads: int,
+    started: float,
+) -> None:
+    """Do the steps that are left, with a bar, points of the loss curve and checkpoints.
+
+    Args:
+        started: on `time.monotonic`'s clock, from when the run's seconds count.
+    """
+    steps, batch_size = run.settings["steps"], run.settings["batch_size"]
+    source = batch_source(rays, run.device)
     point_interval = max(1, steps // CURVE_POINTS)
-    seconds_before = run.seconds
-    total = steps * batch_size
+    seconds_before, last_saved = run.seconds, started
     step = saved_step = int(run.step)
     with (
-        progress_bar(total, "samples", f"train {name}", step * batch_size) as bar,
+        progress_bar(steps * batch_size, "samples", f"train {name}", step * batch_size) as bar,
         gradient_pool(threads) as pool,
     ):
-
-        def rate_at(step: Tensor) -> Tensor:
-            return learning_rate_at(
-                step, steps=steps, learning_rate=learning_rate, schedule=schedule
-            )
+        # A GPU is given its work by one thread, whose stream can be recorded.
+        workers = pool if run.device.type == "cpu" else None
 
         def advance() -> None:
-            indices = batch_indices(run.step, seed=seed, batch_size=batch_size, count=rays.count)
-            # A GPU is given its work by one thread, whose stream can be recorded.
-            workers = pool if chosen.type == "cpu" else None
-            run.train_step(source.gather(indices), rate_at(run.step), dtype, chunk, workers)
+            indices = batch_indices(
+                run.step, seed=run.settings["seed"], batch_size=batch_size, count=rays.count
+            )
+            run.train_step(source.gather(indices), workers)
 
-        if may_be_recorded(model, chosen, source):
+        if may_be_recorded(run.network, run.device, source):
             advance = recorded(advance)
         while step < steps:
             advance()
             step += 1
             bar.update(batch_size)
-            # States are saved at points of the curve only, so that a restored run has no
+            # Checkpoints are written at points of the curve only, so that a restored run has no
             # half-summed loss to carry along; and only there a GPU is waited for.
             if step % point_interval == 0 or step == steps:
-                first_step = run.curve[-1][0] if run.curve else 0
-                mean_loss = run.loss_sum.item() / (step - first_step)
-                check_alive(name, step, mean_loss, run.spread.item())
-                run.curve.append([step, rate_at(run.step - 1).item(), mean_loss])
-                run.loss_sum.zero_()
+                mean_loss = run.add_point()
+                check_learning(name, step, mean_loss, run.spread.item())
                 bar.set_postfix(loss=f"{mean_loss:.4g}", refresh=False)
                 run.seconds = seconds_before + time.monotonic() - started
-                if time.monotonic() - last_saved > state_interval_s:
-                    run.save(state_file)
-                    write_text(run_folder / "loss.csv", run.curve_csv(batch_size))
+                if time.monotonic() - last_saved > CHECKPOINT_SECONDS:
+                    run.save(checkpoint / STATE)
+                    write_text(checkpoint / "loss.csv", run.curve_csv())
                     last_saved, saved_step = time.monotonic(), step
     if 0 < saved_step < steps:
-        run.save(state_file)
+        run.save(checkpoint / STATE)
 
-    save_network(weights, model, header)
-    write_text(loss_csv, run.curve_csv(batch_size))
+
+def may_be_recorded(network: ShadowNetwork, device: torch.device, source: BatchSource) -> bool:
+    """Whether a GPU can repeat a step on its own, with the samples that it has."""
+    return network.recordable and device.type == "cuda" and isinstance(source, DeviceRays)
+
+
+def check_learning(name: str, step: int, loss: float, spread: float) -> None:
+    """Stop a run that can learn nothing any more.
+
+    Raises:
+        InputError: the loss is not finite, or all predictions are the same.
+    """
+    if not math.isfinite(loss):
+        problem = f"the loss is {loss}"
+    elif not spread > 0:
+        problem = "the network answers the same for every ray (its output died)"
+    else:
+        return
+    raise InputError(
+        f"training {name}: {problem} at step {step}; lower its `learning_rate` in the "
+        "config, or change the `seed`"
+    )
+
+
+def write_results(
+    run: TrainingRun,
+    header: Mapping[str, Any],
+    weights: Path,
+    loss_csv: Path,
+    training_json: Path,
+    threads: int,
+) -> None:
+    """Write the weights, the loss curve and the record of a finished run."""
+    samples = run.settings["steps"] * run.settings["batch_size"]
+    save_network(weights, run.network, header)
+    write_text(loss_csv, run.curve_csv())
     write_json(
-        record_json,
+        training_json,
         {
             **header,
-            "parameters": model.parameter_count(),
-            "samples": total,
+            "parameters": run.network.parameter_count(),
+            "samples": samples,
             "seconds": round(run.seconds, 1),
-            "samples_per_second": round(total / run.seconds),
+            "samples_per_second": round(samples / run.seconds),
             "final_loss": run.curve[-1][2],
             "machine": describe_machine(),
             "threads": threads,
         },
     )
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, train)

@@ -1,8 +1,10 @@
 """The state of one training, and a step of it."""
 
 import math
+from collections.abc import Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -10,27 +12,28 @@ import torch
 from torch import Tensor
 from torch.optim.adam import adam
 
-from neural_shadows.files.broken import broken
+from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch, ShadowNetwork
 from neural_shadows.networks.weight_file import load_tensors, save_tensors
 
-# Adam's running means, beside the weights in the saved state.
+# Adam's running means, beside the weights in a checkpoint.
 ADAM_STATE = ("exp_avg", "exp_avg_sq")
 
 
-def learning_rate_at(step: Tensor, *, steps: int, learning_rate: float, schedule: str) -> Tensor:
+def learning_rate_at(step: Tensor, settings: Mapping[str, Any]) -> Tensor:
     """Learning rate of a step: `constant`, or `cosine` from `learning_rate` down to zero.
 
     Args:
         step: int64 without dimensions.
+        settings: `learning_rate`, `schedule` and `steps`.
 
     Returns:
-        float64 without dimensions, on the same device.
+        float64 without dimensions, on the step's device: a recorded step needs it there.
     """
-    rate = torch.full_like(step, learning_rate, dtype=torch.float64)
-    if schedule == "cosine":
-        rate = rate * 0.5 * (1 + torch.cos(math.pi * step.double() / steps))
+    rate = torch.full_like(step, settings["learning_rate"], dtype=torch.float64)
+    if settings["schedule"] == "cosine":
+        rate = rate * 0.5 * (1 + torch.cos(math.pi * step.double() / settings["steps"]))
     return rate
 
 
@@ -38,79 +41,116 @@ class TrainingRun:
     """The changing state of one run: weights, Adam's means, step, loss curve, seconds.
 
     Args:
-        seed: of what a network's loss draws.
+        network: with the weights to start from; goes to the device.
+        settings: as in a weight file's header: `steps`, `batch_size`, `learning_rate`,
+            `schedule`, `loss`, `seed`, `device` and `precision`.
     """
 
-    def __init__(
-        self,
-        network: ShadowNetwork,
-        device: torch.device,
-        dead_zone: DeadZone,
-        seed: int,
-    ):
-        self.network, self.dead_zone, self.seed = network.to(device), dead_zone, seed
-        self.weights = list(network.parameters())
-        self.step = torch.zeros((), dtype=torch.int64, device=device)
-        self.loss_sum = torch.zeros((), device=device)  # of the steps since it was last zeroed
-        self.spread = torch.zeros((), device=device)  # max − min of the last step's outputs
+    def __init__(self, network: ShadowNetwork, settings: Mapping[str, Any]):
+        self.settings, self.device = settings, torch.device(settings["device"])
+        self.network, self.dead_zone = network.to(self.device), DeadZone(**settings["loss"])
+        self.dtype = choose_dtype(settings["precision"], self.device)
+        self.chunk = chunk_size(settings["batch_size"], self.device, network.training_chunk)
+        self.weights = dict(network.named_parameters())
+        self.step = torch.zeros((), dtype=torch.int64, device=self.device)
+        self.loss_sum = torch.zeros((), device=self.device)  # of the steps since the last point
+        self.spread = torch.zeros((), device=self.device)  # max − min of the last step's outputs
         self.seconds = 0.0
         self.curve: list[list[float]] = []  # [step, learning rate, mean loss since the last]
         self.means = {
-            mean: {name: torch.zeros_like(weight) for name, weight in network.named_parameters()}
+            mean: {name: torch.zeros_like(weight) for name, weight in self.weights.items()}
             for mean in ADAM_STATE
         }
         # Adam counts for each weight.
-        self._adam_steps = [torch.zeros((), device=device) for _ in self.weights]
+        self._adam_steps = [torch.zeros((), device=self.device) for _ in self.weights]
+
+    def _places(self) -> dict[str, Tensor]:
+        """All tensors of the state, by their names in a checkpoint."""
+        places = {name: weight.data for name, weight in self.weights.items()}
+        for mean, values in self.means.items():
+            places |= {f"{mean}.{name}": value for name, value in values.items()}
+        return places
 
     def save(self, path: Path) -> None:
         """Write the whole state."""
-        tensors = dict(self.network.state_dict())
-        for mean, values in self.means.items():
-            for name in values:
-                tensors[f"{mean}.{name}"] = self.means[mean][name]
         header = {"step": int(self.step), "seconds": self.seconds, "curve": self.curve}
-        save_tensors(path, tensors, header)
+        save_tensors(path, self._places(), header)
 
     def restore(self, path: Path) -> None:
         """Continue from a state that `save` wrote.
 
         Raises:
-            InputError: the file is missing or not whole; or of another network, and moved aside.
+            InputError: the file is damaged.
         """
         tensors, header = load_tensors(path)
-        places = {name: weight.data for name, weight in self.network.named_parameters()}
-        for mean, values in self.means.items():
-            places |= {f"{mean}.{name}": value for name, value in values.items()}
-        try:
-            for name, place in places.items():
-                if tensors[name].shape != place.shape:  # a copy would repeat a single value
-                    raise ValueError(f"{name} has the shape {tuple(tensors[name].shape)}")
-            step, seconds = header["step"], float(header["seconds"])
-            if not isinstance(step, int) or not 0 <= step < 2**53:
-                raise ValueError(f"its step is {str(step)[:40]}")
-            curve = [[int(at), float(rate), float(loss)] for at, rate, loss in header["curve"]]
-        except (KeyError, TypeError, ValueError, OverflowError) as error:
-            raise broken(path, f"not a state of this training ({error})") from error
-        for name, place in places.items():
+        for name, place in self._places().items():
             place.copy_(tensors[name])
         for count in (self.step, *self._adam_steps):
-            count.fill_(step)
-        self.seconds, self.curve = seconds, curve
+            count.fill_(header["step"])
+        self.seconds, self.curve = header["seconds"], header["curve"]
 
-    def curve_csv(self, batch_size: int) -> str:
+    def add_point(self) -> float:
+        """A point of the loss curve: gives the mean loss of the steps since the point before."""
+        step, before = int(self.step), self.curve[-1][0] if self.curve else 0
+        mean_loss = self.loss_sum.item() / (step - before)
+        rate = learning_rate_at(self.step - 1, self.settings).item()
+        self.curve.append([step, rate, mean_loss])
+        self.loss_sum.zero_()
+        return mean_loss
+
+    def curve_csv(self) -> str:
         """The loss curve as CSV: step, samples, learning_rate, loss."""
         curve = pd.DataFrame(self.curve, columns=["step", "learning_rate", "loss"])
-        curve = curve.astype({"step": int})
-        curve.insert(1, "samples", curve["step"] * batch_size)
+        curve.insert(1, "samples", curve["step"] * self.settings["batch_size"])
         return curve.to_csv(index=False, lineterminator="\n")
 
+    def train_step(self, batch: LabelledBatch, pool: Executor | None = None) -> None:
+        """One step of Adam on the batch's mean loss.
+
+        Gradients of chunks are computed in the pool's threads and added in the chunks' order,
+        so that the result does not depend on the number of threads. Nothing is read back from
+        a GPU, which therefore need not be waited for.
+
+        What a network's loss draws depends on the seed, the step and the chunk's number.
+        """
+        count = len(batch.origins)
+        weights = list(self.weights.values())
+        chunks = [LabelledBatch(*parts) for parts in zip(*(p.split(self.chunk) for p in batch))]
+
+        def gradients(number: int, part: LabelledBatch):
+            generator = None if self.network.recordable else self._generator(number)
+            losses, outputs = self.network.losses(part, self.dead_zone, self.dtype, generator)
+            loss = losses.sum() / count
+            return loss.detach(), outputs.detach(), torch.autograd.grad(loss, weights)
+
+        compute = pool.map if pool else map
+        losses, outputs, parts = zip(*compute(gradients, range(len(chunks)), chunks))
+        for weight, *terms in zip(weights, *parts):
+            weight.grad = terms[0]
+            for term in terms[1:]:
+                weight.grad += term
+        self._adam(learning_rate_at(self.step, self.settings))
+        self.step += 1
+        self.loss_sum += torch.stack(losses).sum()
+        outputs = torch.cat(outputs)
+        if len(outputs):
+            low, high = outputs.aminmax()
+            self.spread.copy_(high - low)
+        else:  # no ray of the batch needed the network: that is not its death
+            self.spread.fill_(math.inf)
+
     def _adam(self, rate: Tensor) -> None:
-        """Change the weights by Adam's functional form, whose class loads a compiler for 1.7 s."""
+        """Change the weights by torch's Adam in its functional form.
+
+        `torch.optim.Adam` does the same to the bit, but its first step loads torch's compiler,
+        1.7 to 2.5 s in each training job, and its bookkeeping takes 0.1 to 0.5 ms a step.
+        """
+        weights = list(self.weights.values())
         with torch.no_grad():
             adam(
-                self.weights,
-                [weight.grad for weight in self.weights],
-                *(list(self.means[mean].values()) for mean in ADAM_STATE),
+                weights,
+                [weight.grad for weight in weights],
+                *(list(values.values()) for values in self.means.values()),
                 [],
                 self._adam_steps,
                 fused=True,
@@ -123,55 +163,10 @@ class TrainingRun:
                 maximize=False,
             )
 
-    def train_step(
-        self,
-        batch: LabelledBatch,
-        rate: Tensor,
-        dtype: torch.dtype,
-        chunk: int,
-        pool: Executor | None = None,
-    ) -> None:
-        """One step of Adam on the batch's mean loss.
-
-        Gradients of chunks are computed in the pool's threads and added in the chunks' order,
-        so that the result does not depend on the number of threads. Nothing is read back from
-        a GPU, which therefore need not be waited for.
-
-        What a network's loss draws depends on the seed, the step and the chunk's number.
-
-        Args:
-            rate: of learning, float64 without dimensions.
-        """
-        count = len(batch.origins)
-        chunks = [LabelledBatch(*parts) for parts in zip(*(part.split(chunk) for part in batch))]
-
-        def gradients(number: int, part: LabelledBatch):
-            generator = None if self.network.recordable else self._generator(number)
-            losses, outputs = self.network.losses(part, self.dead_zone, dtype, generator)
-            loss = losses.sum() / count
-            return loss.detach(), outputs.detach(), torch.autograd.grad(loss, self.weights)
-
-        compute = pool.map if pool else map
-        losses, outputs, parts = zip(*compute(gradients, range(len(chunks)), chunks))
-        for weight, *terms in zip(self.weights, *parts):
-            weight.grad = terms[0]
-            for term in terms[1:]:
-                weight.grad += term
-        self._adam(rate)
-        self.step += 1
-        self.loss_sum += torch.stack(losses).sum()
-        outputs = torch.cat(outputs)
-        if len(outputs):
-            low, high = outputs.aminmax()
-            self.spread.copy_(high - low)
-        else:  # no ray of the batch needed the network: that is not its death
-            self.spread.fill_(math.inf)
-
     def _generator(self, number: int) -> torch.Generator:
-        state = np.random.SeedSequence([self.seed, int(self.step), number]).generate_state(
-            1, np.uint64
-        )
-        return torch.Generator(self.step.device).manual_seed(int(state[0]))
+        state = np.random.SeedSequence([self.settings["seed"], int(self.step), number])
+        seed = int(state.generate_state(1, np.uint64)[0])
+        return torch.Generator(self.device).manual_seed(seed)
 
 
 def gradient_pool(threads: int) -> ThreadPoolExecutor:

@@ -8,12 +8,11 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.depth_biases import read_depth_biases
-from neural_shadows.files.whole_files import whole_file, write_json
-from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.files.whole_files import read_json, whole_file, write_json
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.gbuffer import SHADING_OFFSET
+from neural_shadows.running.stage import run_stage
 
 OPSET = 20
 CHECKED_RAYS = 512
@@ -82,39 +81,40 @@ def largest_difference(network: ShadowNetwork, path: Path) -> float:
 
 
 def export_network(
+    *,
     weights: Path,
     mesh_json: Path,
-    bias_json: Path | None,
-    given_bias: float,
-    onnx_path: Path,
-    json_path: Path,
+    depth_bias_json: Path | None,
+    network_onnx: Path,
+    network_json: Path,
+    bias: float | str,
 ) -> None:
     """Write a trained network as ONNX, check it, and write its conventions.
 
     Args:
         mesh_json: description of the mesh that it was trained on.
-        bias_json: depth biases that name the network, if any were to be found.
-        given_bias: the depth bias otherwise.
+        depth_bias_json: the depth bias that was found for it, where `bias` is `held_out`.
+        network_json: gets the conventions.
+        bias: the depth bias, or `held_out`.
 
     Raises:
-        InputError: an input file is not whole, or ONNX Runtime answers otherwise than PyTorch.
+        InputError: an input file is damaged, or ONNX Runtime answers otherwise than PyTorch.
     """
     network, header = load_network(weights)
-    name = header["name"]
-    mesh = read_mesh_report(mesh_json)
-    depth_bias = read_depth_biases(bias_json)[name] if bias_json else given_bias
-    export_onnx(network, onnx_path)
-    difference = largest_difference(network, onnx_path)
+    mesh = read_json(mesh_json)
+    depth_bias = read_json(depth_bias_json)["depth_bias"] if depth_bias_json else bias
+    export_onnx(network, network_onnx)
+    difference = largest_difference(network, network_onnx)
     if difference > TOLERANCE:
-        onnx_path.unlink()
+        network_onnx.unlink()
         raise InputError(
-            f"{onnx_path}: ONNX Runtime's depths differ from PyTorch's by {difference:.2g} sphere "
+            f"{network_onnx}: ONNX Runtime's depths differ from PyTorch's by {difference:.2g} sphere "
             f"radii, more than {TOLERANCE}; the network cannot be exported with these versions"
         )
     write_json(
-        json_path,
+        network_json,
         {
-            "name": name,
+            "name": header["name"],
             "network": header["network"],
             "training": header["training"],
             "sphere": {
@@ -142,3 +142,7 @@ def export_network(
             },
         },
     )
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, export_network)
