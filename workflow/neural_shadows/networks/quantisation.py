@@ -1,18 +1,17 @@
 """Weights in fewer bits, and sets as bits, for weight files."""
 
+import numpy as np
 import torch
 from torch import Tensor
 
 SCALE = ".scale"  # ends the name of an int8 tensor's scale
 _DTYPES = {"float32": torch.float32, "float16": torch.float16}
-_BITS = torch.tensor([1, 2, 4, 8, 16, 32, 64, 128], dtype=torch.uint8)
 
 
-def quantise(tensors: dict[str, Tensor], precision: str) -> dict[str, Tensor]:
+def quantise(tensors: dict[str, Tensor], storage: str) -> dict[str, Tensor]:
     """Tensors in `float32`, `float16`, or `int8` with one scale each, the largest value / 127."""
-    if precision != "int8":
-        dtype = _DTYPES[precision]
-        return {name: value.to(dtype) for name, value in tensors.items()}
+    if storage != "int8":
+        return {name: value.to(_DTYPES[storage]) for name, value in tensors.items()}
     stored = {}
     for name, value in tensors.items():
         scale = value.abs().amax().clamp(min=1e-12).float() / 127
@@ -21,33 +20,32 @@ def quantise(tensors: dict[str, Tensor], precision: str) -> dict[str, Tensor]:
     return stored
 
 
-def restore_values(stored: dict[str, Tensor], precision: str) -> dict[str, Tensor]:
+def restore_values(stored: dict[str, Tensor], storage: str) -> dict[str, Tensor]:
     """float32 tensors from what `quantise` gave.
 
     Raises:
-        KeyError: there is no such precision, or an int8 tensor has no scale.
+        KeyError: there is no such storage, or an int8 tensor has no scale.
     """
-    if precision not in (*_DTYPES, "int8"):
-        raise KeyError(f"precision {precision!r}")
+    if storage not in (*_DTYPES, "int8"):
+        raise KeyError(f"stored {storage!r}")
     names = [name for name in stored if not name.endswith(SCALE)]
-    if precision != "int8":
+    if storage != "int8":
         return {name: stored[name].float() for name in names}
     return {name: stored[name].float() * stored[name + SCALE] for name in names}
 
 
 def pack_bits(values: Tensor) -> Tensor:
     """(n,) bool as (⌈n / 8⌉,) uint8, the first value in the lowest bit."""
-    values = values.cpu().to(torch.uint8)
-    padded = torch.nn.functional.pad(values, (0, -len(values) % 8))
-    return (padded.view(-1, 8) * _BITS).sum(1, dtype=torch.uint8)
+    return torch.from_numpy(np.packbits(values.cpu().numpy(), bitorder="little"))
 
 
 def unpack_bits(packed: Tensor, count: int) -> Tensor:
-    """The `count` values that `pack_bits` packed.
+    """The `count` values that `pack_bits` packed, bool.
 
     Raises:
         ValueError: there are more or fewer.
     """
     if packed.dtype != torch.uint8 or packed.shape != (-(-count // 8),):
         raise ValueError(f"{tuple(packed.shape)} {packed.dtype} packed bits, not {count}")
-    return ((packed[:, None] & _BITS) != 0).flatten()[:count]
+    bits = np.unpackbits(packed.numpy(), count=count, bitorder="little")
+    return torch.from_numpy(bits.astype(bool))

@@ -4,9 +4,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_array
-from neural_shadows.rays.directions import view_directions
+from neural_shadows.rays.poisson_disk import sphere_directions
+from neural_shadows.rays.sampling import check_sampler
+from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.lights import arc_directions, axis_vector, draw_light, lowest_elevation
 
 
 def draw_directions(
@@ -20,7 +26,8 @@ def draw_directions(
     """Draw the view directions of a ray set and write `directions.npy`, (D, 3) float32.
 
     Args:
-        sampling: its `sampler` and its number of `directions` are used.
+        sampling: its number of `directions` D and its `sampler`: `poisson_quadtree` gives a
+            Poisson-disk pattern, the others independent uniform directions.
         light: the light domain to draw from, d = −l, where a network is to be trained for that
             light alone [4.1.1]; None for the whole sphere.
         up: the axis that `light` stands on.
@@ -28,10 +35,55 @@ def draw_directions(
     Raises:
         InputError: an unknown sampler, or a wrong light domain.
     """
-    directions = view_directions(
-        sampling["sampler"], sampling["directions"], seed, light=light, up=up
-    )
-    write_array(directions_npy, directions)
+    check_sampler(sampling["sampler"])
+    poisson, count = sampling["sampler"] == "poisson_quadtree", sampling["directions"]
+    key = (seed, DIRECTIONS)
+    if light is not None:
+        draw = _poisson_lights if poisson else _uniform_lights
+        found = -draw(count, light, axis_vector(up, "up"), key)
+    elif poisson:
+        found = sphere_directions(count, key)[0]
+    else:
+        found = np.random.default_rng(key).normal(size=(count, 3))
+        found /= np.linalg.norm(found, axis=1, keepdims=True)
+    write_array(directions_npy, found.astype(np.float32))
+
+
+def _uniform_lights(count: int, light: dict, up: np.ndarray, key: tuple) -> np.ndarray:
+    rng = np.random.default_rng(key)
+    return np.stack([draw_light(light, up, rng) for _ in range(count)])
+
+
+def _poisson_lights(count: int, light: dict, up: np.ndarray, key: tuple) -> np.ndarray:
+    """`count` unit vectors (count, 3) in a Poisson-disk pattern on a light domain."""
+    lowest = lowest_elevation(light)
+    if light["domain"] == "single_axis":
+        half = np.pi / 2 - lowest
+        return arc_directions(light, up, half * _poisson_line(count, np.random.default_rng(key)))
+    if light["domain"] != "sphere":
+        raise InputError(f"light.domain: {light['domain']!r} is unknown; use sphere or single_axis")
+    # A pattern on the whole sphere, as dense, of which the cap holds `count` or a few more; the
+    # lowest of those are left out, which moves the cap's rim by about one distance of the pattern.
+    total = round(count * 2 / (1 - np.sin(lowest)))
+    while True:
+        pattern = sphere_directions(total, key)[0]
+        height = pattern @ up
+        if np.count_nonzero(height >= np.sin(lowest)) >= count:
+            break
+        total += max(1, total // 100)
+    return pattern[np.sort(np.argsort(-height, kind="stable")[:count])]
+
+
+def _poisson_line(count: int, rng: np.random.Generator) -> np.ndarray:
+    """A maximal Poisson-disk pattern on [−1, 1] in random order: gaps of r to 2r, (count,).
+
+    Dart throwing in one dimension ends in gaps between r and 2r; drawn as such, the count is
+    exact. The ends lie half a gap inside.
+    """
+    gaps = 1 + rng.random(count + 1)
+    gaps[[0, -1]] /= 2
+    at = np.cumsum(gaps)
+    return rng.permutation(2 * at[:-1] / at[-1] - 1)
 
 
 if "snakemake" in globals():

@@ -32,8 +32,7 @@ def dual_bounds(
     """Bounds of the shadow boundary along each ray [3.4.3].
 
     t_lb and t_ub are the first and the second intersection; t_ub = ∞ where there is but one.
-    Where there is none, t_lb is the chord ℓ = −2 o·d and t_ub = ∞. `check_bounds` tells
-    whether they are what bounds must be.
+    Where there is none, t_lb is the chord ℓ = −2 o·d and t_ub = ∞. `check_bounds` checks them.
 
     Two surfaces within `SECOND_HIT_STEP` of each other along the ray count as one.
 

@@ -25,13 +25,12 @@ _PATTERN_POINTS = 1024
 
 
 @njit(cache=True, nogil=True)
-def poisson_disk_sphere(radius, rng, k=CANDIDATES):
+def poisson_disk_sphere(radius, rng):
     """Points on the unit sphere, none closer than `radius`, until no more are found [3.4.1].
 
     Args:
         radius: smallest distance r, along the chord, in (0, 2].
         rng: numpy Generator.
-        k: candidates that are tried between r and 2r around a point before it is given up.
 
     Returns:
         (n, 3) float64 unit vectors, in the order in which they were found.
@@ -56,7 +55,7 @@ def poisson_disk_sphere(radius, rng, k=CANDIDATES):
     while active_count > 0:
         chosen = int(rng.random() * active_count)
         parent = points[active[chosen]]
-        for _ in range(k):
+        for _ in range(CANDIDATES):
             _draw_around(parent, radius, rng, candidate)
             if _is_free_on_sphere(candidate, radius, points, latest, before):
                 _insert_on_sphere(candidate, count, radius, points, latest, before)
@@ -71,7 +70,7 @@ def poisson_disk_sphere(radius, rng, k=CANDIDATES):
 
 
 @njit(cache=True, nogil=True)
-def poisson_disk_torus(radius, rng, k=CANDIDATES):
+def poisson_disk_torus(radius, rng):
     """Points on the unit torus, none closer than `radius`, until no more are found [3.4.1].
 
     Distances wrap around, so that the set, shifted uniformly (modulo 1), has the same density
@@ -80,7 +79,6 @@ def poisson_disk_torus(radius, rng, k=CANDIDATES):
     Args:
         radius: smallest distance r, in (0, 1].
         rng: numpy Generator.
-        k: candidates that are tried between r and 2r around a point before it is given up.
 
     Returns:
         (n, 2) float64 in [0, 1)², in the order in which they were found.
@@ -100,7 +98,7 @@ def poisson_disk_torus(radius, rng, k=CANDIDATES):
     while active_count > 0:
         chosen = int(rng.random() * active_count)
         parent = points[active[chosen]]
-        for _ in range(k):
+        for _ in range(CANDIDATES):
             distance = radius * math.sqrt(1 + 3 * rng.random())  # uniform in area
             angle = 2 * math.pi * rng.random()
             x = _wrap(parent[0] + distance * math.cos(angle))
@@ -118,26 +116,14 @@ def poisson_disk_torus(radius, rng, k=CANDIDATES):
     return points[:count].copy()
 
 
-def sphere_directions(count, seed, k=CANDIDATES):
+def sphere_directions(count, seed):
     """Exactly `count` directions in a Poisson-disk pattern on the unit sphere [3.4.1].
-
-    r goes down until `count` points come out, or a few more: those are dropped at random.
 
     Returns:
         directions: (count, 3) float64 unit vectors.
         radius: r, the chord that no two of them are closer than.
     """
-    return _exactly(count, np.random.default_rng(seed), k, True)
-
-
-def torus_pattern(count, seed, k=CANDIDATES):
-    """Exactly `count` points in a Poisson-disk pattern on the unit torus, found the same way.
-
-    Returns:
-        points: (count, 2) float64 in [0, 1)².
-        radius: r, the distance (around the torus) that no two of them are closer than.
-    """
-    return _exactly(count, np.random.default_rng(seed), k, False)
+    return exactly(count, np.random.default_rng(seed), True)
 
 
 class PatternBank:
@@ -182,7 +168,7 @@ class PatternBank:
         number = int(np.clip(_PATTERN_POINTS // count, _PATTERNS_LEAST, _PATTERNS))
         grown[:, count] = len(points), number
         rng = np.random.default_rng(np.random.SeedSequence(self._seed, spawn_key=(count,)))
-        new = [_exactly(count, rng, CANDIDATES, False)[0] for _ in range(number)]
+        new = [exactly(count, rng, False)[0] for _ in range(number)]
         return grown[0], grown[1], np.concatenate([points, *new])
 
 
@@ -193,8 +179,11 @@ def _holds(table, counts) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def _exactly(count, rng, k, on_sphere):
-    """`count` points of the first set that has as many, as r goes down, and that r."""
+def exactly(count, rng, on_sphere):
+    """`count` points of the first set, on the sphere or the torus, that has as many; and its r.
+
+    r goes down until `count` points come out, or a few more: those are dropped at random.
+    """
     # From half a standard deviation above the wanted count down, in steps of one.
     scatter = 0.2 / math.sqrt(count)
     area = 4 * math.pi if on_sphere else 1.0
@@ -204,9 +193,9 @@ def _exactly(count, rng, k, on_sphere):
     step = 1 - 0.5 * scatter
     while True:
         if on_sphere:
-            points = poisson_disk_sphere(radius, rng, k)
+            points = poisson_disk_sphere(radius, rng)
         else:
-            points = poisson_disk_torus(radius, rng, k)
+            points = poisson_disk_torus(radius, rng)
         if len(points) >= count:
             break
         radius *= step

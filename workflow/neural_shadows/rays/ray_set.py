@@ -5,7 +5,7 @@ A ray set of D directions with m points each, in S shards (consecutive ranges of
 - `directions.npy`: (D, 3) float32, unit vectors d.
 - `origins.SSS.npy`: (D_s, m, 3) float32, points o on the unit sphere, o·d < 0.
 - `bounds.SSS.npy`: (D_s, m, 2) float32, [t_lb, t_ub], distances from o; t_ub may be ∞.
-- `rays.json`: counts, settings, units and statistics (see `ray_files.describe_rays`).
+- `rays.json`: counts, settings, units and statistics (see `describe_rays`).
 
 All in normalised space: lengths are in radii of the object's minimal bounding sphere.
 """
@@ -24,47 +24,33 @@ class RaySet:
 
     Args:
         directions_npy: (D, 3) float32.
-        origins_npys, bounds_npys: the shards, in the order of their directions.
+        origins, bounds: the shards, in the order of their directions.
 
     Raises:
-        InputError: a file is missing, truncated or of another kind, or the files are not of
-            the same ray set.
+        InputError: a file is damaged, or the files are not of the same ray set.
     """
 
-    def __init__(
-        self,
-        directions_npy: str | Path,
-        origins_npys: Sequence[str | Path],
-        bounds_npys: Sequence[str | Path],
-    ):
+    def __init__(self, directions_npy: Path, origins: Sequence[Path], bounds: Sequence[Path]):
         self.directions = read_directions(directions_npy)
         """(D, 3) float32."""
-        if not origins_npys or len(origins_npys) != len(bounds_npys):
-            raise InputError(
-                f"ray set of {directions_npy}: {len(origins_npys)} origins and "
-                f"{len(bounds_npys)} bounds files; give one bounds file for each origins file"
-            )
         self.origins, self.bounds = [], []
-        points = None
-        for origins_npy, bounds_npy in zip(origins_npys, bounds_npys, strict=True):
-            origins = open_array(origins_npy, (None, points, 3))
-            bounds = open_array(bounds_npy, (*origins.shape[:2], 2))
-            points = origins.shape[1]
-            self.origins.append(origins)
-            self.bounds.append(bounds)
-        found = sum(len(origins) for origins in self.origins)
+        for origins_npy, bounds_npy in zip(origins, bounds, strict=True):
+            points = self.origins[0].shape[1] if self.origins else None
+            shard = open_array(origins_npy, (None, points, 3))
+            self.origins.append(shard)
+            self.bounds.append(open_array(bounds_npy, (*shard.shape[:2], 2)))
+        found = sum(len(shard) for shard in self.origins)
         if found != len(self.directions):
             raise InputError(
                 f"{directions_npy}: has {len(self.directions)} directions, but the origins "
                 f"files are of {found}; delete the files of one of them and run again"
             )
-        self.points_per_direction: int = points
+        self.points_per_direction: int = self.origins[0].shape[1]
         """m."""
 
     @classmethod
-    def in_folder(cls, folder: str | Path) -> "RaySet":
+    def in_folder(cls, folder: Path) -> "RaySet":
         """The ray set with the standard file names in a folder."""
-        folder = Path(folder)
         origins = sorted(folder.glob("origins.*.npy"))
         bounds = sorted(folder.glob("bounds.*.npy"))
         return cls(folder / "directions.npy", origins, bounds)
@@ -102,38 +88,29 @@ class RaySet:
         return origins, self.directions[directions], t_lb, t_ub
 
 
-def read_directions(path: str | Path) -> np.ndarray:
+def read_directions(path: Path) -> np.ndarray:
     """The directions file as an array in memory: (D, 3) float32."""
     return np.array(open_array(path, (None, 3)))
 
 
-def open_array(path: str | Path, shape: tuple[int | None, ...]) -> np.ndarray:
-    """A float32 `.npy` file, memory-mapped; `None` in `shape` is any length from 1.
+def open_array(path: Path, shape: tuple[int | None, ...]) -> np.ndarray:
+    """A float32 `.npy` file, memory-mapped; `None` in `shape` is any length.
 
     Raises:
-        InputError: it is missing, no such file, or of another type or shape.
+        OSError: it is missing or cannot be read.
+        InputError: it is damaged, or of another type or shape.
     """
-    path = Path(path)
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; run the stage that makes it")
     try:
-        # Not np.load, which opens archives too. A shape may be more than a number holds.
-        with np.errstate(over="ignore"):
-            array = np.lib.format.open_memmap(path, mode="r")
-    except Exception as error:  # whatever a damaged header makes Python's own parser raise
-        reason = " ".join(str(error).split())[:200]
+        array = np.lib.format.open_memmap(path, mode="r")  # which refuses pickles
+    except ValueError as error:
+        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
+    fits = len(array.shape) == len(shape) and all(
+        wanted in (None, length) for length, wanted in zip(array.shape, shape, strict=True)
+    )
+    if array.dtype != np.float32 or not fits:
         raise InputError(
-            f"{path}: is truncated or no array file ({reason}); delete it and run again"
-        ) from error
-    wanted = tuple("any" if length is None else length for length in shape)
-    if array.dtype != np.float32 or array.ndim != len(shape) or 0 in array.shape:
-        fits = False
-    else:
-        fits = all(a == b or b is None for a, b in zip(array.shape, shape, strict=True))
-    if not fits:
-        raise InputError(
-            f"{path}: holds {array.dtype} {array.shape} where float32 {wanted} belongs; "
-            "delete it and run again"
+            f"{path}: holds {array.dtype} {array.shape} where float32 {shape} belongs (None: any "
+            "length); delete it and run again"
         )
     return np.asarray(array)  # a plain view of the mapping: numba takes no memmap
 

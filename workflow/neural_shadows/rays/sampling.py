@@ -68,10 +68,10 @@ def sample_quads(
     rng: np.random.Generator,
     bank: PatternBank | None,
 ) -> np.ndarray:
-    """m points, divided evenly over the quads; their density is `sample_density`.
+    """m points, divided evenly over the quads: p(a, b) = 1 / (q · area(quad ∩ disk)) in each of q.
 
-    Each of q quads gets ⌊m/q⌋ points, and randomly chosen quads get one of the remainder.
-    Within its quad a point is uniform over what the quad shares with the disk of `DISK_RADIUS`.
+    Each quad gets ⌊m/q⌋ points, and randomly chosen quads get one of the remainder. Within its
+    quad a point is uniform over what the quad shares with the disk of `DISK_RADIUS`.
 
     Args:
         quads: (q, 3) as of `build_quadtree`.
@@ -89,28 +89,6 @@ def sample_quads(
         return _place_uniform(counts, boxes, rng)
     sizes = _pattern_sizes(counts, boxes, areas)
     return _place_patterns(counts, boxes, sizes, *bank.table(sizes), rng)
-
-
-def sample_density(quads: np.ndarray, resolution: int, points: np.ndarray) -> np.ndarray:
-    """The density, per unit of area, that `sample_quads` draws points from.
-
-    p(a, b) = 1 / (q · area(quad ∩ disk)) in each of the q quads, and 0 outside the disk of
-    `DISK_RADIUS`; it integrates to 1.
-
-    Args:
-        points: (n, 2) offsets (a, b).
-
-    Returns:
-        (n,) float64.
-    """
-    areas = _regions(quads, resolution)[1]
-    density = np.zeros((resolution, resolution))
-    for (row, column, size), area in zip(quads, areas, strict=True):
-        density[row : row + size, column : column + size] = 1 / (len(quads) * area)
-    column, row = np.floor((np.clip(points, -1, 1).T + 1) / 2 * resolution).astype(int)
-    inside = np.sum(points**2, axis=1) < DISK_RADIUS**2
-    row, column = np.minimum(row, resolution - 1), np.minimum(column, resolution - 1)
-    return np.where(inside, density[row, column], 0.0)
 
 
 @njit(cache=True, nogil=True)

@@ -35,7 +35,7 @@ def first_crossings(
     Args:
         origins: (k, 3) float32, on the unit sphere.
         d: (3,) float32 unit vector, pointing inward.
-        grid: (B, B, B) int32, see `occupancy_field_network.Layout`.
+        grid: (B, B, B) int32, see `occupancy_field_network.BrickLayout`.
         bricks: (bricks, 125), values of each brick's vertices on any one scale.
         steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
         sheet: whether any change of sign counts, or a positive value.

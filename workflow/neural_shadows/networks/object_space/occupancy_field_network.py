@@ -51,7 +51,7 @@ SHEET_REACH = 4.0  # cells around a sheet's hit that its points lie in; farther 
 SAMPLES_PER_CELL = 2
 
 
-class Layout(NamedTuple):
+class BrickLayout(NamedTuple):
     """Where the values of a set of bricks are."""
 
     grid: np.ndarray  # (B, B, B) int32: the brick's number, −distance if empty, or SOLID
@@ -59,7 +59,7 @@ class Layout(NamedTuple):
     count: int  # of values: the vertices of all bricks, shared ones once
 
 
-def lay_out(surface: np.ndarray, solid: bool) -> Layout:
+def lay_out(surface: np.ndarray, solid: bool) -> BrickLayout:
     """Number the bricks (B, B, B) bool that hold values, and their vertices."""
     size = len(surface)
     grid = -skips(surface)
@@ -72,7 +72,7 @@ def lay_out(surface: np.ndarray, solid: bool) -> Layout:
     # A vertex's place in the whole grid is its name, in int64: 1025³ is past int32's end.
     names = np.ravel_multi_index(tuple(places), (BRICK * size + 1,) * 3)
     used, table = np.unique(names, return_inverse=True)
-    return Layout(grid, table.reshape(-1, BRICK_VERTICES).astype(np.int32), len(used))
+    return BrickLayout(grid, table.reshape(-1, BRICK_VERTICES).astype(np.int32), len(used))
 
 
 class OccupancyFieldNetwork(ShadowNetwork):
@@ -94,7 +94,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         super().__init__()
         if surface not in ("solid", "sheet"):
             raise ValueError(f"surface {surface!r}")
-        self.resolution, self.surface, self.precision = resolution, surface, stored
+        self.resolution, self.surface, self.storage = resolution, surface, stored
         corners = torch.cartesian_prod(*[torch.arange(2)] * 3)
         offsets = torch.tensor([(BRICK + 1) ** 2, BRICK + 1, 1])
         self.register_buffer("corners", corners, persistent=False)
@@ -102,7 +102,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         # One brick's place, until `prepare` or `restore` knows better: a file may say any resolution.
         self._use(lay_out(np.zeros((1, 1, 1), bool), solid=False))
 
-    def _use(self, layout: Layout) -> None:
+    def _use(self, layout: BrickLayout) -> None:
         self.register_buffer("grid", torch.from_numpy(layout.grid.reshape(-1)), persistent=False)
         self.register_buffer("table", torch.from_numpy(layout.table.reshape(-1)), persistent=False)
         self.values = nn.Parameter(torch.zeros(layout.count))
@@ -247,8 +247,8 @@ class OccupancyFieldNetwork(ShadowNetwork):
         Kept until the weights change: an evaluation asks for them in each of its frames.
         """
         if self._bricks is None or self._bricks[0] != self.values._version:
-            precision = "int8" if self.precision == "int8" else "float32"
-            values = quantise({"": self._shares()}, precision)[""][self.table.long()]
+            storage = "int8" if self.storage == "int8" else "float32"
+            values = quantise({"": self._shares()}, storage)[""][self.table.long()]
             self._bricks = self.values._version, values.view(-1, BRICK_VERTICES).numpy()
         return self._bricks[1]
 
@@ -257,8 +257,8 @@ class OccupancyFieldNetwork(ShadowNetwork):
         return (self.logits() / LIMIT).detach()
 
     def stored(self) -> dict[str, Tensor]:
-        """Values in the chosen precision, and a bit for each brick that has some."""
-        values = quantise({"values": self._shares()}, self.precision)
+        """Values as they are stored, and a bit for each brick that has some."""
+        values = quantise({"values": self._shares()}, self.storage)
         return values | {"bricks": pack_bits(self.grid >= 0)}
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
@@ -267,6 +267,6 @@ class OccupancyFieldNetwork(ShadowNetwork):
         size = self.resolution // BRICK
         surface = unpack_bits(tensors.pop("bricks"), size**3).view(size, size, size).numpy()
         self._use(lay_out(surface, self.surface == "solid"))
-        values = restore_values(tensors, self.precision)["values"]
+        values = restore_values(tensors, self.storage)["values"]
         # Inside the limit, or its inverse would be infinite.
         self.load_state_dict({"values": LIMIT * values.clamp(-0.99999, 0.99999).atanh()})

@@ -55,7 +55,7 @@ class OccupancyRayGridNetwork(RayGridNetwork):
         return t_a, torch.where(meets, torch.minimum(last + half, chord), chord), meets
 
     def stored(self) -> dict[str, Tensor]:
-        """Weights in the chosen precision, and a bit for each cell of the occupancy."""
+        """Weights as they are stored, and a bit for each cell of the occupancy."""
         return super().stored() | {"cells": pack_bits(self.cells)}
 
     def restore(self, tensors: dict[str, Tensor]) -> None:

@@ -87,7 +87,7 @@ class RayGridNetwork(ShadowNetwork):
         stored: str,
     ):
         super().__init__()
-        self.points, self.head, self.precision = points, head, stored
+        self.points, self.head, self.storage = points, head, stored
         self.grids = nn.ModuleList(self.feature_grid(n, channels) for n in grids)
         # Features of all points, o, d, and the depths t_a and t_b between which they lie.
         sizes = [points * channels * len(grids) + 8] + [width] * hidden_layers
@@ -174,9 +174,9 @@ class RayGridNetwork(ShadowNetwork):
         return loss, outputs[:, 0]
 
     def stored(self) -> dict[str, Tensor]:
-        """Weights in the chosen precision."""
-        return quantise(self.state_dict(), self.precision)
+        """Weights as they are stored."""
+        return quantise(self.state_dict(), self.storage)
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
         """See `ShadowNetwork.restore`."""
-        self.load_state_dict(restore_values(tensors, self.precision))
+        self.load_state_dict(restore_values(tensors, self.storage))

@@ -47,7 +47,7 @@ class ShadowNetwork(nn.Module, ABC):
     """A function t_pred(o, d) with trained weights: behind that depth, all is in shadow.
 
     A kind of network is a subclass in a module of its own, named for the config's `encoding`
-    (see `network_kinds`), and its arguments a model in `config.py`.
+    (see `networks/kinds.py`), and its arguments are a model in `config/networks.py`.
     """
 
     training_chunk: ClassVar[int] = TRAINING_CHUNK
