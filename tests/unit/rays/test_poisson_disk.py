@@ -7,16 +7,20 @@ from scipy.stats import chisquare
 
 from neural_shadows.rays.poisson_disk import (
     PatternBank,
+    exactly,
     poisson_disk_sphere,
     poisson_disk_torus,
     sphere_directions,
-    torus_pattern,
 )
 
 
 def uniform_directions(count, rng):
     directions = rng.normal(size=(count, 3))
     return directions / np.linalg.norm(directions, axis=1, keepdims=True)
+
+
+def torus_pattern(count, seed):
+    return exactly(count, np.random.default_rng(seed), False)
 
 
 def closest_pair(points, **torus):

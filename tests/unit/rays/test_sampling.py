@@ -11,9 +11,8 @@ from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.quadtree import DISK_RADIUS, build_quadtree, disk_area
 from neural_shadows.rays.sampling import (
     SAMPLERS,
-    sample_density,
+    sample_direction,
     sample_quads,
-    sample_rays,
     uniform_on_disk,
 )
 from neural_shadows.rays.silhouette import plane_basis, silhouette
@@ -58,6 +57,17 @@ def draw_in_quads(quads, sampler, per_quad, draws):
     return points[np.arange(count), rng.integers(per_quad, size=count)].reshape(-1, draws, 2)
 
 
+def sample_density(quads, points):
+    """What `sample_quads` says it draws from: (n,), per unit of area, at points (n, 2)."""
+    column, row = np.minimum(np.floor(texels(points)), RESOLUTION - 1).astype(int).T
+    density = np.zeros((RESOLUTION, RESOLUTION))
+    for i, j, size in quads:
+        left, bottom, side = 2 * j / RESOLUTION - 1, 2 * i / RESOLUTION - 1, 2 * size / RESOLUTION
+        area = disk_area(left, bottom, left + side, bottom + side)
+        density[i : i + size, j : j + size] = 1 / (len(quads) * area)
+    return np.where(np.linalg.norm(points, axis=1) < DISK_RADIUS, density[row, column], 0)
+
+
 def density_p_value(quads, points):
     """Chi-square test of points (q, draws, 2) in the cells of each quad, by the stated density."""
     statistic = degrees = 0
@@ -66,7 +76,7 @@ def density_p_value(quads, points):
         rows, columns = 2 * (row + lines) / RESOLUTION - 1, 2 * (column + lines) / RESOLUTION - 1
         counts = np.histogram2d(drawn[:, 1], drawn[:, 0], bins=(rows, columns))[0]
         assert counts.sum() == len(drawn)  # none is outside its quad
-        density = sample_density(quads, RESOLUTION, drawn[:1])[0]
+        density = sample_density(quads, drawn[:1])[0]
         areas = [
             [max(0, disk_area(left, bottom, right, top)) for left, right in pairwise(columns)]
             for bottom, top in pairwise(rows)
@@ -119,14 +129,14 @@ def test_uniform_sampler_keeps_to_its_density():
     bins = (np.linspace(0, DISK_RADIUS**2, 9), np.linspace(-np.pi, np.pi, 13))
     assert chisquare(np.histogram2d(distance**2, angle, bins)[0].ravel()).pvalue > 1e-3
     square = np.array([[0, 0, RESOLUTION]], np.int32)
-    density = sample_density(square, RESOLUTION, points)
+    density = sample_density(square, points)
     assert density == pytest.approx(1 / (np.pi * DISK_RADIUS**2), rel=1e-12)
 
 
 def test_the_stated_density_integrates_to_one(quads):
     axis = (2 * np.arange(1200) + 1) / 1200 - 1
     points = np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
-    density = sample_density(quads, RESOLUTION, points)
+    density = sample_density(quads, points)
     assert density.mean() * 4 == pytest.approx(1, abs=2e-3)
     assert (density[np.linalg.norm(points, axis=1) > DISK_RADIUS] == 0).all()
     # Texel-sized quads are as likely as ones of 4 × 4 texels, on a 16th of the area.
@@ -192,10 +202,15 @@ def ball():
     return prepared(trimesh.creation.icosphere(subdivisions=3, radius=0.5))[1]
 
 
-def rays_of(tracer, sampler, direction, m=2000, **settings):
-    settings = {"silhouette_resolution": 64, "min_quad": 1} | settings
+def rays_of(tracer, sampler, direction, m=2000, resolution=64, min_quad=1):
+    sampling = {
+        "sampler": sampler,
+        "points_per_direction": m,
+        "silhouette_resolution": resolution,
+        "min_quad": min_quad,
+    }
     rng = np.random.default_rng(5)
-    return sample_rays(tracer, direction, m, sampler, rng=rng, bank=PatternBank(1), **settings)
+    return sample_direction(tracer, direction, sampling, rng=rng, bank=PatternBank(1))
 
 
 @pytest.mark.parametrize("sampler", SAMPLERS)
@@ -225,13 +240,6 @@ def test_rays_follow_the_quads_of_their_own_silhouette(ball):
     direction = unit(2, 1, -1)
     quads = build_quadtree(silhouette(ball, direction, RESOLUTION), 2)
     m = 3 * len(quads)
-    origins = rays_of(
-        ball, "uniform_quadtree", direction, m=m, silhouette_resolution=RESOLUTION, min_quad=2
-    )
+    origins = rays_of(ball, "uniform_quadtree", direction, m, RESOLUTION, 2)
     offsets = origins @ np.stack(plane_basis(direction), axis=1)
     assert np.bincount(quad_of(quads, offsets)).tolist() == [3] * len(quads)
-
-
-def test_unknown_samplers_are_refused(ball):
-    with pytest.raises(ValueError, match="poisson_quadtree, uniform_quadtree, uniform"):
-        rays_of(ball, "sobol", unit(1, 0, 0))
