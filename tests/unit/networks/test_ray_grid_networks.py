@@ -174,15 +174,3 @@ def test_what_a_file_keeps(tmp_path, ball_ply, kind, stored, error):
     save_network(tmp_path / "again.safetensors", loaded, {"network": settings})
     again, _ = load_network(tmp_path / "again.safetensors")
     assert torch.equal(again(o, d, torch.float32), found)
-
-
-def test_bfloat16_products_are_near(ball_ply):
-    network = made("ray_grid", ball_ply)
-    o, d = (torch.from_numpy(part) for part in ball_rays(300)[:2])
-    direction = d[0]
-    near = o @ direction < 0
-    float32, bfloat16 = (
-        network.depths(o[near], direction, dtype) for dtype in (torch.float32, torch.bfloat16)
-    )
-    assert float32.shape == (near.sum(),) and float32.dtype == torch.float32
-    torch.testing.assert_close(bfloat16, float32, rtol=0, atol=0.03)

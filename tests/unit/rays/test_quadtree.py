@@ -80,19 +80,6 @@ def test_leaves_tile_the_disk_without_overlap(silhouette):
     assert sum(areas) == pytest.approx(np.pi * DISK_RADIUS**2, rel=1e-12)
 
 
-@pytest.mark.parametrize("silhouette", SILHOUETTES)
-def test_pure_leaves_are_maximal_and_mixed_ones_minimal(silhouette):
-    image = silhouette(64)
-    for row, column, size in build_quadtree(image, 4):
-        texels = image[row : row + size, column : column + size]
-        if texels.all() or not texels.any():
-            row, column = row // (2 * size) * 2 * size, column // (2 * size) * 2 * size
-            parent = image[row : row + 2 * size, column : column + 2 * size]
-            assert parent.any() and not parent.all()
-        else:
-            assert size == 4
-
-
 def test_known_trees():
     # The axis divides the half plane: four quadrants.
     assert build_quadtree(half_plane(128), 1).tolist() == [

@@ -1,24 +1,58 @@
-"""States of trainings go when the networks are there, and only then."""
+"""A checkpoint's name says what made it; it goes when the network is there, and only then."""
 
-from neural_shadows.training.checkpoints import UNFINISHED, forget_finished
+import pytest
+
+from neural_shadows.networks.kind_module import kind_module
+from neural_shadows.training import checkpoints
+from neural_shadows.training.checkpoints import CHECKPOINTS, checkpoint_folder, remove_finished
+
+HEADER = {
+    "name": "ball",
+    "network": {"encoding": "frequency", "width": 8},
+    "training": {"steps": 20, "loss": {"false_shadow": 1.0}, "precision": "float32"},
+    "data": {"rays": 20_000},
+}
 
 
-def test_states_of_finished_networks_are_forgotten(tmp_path):
-    states = [tmp_path / UNFINISHED / name for name in ("dragon-1a", "dragon-2b", "dragon_64-3c")]
-    states.append(tmp_path / UNFINISHED / "fence-4d")
-    for state in states:
-        state.mkdir(parents=True)
-        (state / "state.safetensors").write_text("state")
+def folder_of(tmp_path, header=HEADER):
+    return checkpoint_folder(tmp_path / "networks" / "ball" / "weights.safetensors", header)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"name": "balls"},
+        {"network": HEADER["network"] | {"width": 16}},
+        {"training": HEADER["training"] | {"loss": {"false_shadow": 2.0}}},
+        {"data": {"rays": 20_001}},
+    ],
+    ids=lambda change: next(iter(change)),
+)
+def test_other_settings_have_another_checkpoint(tmp_path, change):
+    ours = folder_of(tmp_path)
+    assert ours.parent == tmp_path / "networks" / CHECKPOINTS
+    assert ours == folder_of(tmp_path) != folder_of(tmp_path, HEADER | change)
+
+
+def test_other_code_of_the_network_s_kind_has_another_checkpoint(tmp_path, monkeypatch):
+    edited = tmp_path / "frequency_network.py"
+    edited.write_text(kind_module("frequency").read_text() + "# edited\n")
+    before = folder_of(tmp_path)
+    monkeypatch.setattr(checkpoints, "kind_module", lambda encoding: edited)
+    assert folder_of(tmp_path) != before
+
+
+def test_checkpoints_of_finished_networks_are_removed(tmp_path):
+    remove_finished(tmp_path)  # nothing there
+    names = ("dragon-1a", "dragon-2b", "dragon_64-3c", "fence-4d")
+    folders = [tmp_path / CHECKPOINTS / name for name in names]
+    for folder in folders:
+        folder.mkdir(parents=True)
+        (folder / "state.safetensors").write_text("state")
     for name in ("dragon", "other"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "weights.safetensors").write_text("weights")
     (tmp_path / "fence").mkdir()  # Snakemake makes it before the training
-    forget_finished(tmp_path)
-    assert [state.exists() for state in states] == [False, False, True, True]
+    remove_finished(tmp_path)
+    assert [folder.exists() for folder in folders] == [False, False, True, True]
     assert (tmp_path / "dragon" / "weights.safetensors").exists()
-
-
-def test_without_states(tmp_path):
-    forget_finished(tmp_path)
-    forget_finished(tmp_path / "results" / "networks")
-    assert list(tmp_path.iterdir()) == []

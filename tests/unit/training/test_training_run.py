@@ -1,0 +1,128 @@
+"""A step's loss, gradient and weights; a saved state is the restored one."""
+
+import math
+
+import numpy as np
+import pytest
+import torch
+from rays import ball_rays
+
+from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.object_space.shadow_network import LabelledBatch
+from neural_shadows.networks.weight_file import load_tensors
+from neural_shadows.training.training_run import TrainingRun, chunk_size, learning_rate_at
+
+RAYS = [torch.from_numpy(part) for part in ball_rays(1000)]
+SETTINGS = {
+    "steps": 100,
+    "batch_size": 1000,
+    "learning_rate": 1e-3,
+    "schedule": "constant",
+    "loss": {},
+    "seed": 0,
+    "device": "cpu",
+    "precision": "float32",
+}
+
+
+def new_run(seed: int = 0, chunk: int = 1000, **changes) -> TrainingRun:
+    network = FrequencyNetwork(frequencies=3, width=16, hidden_layers=2)
+    network.initialise(seed)
+    run = TrainingRun(network, SETTINGS | changes)
+    run.chunk = chunk
+    return run
+
+
+def take_step(run: TrainingRun, rays: slice) -> tuple[float, float]:
+    """A step on these rays; gives the batch's mean loss and the spread of the outputs."""
+    before = run.loss_sum.item()
+    run.train_step(LabelledBatch(*(part[rays] for part in RAYS)))
+    return run.loss_sum.item() - before, run.spread.item()
+
+
+def assert_same_weights(ours: TrainingRun, theirs: TrainingRun) -> None:
+    for one, other in zip(ours.weights.values(), theirs.weights.values(), strict=True):
+        assert torch.equal(one, other)
+
+
+@pytest.mark.parametrize("chunk", [100, 64, 7])
+def test_chunks_add_up_to_the_batch(chunk):
+    whole, chunked = new_run(), new_run(chunk=chunk)
+    expected, found = take_step(whole, slice(100)), take_step(chunked, slice(100))
+    assert found == pytest.approx(expected, rel=1e-6)
+    for ours, theirs in zip(chunked.weights.values(), whole.weights.values(), strict=True):
+        torch.testing.assert_close(ours.grad, theirs.grad, rtol=1e-5, atol=1e-7)
+        assert theirs.grad.abs().max() > 1e-3
+
+
+def test_spread_is_that_of_the_whole_batch():
+    """A last chunk of one ray has none of its own, which is no dead network."""
+    _, spread = take_step(new_run(chunk=64), slice(65))
+    assert spread > 0.01
+
+
+def test_chunks_fill_a_cache_and_leave_work_for_two():
+    cpu, cuda = torch.device("cpu"), torch.device("cuda")
+    assert [chunk_size(batch, cpu, 2048) for batch in (16, 1023, 65536)] == [8, 512, 2048]
+    assert chunk_size(65536, cuda, 2048) == 65536
+
+
+def test_gradient_against_differences():
+    """The step's gradient is that of the mean loss: central differences in float64's stead."""
+    run = new_run()
+    take_step(run, slice(200))
+    gradient = run.network.output.grad
+    step = 3e-3  # the loss is piecewise linear in it: the step may be large beside rounding
+    differences = []
+    for i in range(gradient.shape[1]):
+        losses = []
+        for sign in (1, -1):
+            other = new_run()
+            other.network.output.data[0, i] += sign * step
+            losses.append(take_step(other, slice(200))[0])
+        differences.append((losses[0] - losses[1]) / (2 * step))
+    assert gradient[0].tolist() == pytest.approx(differences, abs=0.02)
+    assert max(map(abs, differences)) > 0.2
+
+
+def test_steps_are_those_of_torch_s_adam():
+    ours, theirs = new_run(learning_rate=1e-2), new_run()
+    adam = torch.optim.Adam(theirs.weights.values(), lr=torch.tensor(1e-2), fused=True)
+    for step in range(4):
+        take_step(ours, slice(100 * step, 100 * step + 100))
+        batch = LabelledBatch(*(part[100 * step : 100 * step + 100] for part in RAYS))
+        losses, _ = theirs.network.losses(batch, theirs.dead_zone, torch.float32, None)
+        adam.zero_grad()
+        (losses.sum() / 100).backward()
+        adam.step()
+    assert_same_weights(ours, theirs)
+
+
+def test_learning_rates():
+    def rates(steps, schedule):
+        settings = SETTINGS | {"learning_rate": 0.01, "schedule": schedule}
+        return [learning_rate_at(torch.tensor(step), settings).item() for step in steps]
+
+    assert rates((0, 50, 99), "constant") == [0.01] * 3
+    cosine = rates(range(101), "cosine")
+    assert cosine[0] == 0.01
+    assert cosine[25] == pytest.approx(0.01 * (1 + math.sqrt(0.5)) / 2)
+    assert cosine[100] == pytest.approx(0, abs=1e-12)
+    assert (np.diff(cosine) < 0).all()
+
+
+def test_restored_state_is_the_saved_one(tmp_path):
+    state, again = tmp_path / "state.safetensors", tmp_path / "again.safetensors"
+    run, other = new_run(1), new_run(2)
+    for step in range(5):
+        take_step(run, slice(step, step + 64))
+    run.curve, run.seconds = [[5, 1e-3, 1 / 3]], 0.1 + 0.2
+    run.save(state)
+    other.restore(state)
+    assert (other.step, other.curve, other.seconds) == (5, run.curve, run.seconds)
+    other.save(again)
+    assert again.read_bytes() == state.read_bytes()
+    assert len(load_tensors(state)[0]) == 3 * 4  # weights and both of Adam's means
+    for one in (run, other):  # and Adam's own count of steps, for its bias correction
+        take_step(one, slice(64))
+    assert_same_weights(run, other)
