@@ -1,160 +1,166 @@
-"""Reference, shadow maps, networks and metrics on batches of viewpoints [4.1]."""
+"""References, methods and metrics on batches of viewpoints; times and costs [4.1, 4.4]."""
 
 
 rule find_lpips:
     input:
-        trunk=CONFIG.metrics.lpips.trunk or [],
-        code=code("find_lpips"),
+        trunk=SETTINGS["metrics"]["lpips"]["trunk"] or [],
+        code=code("metrics/find_lpips"),
     output:
-        found=f"{RESULTS}/lpips.json",
+        lpips_json=PATHS.lpips,
     log:
-        f"{LOGS}/find_lpips.log",
+        PATHS.log("find_lpips"),
     # It may download: on a cluster, nodes that compute often have no network.
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
-        mem_mb=per_attempt(2000),
-        runtime=per_attempt(30),
+        **usual(2000, minutes=30),
     params:
-        net=CONFIG.metrics.lpips.net,
-        trunk=CONFIG.metrics.lpips.trunk,
+        net=setting("metrics/lpips/net"),
     message:
         "Looking for LPIPS's pretrained trunk"
     script:
-        "../scripts/find_lpips.py"
+        "../neural_shadows/metrics/find_lpips.py"
 
 
-rule find_depth_biases:
+rule render_references:
     input:
-        mesh=lambda wildcards: LAYOUT.mesh(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "ply"
-        ),
-        weights=lambda wildcards: LAYOUT.networks(
-            wildcards.evaluation, "weights.safetensors"
-        ),
-        code=lambda wildcards: code(
-            "find_depth_biases", CONFIG.evaluations[wildcards.evaluation].networks
-        ),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        code=code("evaluation/render_references"),
     output:
-        found=f"{EVALUATION}/depth_biases.json",
+        references=PATHS.reference("safetensors"),
+        pictures_npz=PATHS.reference("npz"),
     log:
-        f"{LOGS}/find_depth_biases/{{evaluation}}.log",
+        PATHS.log("render_references", "scene", "batch"),
     benchmark:
-        f"{BENCHMARKS}/find_depth_biases/{{evaluation}}.tsv"
+        PATHS.benchmark("render_references", "scene", "batch")
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
-        mem_mb=per_attempt(4000),
-        runtime=per_attempt(60),
+        **usual(4000, minutes=120),
+    params:
+        scene=setting("scenes/{scene}/scene"),
+        frames=setting("scenes/{scene}/frames"),
+        first=of(LAYOUT.first_view),
+        last=of(LAYOUT.last_view),
+        reference=setting("rendering/reference"),
+    message:
+        "Rendering references of {wildcards.scene}, batch {wildcards.batch}"
+    script:
+        "../neural_shadows/evaluation/render_references.py"
+
+
+rule find_depth_bias:
+    input:
+        references=of(LAYOUT.held_out_views),
+        weights=PATHS.network("weights.safetensors"),
+        code=lambda wildcards: code(
+            "evaluation/find_depth_bias", LAYOUT.encodings([wildcards.experiment])
+        ),
+    output:
+        depth_bias_json=PATHS.depth_bias(),
+    log:
+        PATHS.log("find_depth_bias", "experiment"),
+    benchmark:
+        PATHS.benchmark("find_depth_bias", "experiment")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=60),
         gpu=GPUS,
     params:
-        networks=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].networks,
-        view_sets=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].view_sets,
-        first=LAYOUT.held_out_range()[0],
-        last=LAYOUT.held_out_range()[1],
-        frames=lambda wildcards: LAYOUT.scene_frames(
-            LAYOUT.evaluation_scene(wildcards.evaluation), CONFIG.rendering
-        ),
-        reference=CONFIG.rendering.reference,
-        device=CONFIG.compute.device,
-        precision=CONFIG.compute.precision,
+        device=COMPUTE["device"],
     message:
-        "Finding depth biases for {wildcards.evaluation}"
+        "Finding the depth bias of {wildcards.experiment}"
     script:
-        "../scripts/find_depth_biases.py"
+        "../neural_shadows/evaluation/find_depth_bias.py"
 
 
 rule evaluate:
     input:
-        mesh=lambda wildcards: LAYOUT.mesh(
-            LAYOUT.evaluation_scene(wildcards.evaluation), "ply"
-        ),
-        weights=lambda wildcards: LAYOUT.networks(
-            wildcards.evaluation, "weights.safetensors"
-        ),
-        lpips=f"{RESULTS}/lpips.json",
-        depth_biases=lambda wildcards: LAYOUT.depth_biases(wildcards.evaluation),
+        references=PATHS.reference("safetensors"),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        weights=of(LAYOUT.weights),
+        depth_bias_json=of(LAYOUT.method_bias),
+        lpips_json=PATHS.lpips,
         code=lambda wildcards: code(
-            "evaluate", CONFIG.evaluations[wildcards.evaluation].networks
+            "evaluation/evaluate", LAYOUT.method_encodings(wildcards.method)
         ),
     output:
-        metrics=f"{EVALUATION}/{{view_set}}.{{batch}}.csv",
-        pictures=f"{EVALUATION}/{{view_set}}.{{batch}}.npz",
+        metrics_csv=PATHS.evaluation("csv"),
+        pictures_npz=PATHS.evaluation("npz"),
     log:
-        f"{LOGS}/evaluate/{{evaluation}}.{{view_set}}.{{batch}}.log",
+        PATHS.log("evaluate", "scene", "method", "batch"),
     benchmark:
-        f"{BENCHMARKS}/evaluate/{{evaluation}}.{{view_set}}.{{batch}}.tsv"
+        PATHS.benchmark("evaluate", "scene", "method", "batch")
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
-        mem_mb=per_attempt(4000),
-        runtime=per_attempt(120),
+        **usual(4000, minutes=120),
         gpu=GPUS,
     params:
-        networks=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].networks,
-        shadow_maps=lambda wildcards: CONFIG.evaluations[
-            wildcards.evaluation
-        ].shadow_maps,
-        depth_bias=lambda wildcards: CONFIG.evaluations[wildcards.evaluation].depth_bias,
-        first=lambda wildcards: LAYOUT.view_range(wildcards.batch)[0],
-        last=lambda wildcards: LAYOUT.view_range(wildcards.batch)[1],
-        frames=lambda wildcards: LAYOUT.scene_frames(
-            LAYOUT.evaluation_scene(wildcards.evaluation), CONFIG.rendering
-        ),
-        reference=CONFIG.rendering.reference,
-        device=CONFIG.compute.device,
-        precision=CONFIG.compute.precision,
+        scene=setting("scenes/{scene}/scene"),
+        bias=of(LAYOUT.bias),
+        device=COMPUTE["device"],
     message:
-        "Rendering {wildcards.evaluation}, {wildcards.view_set} viewpoints, batch {wildcards.batch}"
+        "Evaluating {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
     script:
-        "../scripts/evaluate.py"
+        "../neural_shadows/evaluation/evaluate.py"
 
 
-rule frame_times:
+rule measure_frame_times:
     input:
-        mesh=f"{SCENE}/mesh.ply",
-        weights=lambda wildcards: LAYOUT.table_files(
-            wildcards.table, "weights.safetensors", wildcards.scene
-        ),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        weights=of(tables.timed_weights),
         code=lambda wildcards: code(
-            "frame_times", LAYOUT.table_experiments(wildcards.table, wildcards.scene)
+            "evaluation/measure_frame_times",
+            tables.timed_encodings(LAYOUT, wildcards.table, wildcards.scene),
         ),
     output:
-        times=f"{RESULTS}/{layout.FRAME_TIMES}",
+        times_json=PATHS.frame_times(),
     log:
-        f"{LOGS}/frame_times/{{table}}.{{scene}}.log",
+        PATHS.log("measure_frame_times", "table", "scene"),
     benchmark:
-        f"{BENCHMARKS}/frame_times/{{table}}.{{scene}}.tsv"
+        PATHS.benchmark("measure_frame_times", "table", "scene")
     conda:
         ENVIRONMENT
     # It computes on one: with all that a training takes, nothing disturbs it on a small machine.
-    threads: CONFIG.compute.threads
+    threads: COMPUTE["threads"]
     resources:
-        mem_mb=per_attempt(4000),
-        runtime=per_attempt(120),
+        **usual(4000, minutes=120),
         gpu=GPUS,
     params:
-        networks=lambda wildcards: LAYOUT.table_networks(
-            wildcards.table, wildcards.scene
-        ),
-        shadow_maps=lambda wildcards: LAYOUT.timed_shadow_maps(
-            wildcards.table, wildcards.scene
-        ),
-        view_sets=lambda wildcards: LAYOUT.timed_view_sets(
-            wildcards.table, wildcards.scene
-        ),
-        frames=lambda wildcards: LAYOUT.scene_frames(
-            wildcards.scene, CONFIG.frame_times
-        ),
-        repeats=CONFIG.frame_times.repeats,
-        warm_up=CONFIG.frame_times.warm_up,
-        device=CONFIG.compute.device,
-        precision=CONFIG.compute.precision,
+        methods=of(tables.timed_methods),
+        scene=setting("scenes/{scene}/scene"),
+        frames=setting("scenes/{scene}/frames"),
+        frame_times=setting("frame_times"),
+        device=COMPUTE["device"],
     message:
         "Timing frames of {wildcards.scene} for {wildcards.table}"
     script:
-        "../scripts/frame_times.py"
+        "../neural_shadows/evaluation/measure_frame_times.py"
+
+
+rule measure_cost:
+    input:
+        code=code("evaluation/measure_cost", ["frequency"]),
+    output:
+        cost_json=PATHS.cost(),
+    log:
+        PATHS.log("measure_cost", "over", "value"),
+    benchmark:
+        PATHS.benchmark("measure_cost", "over", "value")
+    conda:
+        ENVIRONMENT
+    # All that a training takes, so that nothing disturbs it on a small machine.
+    threads: COMPUTE["threads"]
+    resources:
+        **usual(8000, minutes=120),
+        gpu=GPUS,
+    params:
+        seed=SETTINGS["seed"],
+        device=COMPUTE["device"],
+    message:
+        "Measuring costs at {wildcards.over} = {wildcards.value}"
+    script:
+        "../neural_shadows/evaluation/measure_cost.py"

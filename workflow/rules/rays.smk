@@ -1,133 +1,100 @@
 """View directions → rays through silhouettes and quadtrees → ray-traced labels [3.4]."""
 
 
-rule view_directions:
+rule draw_directions:
     input:
-        code=code("view_directions"),
+        code=code("rays/draw_directions"),
     output:
-        directions=f"{RAYS}/directions.npy",
+        directions_npy=PATHS.rays("directions.npy"),
     log:
-        f"{LOGS}/view_directions/{{scene}}.{{sampling}}.log",
+        PATHS.log("draw_directions", "scene", "sampling"),
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
-        mem_mb=per_attempt(1000),
-        runtime=per_attempt(10),
+        **usual(1000, minutes=10),
     params:
-        sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
-        directions=lambda wildcards: CONFIG.samplings[wildcards.sampling].directions,
-        seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
-        light=lambda wildcards: LAYOUT.sampling_light(
-            wildcards.scene, wildcards.sampling
-        ),
-        up=lambda wildcards: LAYOUT.scene_param(wildcards.scene, "up"),
+        sampling=setting("samplings/{sampling}"),
+        seed=setting("scenes/{scene}/seed"),
+        light=of(LAYOUT.direction_light),
+        up=setting("scenes/{scene}/up"),
     message:
         "Drawing view directions of {wildcards.scene} ({wildcards.sampling})"
     script:
-        "../scripts/view_directions.py"
+        "../neural_shadows/rays/draw_directions.py"
 
 
 rule sample_rays:
     input:
-        mesh=f"{SCENE}/mesh.ply",
-        directions=f"{RAYS}/directions.npy",
-        code=code("sample_rays"),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        directions_npy=PATHS.rays("directions.npy"),
+        code=code("rays/sample_rays"),
     output:
-        origins=f"{RAYS}/origins.{{shard}}.npy",
+        origins_npy=PATHS.rays("origins.{shard}.npy"),
     log:
-        f"{LOGS}/sample_rays/{{scene}}.{{sampling}}.{{shard}}.log",
+        PATHS.log("sample_rays", "scene", "sampling", "shard"),
     benchmark:
-        f"{BENCHMARKS}/sample_rays/{{scene}}.{{sampling}}.{{shard}}.tsv"
+        PATHS.benchmark("sample_rays", "scene", "sampling", "shard")
     conda:
         ENVIRONMENT
-    threads: CONFIG.compute.threads
+    threads: COMPUTE["threads"]
     resources:
-        mem_mb=per_attempt(4000),
-        runtime=per_attempt(10),
+        **usual(4000, minutes=10),
     params:
-        sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
-        points_per_direction=lambda wildcards: CONFIG.samplings[
-            wildcards.sampling
-        ].points_per_direction,
-        silhouette_resolution=lambda wildcards: CONFIG.samplings[
-            wildcards.sampling
-        ].silhouette_resolution,
-        min_quad=lambda wildcards: CONFIG.samplings[wildcards.sampling].min_quad,
-        seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
-        first=lambda wildcards: LAYOUT.shard_range(
-            wildcards.sampling, wildcards.shard
-        )[0],
-        last=lambda wildcards: LAYOUT.shard_range(wildcards.sampling, wildcards.shard)[
-            1
-        ],
+        sampling=setting("samplings/{sampling}"),
+        seed=setting("scenes/{scene}/seed"),
+        first=of(LAYOUT.first_direction),
+        last=of(LAYOUT.last_direction),
     message:
         "Sampling rays of {wildcards.scene} ({wildcards.sampling}), shard {wildcards.shard}"
     script:
-        "../scripts/sample_rays.py"
+        "../neural_shadows/rays/sample_rays.py"
 
 
 rule label_rays:
     input:
-        mesh=f"{SCENE}/mesh.ply",
-        directions=f"{RAYS}/directions.npy",
-        origins=f"{RAYS}/origins.{{shard}}.npy",
-        code=code("label_rays"),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        directions_npy=PATHS.rays("directions.npy"),
+        origins_npy=PATHS.rays("origins.{shard}.npy"),
+        code=code("rays/label_rays"),
     output:
-        bounds=f"{RAYS}/bounds.{{shard}}.npy",
+        bounds_npy=PATHS.rays("bounds.{shard}.npy"),
     log:
-        f"{LOGS}/label_rays/{{scene}}.{{sampling}}.{{shard}}.log",
+        PATHS.log("label_rays", "scene", "sampling", "shard"),
     benchmark:
-        f"{BENCHMARKS}/label_rays/{{scene}}.{{sampling}}.{{shard}}.tsv"
+        PATHS.benchmark("label_rays", "scene", "sampling", "shard")
     conda:
         ENVIRONMENT
-    threads: CONFIG.compute.threads
+    threads: COMPUTE["threads"]
     resources:
-        mem_mb=per_attempt(4000),
-        runtime=per_attempt(10),
+        **usual(4000, minutes=10),
     params:
-        seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
-        first=lambda wildcards: LAYOUT.shard_range(
-            wildcards.sampling, wildcards.shard
-        )[0],
-        last=lambda wildcards: LAYOUT.shard_range(wildcards.sampling, wildcards.shard)[
-            1
-        ],
+        seed=setting("scenes/{scene}/seed"),
+        first=of(LAYOUT.first_direction),
+        last=of(LAYOUT.last_direction),
     message:
         "Tracing labels of {wildcards.scene} ({wildcards.sampling}), shard {wildcards.shard}"
     script:
-        "../scripts/label_rays.py"
+        "../neural_shadows/rays/label_rays.py"
 
 
 rule describe_rays:
     input:
-        mesh=f"{SCENE}/mesh.ply",
-        directions=f"{RAYS}/directions.npy",
-        origins=lambda wildcards: LAYOUT.ray_shards(
-            wildcards.scene, wildcards.sampling, "origins"
-        ),
-        bounds=lambda wildcards: LAYOUT.ray_shards(
-            wildcards.scene, wildcards.sampling, "bounds"
-        ),
-        code=code("describe_rays"),
+        unpack(of(LAYOUT.shards)),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        directions_npy=PATHS.rays("directions.npy"),
+        code=code("rays/describe_rays"),
     output:
-        description=f"{RAYS}/rays.json",
+        rays_json=PATHS.rays("rays.json"),
     log:
-        f"{LOGS}/describe_rays/{{scene}}.{{sampling}}.log",
+        PATHS.log("describe_rays", "scene", "sampling"),
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
-        mem_mb=per_attempt(2000),
-        runtime=per_attempt(30),
+        **usual(2000, minutes=30),
     params:
-        sampler=lambda wildcards: CONFIG.samplings[wildcards.sampling].sampler,
-        silhouette_resolution=lambda wildcards: CONFIG.samplings[
-            wildcards.sampling
-        ].silhouette_resolution,
-        min_quad=lambda wildcards: CONFIG.samplings[wildcards.sampling].min_quad,
-        seed=lambda wildcards: CONFIG.scene_seed(wildcards.scene),
+        sampling=setting("samplings/{sampling}"),
+        seed=setting("scenes/{scene}/seed"),
     message:
         "Describing the rays of {wildcards.scene} ({wildcards.sampling})"
     script:
-        "../scripts/describe_rays.py"
+        "../neural_shadows/rays/describe_rays.py"

@@ -6,7 +6,7 @@ import os
 import shlex
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, get_type_hints
 
@@ -60,10 +60,10 @@ def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
     """What a job hands to its stage's function.
 
     Paths become what the argument's annotation says: `Path`, `Path | None` (None for no file) or
-    `list[Path]`; anything else stays as it is.
+    `list[Path]`; anything else stays as it is, but a wildcard may be an `int`.
 
     Raises:
-        TypeError: the rule gives a name that the function does not take, or misses one.
+        TypeError: see `check_names`.
     """
     input, output, params, wildcards = (
         dict(part.items()) for part in (job.input, job.output, job.params, job.wildcards)
@@ -72,12 +72,23 @@ def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
     given = {name: value for name, value in given.items() if name not in _RULE_ONLY}
     takes = inspect.signature(function).parameters
     offered = {"threads": job.threads, **wildcards}
-    given |= {name: value for name, value in offered.items() if name in takes}
-    if given.keys() != takes.keys():
-        extra, missing = sorted(given.keys() - takes), sorted(takes.keys() - given)
-        raise TypeError(f"{function.__name__}: rule gives {extra} too much, {missing} too little")
+    given = {name: value for name, value in offered.items() if name in takes} | given
+    check_names(function, given)
     types = get_type_hints(function)
     return {name: _converted(value, types.get(name)) for name, value in given.items()}
+
+
+def check_names(function: Callable[..., None], given: Iterable[str]) -> None:
+    """Check that a rule's names are those of its function's arguments.
+
+    Raises:
+        TypeError: a name that the function does not take, or an argument without one.
+    """
+    takes = inspect.signature(function).parameters
+    needed = {name for name, argument in takes.items() if argument.default is argument.empty}
+    extra, missing = sorted(set(given) - takes.keys()), sorted(needed - set(given))
+    if extra or missing:
+        raise TypeError(f"{function.__name__}: the rule gives too much: {extra}, lacks: {missing}")
 
 
 def _converted(value: Any, type_: Any) -> Any:
@@ -87,7 +98,7 @@ def _converted(value: Any, type_: Any) -> Any:
         # Snakemake gives a function's file as a list of one.
         paths = [value] if isinstance(value, str) else list(value)
         return Path(paths[0]) if paths else None
-    return value
+    return int(value) if type_ is int else value  # a wildcard is text
 
 
 def _message(error: Exception) -> str:

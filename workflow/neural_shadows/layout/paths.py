@@ -1,0 +1,86 @@
+"""Where each result lies: a pattern of each kind of file, in Snakemake's notation of wildcards."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from neural_shadows.layout.parts import part_names
+
+
+@dataclass(frozen=True)
+class Paths:
+    """Files of a run: the default scale's (`desk`) below results/ and reports/, those of another
+    in a folder of its name in each.
+    """
+
+    scale: str
+
+    @cached_property
+    def results(self) -> str:
+        return "results" if self.scale == "desk" else f"results/{self.scale}"
+
+    @cached_property
+    def reports(self) -> str:
+        return "reports" if self.scale == "desk" else f"reports/{self.scale}"
+
+    def scene(self, file: str, scene: str = "{scene}") -> str:
+        """`mesh.ply`, the prepared mesh; `mesh.json`, its description."""
+        return f"{self.results}/scenes/{scene}/{file}"
+
+    def rays(self, file: str, scene: str = "{scene}", sampling: str = "{sampling}") -> str:
+        """`directions.npy`, `origins.000.npy`, `bounds.000.npy`, …, `rays.json`."""
+        return f"{self.results}/rays/{scene}/{sampling}/{file}"
+
+    def ray_shards(self, stem: str, scene: str, sampling: str, shards: int) -> list[str]:
+        """All shards of a ray set: its `origins` or `bounds`."""
+        return [self.rays(f"{stem}.{part}.npy", scene, sampling) for part in part_names(shards)]
+
+    def network(self, file: str, experiment: str = "{experiment}") -> str:
+        """`weights.safetensors`, `loss.csv`, `training.json`, `network.onnx`, `network.json`."""
+        return f"{self.results}/networks/{experiment}/{file}"
+
+    def reference(self, ending: str, scene: str = "{scene}", batch: str = "{batch}") -> str:
+        """`safetensors`, G-buffers and visibility of a batch of viewpoints; `npz`, pictures."""
+        return f"{self.results}/references/{scene}/{batch}.{ending}"
+
+    def evaluation(
+        self,
+        ending: str,
+        scene: str = "{scene}",
+        method: str = "{method}",
+        batch: str = "{batch}",
+    ) -> str:
+        """`csv`, the metrics of a method on a batch; `npz`, its pictures."""
+        return f"{self.results}/evaluations/{scene}/{method}.{batch}.{ending}"
+
+    def depth_bias(self, experiment: str = "{experiment}") -> str:
+        """The depth bias found for a network."""
+        return f"{self.results}/depth_biases/{experiment}.json"
+
+    def frame_times(self, table: str = "{table}", scene: str = "{scene}") -> str:
+        """The times of a table's methods on a scene."""
+        return f"{self.results}/frame_times/{table}/{scene}.json"
+
+    def cost(self, over: str = "{over}", value: str | int = "{value}") -> str:
+        """What the stages cost at one size."""
+        return f"{self.results}/cost/{over}.{value}.json"
+
+    @cached_property
+    def lpips(self) -> str:
+        """Whether LPIPS can be computed."""
+        return f"{self.results}/lpips.json"
+
+    def log(self, rule: str, *wildcards: str) -> str:
+        """The log of a rule's job."""
+        return f"{self.results}/logs/{rule}/{_of(rule, wildcards)}.log"
+
+    def benchmark(self, rule: str, *wildcards: str) -> str:
+        """Seconds and memory of a rule's job."""
+        return f"{self.results}/benchmarks/{rule}/{_of(rule, wildcards)}.tsv"
+
+    def report(self, name: str) -> str:
+        """A table, a figure, or the page."""
+        return f"{self.reports}/{name}"
+
+
+def _of(rule: str, wildcards: tuple[str, ...]) -> str:
+    return ".".join(f"{{{name}}}" for name in wildcards) or rule

@@ -1,0 +1,113 @@
+"""What a run makes unless it is asked for less, and what its page shows."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.layout import claims, tables
+from neural_shadows.layout.layout import Layout
+
+
+def all_reports(layout: Layout) -> list[str]:
+    """Everything that `rule all` makes."""
+    names = [
+        *(f"{name}{ending}" for name in default_tables(layout) for ending in (".csv", ".md")),
+        *(f"{name}{ending}" for name in default_figures(layout) for ending in (".png", ".svg")),
+        *(f"scenes/{scene}.png" for scene in layout.settings["scenes"]),
+        *(f"claims{ending}" for ending in (".csv", ".md") if layout.settings["claims"]),
+        "index.html",
+    ]
+    return [layout.paths.report(name) for name in names]
+
+
+def default_tables(layout: Layout) -> list[str]:
+    """Names of the tables that are made without being asked for."""
+    entries = layout.settings["tables"].items()
+    return [name for name, table in entries if not table["on_request"]]
+
+
+def default_figures(layout: Layout) -> list[str]:
+    """Names of the figures that are: those of no table, or of such a table."""
+    shown = [None, *default_tables(layout)]
+    entries = layout.settings["figures"].items()
+    return [name for name, figure in entries if figure.get("table") in shown]
+
+
+def page_files(layout: Layout) -> dict[str, Any]:
+    """All that the page shows of a whole run."""
+    settings, paths = layout.settings, layout.paths
+    rows = [
+        *(row for name in default_tables(layout) for row in settings["tables"][name]["rows"]),
+        *(row for claim in settings["claims"].values() for row in claims.methods(claim)),
+    ]
+    pictured = tables.unique(
+        (row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED
+    )
+    scenes = tables.unique(scene for scene, _ in pictured)
+    return {
+        "tables": [paths.report(f"{name}.md") for name in default_tables(layout)],
+        "figures": [
+            paths.report(f"{name}.{ending}")
+            for name in default_figures(layout)
+            for ending in ("svg", "png")
+        ],
+        "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
+        "pictures": [
+            *(paths.reference("npz", scene, "000") for scene in scenes),
+            *(paths.evaluation("npz", *names, "000") for names in pictured),
+        ],
+        "metrics": [paths.evaluation("csv", *names, "000") for names in pictured],
+        "meshes": [paths.scene("mesh.json", scene) for scene in settings["scenes"]],
+        "trainings": tables.networks(layout, rows, "training.json"),
+        "lpips_json": [paths.lpips],
+    }
+
+
+def page_arguments(layout: Layout) -> dict[str, Any]:
+    """What `write_page` is told beside its files."""
+    titles = {name: figure["title"] for name, figure in layout.settings["figures"].items()}
+    return {
+        "titles": titles,
+        "beyond": beyond(layout),
+        "run": layout.run(),
+        "scenes": layout.scenes(layout.settings["scenes"]),
+    }
+
+
+def available(layout: Layout) -> dict[str, Any]:
+    """Of `page_files` those that are there now, reports on request among them."""
+    found = page_files(layout)
+    settings, report = layout.settings, layout.paths.report
+    found["tables"] = [report(f"{name}.md") for name in settings["tables"]]
+    found["figures"] = [
+        report(f"{name}.{ending}") for name in settings["figures"] for ending in ("svg", "png")
+    ]
+    return {name: [path for path in paths if Path(path).exists()] for name, paths in found.items()}
+
+
+def available_arguments(layout: Layout) -> dict[str, Any]:
+    """What `write_page` is told for a page of these."""
+    return page_arguments(layout) | available(layout)
+
+
+def newest(layout: Layout) -> float:
+    """When the last of these was written, in seconds: with a newer one their page is old."""
+    paths = [Path(path) for paths in available(layout).values() for path in paths]
+    return max((path.stat().st_mtime for path in paths), default=0.0)
+
+
+def beyond(layout: Layout) -> list[str]:
+    """Names of the tables and figures that are not the thesis's: those of other networks."""
+    entries = layout.settings["tables"].items()
+    found = [name for name, table in entries if table["kind"] == "networks"]
+    figures = layout.settings["figures"]
+    return found + [name for name in figures if not re.fullmatch(r"figure_\d+_\d+", name)]
+
+
+def made(layout: Layout, outputs: list[str]) -> list[str]:
+    """Of the files that a run has just made: the reports to be looked at, tables first."""
+    found = [path for path in outputs if path.startswith(f"{layout.paths.reports}/")]
+    order = {".md": 0, ".html": 1, ".png": 2}
+    shown = [path for path in found if Path(path).suffix in order]
+    return sorted(shown, key=lambda path: order[Path(path).suffix])

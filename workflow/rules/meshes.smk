@@ -1,0 +1,63 @@
+"""Mesh source → clean mesh in normalised space, with its bounding sphere."""
+
+
+rule generate_mesh:
+    input:
+        code=code("meshes/generate_mesh"),
+    output:
+        generated_ply=PATHS.scene("generated.ply"),
+    log:
+        PATHS.log("generate_mesh", "scene"),
+    benchmark:
+        PATHS.benchmark("generate_mesh", "scene")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=10),
+    params:
+        mesh=setting("scenes/{scene}/mesh"),
+    message:
+        "Making the mesh of scene {wildcards.scene}"
+    script:
+        "../neural_shadows/meshes/generate_mesh.py"
+
+
+rule download_mesh:
+    input:
+        code=code("meshes/download_mesh"),
+    output:
+        downloaded_ply=PATHS.scene("downloaded.ply"),
+    log:
+        PATHS.log("download_mesh", "scene"),
+    # On a cluster, nodes that compute often have no network.
+    localrule: True
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(1000, minutes=30),
+    retries: 2
+    message:
+        "Downloading the mesh of scene {wildcards.scene}"
+    script:
+        "../neural_shadows/meshes/download_mesh.py"
+
+
+rule prepare_mesh:
+    input:
+        source=of(LAYOUT.mesh_source),
+        code=code("meshes/prepare_mesh"),
+    output:
+        mesh_ply=PATHS.scene("mesh.ply"),
+        mesh_json=PATHS.scene("mesh.json"),
+    log:
+        PATHS.log("prepare_mesh", "scene"),
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=10),
+    params:
+        name=setting("scenes/{scene}/mesh_name"),
+    message:
+        "Cleaning and normalising the mesh of scene {wildcards.scene}"
+    script:
+        "../neural_shadows/meshes/prepare_mesh.py"
