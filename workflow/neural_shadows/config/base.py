@@ -1,10 +1,17 @@
 """What all sections of the configuration share."""
 
-from typing import Annotated
+from collections.abc import Iterable
+from difflib import get_close_matches
+from functools import reduce
+from operator import or_
+from typing import Annotated, Any, get_args
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
+from pydantic_core import PydanticCustomError
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
+Text = Annotated[str, Field(min_length=1)]
+Seed = Annotated[int, Field(ge=0, lt=2**32)]
 
 
 class Model(BaseModel):
@@ -12,12 +19,70 @@ class Model(BaseModel):
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
+    @model_validator(mode="before")
+    @classmethod
+    def _check_keys(cls, values: Any) -> Any:
+        for key in values if isinstance(values, dict) else ():
+            if key not in cls.model_fields:
+                # A named error: pydantic's own does not say which keys there are.
+                raise PydanticCustomError(
+                    "unknown_key", "unknown key {key}", {"key": instead(str(key), cls.model_fields)}
+                )
+        return values
 
-def _check_power_of_two(value: int, key: str) -> None:
+
+def instead(name: str, allowed: Iterable[str]) -> str:
+    """A wrong name, the one that was probably meant, and all that are allowed."""
+    allowed = list(allowed)
+    close = get_close_matches(name, allowed, 1)
+    meant = f"did you mean {close[0]!r}? " if close else ""
+    return f"{name!r}; {meant}allowed: {', '.join(allowed)}"
+
+
+def check_known(key: str, name: str, section: str, names: Iterable[str]) -> None:
+    """Check that what stands at a key is one of the names of a section."""
+    names = list(names)
+    if name not in names:
+        raise ValueError(f"{key}: no such name in `{section}`: {instead(name, names)}")
+
+
+def check_power_of_two(value: int, key: str) -> None:
+    """Check that the value of a key is a power of two."""
     if value & (value - 1):
         raise ValueError(f"{key} = {value}: must be a power of two")
 
 
-ON_REQUEST = Field(
-    False, description="whether it is made only when asked for by name, and not by `all`"
-)
+def by_kind(key: str, *models: type[Model], default: str | None = None) -> Any:
+    """The union of models that the value of one key tells apart.
+
+    Tags are the classes' names, which no key of the configuration can be: messages leave out
+    what is no key from the place of an error.
+    """
+    tags = {
+        kind: model.__name__
+        for model in models
+        for kind in get_args(model.model_fields[key].annotation)
+    }
+
+    def tag(value: Any) -> str | None:
+        if isinstance(value, dict):
+            kind = value.get(key, default)
+            return tags.get(kind) if isinstance(kind, str) else None
+        return type(value).__name__
+
+    return Annotated[
+        reduce(or_, (Annotated[model, Tag(model.__name__)] for model in models)),
+        Discriminator(
+            tag,
+            custom_error_type="kind",
+            custom_error_message=f"`{key}` should be one of {', '.join(tags)}",
+        ),
+    ]
+
+
+def name_or(section: Any) -> Any:
+    """A name that refers to a section, or the section itself."""
+    return Annotated[
+        Annotated[Name, Tag("Name")] | Annotated[section, Tag("Section")],
+        Discriminator(lambda value: "Name" if isinstance(value, str) else "Section"),
+    ]

@@ -1,10 +1,15 @@
 """`claims`: what the thesis concludes, and the data that tests it."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from neural_shadows.config.base import Model, Name
+from neural_shadows.config.base import Model, Name, by_kind, instead
+from neural_shadows.config.tables import FrameTimesTable, method_key
+from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
+
+if TYPE_CHECKING:
+    from neural_shadows.config.whole import Config
 
 
 class AnyClaim(Model):
@@ -15,32 +20,24 @@ class AnyClaim(Model):
 
 
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
-Pairs = Annotated[
-    list[Pair], Field(min_length=1, description="comparisons, the claimed winner first")
-]
+Pairs = Annotated[list[Pair], Field(min_length=1)]
 
 
 class BetterClaim(AnyClaim):
     """Methods compared by the mean over views of an image metric."""
 
     kind: Literal["better"] = Field(description="`better`")
-    evaluations: list[Name] = Field(
-        min_length=1, description="names in `evaluations`, each method in one of them"
-    )
-    pairs: Pairs
+    pairs: Pairs = Field(description="methods, one of them a network; the claimed winner first")
     metric: Literal["lpips", "psnr", "ssim", "flip", "shadow_error"] = Field(
         "lpips", description="an image metric; FLIP takes LPIPS's place where its trunk is missing"
     )
 
 
-class MoreClaim(AnyClaim):
-    """More of one kind of error than of another, for each method."""
+class LargerErrorClaim(AnyClaim):
+    """More of one kind of error than of another, for each network."""
 
-    kind: Literal["more"] = Field(description="`more`")
-    evaluations: list[Name] = Field(
-        min_length=1, description="names in `evaluations`, each method in one of them"
-    )
-    methods: list[str] = Field(min_length=1, description="methods of the evaluations")
+    kind: Literal["larger_error"] = Field(description="`larger_error`")
+    methods: list[str] = Field(min_length=1, description="networks")
     more: Literal["false_shadow", "light_leak"] = Field(description="the larger error")
     less: Literal["false_shadow", "light_leak"] = Field(description="the smaller error")
 
@@ -55,18 +52,15 @@ class LowerLossClaim(AnyClaim):
     """Networks compared by the end of their training loss."""
 
     kind: Literal["lower_loss"] = Field(description="`lower_loss`")
-    pairs: Pairs
+    pairs: Pairs = Field(description="experiments, the claimed winner first")
 
 
 class FrameTimeClaim(AnyClaim):
     """The ratio of two methods' median frame times, within bounds."""
 
     kind: Literal["frame_time"] = Field(description="`frame_time`")
-    table: str = Field(description="a table of `frame_times` in `tables`")
-    pairs: Annotated[
-        list[Pair],
-        Field(min_length=1, description="methods of one scene; the first's time over the second's"),
-    ]
+    table: Name = Field(description="a table of `frame_times` in `tables`")
+    pairs: Pairs = Field(description="methods of one scene; the first's time over the second's")
     at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
     at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")
 
@@ -81,6 +75,62 @@ class FrameTimeClaim(AnyClaim):
         return self
 
 
-Claim = Annotated[
-    BetterClaim | MoreClaim | LowerLossClaim | FrameTimeClaim, Field(discriminator="kind")
-]
+Claim = by_kind("kind", BetterClaim, LargerErrorClaim, LowerLossClaim, FrameTimeClaim)
+
+
+def compared(claim: AnyClaim) -> list[list[str]]:
+    """The methods of a claim that are compared with each other, or each alone."""
+    return getattr(claim, "pairs", None) or [[method] for method in claim.methods]
+
+
+def scenes_of(config: "Config", methods: list[str]) -> dict[str, str]:
+    """The scene of each of the methods compared: a network's own, a shadow map's the network's."""
+    networks = {
+        method: config.experiments[name].scene
+        for method in methods
+        if (name := experiment_of(method)) in config.experiments
+    }
+    return {method: networks.get(method, next(iter(networks.values()))) for method in methods}
+
+
+def check(config: "Config") -> None:
+    """Check names in claims: methods are networks, or shadow maps compared with one."""
+    for name, claim in config.claims.items():
+        key = f"claims.{name}"
+        for methods in compared(claim):
+            for method in methods:
+                _check_method(config, f"{key}.pairs", claim, method)
+            if all(map(is_shadow_map, methods)):
+                raise ValueError(f"{key}.pairs: {methods}: one of them should be an experiment")
+            if len(set(methods)) < len(methods):
+                raise ValueError(
+                    f"{key}.pairs: {methods[0]!r} is compared with itself; allowed: two methods"
+                )
+            if isinstance(claim, FrameTimeClaim):
+                _check_timed(config, key, claim, methods)
+
+
+def _check_method(config: "Config", key: str, claim: AnyClaim, method: str) -> None:
+    of_loss = isinstance(claim, LowerLossClaim)
+    known = method in config.experiments
+    if not of_loss:
+        known = known or experiment_of(method) in config.experiments or is_shadow_map(method)
+    if not known:
+        others = [] if of_loss else ["shadow_map_N"]
+        raise ValueError(
+            f"{key}: no such method: {instead(method, [*others, *config.experiments])}"
+        )
+
+
+def _check_timed(config: "Config", key: str, claim: FrameTimeClaim, methods: list[str]) -> None:
+    table = config.tables.get(claim.table)
+    if not isinstance(table, FrameTimesTable):
+        tables = [name for name, other in config.tables.items() if other.kind == "frame_times"]
+        raise ValueError(f"{key}.table: is no table of frame_times: {instead(claim.table, tables)}")
+    for method, scene in scenes_of(config, methods).items():
+        timed = [method_key(config, row) for row in table.rows.get(scene, [])]
+        if method not in timed:
+            raise ValueError(
+                f"{key}.pairs: {methods}: must be timed together on one scene of {claim.table}; "
+                f"{scene} has {', '.join(timed)}"
+            )

@@ -1,4 +1,4 @@
-"""`compute`: device, number format and threads."""
+"""`compute`: device and threads."""
 
 from typing import Literal
 
@@ -12,8 +12,5 @@ class Compute(Model):
 
     device: Literal["auto", "cpu", "cuda"] = Field(
         "auto", description="`auto`: a GPU if there is one"
-    )
-    precision: Literal["auto", "float32", "bfloat16"] = Field(
-        "auto", description="of matrix products; `auto`: bfloat16 where the hardware has it"
     )
     threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")

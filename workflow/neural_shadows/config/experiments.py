@@ -1,17 +1,115 @@
 """`experiments`: the networks that are trained."""
 
-from pydantic import Field
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from neural_shadows.config.base import Model, Name
+from pydantic import Discriminator, Field, Tag
+
+from neural_shadows.config.base import Model, Name, Seed, check_known, name_or
+from neural_shadows.config.networks import Network
+from neural_shadows.config.trainings import Training
+from neural_shadows.evaluation.method_names import (
+    BIASED_SUFFIX,
+    RAY_TRACED,
+    SHADOW_MAP_PREFIX,
+)
+
+if TYPE_CHECKING:
+    from neural_shadows.config.whole import Config
+
+DepthBias = Annotated[
+    Annotated[float, Field(ge=0, le=1), Tag("Number")]
+    | Annotated[Literal["held_out"], Tag("Word")],
+    Discriminator(lambda value: "Word" if isinstance(value, str) else "Number"),
+]
 
 
 class Experiment(Model):
-    """One trained network: scene + sampling + network + training, by name."""
+    """One trained network: scene + sampling + network + training."""
 
     scene: Name = Field(description="a name in `scenes`")
     sampling: Name = Field(description="a name in `samplings`")
-    network: Name = Field(description="a name in `networks`")
-    training: Name = Field(description="a name in `trainings`")
-    seed: int | None = Field(
-        None, ge=0, lt=2**32, description="seed of this training; without it the scene's"
+    network: name_or(Network) = Field(description="a name in `networks`, or a section of its own")
+    training: name_or(Training) = Field(
+        description="a name in `trainings`, or a section of its own"
     )
+    seed: Seed | None = Field(None, description="seed of this training; without it the scene's")
+    bias: DepthBias = Field(
+        0.0,
+        description=(
+            "added to t_pred in the query, in sphere radii (thesis: 0); `held_out`: the best on "
+            "views that are in no table"
+        ),
+    )
+    label: str | None = Field(
+        None,
+        min_length=1,
+        description=(
+            "its name in tables and figures; may hold keys of its network and training, as "
+            "`{resolution}³ field`; without it the experiment's name"
+        ),
+    )
+
+
+def network_of(config: "Config", experiment: str) -> Any:
+    """The section of an experiment's network."""
+    network = config.experiments[experiment].network
+    return config.networks[network] if isinstance(network, str) else network
+
+
+def training_of(config: "Config", experiment: str) -> Training:
+    """The section of an experiment's training."""
+    training = config.experiments[experiment].training
+    return config.trainings[training] if isinstance(training, str) else training
+
+
+def seed_of(config: "Config", experiment: str) -> int:
+    """An experiment's seed: its own, its scene's or the configuration's."""
+    settings = config.experiments[experiment]
+    seeds = settings.seed, config.scenes[settings.scene].seed, config.seed
+    return next(seed for seed in seeds if seed is not None)
+
+
+def formatted(config: "Config", experiment: str, label: str | None = None) -> str:
+    """A label, the experiment's own if none is given, with the settings that it names.
+
+    Raises:
+        ValueError: it names a setting that the experiment's network and training do not have.
+    """
+    label = label or config.experiments[experiment].label or experiment
+    settings = (
+        training_of(config, experiment).model_dump() | network_of(config, experiment).model_dump()
+    )
+    try:
+        return label.format(**settings)
+    except (LookupError, ValueError, TypeError, AttributeError) as error:
+        raise ValueError(
+            f"label = {label!r}: what stands in braces should be a setting of {experiment}; "
+            f"allowed: {', '.join(settings)}"
+        ) from error
+
+
+def check(config: "Config") -> None:
+    """Check names in experiments, and that none is another's twin."""
+    trained: dict[str, str] = {}
+    for name, experiment in config.experiments.items():
+        key = f"experiments.{name}"
+        if name in ("reference", RAY_TRACED) or name.startswith(SHADOW_MAP_PREFIX):
+            raise ValueError(
+                f"{key}: tables and pictures have a method of this name; allowed: any other than "
+                f"'reference', '{RAY_TRACED}' and '{SHADOW_MAP_PREFIX}…'"
+            )
+        if name.endswith(BIASED_SUFFIX):
+            raise ValueError(
+                f"{key}: tables call a network with its depth bias so; allowed: a name that does "
+                f"not end in '{BIASED_SUFFIX}'"
+            )
+        for part in ("scene", "sampling", "network", "training"):
+            if isinstance(value := getattr(experiment, part), str):
+                check_known(f"{key}.{part}", value, f"{part}s", getattr(config, f"{part}s"))
+        same = trained.setdefault(experiment.model_dump_json(exclude={"label", "bias"}), name)
+        if same != name:
+            raise ValueError(
+                f"{key}: is the same as experiments.{same}, and would train the same network "
+                "twice; use that one, or change a name or the seed"
+            )
+        formatted(config, name)

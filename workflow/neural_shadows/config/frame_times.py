@@ -11,4 +11,3 @@ class FrameTimes(Model):
     width: int = Field(1200, ge=64, le=8192, description="pixels")
     height: int = Field(800, ge=64, le=8192, description="pixels")
     repeats: int = Field(15, ge=3, le=10_000, description="timed frames of each method")
-    warm_up: int = Field(2, ge=0, le=1000, description="frames of each method before those")

@@ -1,10 +1,10 @@
 """`networks`: what is trained, by encoding."""
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Field, model_validator
 
-from neural_shadows.config.base import Model, _check_power_of_two
+from neural_shadows.config.base import Model, by_kind, check_power_of_two
 
 
 class FrequencyNetwork(Model):
@@ -58,7 +58,7 @@ class HashGrid(OccupancyRayGrid):
 
     @model_validator(mode="after")
     def _check(self):
-        _check_power_of_two(self.table_size, "table_size")
+        check_power_of_two(self.table_size, "table_size")
         return self
 
 
@@ -82,23 +82,12 @@ class OccupancyField(Model):
         return self
 
 
-ENCODINGS = ("frequency", "ray_grid", "occupancy_ray_grid", "hash_grid", "occupancy_field")
-
-
-def _encoding(value: Any) -> str | None:
-    name = value.get("encoding", "frequency") if isinstance(value, dict) else "frequency"
-    return name if name in ENCODINGS else None
-
-
-Network = Annotated[
-    Annotated[FrequencyNetwork, Tag("frequency")]
-    | Annotated[RayGrid, Tag("ray_grid")]
-    | Annotated[OccupancyRayGrid, Tag("occupancy_ray_grid")]
-    | Annotated[HashGrid, Tag("hash_grid")]
-    | Annotated[OccupancyField, Tag("occupancy_field")],
-    Discriminator(
-        _encoding,
-        custom_error_type="encoding",
-        custom_error_message=f"`encoding` should be one of {', '.join(ENCODINGS)}",
-    ),
-]
+Network = by_kind(
+    "encoding",
+    FrequencyNetwork,
+    RayGrid,
+    OccupancyRayGrid,
+    HashGrid,
+    OccupancyField,
+    default="frequency",
+)

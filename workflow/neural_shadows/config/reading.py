@@ -7,21 +7,18 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
-from neural_shadows.config.messages import _describe
-from neural_shadows.config.scenes import MeshFile
+from neural_shadows.config.base import instead
+from neural_shadows.config.messages import describe
+from neural_shadows.config.scenes import MESH_SUFFIXES, MeshFile
 from neural_shadows.config.whole import Config
 from neural_shadows.errors import InputError
 
 
-def _without_nulls(scene: Any) -> Any:
-    """A scene whose `mesh` and `light` lack the keys that an overlay set to null to drop them."""
-    if not isinstance(scene, dict):
-        return scene
-    return scene | {
-        key: {name: value for name, value in scene[key].items() if value is not None}
-        for key in ("mesh", "light")
-        if isinstance(scene.get(key), dict)
-    }
+def _without_nulls(value: Any) -> Any:
+    """A section without the keys that are null, by which an overlay drops them."""
+    if not isinstance(value, dict):
+        return value
+    return {key: _without_nulls(part) for key, part in value.items() if part is not None}
 
 
 def _mesh_of_shorthand(value: str) -> dict[str, str]:
@@ -77,23 +74,22 @@ def read_config(values: dict[str, Any]) -> Config:
         InputError: a key is unknown or missing, a value has the wrong type or range, or a
             name refers to nothing; one line that names key, value and what is allowed.
     """
-    values = dict(values)
-    scenes = values.get("scenes")
-    if isinstance(scenes, dict):
-        values["scenes"] = scenes = {name: _without_nulls(scene) for name, scene in scenes.items()}
-    shorthand = values.get("dragon")
-    if isinstance(shorthand, str) and shorthand:
+    if values.get("dragon", "wyrm") in (None, ""):
+        raise InputError("config: dragon: is empty; allowed: wyrm, stanford, or a mesh file")
+    values = _without_nulls(values)
+    if isinstance(shorthand := values.get("dragon"), str):
+        scenes = values.get("scenes")
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):
             raise InputError("config: dragon: there is no scene named `dragon` in `scenes`")
         mesh = _mesh_of_shorthand(shorthand)
         old = scenes["dragon"].get("mesh")
         # `--config dragon=wyrm` over a scene that is a wyrm already keeps its resolution.
         if not (isinstance(old, dict) and mesh.items() <= old.items()):
-            scenes["dragon"] = scenes["dragon"] | {"mesh": mesh}
+            scenes["dragon"]["mesh"] = mesh
     try:
         return Config.model_validate(values)
     except ValidationError as error:
-        raise InputError(f"config: {_describe(error)}") from error
+        raise InputError(f"config: {describe(error, values)}") from error
 
 
 def check_files(config: Config) -> None:
@@ -102,18 +98,31 @@ def check_files(config: Config) -> None:
     Snakemake does not, where an older result exists: it then takes that for up to date.
 
     Raises:
-        InputError: a mesh file or LPIPS's trunk is missing; one line with its key.
+        InputError: a mesh file or LPIPS's trunk is missing, or a mesh file has a suffix that
+            cannot be read; one line with its key.
     """
-    named = {
-        f"scenes.{name}.mesh.path": scene.mesh.path
-        for name, scene in config.scenes.items()
-        if isinstance(scene.mesh, MeshFile)
-    }
+    for name, scene in config.scenes.items():
+        if isinstance(scene.mesh, MeshFile):
+            path = scene.mesh.path
+            short = name == "dragon" and config.dragon == path
+            key = "dragon" if short else f"scenes.{name}.mesh.path"
+            if short and not Path(path).suffix and not Path(path).exists():
+                raise InputError(
+                    f"config: dragon: no such mesh: {instead(path, ['wyrm', 'stanford'])}, or a file"
+                )
+            if Path(path.removesuffix(".gz")).suffix.lower() not in MESH_SUFFIXES:
+                raise InputError(
+                    f"config: {key} = {path!r}: cannot be read by its suffix; "
+                    f"allowed: {', '.join(MESH_SUFFIXES)}, also with .gz"
+                )
+            _check_file(key, path)
     if config.metrics.lpips.trunk is not None:
-        named["metrics.lpips.trunk"] = config.metrics.lpips.trunk
-    for key, path in named.items():
-        if not Path(path).is_file():
-            raise InputError(
-                f"config: {key} = {path!r}: no such file; "
-                "give a path from the working directory, or an absolute one"
-            )
+        _check_file("metrics.lpips.trunk", config.metrics.lpips.trunk)
+
+
+def _check_file(key: str, path: str) -> None:
+    if not Path(path).is_file():
+        raise InputError(
+            f"config: {key} = {path!r}: no such file; "
+            "give a path from the working directory, or an absolute one"
+        )

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from neural_shadows.config.base import Model, _check_power_of_two
+from neural_shadows.config.base import Model, check_power_of_two
 
 
 class Sampling(Model):
@@ -34,8 +34,8 @@ class Sampling(Model):
 
     @model_validator(mode="after")
     def _check(self):
-        _check_power_of_two(self.silhouette_resolution, "silhouette_resolution")
-        _check_power_of_two(self.min_quad, "min_quad")
+        check_power_of_two(self.silhouette_resolution, "silhouette_resolution")
+        check_power_of_two(self.min_quad, "min_quad")
         if self.min_quad > self.silhouette_resolution:
             raise ValueError(
                 f"min_quad = {self.min_quad}: must not exceed silhouette_resolution "

@@ -1,10 +1,16 @@
 """`scenes`: a mesh, its ground and its light."""
 
-from typing import Annotated, Any, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from neural_shadows.config.base import Model
+from neural_shadows.config.base import Model, Seed, by_kind
+
+if TYPE_CHECKING:
+    from neural_shadows.config.whole import Config
+
+MESH_SUFFIXES = (".ply", ".obj", ".stl", ".glb")
 
 
 class GeneratedMesh(Model):
@@ -37,12 +43,10 @@ class Landscape(GeneratedMesh):
 
     generate: Literal["landscape"] = Field(description="`landscape`: one sheet of low frequency")
     cells: int = Field(256, ge=16, le=2048, description="grid cells along a side")
-    extrusions: int = Field(12, ge=0, le=200, description="plateaus raised from the relief")
-    seed: int = Field(7, ge=0, lt=2**32, description="which landscape; places and heights")
 
 
 class DownloadedMesh(Model):
-    """A mesh that the pipeline fetches."""
+    """A mesh that the pipeline downloads."""
 
     download: Literal["stanford_dragon"] = Field(
         description="`stanford_dragon`: dragon_vrip_res2.ply of the Stanford 3D Scanning Repository"
@@ -56,6 +60,40 @@ class MeshFile(Model):
         min_length=1,
         description="a .ply, .obj, .stl or .glb file, also .gz; relative to the working directory",
     )
+
+
+MESHES = {"wyrm": Wyrm, "fence": Fence, "landscape": Landscape}
+
+
+def _mesh_class(value: Any) -> str | None:
+    if not isinstance(value, dict):
+        return type(value).__name__
+    match [key for key in ("generate", "download", "path") if key in value]:
+        case ["generate"] if value["generate"] in MESHES:
+            return MESHES[value["generate"]].__name__
+        case ["download"]:
+            return "DownloadedMesh"
+        case ["path"]:
+            return "MeshFile"
+    return None
+
+
+Mesh = Annotated[
+    Annotated[Wyrm, Tag("Wyrm")]
+    | Annotated[Fence, Tag("Fence")]
+    | Annotated[Landscape, Tag("Landscape")]
+    | Annotated[DownloadedMesh, Tag("DownloadedMesh")]
+    | Annotated[MeshFile, Tag("MeshFile")],
+    Discriminator(
+        _mesh_class,
+        custom_error_type="mesh",
+        custom_error_message=(
+            "should be one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, "
+            "{path: FILE} "
+            "(an overlay drops a key of the default by setting it to null)"
+        ),
+    ),
+]
 
 
 class SphereLight(Model):
@@ -77,38 +115,11 @@ class SingleAxisLight(Model):
     )
 
 
-GENERATED = ("wyrm", "fence", "landscape")
-
-
-def _mesh_kind(value: Any) -> str | None:
-    sources = ("generate", "download", "path")
-    named = [key for key in sources if isinstance(value, dict) and key in value]
-    if named == ["generate"]:
-        made = value["generate"]
-        return made if made in GENERATED else None
-    return named[0] if len(named) == 1 else None
-
-
-Mesh = Annotated[
-    Annotated[Wyrm, Tag("wyrm")]
-    | Annotated[Fence, Tag("fence")]
-    | Annotated[Landscape, Tag("landscape")]
-    | Annotated[DownloadedMesh, Tag("download")]
-    | Annotated[MeshFile, Tag("path")],
-    Discriminator(
-        _mesh_kind,
-        custom_error_type="mesh_kind",
-        custom_error_message=(
-            "should be one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, "
-            "{path: FILE} "
-            "(an overlay drops a key of the default by setting it to null)"
-        ),
-    ),
-]
+ViewSet = Literal["shadow", "surface", "centre"]
 
 
 class Scene(Model):
-    """A mesh, how it stands and how it is lit [4.1.1]."""
+    """A mesh, how it stands and how it is lit and seen [4.1, 4.1.1]."""
 
     mesh: Mesh = Field(
         description=(
@@ -117,9 +128,44 @@ class Scene(Model):
     )
     up: Literal["x", "y", "z"] = Field("y", description="the mesh's axis that points up")
     ground: bool = Field(True, description="whether it stands on a plane that receives its shadow")
-    light: Annotated[SphereLight | SingleAxisLight, Field(discriminator="domain")] = Field(
+    light: by_kind("domain", SphereLight, SingleAxisLight) = Field(
         SphereLight(domain="sphere"), description="directions that viewpoints draw their light from"
     )
-    seed: int | None = Field(
-        None, ge=0, lt=2**32, description="seed of this scene alone; without it the config's `seed`"
+    view_sets: list[ViewSet] = Field(
+        min_length=1,
+        default_factory=lambda scene: ["shadow", "surface"] if scene["ground"] else ["centre"],
+        description=(
+            "where cameras look: `shadow`, at the cast shadow; `surface`, at the object; `centre`; "
+            "without it [shadow, surface] on a ground, else [centre]"
+        ),
     )
+    seed: Seed | None = Field(
+        None, description="seed of this scene alone; without it the config's `seed`"
+    )
+
+
+def mesh_name(scene: Scene) -> str:
+    """What a scene's mesh is called in tables: what it is, not what it stands for."""
+    match scene.mesh:
+        case MeshFile(path=path):
+            return Path(Path(path).name.removesuffix(".gz")).stem
+        case DownloadedMesh(download=name) | GeneratedMesh(generate=name):
+            return name
+
+
+def check(config: "Config") -> None:
+    """Check that each scene's parts fit together."""
+    for name, scene in config.scenes.items():
+        key = f"scenes.{name}"
+        if isinstance(scene.light, SingleAxisLight) and scene.light.axis == scene.up:
+            raise ValueError(
+                f"{key}.light.axis = {scene.light.axis!r}: must be horizontal, not `up`; "
+                f"allowed: {', '.join(sorted({'x', 'y', 'z'} - {scene.up}))}"
+            )
+        if len(set(scene.view_sets)) < len(scene.view_sets):
+            raise ValueError(f"{key}.view_sets = {scene.view_sets}: must name each only once")
+        if not scene.ground and "shadow" in scene.view_sets:
+            raise ValueError(
+                f"{key}.view_sets: 'shadow' needs a scene with ground: true; "
+                "allowed here: 'surface', 'centre'"
+            )

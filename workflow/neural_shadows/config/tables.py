@@ -1,33 +1,41 @@
 """`tables`: the tables of a run, by kind."""
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import BeforeValidator, Field
 
-from neural_shadows.config.base import ON_REQUEST, Model, Name
+from neural_shadows.config.base import Model, Name, by_kind, check_known, instead
+from neural_shadows.config.experiments import formatted
+from neural_shadows.evaluation.costs import STAGES
+from neural_shadows.evaluation.method_names import RAY_TRACED, biased_key, is_shadow_map
+
+if TYPE_CHECKING:
+    from neural_shadows.config.whole import Config
 
 
-class Row(Model):
-    """A row of a table."""
+class RowSettings(Model):
+    """A row of a table that is more than a name."""
 
-    method: str = Field(
-        description="`shadow_map_N`, or the name of an experiment of the table's evaluations"
+    method: str = Field(description="an experiment, `shadow_map_N`, or `ray_traced` where timed")
+    bias: Literal["held_out"] | None = Field(
+        None, description="the depth bias that is best on held-out views, for the experiment's own"
     )
-    label: str = Field(min_length=1, description="the row's name in the table")
+    label: str | None = Field(
+        None, min_length=1, description="its name in the table; without it the experiment's label"
+    )
     published: str | None = Field(
         None, description="the row's key in published.csv; without it the method's name"
     )
 
 
-class TimedRow(Row):
-    """A row of a table of frame times."""
-
-    method: str = Field(
-        description="an experiment of the table's evaluations, `shadow_map_N` or `ray_traced`"
-    )
-    scene: Name | None = Field(
-        None, description="a name in `scenes`; needed for `shadow_map_N` and `ray_traced` alone"
-    )
+Row = Annotated[
+    RowSettings,
+    BeforeValidator(
+        lambda row: {"method": row} if isinstance(row, str) else row,
+        json_schema_input_type=str | RowSettings,
+    ),
+]
+Rows = Annotated[list[Row], Field(min_length=1)]
 
 
 class AnyTable(Model):
@@ -39,48 +47,51 @@ class AnyTable(Model):
         pattern=r"^4\.[1-7]$",
         description="the thesis's number of this table; null for a table of your own",
     )
-
-
-class Table(AnyTable):
-    """A table of methods on the same viewpoints, beside the values that the thesis prints."""
-
-    kind: Literal["comparison"] = Field("comparison", description="`comparison`, the default")
-    evaluations: list[Name] = Field(
-        min_length=1,
-        description="names in `evaluations`, of one scene and the same view sets; rows are theirs",
-    )
-    rows: list[Row] = Field(min_length=1, description="methods, in the table's order")
     figures: list[Name] = Field(
         [], description="names in `figures` that are made and shown beside the table"
     )
-
-
-class FrameTimesTable(AnyTable):
-    """A table of frame time, LPIPS and size [4.4.1]."""
-
-    kind: Literal["frame_times"] = Field(description="`frame_times`")
-    evaluations: list[Name] = Field(
-        min_length=1, description="names in `evaluations` that give the networks' LPIPS"
+    on_request: bool = Field(
+        False, description="whether it is made only when asked for by name, and not by `all`"
     )
-    rows: list[TimedRow] = Field(min_length=1, description="methods, in the table's order")
 
 
-class NetworksTable(AnyTable):
-    """A table of networks beside shadow maps: quality, bytes, training, speed; by scene."""
+class TableOfOneScene(AnyTable):
+    """A table of methods on one scene."""
 
-    kind: Literal["networks"] = Field(description="`networks`")
-    evaluations: list[Name] = Field(
-        min_length=1, description="names in `evaluations`; rows are methods of theirs"
+    rows: Rows = Field(description="methods, in the table's order")
+    scene: Name | None = Field(
+        None, description="a name in `scenes`; without it that of the rows' experiments"
     )
-    rows: list[TimedRow] = Field(min_length=1, description="methods, in the table's order")
-    on_request: bool = ON_REQUEST
 
 
-class MemoryTable(AnyTable):
+class TableByScene(AnyTable):
+    """A table of methods on several scenes."""
+
+    rows: dict[Name, Rows] = Field(min_length=1, description="methods, by scene")
+
+
+class ComparisonTable(TableOfOneScene):
+    """A table of methods on the same viewpoints, beside the values that the thesis prints."""
+
+    kind: Literal["comparison"] = Field("comparison", description="`comparison`, the default")
+
+
+class MemoryTable(TableOfOneScene):
     """A table of the memory that methods take [4.4.2]."""
 
     kind: Literal["memory"] = Field(description="`memory`")
-    rows: list[Row] = Field(min_length=1, description="experiments and `shadow_map_N`")
+
+
+class FrameTimesTable(TableByScene):
+    """A table of frame time, LPIPS and size [4.4.1]."""
+
+    kind: Literal["frame_times"] = Field(description="`frame_times`")
+
+
+class NetworksTable(TableByScene):
+    """A table of networks beside shadow maps: quality, bytes, training, speed; by scene."""
+
+    kind: Literal["networks"] = Field(description="`networks`")
 
 
 class CostTable(AnyTable):
@@ -100,23 +111,100 @@ class CostTable(AnyTable):
     frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(
         description="pixels; the height is two thirds of it"
     )
-    on_request: bool = ON_REQUEST
 
 
-def _table_kind(value: Any) -> str | None:
-    kind = value.get("kind", "comparison") if isinstance(value, dict) else "comparison"
-    return kind if kind in ("comparison", "frame_times", "networks", "memory", "cost") else None
+Table = by_kind(
+    "kind",
+    ComparisonTable,
+    FrameTimesTable,
+    NetworksTable,
+    MemoryTable,
+    CostTable,
+    default="comparison",
+)
 
 
-AnyTableKind = Annotated[
-    Annotated[Table, Tag("comparison")]
-    | Annotated[FrameTimesTable, Tag("frame_times")]
-    | Annotated[NetworksTable, Tag("networks")]
-    | Annotated[MemoryTable, Tag("memory")]
-    | Annotated[CostTable, Tag("cost")],
-    Discriminator(
-        _table_kind,
-        custom_error_type="table_kind",
-        custom_error_message="`kind` should be comparison (the default), frame_times, networks, memory or cost",
-    ),
-]
+def rows_by_scene(config: "Config", name: str) -> dict[str, list[RowSettings]]:
+    """The rows of a table, by scene."""
+    table = config.tables[name]
+    if isinstance(table, CostTable):
+        return {}
+    if isinstance(table, TableByScene):
+        return table.rows
+    experiments = [config.experiments.get(row.method) for row in table.rows]
+    scenes = {experiment.scene for experiment in experiments if experiment}
+    return {table.scene or min(scenes, default=""): table.rows}
+
+
+def method_key(config: "Config", row: RowSettings) -> str:
+    """The key of a row's method: of a network whose own depth bias the row changes, another."""
+    experiment = config.experiments.get(row.method)
+    changed = experiment and row.bias is not None and row.bias != experiment.bias
+    return biased_key(row.method) if changed else row.method
+
+
+def row_label(config: "Config", row: RowSettings) -> str:
+    """What a row is called, in its own words or made from its method."""
+    if row.method in config.experiments:
+        label = formatted(config, row.method, row.label)
+        changed = method_key(config, row) != row.method and row.label is None
+        return f"{label}, with bias" if changed else label
+    if row.method == RAY_TRACED:
+        return row.label or "Ray traced"
+    return row.label or f"{row.method.removeprefix('shadow_map_')}² shadow map"
+
+
+def check(config: "Config") -> None:
+    """Check names in tables, and that each row of a scene has a method and label of its own."""
+    for name, table in config.tables.items():
+        key = f"tables.{name}"
+        if name in ("claims", "index"):
+            raise ValueError(
+                f"{key}: a report has this name; allowed: any other than claims, index"
+            )
+        for figure in table.figures:
+            check_known(f"{key}.figures", figure, "figures", config.figures)
+        if isinstance(table, CostTable):
+            _check_sizes(key, table)
+        for scene, rows in rows_by_scene(config, name).items():
+            if not scene:
+                raise ValueError(
+                    f"{key}.scene: is missing; give one of {', '.join(config.scenes)}, or a row "
+                    "that is an experiment"
+                )
+            check_known(f"{key}.rows", scene, "scenes", config.scenes)
+            for row in rows:
+                _check_row(config, name, scene, row)
+            _check_once(f"{key}.rows: {scene}: method", [method_key(config, row) for row in rows])
+            _check_once(f"{key}.rows: {scene}: label", [row_label(config, row) for row in rows])
+
+
+def _check_row(config: "Config", name: str, scene: str, row: RowSettings) -> None:
+    key = f"tables.{name}.rows"
+    timed = isinstance(config.tables[name], TableByScene)
+    if row.method in config.experiments:
+        if (own := config.experiments[row.method].scene) != scene:
+            raise ValueError(
+                f"{key}: {row.method!r} belongs to the scene {own!r}, not to {scene!r}"
+            )
+    elif row.bias is not None:
+        raise ValueError(f"{key}: {row.method!r} has no depth bias; allowed: that of an experiment")
+    elif not is_shadow_map(row.method) and not (timed and row.method == RAY_TRACED):
+        here = [name for name, other in config.experiments.items() if other.scene == scene]
+        others = ["shadow_map_N", *([RAY_TRACED] if timed else []), *here]
+        raise ValueError(f"{key}: no such method: {instead(row.method, others)}")
+
+
+def _check_once(what: str, values: list[str]) -> None:
+    for value in values:
+        if values.count(value) > 1:
+            raise ValueError(f"{what} {value!r} is there twice; must be there only once")
+
+
+def _check_sizes(key: str, table: CostTable) -> None:
+    sizes = {size: getattr(table, size) for size in STAGES}
+    for size, values in sizes.items():
+        if values != sorted(set(values)):
+            raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
+    if not any(sizes.values()):
+        raise ValueError(f"{key}: needs a size; give one of {', '.join(sizes)}")

@@ -8,16 +8,10 @@ from neural_shadows.config.base import Model
 
 
 class Loss(Model):
-    """The dead-zone loss, and two changes to it [3.5, 5.1, 5.4.1]."""
+    """The dead-zone loss, and a change to it [3.5, 5.1]."""
 
     false_shadow: float = Field(
         1.0, ge=0, le=1000, description="weight of depths before the first hit (thesis: 1)"
-    )
-    light_leak: float = Field(
-        1.0, ge=0, le=1000, description="weight of depths behind the second hit (thesis: 1)"
-    )
-    middle_pull: float = Field(
-        0.0, ge=0, le=1000, description="weight of a pull to the middle between them (thesis: 0)"
     )
 
 

@@ -1,0 +1,81 @@
+"""The checked configuration as plain data with names followed: what rules look up."""
+
+from typing import TYPE_CHECKING, Any
+
+from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
+from neural_shadows.config.figures import figure_scene
+from neural_shadows.config.rows import curves_of, rows_of, rows_of_claim, rows_of_figure
+from neural_shadows.config.scenes import mesh_name
+
+if TYPE_CHECKING:
+    from neural_shadows.config.whole import Config
+
+Section = dict[str, Any]
+
+
+def resolved(config: "Config") -> Section:
+    """The sections of a configuration as Snakemake's `lookup` finds them.
+
+    Sections are as in config.yaml, with every default, but: a scene has its `mesh_name`, its
+    `seed`, `scene` (what `open_scene` takes beside the mesh) and `frames` (how its viewpoints
+    are drawn and rendered); an experiment's `network` and `training` are the sections
+    themselves, `seed` and `label` what holds; a table has its `rows`, a figure of a table its
+    `rows` and `scene`, a figure of losses its `curves` and a claim its `pairs` or `methods` as
+    `config.rows` gives them.
+    """
+    return config.model_dump() | {
+        "scenes": {name: _scene(config, name) for name in config.scenes},
+        "experiments": {name: _experiment(config, name) for name in config.experiments},
+        "tables": {
+            name: table.model_dump() | {"rows": rows_of(config, name)}
+            for name, table in config.tables.items()
+        },
+        "figures": {name: _figure(config, name) for name in config.figures},
+        "claims": {name: _claim(config, name) for name in config.claims},
+    }
+
+
+def _scene(config: "Config", name: str) -> Section:
+    scene = config.scenes[name].model_dump()
+    seed = config.seed if scene["seed"] is None else scene["seed"]
+    rendering = config.rendering
+    return scene | {
+        "mesh_name": mesh_name(config.scenes[name]),
+        "seed": seed,
+        "scene": {key: scene[key] for key in ("up", "ground", "light")},
+        "frames": {
+            "width": rendering.width,
+            "height": rendering.height,
+            "view_sets": scene["view_sets"],
+            "seed": seed,
+        },
+    }
+
+
+def _experiment(config: "Config", name: str) -> Section:
+    return config.experiments[name].model_dump() | {
+        "network": network_of(config, name).model_dump(),
+        "training": training_of(config, name).model_dump(),
+        "seed": seed_of(config, name),
+        "label": formatted(config, name),
+    }
+
+
+def _figure(config: "Config", name: str) -> Section:
+    figure = config.figures[name]
+    section = figure.model_dump()
+    if figure.kind == "loss":
+        section["curves"] = curves_of(config, figure)
+    if figure.kind in ("pictures", "pareto", "widths"):
+        section["rows"] = rows_of_figure(config, name)
+    if figure.kind in ("pictures", "pareto"):
+        section["scene"] = figure_scene(config, figure)
+    return section
+
+
+def _claim(config: "Config", name: str) -> Section:
+    claim = config.claims[name]
+    rows = rows_of_claim(config, name)
+    if claim.kind == "larger_error":
+        return claim.model_dump() | {"methods": [row for (row,) in rows]}
+    return claim.model_dump() | {"pairs": rows}
