@@ -1,5 +1,6 @@
 """The stage that makes procedural meshes."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -9,17 +10,26 @@ from neural_shadows.files.whole_files import whole_file
 from neural_shadows.meshes.fence import make_fence
 from neural_shadows.meshes.landscape import make_landscape
 from neural_shadows.meshes.wyrm import make_wyrm
+from neural_shadows.running.stage import run_stage
 
 MAKERS = {"wyrm": make_wyrm, "fence": make_fence, "landscape": make_landscape}
 
 
-def generate_mesh(mesh_ply: str | Path, *, generate: str, **parameters: Any) -> None:
+def generate_mesh(generated_ply: Path, mesh: Mapping[str, Any]) -> None:
     """Write a procedural mesh as binary PLY.
 
     Args:
-        generate: which mesh, a key of `MAKERS`.
-        parameters: what its maker takes, as the scene's `mesh` section names them.
+        generated_ply: where it goes, in a unit of its own.
+        mesh: the scene's section: `generate`, a key of `MAKERS`, and what its maker takes.
+
+    Raises:
+        InputError: a parameter out of its range.
     """
-    vertices, faces = MAKERS[generate](**parameters)
-    with whole_file(mesh_ply) as part:
+    parameters = dict(mesh)
+    vertices, faces = MAKERS[parameters.pop("generate")](**parameters)
+    with whole_file(generated_ply) as part:
         trimesh.Trimesh(vertices, faces, process=False).export(part, file_type="ply")
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, generate_mesh)
