@@ -1,19 +1,16 @@
-"""Triangle meshes: reading what users bring, cleaning it, and the move to normalised space."""
+"""What makes every vertex and face of a mesh count once, and how closed its surface is."""
 
 from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
-from trimesh.grouping import unique_rows
+import trimesh
 
 from neural_shadows.errors import InputError
 
-# Vertices closer than this share of the bounding box's diagonal are one vertex, and
-# triangles lower than it are none. It is below the rounding of float32 (6e-8), in which
-# rays are traced, and above that of float64 at an offset of 1e6 (1e-10).
-MERGE_DISTANCE = 1e-8
+# Of the bounding box's diagonal, with which vertices are merged that agree to so many digits, and
+# triangles lower than a unit of the last are none. It is below the rounding of float32 (6e-8),
+# in which rays are traced, and above that of float64 at an offset of 1e6 (1e-10).
+DIGITS = 8
 
 
 def clean_mesh(
@@ -21,12 +18,11 @@ def clean_mesh(
 ) -> tuple[np.ndarray, np.ndarray, dict[str, Any]]:
     """Make every vertex and face count once; open meshes stay as they are.
 
-    Vertices within `MERGE_DISTANCE` of the bounding box's diagonal are merged (into the
-    first of them), then faces of no height (relative to the same) and repeated faces (the
-    same three vertices, whatever the winding) are dropped, then vertices of no face. Of a
-    flap made of two opposite faces one stays, so its rim then counts as open (the Stanford
-    dragon loses 1,489 faces, nearly all of them to such flaps). None of it depends on the
-    unit or on an offset.
+    Vertices that agree to 1e-8 of the bounding box's diagonal are merged (into the first of
+    them), then faces of no height (relative to the same) and repeated faces (the same three
+    vertices, whatever the winding) are dropped, then vertices of no face. Of a flap made of two
+    opposite faces one stays, so its rim then counts as open (the Stanford dragon loses 1,489
+    faces, nearly all of them to such flaps). None of it depends on the unit or on an offset.
 
     Args:
         vertices: (V, 3) in any unit.
@@ -42,9 +38,7 @@ def clean_mesh(
     Raises:
         InputError: a NaN or infinite coordinate, or no face with an area.
     """
-    source_vertices, source_faces = len(vertices), len(faces)
     vertices = np.asarray(vertices, dtype=np.float64)
-    faces = np.asarray(faces, dtype=np.int64)
     bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if len(bad):
         x, y, z = vertices[bad[0]]
@@ -52,93 +46,43 @@ def clean_mesh(
             f"mesh {name}: vertex {bad[0]} (counted from 0) is ({x}, {y}, {z}), and "
             f"{len(bad)} in all have a coordinate that is not a finite number; mend the mesh"
         )
-
-    vertices, faces = _drop_unreferenced(vertices, faces)
-    unreferenced = source_vertices - len(vertices)
-    # About the origin and with a diagonal of 1, so that tolerances are relative and an
-    # offset costs no digits of a product.
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    used = np.unique(faces)
+    low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
     diagonal = np.linalg.norm(high - low)
     if not 0 < diagonal < np.inf:
         raise InputError(
             f"mesh {name}: its bounding box has the diagonal {diagonal:g}; give a mesh with a size"
         )
-    points = (vertices - (low + (high - low) / 2)) / diagonal
-
-    first, group = _merge(points)
-    vertices, points, faces = vertices[first], points[first], group[faces]
-    merged = len(group) - len(first)
-
-    kept = faces[_heights(points[faces]) > MERGE_DISTANCE]
-    degenerate = len(faces) - len(kept)
-    if len(kept) == 0:
+    # About the origin and with a diagonal of 1, so that tolerances are relative and an offset
+    # costs no digits of a product. What is not used may lie anywhere.
+    points = np.zeros_like(vertices)
+    points[used] = (vertices[used] - (low + (high - low) / 2)) / diagonal
+    mesh = trimesh.Trimesh(
+        points, faces, vertex_attributes={"source": vertices}, process=False, validate=False
+    )
+    mesh.merge_vertices(digits_vertex=DIGITS)
+    merged = len(used) - len(mesh.vertices)
+    high_enough = mesh.nondegenerate_faces(height=10**-DIGITS)
+    if not high_enough.any():
         raise InputError(
-            f"mesh {name}: all {source_faces} faces have zero area; give a mesh with a surface"
+            f"mesh {name}: all {len(faces)} faces have zero area; give a mesh with a surface"
         )
-    unique, _ = unique_rows(np.sort(kept, axis=1), keep_order=True)
-    faces = kept[unique]
-
-    joined = len(vertices)
-    vertices, faces = _drop_unreferenced(vertices, faces)
+    mesh.update_faces(high_enough)
+    mesh.update_faces(mesh.unique_faces())
+    mesh.remove_unreferenced_vertices()
+    uses = np.bincount(mesh.edges_unique_inverse)
     report = {
-        "source_vertices": source_vertices,
-        "source_faces": source_faces,
-        "vertices": len(vertices),
-        "faces": len(faces),
+        "source_vertices": len(vertices),
+        "source_faces": len(faces),
+        "vertices": len(mesh.vertices),
+        "faces": len(mesh.faces),
         "merged_vertices": merged,
-        "unreferenced_vertices": unreferenced + joined - len(vertices),
-        "degenerate_faces": degenerate,
-        "duplicate_faces": len(kept) - len(faces),
-        **_topology(faces),
-    }
-    return vertices, faces, report
-
-
-def _drop_unreferenced(vertices: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices that some face names, in their order, and the faces with the new indices."""
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces] = True
-    return vertices[used], (np.cumsum(used) - 1)[faces]
-
-
-def _merge(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Group points that are within `MERGE_DISTANCE` of each other, chains included.
-
-    Returns:
-        Index of each group's first point (G,) and the group of each point (n,).
-    """
-    # First by cells that are small enough for all in one to be that close: a tree alone
-    # would list n^2 / 2 pairs where n points coincide.
-    cells = np.round(points / (MERGE_DISTANCE / np.sqrt(3))).astype(np.int64)
-    first, cell = unique_rows(cells, keep_order=True)
-    pairs = cKDTree(points[first]).query_pairs(MERGE_DISTANCE, output_type="ndarray")
-    group = _components(pairs, len(first))[cell]
-    _, first = np.unique(group, return_index=True)
-    return first, group
-
-
-def _components(pairs: np.ndarray, count: int) -> np.ndarray:
-    """Label (count,) of the connected component of each node, given (n, 2) linked pairs."""
-    links = coo_array((np.ones(len(pairs), dtype=bool), pairs.T), shape=(count, count))
-    return connected_components(links, directed=False)[1]
-
-
-def _heights(corners: np.ndarray) -> np.ndarray:
-    """Height (F,) over the longest side of triangles (F, 3, 3); 0 where all corners coincide."""
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    doubled_areas = np.linalg.norm(normals, axis=1)
-    return np.divide(doubled_areas, longest, out=np.zeros_like(longest), where=longest > 0)
-
-
-def _topology(faces: np.ndarray) -> dict[str, Any]:
-    """How closed a surface is, given its faces (F, 3) without unreferenced vertices."""
-    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    first, edge = unique_rows(sides)
-    uses = np.bincount(edge)
-    return {
-        "watertight": bool((uses == 2).all()),
+        "unreferenced_vertices": len(vertices) - merged - len(mesh.vertices),
+        "degenerate_faces": int((~high_enough).sum()),
+        "duplicate_faces": int(high_enough.sum()) - len(mesh.faces),
+        "watertight": mesh.is_watertight,
         "open_edges": int((uses == 1).sum()),
         "non_manifold_edges": int((uses > 2).sum()),
-        "bodies": int(_components(sides[first], int(faces.max()) + 1).max()) + 1,
+        "bodies": mesh.body_count,
     }
+    return mesh.vertex_attributes["source"], np.asarray(mesh.faces, np.int64), report

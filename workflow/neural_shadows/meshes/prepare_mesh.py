@@ -1,5 +1,7 @@
 """The stage that turns a mesh file into a clean mesh in its unit sphere [3.3.1]."""
 
+import hashlib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -9,48 +11,61 @@ import trimesh
 from neural_shadows.files.whole_files import sha256_of, whole_file, write_json
 from neural_shadows.meshes.bounding_sphere import minimal_bounding_sphere
 from neural_shadows.meshes.cleaning import clean_mesh
-from neural_shadows.meshes.reading import read_mesh
+from neural_shadows.meshes.open_sides import is_sheet
+from neural_shadows.meshes.reading import mesh_bytes, read_mesh
+from neural_shadows.meshes.thesis_meshes import is_thesis_mesh
+from neural_shadows.running.stage import run_stage
+
+_DROPPED = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "duplicate_faces")
 
 
-def prepare_mesh(source: Path, mesh_ply: Path, mesh_json: Path, *, name: str) -> dict[str, Any]:
+def prepare_mesh(
+    source: Path, mesh_ply: Path, mesh_json: Path, mesh: Mapping[str, Any], name: str
+) -> None:
     """Read, clean and normalise a mesh: x' = (x - c) / r, its minimal bounding sphere [3.3.1].
 
     Args:
         source: any mesh that `read_mesh` reads.
         mesh_ply: the mesh in normalised space, as binary float32 PLY.
-        mesh_json: the report: `name`, `source` (file name) and its `sha256`, `centre` (c) and
-            `radius` (r) in the source's unit, and the report of `clean_mesh`.
+        mesh_json: the report: `name`, `source` (file name) and its `sha256`, `thesis_mesh`
+            (`is_thesis_mesh`), `centre` (c) and `radius` (r) in the source's unit, the report of
+            `clean_mesh`, and `sheet` (`is_sheet`).
+        mesh: the scene's section, which says where the source is from.
         name: what tables call the mesh; messages name its file.
-
-    Returns:
-        The content of `mesh_json`.
 
     Raises:
         InputError: as `read_mesh` and `clean_mesh`; nothing is written then.
     """
-    source = Path(source)
     vertices, faces, report = clean_mesh(*read_mesh(source), str(source))
     centre, radius = minimal_bounding_sphere(vertices)
     normalised = ((vertices - centre) / radius).astype(np.float32)
     # float32 can bring distinct vertices together (its spacing at 1 is 6e-8), so what is
     # written is cleaned once more.
     normalised, faces, again = clean_mesh(normalised, faces, str(source))
-    dropped = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "duplicate_faces")
-    report = (
-        {
-            "name": name,
-            "source": source.name,
-            "sha256": sha256_of(source),
-            "centre": centre.tolist(),
-            "radius": radius,
-        }
-        | report
-        | again
-        | {key: report[key] for key in ("source_vertices", "source_faces")}
-        | {key: report[key] + again[key] for key in dropped}
-    )
+    content = hashlib.sha256(mesh_bytes(source)).hexdigest()
+    report = {
+        "name": name,
+        "source": source.name,
+        "sha256": sha256_of(source),
+        "thesis_mesh": is_thesis_mesh(mesh, content),
+        "centre": centre.tolist(),
+        "radius": radius,
+        **again,
+        **{key: report[key] for key in ("source_vertices", "source_faces")},
+        **{key: report[key] + again[key] for key in _DROPPED},
+        "sheet": not again["watertight"] and is_sheet(normalised, faces),
+    }
+    if report["sheet"]:
+        print(
+            f"mesh {source}: an open sheet without an inside: give its occupancy fields "
+            "`surface: sheet`"
+        )
     with whole_file(mesh_ply) as part:
-        mesh = trimesh.Trimesh(normalised, faces, process=False)
-        part.write_bytes(mesh.export(file_type="ply"))
+        part.write_bytes(
+            trimesh.Trimesh(normalised, faces, process=False).export(file_type="ply")
+        )
         write_json(mesh_json, report)
-    return report
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, prepare_mesh)
