@@ -62,7 +62,7 @@ def _height(frame_width: int) -> int:
 
 
 def measure_cost(
-    out_json: Path, *, over: str, value: int, seed: int, device: str, precision: str, threads: int
+    cost_json: Path, *, over: str, value: int, seed: int, device: str, precision: str, threads: int
 ) -> None:
     """Run each stage that `over` is a size of, at that size, in a process of its own.
 
@@ -79,7 +79,7 @@ def measure_cost(
     found = []
     # Beside the result: a hundred million rays take 2 GB, which a system's /tmp may not have.
     # Named after it, so that what a killed job left is found.
-    folder = out_json.with_suffix(".unfinished")
+    folder = cost_json.with_suffix(".unfinished")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     try:
@@ -97,7 +97,7 @@ def measure_cost(
         shutil.rmtree(folder, ignore_errors=True)
     name, size = size_of(over, value)
     write_json(
-        out_json,
+        cost_json,
         {"over": name, "size": size, "stages": found, "machine": describe_machine(), **settings},
     )
 

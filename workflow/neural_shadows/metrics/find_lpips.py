@@ -8,7 +8,7 @@ from neural_shadows.files.whole_files import write_json
 from neural_shadows.metrics.lpips_distance import Lpips
 
 
-def find_lpips(out_json: Path, *, net: str, trunk: str | None) -> None:
+def find_lpips(trunk: Path | None, lpips_json: Path, *, net: str) -> None:
     """Try LPIPS's pretrained trunk and write `net`, `trunk`, `available` and `reason`.
 
     A trunk that cannot be downloaded leaves LPIPS out, and the tables say why. A trunk that
@@ -19,12 +19,12 @@ def find_lpips(out_json: Path, *, net: str, trunk: str | None) -> None:
     """
     reason = None
     try:
-        Lpips(net, Path(trunk) if trunk else None)
+        Lpips(net, trunk)
     except InputError as error:
         if trunk:
             raise
         reason = str(error)
         print(f"LPIPS is left out: {reason}", file=sys.stderr)
     write_json(
-        out_json, {"net": net, "trunk": trunk, "available": reason is None, "reason": reason}
+        lpips_json, {"net": net, "trunk": str(trunk) if trunk else None, "available": reason is None, "reason": reason}
     )

@@ -1,12 +1,11 @@
-"""What a camera sees, where it must ask for shadow, and the grey picture made of the answers."""
+"""What a camera sees, and where it must ask for shadow."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.scenes.cameras import Viewpoint, camera_axes
-from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.scenes.scene import Scene
 
 # Every method shades p + SHADING_OFFSET n_g (normalised space): some 10,000 roundings of a
 # float32 there, so that no ray meets the triangle it starts from, and 1/2000 of the object.
@@ -16,27 +15,28 @@ GROUND_RADIUS = 20.0
 
 
 @dataclass(frozen=True, eq=False)
-class ShadingPoints:
-    """A frame's surface points, and those m of its n that face the light.
+class GBuffer:
+    """A frame's n surface points, and those m of them that face the light.
 
-    Points with n_g·l ≤ 0 are dark whatever the method, so that only the m others are
-    queried: a method maps their `p` to `lit` (m,) bool.
+    Points with n_g·l ≤ 0 are dark whatever the method, so that only the m others, on the lit
+    side, are queried. A shadow method answers with a visibility in [0, 1] of all n.
     """
 
+    view: Viewpoint
     width: int
     height: int
-    light: np.ndarray  # (3,) float64, unit vector towards the light
     pixel: np.ndarray  # (n,) int64, row · width + column of each pixel that shows a surface
     is_object: np.ndarray  # (n,) bool, the object (True) or the ground
-    facing: np.ndarray  # (m,) int64, indices into the n points
+    lit_side: np.ndarray  # (m,) int64, indices into the n points
     p: np.ndarray  # (m, 3) float32, already moved by SHADING_OFFSET n_g
-    cos_theta: np.ndarray  # (m,) float32, n_g·l > 0 of the geometric normal on the camera's side
-    cosine: np.ndarray  # (m,) float32, max(0, n·l) of the interpolated normal n
+    cos_geometric: np.ndarray  # (m,) float32, n_g·l > 0 of the face's normal on the camera's side
+    cos_shading: np.ndarray  # (m,) float32, max(0, n·l) of the interpolated normal n
 
-
-def ground_height(mesh: PreparedMesh, up: np.ndarray) -> float:
-    """Height along `up` of the ground plane: the object's lowest vertex."""
-    return float((mesh.vertices @ np.asarray(up, np.float32)).min())
+    def visibility(self, lit: np.ndarray) -> np.ndarray:
+        """Visibility (n,) float32 in [0, 1] from that (m,) of the lit side; elsewhere 0."""
+        visible = np.zeros(len(self.pixel), np.float32)
+        visible[self.lit_side] = lit
+        return visible
 
 
 def _pixel_directions(view: Viewpoint, width: int, height: int) -> np.ndarray:
@@ -56,25 +56,18 @@ def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.einsum("ij,ij->i", a, b)
 
 
-def primary_hits(
-    mesh: PreparedMesh,
-    tracer: Tracer,
-    view: Viewpoint,
-    width: int,
-    height: int,
-    ground: float | None,
-) -> ShadingPoints:
+def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GBuffer:
     """Trace one ray through each pixel centre and prepare its surface points for shading.
 
-    Args:
-        ground: height of the ground plane along `view.up`; None for a scene without one.
-            The eye must be above it and the object on it, so that a ray meets the object
-            first.
+    The eye must be above the ground and the object on it, so that a ray meets the object first.
     """
+    (mesh,) = scene.objects
     light = view.light.astype(np.float32)
     directions = _pixel_directions(view, width, height)
     eye = view.eye.astype(np.float32)
-    hit, face, u, v = tracer.first_hit_barycentric(np.tile(eye, (len(directions), 1)), directions)
+    hit, face, u, v = scene.tracer.first_hit_barycentric(
+        np.tile(eye, (len(directions), 1)), directions
+    )
 
     # np.take throughout: on rows of three it is ten times as fast as an index in brackets.
     pixel = np.flatnonzero(hit)
@@ -83,35 +76,37 @@ def primary_hits(
     n_g = np.take(mesh.face_normals, face, axis=0)
     # Both normals are turned by the geometric one: the far side of an open sheet is shaded too.
     side = -np.sign(_dot(n_g, np.take(directions, pixel, axis=0)))
-    cos_theta = side * (n_g @ light)
-    facing = np.flatnonzero(cos_theta > 0)
-    side, cos_theta, u, v = side[facing], cos_theta[facing], u[facing], v[facing]
-    corners = np.take(mesh.faces, face[facing], axis=0).T
+    cos_geometric = side * (n_g @ light)
+    lit_side = np.flatnonzero(cos_geometric > 0)
+    side, cos_geometric, u, v = side[lit_side], cos_geometric[lit_side], u[lit_side], v[lit_side]
+    corners = np.take(mesh.faces, face[lit_side], axis=0).T
     # From the triangle and not from t, whose rounding grows with the distance of the eye.
     p = _interpolate(mesh.vertices, corners, u, v)
-    p += (np.float32(SHADING_OFFSET) * side)[:, None] * np.take(n_g, facing, axis=0)
+    p += (np.float32(SHADING_OFFSET) * side)[:, None] * np.take(n_g, lit_side, axis=0)
     n = _interpolate(mesh.vertex_normals, corners, u, v)
-    cosine = side * (n @ light) / np.maximum(np.sqrt(_dot(n, n)), np.float32(1e-12))
+    cos_shading = side * (n @ light) / np.maximum(np.sqrt(_dot(n, n)), np.float32(1e-12))
 
-    if ground is not None:
-        below, p_ground = _ground_hits(view, directions.reshape(height, width, 3), hit, ground)
-        facing = np.concatenate([facing, np.arange(count, count + len(below))])
+    if scene.ground is not None:
+        below, p_ground = _ground_hits(
+            view, directions.reshape(height, width, 3), hit, scene.ground
+        )
+        lit_side = np.concatenate([lit_side, np.arange(count, count + len(below))])
         pixel = np.concatenate([pixel, below])
         p_ground += np.float32(SHADING_OFFSET) * view.up.astype(np.float32)
         p = np.concatenate([p, p_ground])
         cos_ground = np.full(len(below), view.up @ view.light, np.float32)
-        cos_theta = np.concatenate([cos_theta, cos_ground])
-        cosine = np.concatenate([cosine, cos_ground])
-    return ShadingPoints(
+        cos_geometric = np.concatenate([cos_geometric, cos_ground])
+        cos_shading = np.concatenate([cos_shading, cos_ground])
+    return GBuffer(
+        view=view,
         width=width,
         height=height,
-        light=view.light,
         pixel=pixel,
         is_object=np.arange(len(pixel)) < count,
-        facing=facing,
+        lit_side=lit_side,
         p=p,
-        cos_theta=cos_theta,
-        cosine=np.maximum(cosine, 0),
+        cos_geometric=cos_geometric,
+        cos_shading=np.maximum(cos_shading, 0),
     )
 
 

@@ -1,8 +1,15 @@
-"""Pinhole cameras."""
+"""Pinhole cameras, and the ways in which those of the evaluation frames are aimed [4.1]."""
 
 from dataclasses import dataclass
 
 import numpy as np
+
+# By view set; see `draw_viewpoints`. The order is part of the random stream of each.
+VIEW_SETS = {
+    "shadow": "aimed at the cast shadow",
+    "surface": "aimed at the object's surface (self-shadowing)",
+    "centre": "aimed at the object's centre",
+}
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from neural_shadows.rendering.gbuffer import ShadingPoints
+from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.scenes.lights import light_basis
 from neural_shadows.scenes.tracing import Tracer
 
@@ -13,7 +13,7 @@ _CLEARANCE = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class ShadowMapFrame:
+class ShadowMapSquare:
     """The square that shadow maps of one light cover, and where their rays start."""
 
     basis: np.ndarray  # (3, 3) float64, rows u, v, light: see `light_basis`
@@ -26,7 +26,7 @@ class ShadowMapFrame:
 class Receivers:
     """Shading points as maps of every resolution look at them: those k of m on the map."""
 
-    frame: ShadowMapFrame
+    square: ShadowMapSquare
     count: int  # m
     on_map: np.ndarray  # (k,) int64, indices into the m points
     place: np.ndarray  # (2, k) float32 in [0, 1), across the square along u and v
@@ -34,7 +34,7 @@ class Receivers:
     slope: np.ndarray  # (k,) float32, 0.5 + 0.75 tan θ, at most 20
 
 
-def shadow_map_frame(vertices: np.ndarray, light: np.ndarray) -> ShadowMapFrame:
+def shadow_map_square(vertices: np.ndarray, light: np.ndarray) -> ShadowMapSquare:
     """Smallest square, aligned to the light's basis, round the projected vertices (V, 3) [4.1].
 
     Across its shorter extent the object lies in the middle.
@@ -44,23 +44,20 @@ def shadow_map_frame(vertices: np.ndarray, light: np.ndarray) -> ShadowMapFrame:
     low, high = (bound.astype(np.float64) for bound in (projected.min(1), projected.max(1)))
     side = float((high - low)[:2].max())
     corner = (low + high)[:2] / 2 - side / 2
-    return ShadowMapFrame(basis, corner, side, float(high[2]) + _CLEARANCE)
+    return ShadowMapSquare(basis, corner, side, float(high[2]) + _CLEARANCE)
 
 
-def receivers_of(frame: ShadowMapFrame, points: ShadingPoints) -> Receivers:
-    """Project a frame's facing points onto the map's square, once for all resolutions.
-
-    `points` must belong to the light of `frame`.
-    """
-    u, v, height = frame.basis.astype(np.float32) @ points.p.T
-    corner, side = frame.corner.astype(np.float32), np.float32(frame.side)
+def receivers_of(square: ShadowMapSquare, frame: GBuffer) -> Receivers:
+    """Project the points on a frame's lit side onto its light's square, for any resolution."""
+    u, v, height = square.basis.astype(np.float32) @ frame.p.T
+    corner, side = square.corner.astype(np.float32), np.float32(square.side)
     place = np.stack([(u - corner[0]) / side, (v - corner[1]) / side])
     on_map = np.flatnonzero(((place >= 0) & (place < 1)).all(0))
     # tan θ from 1% up: below it the bound of 20 holds anyway (tan θ = 26 reaches it).
-    tangent = np.sqrt(1 / np.clip(points.cos_theta[on_map], 0.01, 1) ** 2 - 1)
+    tangent = np.sqrt(1 / np.clip(frame.cos_geometric[on_map], 0.01, 1) ** 2 - 1)
     return Receivers(
-        frame=frame,
-        count=len(points.p),
+        square=square,
+        count=len(frame.p),
         on_map=on_map,
         place=place[:, on_map],
         height=height[on_map],
@@ -78,7 +75,7 @@ def texels_of(receivers: Receivers, resolution: int) -> np.ndarray:
 
 
 def texel_heights(
-    tracer: Tracer, frame: ShadowMapFrame, resolution: int, texels: np.ndarray
+    tracer: Tracer, square: ShadowMapSquare, resolution: int, texels: np.ndarray
 ) -> np.ndarray:
     """Height along the light of the first surface under each texel's centre, −∞ for none.
 
@@ -88,16 +85,16 @@ def texel_heights(
     Returns:
         (t,) float32.
     """
-    u, v, light = frame.basis
+    u, v, light = square.basis
     row, column = np.divmod(texels, resolution)
-    across = frame.corner[0] + (column + 0.5) * (frame.side / resolution)
-    along = frame.corner[1] + (row + 0.5) * (frame.side / resolution)
+    across = square.corner[0] + (column + 0.5) * (square.side / resolution)
+    along = square.corner[1] + (row + 0.5) * (square.side / resolution)
     origins = np.empty((len(texels), 3), np.float32)
     for k in range(3):
-        origins[:, k] = across * u[k] + along * v[k] + frame.top * light[k]
+        origins[:, k] = across * u[k] + along * v[k] + square.top * light[k]
     directions = np.tile(-light.astype(np.float32), (len(texels), 1))
     t, _ = tracer.first_hit(origins, directions)
-    return np.float32(frame.top) - t
+    return np.float32(square.top) - t
 
 
 def depth_test(receivers: Receivers, heights: np.ndarray, resolution: int) -> np.ndarray:
@@ -107,7 +104,7 @@ def depth_test(receivers: Receivers, heights: np.ndarray, resolution: int) -> np
     h · min(0.5 + 0.75 tan θ, 20) + 1e-4, with h the world size of a texel and θ the angle
     between geometric normal and light. Points off the map are lit.
     """
-    bias = receivers.slope * np.float32(receivers.frame.side / resolution) + np.float32(1e-4)
+    bias = receivers.slope * np.float32(receivers.square.side / resolution) + np.float32(1e-4)
     lit = np.ones(receivers.count, bool)
     lit[receivers.on_map] = receivers.height + bias >= heights
     return lit
@@ -120,14 +117,14 @@ def shadow_map_lit(tracer: Tracer, receivers: Receivers, resolution: int) -> np.
     values as the whole map.
     """
     texels = texels_of(receivers, resolution)
-    frame = receivers.frame
+    square = receivers.square
     # Where texels outnumber receivers, few are shared (at 2048² a twentieth of 500,000): a ray
     # each is cheaper than finding the distinct ones in a table of the whole map.
     if resolution**2 > 4 * len(texels):
-        return depth_test(receivers, texel_heights(tracer, frame, resolution, texels), resolution)
+        return depth_test(receivers, texel_heights(tracer, square, resolution, texels), resolution)
     used = np.zeros(resolution**2, bool)
     used[texels] = True
     used = np.flatnonzero(used)
     table = np.empty(resolution**2, np.float32)
-    table[used] = texel_heights(tracer, frame, resolution, used)
+    table[used] = texel_heights(tracer, square, resolution, used)
     return depth_test(receivers, table[texels], resolution)
