@@ -1,60 +1,51 @@
 """How the cost of each stage grows, as a figure."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
 
 from neural_shadows.evaluation.costs import read_cost
-from neural_shadows.reports.figures.style import COLOURS, DPI, write_strip
+from neural_shadows.reports.figures.style import COLOURS, GRID, new_figure, write_figure
 from neural_shadows.reports.tables.cost import cost_table
+from neural_shadows.running.stage import run_stage
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+ROWS = {"seconds": "seconds", "memory_mib": "peak memory, MiB"}
+
+
+def draw(costs: list[Path], png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
+    """Draw seconds, and below them memory, of the stages over each size that was measured."""
+    table = cost_table([read_cost(path) for path in costs])
+    write_figure(cost_figure(table, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
 def cost_figure(table: pd.DataFrame, *, title: str) -> Figure:
-    """Draw seconds, and below them memory, over each size, both logarithmic."""
-    from matplotlib.figure import Figure
-    from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
-
-    sizes = list(dict.fromkeys(table["over"]))
-    stages = list(dict.fromkeys(table["stage"]))
-    figure = Figure(figsize=(3.2 * len(sizes), 6.4), dpi=DPI, layout="constrained")
+    """Draw the table of `cost_table`, both axes logarithmic."""
+    sizes = table["over"].unique()
+    colours = dict(zip(table["stage"].unique(), COLOURS))
+    figure = new_figure(f"{title}; exponents in brackets, 1 is linear", 3.2 * len(sizes), 7.4)
     panels = figure.subplots(2, len(sizes), squeeze=False, sharey="row")
-    for column, over in enumerate(sizes):
-        shown = table[table["over"] == over]
-        # Less than two decades have too few powers of ten to read sizes from.
-        narrow = shown["size"].max() < 100 * shown["size"].min()
-        for row, (value, unit) in enumerate((("seconds", "s"), ("memory_mib", "MiB"))):
-            axes = panels[row, column]
-            for colour, stage in zip(COLOURS, stages):
-                part = shown[(shown["stage"] == stage) & (shown[value] > 0)]
-                if len(part):
-                    label = f"{stage} ({part[f'{value}_exponent'].iloc[0]:.2f})"
-                    axes.plot(part["size"], part[value], color=colour, marker="o", label=label)
-            axes.set_xscale("log")
-            axes.set_yscale("log")
+    for row, (value, unit) in enumerate(ROWS.items()):
+        panels[row, 0].set_ylabel(unit)
+        for axes, over in zip(panels[row], sizes):
+            shown = table[table["over"] == over]
+            for stage, part in shown[shown[value] > 0].groupby("stage", sort=False):
+                label = f"{stage} ({part[f'{value}_exponent'].iloc[0]:.2f})"
+                axes.plot(part["size"], part[value], color=colours[stage], marker="o", label=label)
+            axes.set(xscale="log", yscale="log", xlabel=over.replace("_", " "))
+            # Less than two decades have too few powers of ten to read sizes from.
+            narrow = shown["size"].max() < 100 * shown["size"].min()
             axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if narrow else (1,)))
             axes.xaxis.set_major_formatter(EngFormatter(sep=""))
             axes.xaxis.set_minor_formatter(NullFormatter())
-            axes.grid(which="both", linewidth=0.4, alpha=0.4)
-            axes.legend(fontsize="small")
-            axes.set_xlabel(over)
-            if column == 0:
-                axes.set_ylabel(unit)
-    figure.suptitle(
-        f"{title}; exponents in brackets, 1 is linear", x=0.01, ha="left", weight="bold"
-    )
+            axes.grid(which="both", **GRID)
+            # Above the panel, where it covers no line.
+            axes.legend(fontsize="small", loc="lower left", bbox_to_anchor=(0, 1), frameon=False)
     return figure
 
 
-def write_cost_figure(
-    costs: Sequence[Path], png: Path, svg: Path, *, title: str, scale: str
-) -> None:
-    """Draw the figure of these measurements."""
-    table = cost_table([read_cost(path) for path in costs])
-    write_strip(cost_figure(table, title=f"{title} ({scale} scale)"), png, svg)
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

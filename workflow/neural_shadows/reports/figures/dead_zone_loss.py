@@ -1,22 +1,25 @@
 """The dead-zone loss over the predicted depth (figure 3.7)."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
 
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.reports.figures.drawing import BLUE, ORANGE
-from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
+from neural_shadows.reports.figures.drawing import method_figure, open_slice
+from neural_shadows.reports.figures.mesh_slice import slice_rays
+from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, write_figure
+from neural_shadows.running.stage import run_stage
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-def _dead_zone_loss(figure: Figure, cut: MeshSlice) -> None:
-    rays = slice_rays(cut, 401)
+def draw(
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+) -> None:
+    """Draw the loss of the ray with the most distant bounds, and of the longest that misses."""
+    figure = method_figure(title, mesh_json, 9, 4.6)
+    rays = slice_rays(open_slice(mesh_ply, scene), 401)
     axes = figure.subplots()
     t = torch.linspace(0, 2, 401)
     chosen = []
@@ -28,13 +31,15 @@ def _dead_zone_loss(figure: Figure, cut: MeshSlice) -> None:
     for name, i, colour in chosen:
         low, high = float(rays.t_lb[i]), float(rays.t_ub[i])
         loss = DeadZone()(t, torch.tensor(low), torch.tensor(high))
-        bounds = f"t$_{{lb}}$ = {low:.2f}, t$_{{ub}}$ = " + (
-            "∞" if np.isinf(high) else f"{high:.2f}"
-        )
-        axes.plot(t, loss, color=colour, label=f"a ray that {name}: {bounds}")
+        upper = "∞" if np.isinf(high) else f"{high:.2f}"
+        label = f"a ray that {name}: t$_{{lb}}$ = {low:.2f}, t$_{{ub}}$ = {upper}"
+        axes.plot(t, loss, color=colour, label=label)
         axes.axvspan(low, min(high, 2), color=colour, alpha=0.12, linewidth=0)
-    axes.set_xlabel("predicted depth t$_{pred}$")
-    axes.set_ylabel("loss")
-    axes.set_xlim(0, 2)
-    axes.grid(linewidth=0.4, alpha=0.4)
+    axes.set(xlabel="predicted depth t$_{pred}$", ylabel="loss", xlim=(0, 2))
+    axes.grid(**GRID)
     axes.legend()
+    write_figure(figure, png, svg)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

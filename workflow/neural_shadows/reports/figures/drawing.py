@@ -1,26 +1,28 @@
-"""Pictures of how the method works, drawn from real data [figures 3.1 to 3.6]."""
-
-from __future__ import annotations
+"""What the pictures of how the method works are drawn with [figures 3.1 to 3.6]."""
 
 from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, PathPatch, Rectangle
+from matplotlib.path import Path as Outline
+from matplotlib.transforms import Affine2D, Transform
 
-from neural_shadows.rays.draw_directions import make_directions
+from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.quadtree import build_quadtree
 from neural_shadows.rays.sampling import sample_quads
 from neural_shadows.rays.silhouette import plane_basis, silhouette
-from neural_shadows.reports.figures.mesh_slice import MeshSlice, SliceRays
-from neural_shadows.reports.figures.style import COLOURS
+from neural_shadows.reports.figures.mesh_slice import MeshSlice, SliceRays, slice_mesh
+from neural_shadows.reports.figures.style import BLUE, ORANGE, new_figure
+from neural_shadows.scenes.lights import axis_vector
+from neural_shadows.scenes.tracing import Tracer
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-BLUE, ORANGE = COLOURS[:2]
 SHADE = "#b9c2cc"
 OUTLINE = "#222222"
 SHOWN_DIRECTIONS = 1000  # of the pattern: a hemisphere of them can still be told apart
@@ -31,137 +33,112 @@ FEW_RAYS = 25
 DRAWN_SEGMENTS = 4000
 
 
-def _plane(axes: Axes, title: str) -> None:
-    """Prepare axes for the unit disk of a plane."""
-    from matplotlib.patches import Circle
+def open_slice(mesh_ply: Path, scene: Mapping[str, Any]) -> MeshSlice:
+    """The slice of a prepared mesh that the figures show.
 
+    Raises:
+        InputError: the mesh is missing or not whole.
+    """
+    mesh = read_prepared(mesh_ply)
+    return slice_mesh(mesh, Tracer(mesh.vertices, mesh.faces), axis_vector(scene["up"], "up"))
+
+
+def method_figure(title: str, mesh_json: Path, width: float = 12.5, height: float = 6.6) -> Figure:
+    """An empty figure of so many inches whose title names the mesh."""
+    return new_figure(f"{title} ({read_mesh_report(mesh_json)['name']})", width, height)
+
+
+def draw_disk(axes: Axes, title: str) -> None:
+    """Prepare axes for the unit disk of a plane."""
     axes.add_patch(Circle((0, 0), 1, fill=False, color=ORANGE, linewidth=1.2))
-    axes.set_xlim(-1.08, 1.08)
-    axes.set_ylim(-1.08, 1.08)
-    axes.set_aspect("equal")
+    axes.set(xlim=(-1.08, 1.08), ylim=(-1.08, 1.08), aspect="equal")
     axes.set_axis_off()
     axes.set_title(title, fontsize=11)
 
 
-def _segments(axes: Axes, starts: np.ndarray, ends: np.ndarray, **style) -> None:
-    from matplotlib.collections import LineCollection
-
+def draw_segments(axes: Axes, starts: np.ndarray, ends: np.ndarray, **style) -> None:
+    """Draw lines from points (n, 2) to points (n, 2)."""
     axes.add_collection(LineCollection(np.stack([starts, ends], axis=1), **style))
 
 
 def draw_outline(axes: Axes, cut: MeshSlice) -> None:
     """Draw the mesh's section."""
-    from matplotlib.patches import PathPatch
-    from matplotlib.path import Path as Outline
-
     # One path: as lines of their own the segments take three times the bytes in an SVG.
     count = len(cut.outline)
     path = Outline(cut.outline.reshape(-1, 2), [Outline.MOVETO, Outline.LINETO] * count)
-    axes.add_patch(
-        PathPatch(
-            path,
-            fill=False,
-            edgecolor=OUTLINE,
-            linewidth=1.0,
-            zorder=3,
-            rasterized=count > DRAWN_SEGMENTS,
-        )
-    )
+    style = {"fill": False, "edgecolor": OUTLINE, "linewidth": 1.0, "zorder": 3}
+    axes.add_patch(PathPatch(path, rasterized=count > DRAWN_SEGMENTS, **style))
 
 
-def _rays_with_bounds(axes: Axes, rays: SliceRays, width: float) -> None:
-    """Each ray up to its lower bound, between the bounds, and in shadow from there on."""
-    hit = rays.hit
-    end = np.minimum(rays.t_ub, rays.chord)
-    _segments(axes, rays.at(0 * end), rays.at(rays.t_lb), colors=ORANGE, linewidths=width)
+def draw_bounded_rays(axes: Axes, rays: SliceRays, width: float) -> None:
+    """Draw each ray up to its lower bound, between the bounds, and in shadow from there on."""
+    hit, end = rays.hit, rays.end
+    draw_segments(axes, rays.at(0 * end), rays.at(rays.t_lb), colors=ORANGE, linewidths=width)
     between = rays.at(rays.t_lb)[hit], rays.at(end)[hit]
-    _segments(axes, *between, colors=BLUE, linewidths=3.2 * width)
+    draw_segments(axes, *between, colors=BLUE, linewidths=3.2 * width)
     behind = rays.at(end)[hit], rays.at(rays.chord)[hit]
-    _segments(axes, *behind, colors=SHADE, linewidths=width)
+    draw_segments(axes, *behind, colors=SHADE, linewidths=width)
 
 
-def _points_of(
-    cut: MeshSlice, sampling: Mapping[str, Any], seed: int, count: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
-    """Silhouette along the slice's normal, its quads, `count` points, and its resolution.
+class SilhouetteDrawing:
+    """The silhouette along a slice's normal, its quads, and points on these, drawn upright.
 
-    Offsets are turned so that (x, y) is (across, up), seen from the front.
+    Args:
+        sampling: settings of a sampling; its `silhouette_resolution` and `min_quad` are shown,
+            also of a sampler that does without.
+        count: of the points.
     """
-    resolution = sampling["silhouette_resolution"]
-    direction = np.cross(cut.up, cut.across)  # away from who sees `across` to the right
-    covered = silhouette(cut.tracer, direction, resolution)
-    quads = build_quadtree(covered, sampling["min_quad"])
-    rng = np.random.default_rng(seed)
-    offsets = sample_quads(quads, resolution, count, rng, PatternBank(seed))
-    return covered, quads, offsets, resolution
+
+    def __init__(self, cut: MeshSlice, sampling: Mapping[str, Any], seed: int, count: int):
+        self.resolution = sampling["silhouette_resolution"]
+        direction = np.cross(cut.up, cut.across)  # away from who sees `across` to the right
+        self.covered = silhouette(cut.tracer, direction, self.resolution)
+        self.quads = build_quadtree(self.covered, sampling["min_quad"])
+        rng = np.random.default_rng(seed)
+        self.points = sample_quads(self.quads, self.resolution, count, rng, PatternBank(seed))
+        u, v = plane_basis(direction)
+        self._turn = np.eye(3)
+        self._turn[:2, :2] = [[u @ cut.across, v @ cut.across], [u @ cut.up, v @ cut.up]]
+
+    def _upright(self, axes: Axes) -> Transform:
+        """Shows offsets (a, b) with `across` to the right and `up` upwards."""
+        return Affine2D(self._turn) + axes.transData
+
+    def draw(self, axes: Axes) -> None:
+        """Draw what the object covers, in grey."""
+        draw_silhouette(axes, self.covered, 0.72, self._upright(axes))
+
+    def draw_quads(self, axes: Axes) -> None:
+        """Draw the quadtree."""
+        draw_quads(axes, self.quads, self.resolution, self._upright(axes))
+
+    def draw_points(self, axes: Axes, size: float) -> None:
+        """Draw the points."""
+        style = {"s": size, "color": OUTLINE, "linewidths": 0, "rasterized": True}
+        axes.scatter(*self.points.T, transform=self._upright(axes), **style)
 
 
-def _upright(cut: MeshSlice, axes: Axes):
-    """The transform that shows offsets (a, b) with `across` to the right and `up` upwards."""
-    from matplotlib.transforms import Affine2D
-
-    u, v = plane_basis(np.cross(cut.up, cut.across))
-    matrix = np.eye(3)
-    matrix[:2, :2] = [[u @ cut.across, v @ cut.across], [u @ cut.up, v @ cut.up]]
-    return Affine2D(matrix) + axes.transData
+def draw_silhouette(axes: Axes, covered: np.ndarray, grey: float, upright: Transform) -> None:
+    """Draw covered texels (n, n) bool; row 0 is the lowest b."""
+    style = {"cmap": "gray", "vmin": 0, "vmax": 1, "interpolation": "nearest", "origin": "lower"}
+    image = np.where(covered, grey, 1.0)
+    axes.imshow(image, extent=(-1, 1, -1, 1), transform=upright, **style)
 
 
-def _silhouette(axes: Axes, cut: MeshSlice, covered: np.ndarray) -> None:
-    axes.imshow(
-        np.where(covered, 0.72, 1.0),
-        cmap="gray",
-        vmin=0,
-        vmax=1,
-        origin="lower",
-        extent=(-1, 1, -1, 1),
-        interpolation="nearest",
-        transform=_upright(cut, axes),
-    )
-
-
-def _quads(axes: Axes, cut: MeshSlice, quads: np.ndarray, resolution: int) -> None:
-    from matplotlib.collections import PatchCollection
-    from matplotlib.patches import Rectangle
-
+def draw_quads(axes: Axes, quads: np.ndarray, resolution: int, upright: Transform) -> None:
+    """Draw the quads of `build_quadtree`."""
     texel = 2 / resolution
     squares = [
         Rectangle((column * texel - 1, row * texel - 1), size * texel, size * texel)
         for row, column, size in quads
     ]
-    axes.add_collection(
-        PatchCollection(
-            squares,
-            facecolor="none",
-            edgecolor=BLUE,
-            linewidth=0.4,
-            transform=_upright(cut, axes),
-            rasterized=True,
-        )
-    )
+    style = {"facecolor": "none", "edgecolor": BLUE, "linewidth": 0.4, "rasterized": True}
+    axes.add_collection(PatchCollection(squares, transform=upright, **style))
 
 
-def _points(axes: Axes, cut: MeshSlice, offsets: np.ndarray, size: float) -> None:
-    axes.scatter(
-        *offsets.T,
-        s=size,
-        color=OUTLINE,
-        linewidths=0,
-        transform=_upright(cut, axes),
-        rasterized=True,
-    )
-
-
-def _drawn(sampler: str, seed: int) -> np.ndarray:
-    """The pipeline's own view directions of a sampler, (n, 3)."""
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "directions.npy"
-        make_directions(path, sampler=sampler, directions=SHOWN_DIRECTIONS, seed=seed)
-        return np.load(path, allow_pickle=False)
-
-
-def _hemisphere(axes: Axes, directions: np.ndarray, title: str) -> None:
-    """Directions of the upper hemisphere, in Lambert's equal-area projection."""
+def draw_hemisphere(axes: Axes, directions: np.ndarray, title: str) -> None:
+    """Draw those of some directions (n, 3) with z > 0, in Lambert's equal-area projection."""
     x, y, z = directions[directions[:, 2] > 0].T
     scale = 1 / np.sqrt(1 + z)
-    _plane(axes, title)
+    draw_disk(axes, title)
     axes.scatter(scale * x, scale * y, s=6, color=BLUE, linewidths=0)

@@ -1,36 +1,36 @@
 """The two bounds of a label (figure 3.6)."""
 
-from __future__ import annotations
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
-from typing import TYPE_CHECKING
+from matplotlib.lines import Line2D
 
 from neural_shadows.reports.figures.drawing import (
-    BLUE,
     FEW_RAYS,
-    ORANGE,
     SHADE,
-    _plane,
-    _rays_with_bounds,
+    draw_bounded_rays,
+    draw_disk,
     draw_outline,
+    method_figure,
+    open_slice,
 )
-from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
+from neural_shadows.reports.figures.mesh_slice import slice_rays
+from neural_shadows.reports.figures.style import BLUE, ORANGE, write_figure
+from neural_shadows.running.stage import run_stage
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-def _dual_bounds(figure: Figure, cut: MeshSlice) -> None:
-    from matplotlib.lines import Line2D
-
+def draw(
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+) -> None:
+    """Draw some of a light's rays in a slice, coloured by their bounds."""
+    cut, figure = open_slice(mesh_ply, scene), method_figure(title, mesh_json)
     whole, part = figure.subplots(1, 2)
-    rays = slice_rays(cut, FEW_RAYS)
-    dense = slice_rays(cut, 8 * FEW_RAYS)
-    _plane(whole, f"{FEW_RAYS} of a light's rays")
-    _plane(part, "the middle, with more rays")
-    part.set_xlim(-0.4, 0.4)
-    part.set_ylim(-0.4, 0.4)
-    for axes, shown in ((whole, rays), (part, dense)):
-        _rays_with_bounds(axes, shown, 1.2)
+    draw_disk(whole, f"{FEW_RAYS} of a light's rays")
+    draw_disk(part, "the middle, with more rays")
+    part.set(xlim=(-0.4, 0.4), ylim=(-0.4, 0.4))
+    for axes, count in ((whole, FEW_RAYS), (part, 8 * FEW_RAYS)):
+        draw_bounded_rays(axes, slice_rays(cut, count), 1.2)
         draw_outline(axes, cut)
     figure.legend(
         handles=[
@@ -41,3 +41,8 @@ def _dual_bounds(figure: Figure, cut: MeshSlice) -> None:
         loc="outside lower center",
         ncols=3,
     )
+    write_figure(figure, png, svg)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

@@ -47,6 +47,11 @@ class SliceRays:
         """Whether each ray meets the object, (n,) bool."""
         return self.t_lb < self.chord - 1e-6
 
+    @property
+    def end(self) -> np.ndarray:
+        """Where each ray is in shadow at the latest, or leaves the sphere: (n,)."""
+        return np.minimum(self.t_ub, self.chord)
+
     def at(self, t: np.ndarray) -> np.ndarray:
         """Points o + t d of the plane, (n, 2)."""
         return self.origins + np.asarray(t)[:, None] * self.direction

@@ -1,73 +1,85 @@
 """The method in one picture (figure 3.1)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
 
+from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.reports.figures.drawing import (
-    BLUE,
     FEW_RAYS,
-    ORANGE,
     OUTLINE,
     SHADE,
+    SHOWN_DIRECTIONS,
     SHOWN_POINTS,
-    _drawn,
-    _hemisphere,
-    _plane,
-    _points,
-    _points_of,
-    _quads,
-    _rays_with_bounds,
-    _silhouette,
+    SilhouetteDrawing,
+    draw_bounded_rays,
+    draw_disk,
+    draw_hemisphere,
     draw_outline,
+    method_figure,
+    open_slice,
 )
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
+from neural_shadows.reports.figures.style import BLUE, ORANGE, write_figure
+from neural_shadows.running.stage import run_stage
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-def _overview(figure: Figure, cut: MeshSlice, sampling: Mapping[str, Any], seed: int) -> None:
-    from matplotlib.patheffects import withStroke
-
+def draw(
+    mesh_ply: Path,
+    mesh_json: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    scene: Mapping[str, Any],
+    sampling: Mapping[str, Any],
+    seed: int,
+) -> None:
+    """Draw directions, points on a silhouette, labels and a query beside each other."""
+    cut, figure = open_slice(mesh_ply, scene), method_figure(title, mesh_json, 13.3, 4)
     directions, points, labels, query = figure.subplots(1, 4)
-    _hemisphere(directions, _drawn("poisson_quadtree", seed), "a  view directions")
-    covered, quads, offsets, resolution = _points_of(cut, sampling, seed, SHOWN_POINTS // 3)
-    _plane(points, "b  rays through a silhouette's quadtree")
-    _silhouette(points, cut, covered)
-    _quads(points, cut, quads, resolution)
-    _points(points, cut, offsets, 2)
-    _plane(labels, "c  labels: bounds along the rays")
-    _rays_with_bounds(labels, slice_rays(cut, FEW_RAYS), 1.0)
+    draw_hemisphere(directions, sphere_directions(SHOWN_DIRECTIONS, seed)[0], "a  view directions")
+    draw_disk(points, "b  rays through a silhouette's quadtree")
+    shown = SilhouetteDrawing(cut, sampling, seed, SHOWN_POINTS // 3)
+    shown.draw(points)
+    shown.draw_quads(points)
+    shown.draw_points(points, 2)
+    draw_disk(labels, "c  labels: bounds along the rays")
+    draw_bounded_rays(labels, slice_rays(cut, FEW_RAYS), 1.0)
     draw_outline(labels, cut)
-    _plane(query, "d  a query: p is in shadow, as s > t$_s$")
-    draw_outline(query, cut)
+    _draw_query(query, cut)
+    write_figure(figure, png, svg)
+
+
+def _draw_query(axes: Axes, cut: MeshSlice) -> None:
+    """Draw a ray with a point in shadow on it."""
+    draw_disk(axes, "d  a query: p is in shadow, as s > t$_s$")
+    draw_outline(axes, cut)
     rays = slice_rays(cut, 401)
     # The ray whose parts before, in and behind the object are all long enough to be seen.
-    end = np.minimum(rays.t_ub, rays.chord)
+    end = rays.end
     shortest = np.minimum(rays.t_lb, np.minimum(end - rays.t_lb, rays.chord - end))
     i = int(np.argmax(np.where(rays.hit, shortest, -1)))
     o, d = rays.origins[i], rays.direction
-    first, last = float(rays.t_lb[i]), float(min(rays.t_ub[i], rays.chord[i]))
-    depth, s = (first + last) / 2, last + 0.6 * (float(rays.chord[i]) - last)
-    for begin, end, colour in ((0, depth, ORANGE), (depth, s, SHADE)):
-        query.plot(*np.stack([o + begin * d, o + end * d]).T, color=colour, linewidth=2)
-    query.plot(*np.stack([o - 0.2 * d, o]).T, color=ORANGE, linewidth=2, linestyle=":")
-    query.annotate("light", o - 0.26 * d, ha="center", va="center", color=ORANGE)
-    query.set_xlim(-1.25, 1.25)
-    query.set_ylim(-1.25, 1.25)
+    first, last, chord = float(rays.t_lb[i]), float(end[i]), float(rays.chord[i])
+    depth, s = (first + last) / 2, last + 0.6 * (chord - last)
+    parts = ((-0.2, 0, ORANGE, ":"), (0, depth, ORANGE, "-"), (depth, s, SHADE, "-"))
+    for begin, stop, colour, style in parts:
+        line = np.stack([o + begin * d, o + stop * d]).T
+        axes.plot(*line, color=colour, linewidth=2, linestyle=style)
+    axes.annotate("light", o - 0.26 * d, ha="center", va="center", color=ORANGE)
+    axes.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25))
     side = 0.13 * np.array([-d[1], d[0]])
     for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", OUTLINE)):
-        query.plot(*(o + t * d), "o", color=colour, zorder=4)
-        query.annotate(
-            text,
-            o + t * d + side,
-            ha="center",
-            va="center",
-            fontsize=12,
-            zorder=5,
-            path_effects=[withStroke(linewidth=2.5, foreground="white")],
-        )
+        axes.plot(*(o + t * d), "o", color=colour, zorder=4)
+        style = {"ha": "center", "va": "center", "fontsize": 12, "zorder": 5}
+        halo = [withStroke(linewidth=2.5, foreground="white")]
+        axes.annotate(text, o + t * d + side, path_effects=halo, **style)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

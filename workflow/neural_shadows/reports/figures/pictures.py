@@ -1,22 +1,23 @@
 """Picture strips: viewpoints as every method renders them, with crops [figures 4.4 to 4.7]."""
 
-from __future__ import annotations
-
+import textwrap
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from scipy.ndimage import maximum_filter, minimum_filter
 from skimage.transform import integral_image
 
-from neural_shadows.evaluation.first_frames import read_first_frames
+from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.reports.figures.style import DPI, write_strip
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from neural_shadows.reports.figures.style import DPI, ORANGE, write_figure
+from neural_shadows.running.stage import run_stage
 
 # Grey levels in [0, 1]. Light and shadow differ by 0.75 n.l, neighbouring facets by far less;
 # a step of an 8-bit picture is 0.004.
@@ -24,13 +25,41 @@ BORDER_STEP = 0.1
 VISIBLE_DIFFERENCE = 0.05
 CROP_SHARE = 0.2  # of the frame's height and width
 
+MOST_COLUMNS = 6  # of methods in a line; more go to a line of their own
 WIDTH = 13.6  # inches, 2040 px
 GAP = 0.06  # inches between pictures
 LINE = 0.2  # inches, a line of text
 FONT_SIZE = 10
-CROP_COLOUR = "#e4572e"
 
 SCORES = {"psnr": "PSNR {:.2f} dB", "lpips": "LPIPS {:.4f}"}
+
+
+def draw(
+    metrics: list[Path],
+    pictures: list[Path],
+    mesh_json: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    rows: Sequence[Mapping[str, Any]],
+    view_sets: Sequence[str],
+    run: Mapping[str, Any],
+) -> None:
+    """Draw the first frame of each view set by every method, whole and as a crop.
+
+    Args:
+        metrics: of each method's first batch.
+        pictures: of the same batches, and the reference's.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
+    frames = read_first_frames(pictures, metrics)
+    mesh = read_mesh_report(mesh_json)["name"]
+    heading = f"{title} ({mesh}, {run['scale']} scale)"
+    write_figure(picture_strip([frames[name] for name in view_sets], labels, heading), png, svg)
 
 
 def choose_crop(frames: Mapping[str, np.ndarray]) -> tuple[int, int, int, int]:
@@ -63,132 +92,107 @@ def choose_crop(frames: Mapping[str, np.ndarray]) -> tuple[int, int, int, int]:
     return int(row), int(column), height, width
 
 
-def picture_strip(
-    frames: Sequence[Mapping[str, np.ndarray]],
-    labels: Mapping[str, str],
-    captions: Sequence[str],
-    *,
-    title: str,
-    scores: Sequence[Mapping[str, Mapping[str, float]]] | None = None,
-) -> Figure:
+def picture_strip(frames: Sequence[FirstFrame], labels: Mapping[str, str], title: str) -> Figure:
     """Draw a row of whole frames and a row of crops for each viewpoint.
 
     Args:
-        frames: per viewpoint, greyscale images of shape (H, W) in [0, 1] by method, all of one
-            shape. `reference` is drawn last, as in the thesis.
+        frames: viewpoints whose images have one shape and hold `reference`, which is drawn last,
+            as in the thesis. Scores that all of a viewpoint have are written below its crops.
         labels: the name of each method to draw, in the order to draw them, and of `reference`.
-        captions: what each viewpoint shows.
-        title: scene, mesh and scale.
-        scores: per viewpoint and method, `psnr` (dB) and `lpips` of the whole frame; either
-            may be absent throughout. Written below the crops.
     """
-    from matplotlib.figure import Figure
-    from matplotlib.patches import Rectangle
-
     methods = [*(method for method in labels if method != "reference"), "reference"]
-    rows, columns = frames[0]["reference"].shape
-    width = (WIDTH - GAP * (len(methods) + 1)) / len(methods)
-    height = width * rows / columns
-    named = [name for name in SCORES if scores and any(name in s for s in scores[0].values())]
-    # Above the pictures a caption and the methods' names, below them scores and a free line.
-    block_height = 2.4 * LINE + 2 * height + GAP + (len(named) + 1) * LINE
-    total_height = 2 * LINE + len(frames) * block_height + (LINE if named else 0)
-    figure = Figure(figsize=(WIDTH, total_height), dpi=DPI)
+    columns = ceil(len(methods) / ceil(len(methods) / MOST_COLUMNS))
+    lines = [methods[i : i + columns] for i in range(0, len(methods), columns)]
+    rows_, columns_ = frames[0].images["reference"].shape
+    width = (WIDTH - GAP * (columns + 1)) / columns
     # A letter of the bold default font is about 0.6 of its size wide: names must not run together.
-    longest = max(len(labels[method]) for method in methods)
-    name_size = min(FONT_SIZE, 72 * width / (0.6 * longest))
-    lefts = [GAP + i * (width + GAP) for i in range(len(methods))]
+    letters = int(72 * width / (0.6 * FONT_SIZE))
+    names = {method: textwrap.fill(labels[method], letters) for method in methods}
+    sheet = _Sheet(
+        width=width,
+        height=width * rows_ / columns_,
+        name_lines=1 + max(name.count("\n") for name in names.values()),
+        scores=[key for key in SCORES if any(key in s for s in frames[0].scores.values())],
+    )
+    block = 1.4 * LINE + len(lines) * sheet.line_height
+    footer = LINE if sheet.scores else 0
+    sheet.open(2 * LINE + len(frames) * block + footer)
+    sheet.write(GAP, LINE, title, fontsize=FONT_SIZE + 3, weight="bold")
+    for i, frame in enumerate(frames):
+        top = 2 * LINE + i * block
+        sheet.write(GAP, top + 0.6 * LINE, frame.caption, fontsize=FONT_SIZE + 1)
+        images = {m: frame.images[m].astype(np.float32) / 255 for m in methods}
+        crop = choose_crop(images)
+        for j, line in enumerate(lines):
+            sheet.draw_line(
+                top + 1.4 * LINE + j * sheet.line_height,
+                [(names[m], images[m], frame.scores.get(m, {})) for m in line],
+                crop,
+            )
+    if footer:
+        note = "Scores are of the whole frames."
+        sheet.write(GAP, sheet.total_height - 0.7 * LINE, note)
+    return sheet.figure
 
-    def write(left: float, top: float, text: str, **style) -> None:
+
+@dataclass
+class _Sheet:
+    """A figure laid out in inches from its upper left corner."""
+
+    width: float  # of a picture
+    height: float
+    name_lines: int
+    scores: list[str]
+
+    @property
+    def line_height(self) -> float:
+        """Of a line of methods: names, frames, crops, scores and a free line."""
+        return LINE * (self.name_lines + len(self.scores) + 1) + 2 * self.height + GAP
+
+    def open(self, total_height: float) -> None:
+        """Begin a figure of that height."""
+        self.total_height = total_height
+        self.figure = Figure(figsize=(WIDTH, total_height), dpi=DPI)
+
+    def write(self, left: float, top: float, text: str, **style) -> None:
+        """Write text at half its height."""
         style = {"fontsize": FONT_SIZE, "va": "center"} | style
-        figure.text(left / WIDTH, 1 - top / total_height, text, **style)
+        self.figure.text(left / WIDTH, 1 - top / self.total_height, text, **style)
 
-    def show(left: float, top: float, image: np.ndarray, interpolation: str) -> Axes:
-        axes = figure.add_axes(
-            (
-                left / WIDTH,
-                1 - (top + height) / total_height,
-                width / WIDTH,
-                height / total_height,
-            ),
-            xticks=[],
-            yticks=[],
-        )
+    def show(self, left: float, top: float, image: np.ndarray, interpolation: str) -> Axes:
+        """Show a grey image (h, w)."""
+        box = np.array((left, self.total_height - top - self.height, self.width, self.height))
+        box /= (WIDTH, self.total_height, WIDTH, self.total_height)
+        axes = self.figure.add_axes(box, xticks=[], yticks=[])
         axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation=interpolation, aspect="auto")
         return axes
 
-    write(GAP, LINE, title, fontsize=FONT_SIZE + 3, weight="bold")
-    for i, (views, caption) in enumerate(zip(frames, captions, strict=True)):
-        top = 2 * LINE + i * block_height
-        write(GAP, top + 0.6 * LINE, caption, fontsize=FONT_SIZE + 1)
-        frame_top = top + 2.4 * LINE
-        crop_top = frame_top + height + GAP
-        shown = {method: views[method] for method in methods}
-        row, column, crop_rows, crop_columns = choose_crop(shown)
-        for method, left in zip(methods, lefts, strict=True):
-            middle = left + width / 2
-            write(
-                middle,
-                frame_top - 0.5 * LINE,
-                labels[method],
-                ha="center",
-                weight="bold",
-                fontsize=name_size,
-            )
-            frame = shown[method]
-            axes = show(left, frame_top, frame, "auto")
+    def draw_line(
+        self,
+        top: float,
+        shown: Sequence[tuple[str, np.ndarray, Mapping[str, float]]],
+        crop: tuple[int, int, int, int],
+    ) -> None:
+        """Draw methods beside each other: name, frame, crop and scores of each."""
+        row, column, rows, columns = crop
+        frame_top = top + self.name_lines * LINE
+        crop_top = frame_top + self.height + GAP
+        for i, (name, frame, scores) in enumerate(shown):
+            left = GAP + i * (self.width + GAP)
+            middle = left + self.width / 2
+            style = {"weight": "bold", "ha": "center", "va": "bottom", "linespacing": 1.0}
+            self.write(middle, frame_top - 0.2 * LINE, name, **style)
+            axes = self.show(left, frame_top, frame, "auto")
             axes.spines[:].set_visible(False)
-            axes.add_patch(
-                Rectangle(
-                    (column - 0.5, row - 0.5),
-                    crop_columns,
-                    crop_rows,
-                    fill=False,
-                    edgecolor=CROP_COLOUR,
-                    linewidth=1.2,
-                )
-            )
-            crop = frame[row : row + crop_rows, column : column + crop_columns]
-            axes = show(left, crop_top, crop, "nearest")
-            axes.spines[:].set(edgecolor=CROP_COLOUR, linewidth=1.2)
-            for j, name in enumerate(named):
-                if method in scores[i]:
-                    score = SCORES[name].format(scores[i][method][name])
-                    write(middle, crop_top + height + (j + 0.7) * LINE, score, ha="center")
-    if named:
-        write(GAP, total_height - 0.7 * LINE, "Scores are of the whole frames.")
-    return figure
+            style = {"fill": False, "edgecolor": ORANGE, "linewidth": 1.2}
+            axes.add_patch(Rectangle((column - 0.5, row - 0.5), columns, rows, **style))
+            part = frame[row : row + rows, column : column + columns]
+            axes = self.show(left, crop_top, part, "nearest")
+            axes.spines[:].set(edgecolor=ORANGE, linewidth=1.2)
+            for j, key in enumerate(key for key in self.scores if key in scores):
+                below = crop_top + self.height + (j + 0.7) * LINE
+                self.write(middle, below, SCORES[key].format(scores[key]), ha="center")
 
 
-def write_picture_strip(
-    pictures: Sequence[Path],
-    metrics: Sequence[Path],
-    mesh_json: Path,
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    rows: Sequence[Mapping[str, str | None]],
-    scale: str,
-) -> None:
-    """Draw the first frame of each view set by every method, whole and as a crop.
-
-    Args:
-        pictures: frames as `evaluate` wrote them, one file for each evaluation and view set.
-        metrics: the metrics of the same batches, in the same order.
-    """
-    labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
-    frames = read_first_frames(pictures, metrics)
-    shown = [
-        {key: image.astype(np.float32) / 255 for key, image in frame.images.items()}
-        for frame in frames
-    ]
-    mesh = read_mesh_report(mesh_json)["name"]
-    figure = picture_strip(
-        shown,
-        labels,
-        [frame.caption for frame in frames],
-        title=f"{title} ({mesh}, {scale} scale)",
-        scores=[frame.scores for frame in frames],
-    )
-    write_strip(figure, png, svg)
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

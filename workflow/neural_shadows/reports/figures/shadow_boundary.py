@@ -1,62 +1,47 @@
 """The boundary of the shadow along a ray (figure 3.2)."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from matplotlib.patches import Patch
 
 from neural_shadows.reports.figures.drawing import (
-    BLUE,
-    ORANGE,
     SHADE,
-    _plane,
-    _segments,
+    draw_disk,
     draw_outline,
+    draw_segments,
+    method_figure,
+    open_slice,
 )
-from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
+from neural_shadows.reports.figures.mesh_slice import slice_rays
+from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, write_figure
+from neural_shadows.running.stage import run_stage
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-def _shadow_boundary(figure: Figure, cut: MeshSlice) -> None:
-    from matplotlib.patches import Patch
-
+def draw(
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+) -> None:
+    """Draw a light's rays in a slice, and their bounds over the offset across the light."""
+    cut, figure = open_slice(mesh_ply, scene), method_figure(title, mesh_json)
     plane, graph = figure.subplots(1, 2)
+    draw_disk(plane, "the slice, lit from the upper left")
     rays = slice_rays(cut, 1200)
-    hit = rays.hit
-    end = np.minimum(rays.t_ub, rays.chord)
-    _plane(plane, "the slice, lit from the upper left")
-    width = 0.5
-    _segments(
-        plane,
-        rays.at(end)[hit],
-        rays.at(rays.chord)[hit],
-        colors=SHADE,
-        linewidths=width,
-        rasterized=True,
-    )
-    _segments(
-        plane,
-        rays.at(rays.t_lb)[hit],
-        rays.at(end)[hit],
-        colors=BLUE,
-        linewidths=width,
-        rasterized=True,
-    )
+    hit, end = rays.hit, rays.end
+    parts = ((end, rays.chord, SHADE), (rays.t_lb, end, BLUE))
+    for begin, stop, colour in parts:
+        lines = rays.at(begin)[hit], rays.at(stop)[hit]
+        draw_segments(plane, *lines, colors=colour, linewidths=0.5, rasterized=True)
+        graph.fill_between(rays.offset, begin, np.where(hit, stop, begin), color=colour, lw=0)
     draw_outline(plane, cut)
     few = slice_rays(cut, 12)
-    _segments(plane, few.at(np.zeros(12)), few.at(few.t_lb), colors=ORANGE, linewidths=1)
-    graph.fill_between(rays.offset, rays.chord, np.where(hit, end, rays.chord), color=SHADE)
-    graph.fill_between(
-        rays.offset, rays.t_lb, np.where(hit, end, rays.t_lb), color=BLUE, linewidth=0
-    )
+    draw_segments(plane, few.at(np.zeros(12)), few.at(few.t_lb), colors=ORANGE, linewidths=1)
     graph.plot(rays.offset, rays.chord, color=ORANGE, linewidth=1.2)
     graph.set_xlabel("offset of the ray across the light")
     graph.set_ylabel("depth t along the ray, from the sphere")
     graph.set_title("the same by depth: a boundary t$_s$ within the blue is right", fontsize=11)
-    graph.grid(linewidth=0.4, alpha=0.4)
+    graph.grid(**GRID)
     figure.legend(
         handles=[
             Patch(color=BLUE, label="between first and second hit: t$_s$ may lie anywhere"),
@@ -66,3 +51,8 @@ def _shadow_boundary(figure: Figure, cut: MeshSlice) -> None:
         loc="outside lower center",
         ncols=3,
     )
+    write_figure(figure, png, svg)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

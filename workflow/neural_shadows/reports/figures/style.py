@@ -1,34 +1,32 @@
-"""What all figures share: colours, resolution, writing."""
-
-from __future__ import annotations
+"""What all figures share: colours, resolution, title, writing."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
 
 from neural_shadows.files.whole_files import whole_file
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 DPI = 150
+# Okabe and Ito's colours, which readers with any colour vision tell apart.
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+BLUE, ORANGE = COLOURS[:2]
+GRID = {"linewidth": 0.4, "alpha": 0.4}
 
 
-def write_strip(figure: Figure, png_path: str | Path, svg_path: str | Path) -> None:
+def new_figure(title: str, width: float, height: float) -> Figure:
+    """An empty figure of so many inches under its title."""
+    figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+    figure.suptitle(title, x=0.01, ha="left", weight="bold")
+    return figure
+
+
+def write_figure(figure: Figure, png: Path, svg: Path) -> None:
     """Write a figure as PNG and as SVG (pictures embedded), each whole or not at all.
 
     The same figure gives the same bytes: no date, and identifiers from a fixed salt.
     """
-    from matplotlib import rc_context
-
     with rc_context({"svg.hashsalt": "neural_shadows"}):
-        for path in (png_path, svg_path):
+        for path, metadata in ((png, None), (svg, {"Date": None})):
             with whole_file(path) as part:
-                metadata = {"Date": None} if part.suffix == ".svg" else None
                 figure.savefig(part, metadata=metadata)
-
-
-# Okabe and Ito's colours, which readers with any colour vision tell apart.
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")

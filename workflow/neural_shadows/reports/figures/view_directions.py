@@ -1,40 +1,40 @@
 """View directions of each sampler, with their spectra (figure 3.4)."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
+from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.reports.figures.direction_spectrum import angular_power_spectrum
-from neural_shadows.reports.figures.drawing import (
-    BLUE,
-    ORANGE,
-    SHOWN_DIRECTIONS,
-    _drawn,
-    _hemisphere,
-)
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from neural_shadows.reports.figures.drawing import SHOWN_DIRECTIONS, draw_hemisphere
+from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, new_figure, write_figure
+from neural_shadows.running.stage import run_stage
 
 DEGREES = 80  # of the spectra: 1000 Poisson-disk directions have their ring near degree 50
 
 
-def _view_directions(figure: Figure, seed: int) -> None:
-    samplers = {"poisson_quadtree": "Poisson-disk", "uniform": "uniform"}
+def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
+    """Draw a hemisphere of directions of each sampler, and below them their spectra."""
+    figure = new_figure(title, 11, 9.6)
+    uniform = np.random.default_rng(seed).normal(size=(SHOWN_DIRECTIONS, 3))
+    uniform /= np.linalg.norm(uniform, axis=1, keepdims=True)
+    poisson = sphere_directions(SHOWN_DIRECTIONS, seed)[0]
     grid = figure.add_gridspec(2, 2, height_ratios=(3, 2))
     spectrum = figure.add_subplot(grid[1, :])
-    for column, (sampler, label) in enumerate(samplers.items()):
-        directions = _drawn(sampler, seed)
+    shown = (("Poisson-disk", poisson, BLUE), ("uniform", uniform, ORANGE))
+    for column, (label, directions, colour) in enumerate(shown):
         axes = figure.add_subplot(grid[0, column])
-        _hemisphere(axes, directions, f"{label} (a hemisphere of {SHOWN_DIRECTIONS} directions)")
+        heading = f"{label} (a hemisphere of {SHOWN_DIRECTIONS} directions)"
+        draw_hemisphere(axes, directions, heading)
         power = angular_power_spectrum(directions, DEGREES)
-        colour = (BLUE, ORANGE)[column]
         spectrum.plot(np.arange(1, DEGREES + 1), power, color=colour, marker=".", label=label)
     spectrum.axhline(1, color="grey", linestyle="--", linewidth=1, label="expected of uniform")
     spectrum.set_ylim(bottom=0)
-    spectrum.set_xlabel("degree of the spherical harmonics")
-    spectrum.set_ylabel("power")
-    spectrum.grid(linewidth=0.4, alpha=0.4)
+    spectrum.set(xlabel="degree of the spherical harmonics", ylabel="power")
+    spectrum.grid(**GRID)
     spectrum.legend()
+    write_figure(figure, png, svg)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

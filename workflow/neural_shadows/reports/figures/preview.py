@@ -1,0 +1,122 @@
+"""A picture of a prepared scene: object and bounding sphere, and a silhouette's quadtree."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from matplotlib.transforms import Affine2D
+
+from neural_shadows.files.whole_files import whole_file
+from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.rays.quadtree import build_quadtree
+from neural_shadows.rays.silhouette import plane_basis, silhouette
+from neural_shadows.rendering.exact_shadow import exact_visibility
+from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.rendering.shading import shade
+from neural_shadows.reports.figures.drawing import draw_quads, draw_silhouette
+from neural_shadows.reports.figures.style import ORANGE
+from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.cameras import Viewpoint, camera_axes
+from neural_shadows.scenes.lights import light_basis
+from neural_shadows.scenes.scene import Scene, open_scene
+
+PIXELS = 700  # of the picture of the object, square
+RESOLUTION = 128  # of the silhouette, as in the default config
+FOV = 36.0
+DISTANCE = 3.6  # radii: the sphere then fills nine tenths of the frame
+AXIS_COLOURS = dict(zip("xyz", ("#d55e00", "#009e73", "#0072b2")))
+
+
+def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Mapping[str, Any]) -> None:
+    """Draw the object in its bounding sphere, and a silhouette of it with its quadtree.
+
+    Raises:
+        InputError: an input file is missing or not whole.
+    """
+    report = read_mesh_report(mesh_json)
+    opened = open_scene(mesh_ply, **scene)
+    view = hero_view(opened.up)
+    # A square either side, and room for one line above and two below.
+    figure = Figure(figsize=(12.8, 7.2), dpi=110)
+    left = figure.add_axes((0.005, 0.08, 0.49, 0.871), xticks=[], yticks=[])
+    right = figure.add_axes((0.505, 0.08, 0.49, 0.871), xticks=[], yticks=[])
+    left.set_title(f"{report['name']}: {report['faces']:,} triangles; up: {scene['up']}")
+    _draw_object(left, opened, view)
+    quads = _draw_silhouette(right, opened, view)
+    right.set_title(f"silhouette of {RESOLUTION}² texels, quadtree of {quads:,} quads")
+    notes = describe(report, scene["up"])
+    figure.text(0.01, 0.065, "\n".join(notes), va="top", fontsize=10, linespacing=1.5)
+    print(*notes, sep="\n")
+    with whole_file(png) as part:
+        figure.savefig(part)
+
+
+def describe(report: Mapping[str, Any], up: str) -> list[str]:
+    """What to check before a run, a sentence or two a line.
+
+    Args:
+        report: on the mesh, of `prepare_mesh`.
+    """
+    closed = "The mesh is watertight." if report["watertight"] else "The mesh is open."
+    if report["sheet"]:
+        closed += " It is a sheet: give an occupancy field of it `surface: sheet`."
+    return [
+        f"Up is {up}: if the object does not stand as it should, change the scene's `up`.",
+        f"{closed} Orange: its bounding sphere, in which all lengths are measured.",
+    ]
+
+
+def hero_view(up: np.ndarray) -> Viewpoint:
+    """A three-quarter view from above, lit over the camera's left shoulder."""
+    # From 20 degrees above the horizon and 30 off a coordinate axis, which shows most objects
+    # from neither front nor side.
+    side, across, _ = light_basis(up)
+    heading = np.cos(np.radians(30)) * side + np.sin(np.radians(30)) * across
+    eye = DISTANCE * (np.cos(np.radians(20)) * heading + np.sin(np.radians(20)) * up)
+    # Most of what is seen is lit, and the shadow is seen too.
+    light = heading + 0.9 * np.cross(heading, up) + 1.1 * up
+    return Viewpoint("preview", 0, eye, np.zeros(3), up, FOV, light / np.linalg.norm(light))
+
+
+def _draw_object(axes: Axes, scene: Scene, view: Viewpoint) -> None:
+    frame = render_gbuffer(scene, view, PIXELS, PIXELS)
+    image = shade(frame, exact_visibility(scene.tracer, frame))
+    axes.imshow(image, cmap="gray", vmin=0, vmax=1)
+    scale = PIXELS / 2 / np.tan(np.radians(FOV) / 2)
+    # Seen from outside, the sphere's outline is the cone that touches it.
+    radius = scale / np.sqrt(DISTANCE**2 - 1)
+    middle = np.full(2, PIXELS / 2)
+    axes.add_patch(Circle(middle, radius, fill=False, color=ORANGE, linewidth=1.2))
+    corner, length = np.array((70, PIXELS - 70)), 50
+    right, upward, _ = camera_axes(view.eye, view.target, view.up)
+    for axis, (name, colour) in zip(np.eye(3), AXIS_COLOURS.items()):
+        end = corner + length * np.array((axis @ right, -axis @ upward))
+        arrow = {"arrowstyle": "->", "color": colour, "linewidth": 2, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", end, corner, arrowprops=arrow)
+        text = f"{name} (up)" if axis @ view.up else name
+        at = corner + 1.3 * (end - corner)
+        axes.annotate(text, at, color=colour, weight="bold", ha="center", va="center")
+    axes.set(xlim=(0, PIXELS), ylim=(PIXELS, 0))
+
+
+def _draw_silhouette(axes: Axes, scene: Scene, view: Viewpoint) -> int:
+    """Draw the silhouette from the view's eye; its number of quads."""
+    direction = -view.eye / np.linalg.norm(view.eye)
+    covered = silhouette(scene.tracer, direction, RESOLUTION)
+    quads = build_quadtree(covered, 1)
+    # The plane's basis has any turn: turned here to have `up` upwards.
+    u, v = plane_basis(direction)
+    turn = Affine2D().rotate(np.arctan2(u @ view.up, v @ view.up))
+    draw_silhouette(axes, covered, 0.55, turn + axes.transData)
+    draw_quads(axes, quads, RESOLUTION, turn + axes.transData)
+    axes.add_patch(Circle((0, 0), 1, fill=False, color=ORANGE, linewidth=1.2))
+    axes.set(xlim=(1.02, -1.02), ylim=(-1.02, 1.02))  # seen along d: u × v = d points away
+    return len(quads)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)
