@@ -1,7 +1,70 @@
-"""Phrases that several reports share."""
+"""Sentences that several reports share, each worded once: equal notes are shown once on the page."""
 
-from collections.abc import Mapping
+import datetime
+from collections.abc import Mapping, Sequence
 from typing import Any
+
+REFERENCES = {
+    "exact": "an exact shadow ray per pixel",
+    "shadow_map": "a 32768² shadow map, as in the thesis",
+}
+
+
+def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = None) -> str:
+    """A table's heading: what it shows, on which mesh, and whether the thesis has the same.
+
+    Args:
+        published: the thesis's number of the table, "4.3"; None for one that is not in it.
+        mesh: what `prepare_mesh` wrote; None where the table's numbers are of no one mesh.
+    """
+    if mesh is not None:
+        title += f", mesh {mesh['name']}"
+    if published is None:
+        return title
+    same = mesh is None or mesh["thesis_mesh"]
+    return f"{title} ({'' if same else 'after '}table {published} of the thesis)"
+
+
+def describe_run(run: Mapping[str, Any]) -> str:
+    """One sentence on scale and date."""
+    return f"Scale: {run['scale']}; made on {datetime.date.today().isoformat()}."
+
+
+def describe_frames(run: Mapping[str, Any]) -> str:
+    """One sentence on the frames whose quality is measured."""
+    return (
+        f"Frames of {run['width']} × {run['height']}; reference: {REFERENCES[run['reference']]}."
+    )
+
+
+def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
+    """One phrase on a prepared mesh: name, size, whether it is closed.
+
+    Args:
+        mesh: what `prepare_mesh` wrote; scene: its entry in `scenes`, which knows if it is
+            procedural.
+    """
+    if mesh["thesis_mesh"]:
+        kind = ""
+    elif scene["procedural"]:
+        kind = " (a procedural stand-in, not the thesis's mesh)"
+    else:
+        kind = " (not the thesis's mesh)"
+    closed = "watertight" if mesh["watertight"] else "open"
+    return f"{mesh['name']}{kind}, {mesh['faces']:,} triangles, {closed}"
+
+
+def describe_training(record: Mapping[str, Any]) -> str:
+    """One sentence on how a network was trained, and on what machine."""
+    training, machine = record["training"], record["machine"]
+    device = machine["gpu"] if training["device"] == "cuda" else f"{machine['cpu']} CPU"
+    threads = record["threads"]
+    return (
+        f"Network {record['name']}: {record['parameters']:,} parameters, {training['steps']:,} "
+        f"steps of {training['batch_size']:,} samples ({training['schedule']} learning rate "
+        f"{training['learning_rate']:g}, {training['precision']}) in {record['seconds']:.0f} s on "
+        f"{device}, {threads} thread{'s' if threads > 1 else ''}."
+    )
 
 
 def describe_times(times: Mapping[str, Any]) -> str:
@@ -16,27 +79,24 @@ def describe_times(times: Mapping[str, Any]) -> str:
     )
 
 
-REFERENCES = {
-    "exact": "an exact shadow ray per pixel",
-    "shadow_map": "a 32768² shadow map, as in the thesis",
-}
+def describe_biases(rows: Sequence[Mapping[str, Any]], biases: Mapping[str, float]) -> list[str]:
+    """A sentence for each row of a comparison whose network is given a depth bias."""
+    return [
+        f"{row['label']}: a depth bias of {biases[row['method']]:g} sphere radii"
+        + (", the best on held-out views." if row["bias"] == "held_out" else ".")
+        for row in rows
+        if biases.get(row["method"])
+    ]
 
 
-def describe_mesh(report: Mapping[str, Any], procedural: bool) -> str:
-    """One phrase on a prepared mesh: name, size, whether it is closed."""
-    name = report["name"]
-    kind = " (the pipeline's procedural stand-in, not the thesis's mesh)" if procedural else ""
-    closed = "watertight" if report["watertight"] else "open"
-    return f"{name}{kind}, {report['faces']:,} triangles, {closed}"
-
-
-def describe_training(record: Mapping[str, Any]) -> str:
-    """One sentence on how a network was trained, and on what machine."""
-    training, machine = record["training"], record["machine"]
-    device = machine["gpu"] if training["device"] == "cuda" else f"{machine['cpu']} CPU"
+def describe_lpips(lpips: Mapping[str, Any]) -> str:
+    """One sentence on LPIPS's network, or on how to get it where it is missing."""
+    if lpips["available"]:
+        return (
+            f"LPIPS's network is `{lpips['net']}`; the thesis does not name its own, and values of "
+            "different networks do not compare."
+        )
     return (
-        f"{record['name']}: {record['parameters']:,} parameters, {training['steps']:,} steps of "
-        f"{training['batch_size']:,} samples ({training['schedule']} learning rate "
-        f"{training['learning_rate']:g}, {training['precision']}) in {record['seconds']:.0f} s on "
-        f"{device}, {record['threads']} threads"
+        "LPIPS is missing (`lpips.json` among the results says why), FLIP stands in for it. Once "
+        "cured, add `--forcerun find_lpips`."
     )

@@ -1,43 +1,61 @@
 """The numbers that the thesis prints in its tables 4.1 to 4.7 (config/published.csv)."""
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from neural_shadows.errors import InputError
-from neural_shadows.files.csv_file import read_csv
 
-COLUMNS = ("table", "row", "label", "column", "value", "unit", "section")
+KEYS = ["table", "row", "column"]
 
 
-def read_published(path: str | Path) -> pd.DataFrame:
-    """Read the printed numbers: one line per table, row and column.
+def read_published(path: str | Path) -> pd.Series:
+    """Read the printed numbers: a Series of values by (table, row, column).
 
-    `row` is the pipeline's key of the method, `label` the thesis's printed name of it, `value`
-    is in `unit`, `section` the thesis's section. Values are as printed, save two shadow maps of
+    `row` is the pipeline's key of the method. Values are as printed, save two shadow maps of
     table 4.7: their 256 and 64 KiB are 0.25 and 0.0625 MiB, so that the column has one unit.
 
     Raises:
-        InputError: the file cannot be read, has other columns, a value that is no number, or
-            the same table, row and column twice.
+        InputError: the file has no such columns, a line without a number, or the same table,
+            row and column twice.
     """
     try:
-        published = read_csv(path, dict.fromkeys(COLUMNS, "str") | {"value": "float64"})
-    except (OSError, ValueError) as error:
+        published = pd.read_csv(path, dtype={"table": str, "value": float})
+        published = published.set_index(KEYS, verify_integrity=True)["value"]
+    except (OSError, ValueError, KeyError) as error:
         raise InputError(f"{path}: cannot be read ({error}): restore it from git") from error
-    finite = np.isfinite(published["value"])
-    if not finite.all():
-        line = finite.argmin() + 2
-        raise InputError(f"{path}: line {line} has no value: restore it from git")
-    twice = published.duplicated(["table", "row", "column"])
-    if twice.any():
-        table, row, column = published.loc[twice, ["table", "row", "column"]].iloc[0]
-        raise InputError(f"{path}: table {table}, {row}, {column} is there twice: remove one")
+    if not np.isfinite(published).all():
+        missing = " ".join(published.index[~np.isfinite(published)][0])
+        raise InputError(f"{path}: {missing} has no value: restore it from git")
     return published
 
 
-def printed(published: pd.DataFrame, table: str, row: str, column: str) -> float:
-    """The number printed in `table` ("4.3") for `row` and `column`; NaN where none is printed."""
-    found = published.query("table == @table and row == @row and column == @column")["value"]
-    return float(found.iloc[0]) if len(found) else float("nan")
+def add_printed(
+    frame: pd.DataFrame,
+    rows: Sequence[Mapping[str, Any]],
+    columns: Sequence[str],
+    number: str | None,
+    published: pd.Series | None,
+) -> pd.DataFrame:
+    """The frame with `thesis_<column>` and `<column>_minus_thesis`; NaN where none is printed.
+
+    Args:
+        frame: a row for each of `rows`, in their order.
+        rows: `method` and `published`, the row's key in the thesis's table (None: the method's).
+        number: the thesis's number of the table, "4.3"; None for one that is not in it.
+        published: see `read_published`; None where the thesis did not measure the same.
+    """
+    known = {} if published is None else published
+    thesis = {
+        f"thesis_{column}": [
+            known.get((number, row["published"] or row["method"], column), np.nan) for row in rows
+        ]
+        for column in columns
+    }
+    frame = frame.assign(**thesis)
+    return frame.assign(
+        **{f"{column}_minus_thesis": frame[column] - frame[f"thesis_{column}"] for column in columns}
+    )

@@ -1,29 +1,56 @@
 """How the cost of each stage grows, as a table."""
 
-import datetime
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from neural_shadows.evaluation.costs import read_cost
-from neural_shadows.reports.tables.writing import write_twins
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.phrases import describe_run
+from neural_shadows.reports.tables.writing import number_texts, write_twins
+from neural_shadows.running.stage import run_stage
 
 MIB = 2**20
 SLOPE_POINTS = 3  # the largest sizes, where what a stage does at any size weighs least
 
 
-def growth(sizes: np.ndarray, values: np.ndarray) -> float:
-    """Exponent b of value = a · size^b over the largest sizes: 1 is linear. NaN for one size."""
-    order = np.argsort(sizes)[-SLOPE_POINTS:]
-    positive = order[values[order] > 0]
-    if len(positive) < 2:
-        return np.nan
-    return float(np.polyfit(np.log(sizes[positive]), np.log(values[positive]), 1)[0])
+def write(
+    *, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[str, Any]
+) -> None:
+    """Write the table of `cost_table` as CSV and Markdown.
+
+    Args:
+        costs: what `measure_cost` wrote, a file for each size; run: `scale`.
+    """
+    measured = [read_json(path) for path in costs]
+    table = cost_table(measured)
+    columns = {
+        "stage": table["stage"].tolist(),
+        "over": table["over"].tolist(),
+        "size": [f"{size:,}" for size in table["size"]],
+        "seconds": number_texts(table["seconds"], "{:.3g}"),
+        "memory MiB": number_texts(table["memory_mib"], "{:,.0f}"),
+        "exponent of seconds": number_texts(table["seconds_exponent"], "{:.2f}"),
+        "exponent of memory": number_texts(table["memory_mib_exponent"], "{:.2f}"),
+    }
+    machine, threads = measured[0]["machine"], measured[0]["threads"]
+    notes = [
+        "A waved sphere; other sizes 81,920 triangles, 1,000,000 samples, width 256, 4 viewpoints "
+        "of 600 × 400. Training takes 200 steps of 1,024 whatever the samples it draws from; an "
+        "evaluation has one 512² map and one network, without LPIPS.",
+        "Memory: the peak of what was resident, above what the process held with its libraries "
+        "loaded. Rays are files mapped into memory (20 bytes a sample): their pages count here, "
+        "but are the first that a full machine takes back. Exponents: of the "
+        f"{SLOPE_POINTS} largest sizes, 1 is linear.",
+        f"Measured once each on {machine['cpu']}, {threads} threads, an evaluation on one.",
+        describe_run(run),
+    ]
+    write_twins(table, columns, csv, md, title=title, notes=notes)
 
 
-def cost_table(measured: Sequence[dict]) -> pd.DataFrame:
+def cost_table(measured: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
     """A row for each stage and size: seconds, memory in MiB, and the exponents of both.
 
     Args:
@@ -43,43 +70,21 @@ def cost_table(measured: Sequence[dict]) -> pd.DataFrame:
             for stage in one["stages"]
         ]
     ).sort_values(["over", "stage", "size"], ignore_index=True)
-    for (over, stage), rows in table.groupby(["over", "stage"]):
-        here = (table["over"] == over) & (table["stage"] == stage)
+    for _, rows in table.groupby(["over", "stage"]):
         for column in ("seconds", "memory_mib"):
             exponent = growth(rows["size"].to_numpy(), rows[column].to_numpy())
-            table.loc[here, f"{column}_exponent"] = exponent
+            table.loc[rows.index, f"{column}_exponent"] = exponent
     return table
 
 
-def write_cost_table(
-    costs: Sequence[Path], csv_path: Path, md_path: Path, *, title: str, scale: str
-) -> None:
-    """Write the table of `cost_table` as CSV and Markdown."""
-    measured = [read_cost(path) for path in costs]
-    table = cost_table(measured)
+def growth(sizes: np.ndarray, values: np.ndarray) -> float:
+    """Exponent b of value = a · size^b over the largest sizes: 1 is linear. NaN for one size."""
+    order = np.argsort(sizes)[-SLOPE_POINTS:]
+    positive = order[values[order] > 0]
+    if len(positive) < 2:
+        return np.nan
+    return float(np.polyfit(np.log(sizes[positive]), np.log(values[positive]), 1)[0])
 
-    def texts(column: str, form: str) -> list[str]:
-        return ["–" if np.isnan(value) else form.format(value) for value in table[column]]
 
-    columns = {
-        "stage": table["stage"].tolist(),
-        "over": table["over"].tolist(),
-        "size": [f"{size:,}" for size in table["size"]],
-        "seconds": texts("seconds", "{:.3g}"),
-        "memory MiB": texts("memory_mib", "{:,.0f}"),
-        "exponent of seconds": texts("seconds_exponent", "{:.2f}"),
-        "exponent of memory": texts("memory_mib_exponent", "{:.2f}"),
-    }
-    machine, threads = measured[0]["machine"], measured[0]["threads"]
-    notes = [
-        "A waved sphere; other sizes 81,920 triangles, 1,000,000 samples, width 256, 4 viewpoints "
-        "of 600 × 400. Training takes 200 steps of 1,024 whatever the samples it draws from; an "
-        "evaluation has one 512² map and one network, without LPIPS.",
-        "Memory: the peak of what was resident, above what the process held with its libraries "
-        "loaded. Rays are files mapped into memory (20 bytes a sample): their pages count here, "
-        "but are the first that a full machine takes back. Exponents: of the "
-        f"{SLOPE_POINTS} largest sizes, 1 is linear.",
-        f"Scale: {scale}; {machine['cpu']}, {threads} threads, an evaluation one; each measured "
-        f"once; made on {datetime.date.today().isoformat()}.",
-    ]
-    write_twins(table, columns, csv_path, md_path, title=title, notes=notes)
+if "snakemake" in globals():
+    run_stage(snakemake, write)

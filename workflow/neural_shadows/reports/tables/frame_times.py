@@ -1,6 +1,5 @@
 """Frame time, quality and size of networks over their width [4.4.1, table 4.6]."""
 
-import datetime
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -8,147 +7,155 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.errors import InputError
-from neural_shadows.evaluation.frame_times import read_frame_times
 from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.intervals import mean_interval
-from neural_shadows.reports.phrases import describe_times, describe_training
-from neural_shadows.reports.published import printed, read_published
-from neural_shadows.reports.tables.writing import interval_text, thesis_texts, write_twins
-from neural_shadows.training.record import read_training
+from neural_shadows.reports.inputs import by_folder, read_meshes
+from neural_shadows.reports.phrases import describe_lpips, describe_run, describe_times, titled
+from neural_shadows.reports.published import add_printed, read_published
+from neural_shadows.reports.tables.writing import interval_text, number_texts, write_twins
+from neural_shadows.running.stage import run_stage
 
-COLUMNS = ("frame_ms", "lpips", "size_kib")  # what the thesis prints, in its order
+PRINTED = ("frame_ms", "lpips", "size_kib")  # what the thesis prints, in its order
 
 
-def performance_table(
-    rows: Sequence[Mapping[str, str | None]],
-    scenes: Sequence[str],
+def write(
+    *,
+    times: list[Path],
+    metrics: list[Path],
+    weights: list[Path],
+    meshes: list[Path],
+    lpips_json: Path,
+    published_csv: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    published: str | None,
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a table of frame times as CSV and Markdown.
+
+    The thesis's times and LPIPS stand beside methods on its own mesh alone; its sizes do
+    beside any.
+
+    Args:
+        times, meshes: what `measure_frame_times` and `prepare_mesh` wrote, a file for each scene.
+        metrics: per view, of the rows that have an LPIPS.
+        weights: of the networks among the rows; their size is measured.
+        published: the thesis's number of the table, "4.6"; None for one that is not in it.
+        rows: `method`, `label`, `published`, `scene` and `experiment` of each.
+        run: `scale`, `seed` (of the bootstrap).
+    """
+    timed = {one["scene"]: one for one in map(read_json, times)}
+    table = frame_times_table(
+        rows,
+        timed,
+        {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()},
+        {name: network_bytes(path) for name, [path] in by_folder(weights).items()},
+        run["seed"],
+    )
+    table = add_printed(table, rows, PRINTED, published, read_published(published_csv))
+    reports = read_meshes(meshes)
+    others = [scene for scene, mesh in reports.items() if not mesh["thesis_mesh"]]
+    for column in ("frame_ms", "lpips"):
+        names = [f"thesis_{column}", f"{column}_minus_thesis"]
+        table.loc[table["scene"].isin(others), names] = np.nan
+    table = table.assign(scale=run["scale"])
+
+    notes = [
+        "Frame time: median [quartiles] of whole frames, primary visibility and shading "
+        "included; LPIPS: mean over views [95 % bootstrap interval].",
+        *(describe_times(values) for values in timed.values()),
+        "A shadow map is rendered whole in each frame and its size is 4 N² bytes; ray tracing "
+        "sends a shadow ray from each pixel that faces the light.",
+        describe_lpips(read_json(lpips_json)),
+        describe_run(run),
+    ]
+    if published:
+        notes.insert(1, "*thesis*: the number that it prints, its times from another machine.")
+        notes[2:2] = [
+            f"*thesis* has sizes alone for {scene}: it did not measure the mesh "
+            f"{reports[scene]['name']}."
+            for scene in others
+        ]
+    columns = reading_columns(table, published is not None)
+    write_twins(table, columns, csv, md, title=titled(title, published), notes=notes)
+
+
+def frame_times_table(
+    rows: Sequence[Mapping[str, Any]],
     times: Mapping[str, Mapping[str, Any]],
     metrics: Mapping[str, pd.DataFrame],
     sizes: Mapping[str, int],
-    published_table: str | None,
-    published: pd.DataFrame,
     seed: int,
 ) -> pd.DataFrame:
     """A row per method: median frame time with its quartiles, mean LPIPS, size of the method.
 
     Args:
-        rows: `method`, `label` and `published` (the row's key there, None for the method's) of
-            each row.
-        scenes: the scene of each row.
-        times: as `read_frame_times` gives them.
-        metrics: as `read_metrics` gives them, by scene; a method that is not in them has no
-            LPIPS.
-        sizes: bytes of networks by the key of the method.
+        times: what `measure_frame_times` wrote, by scene.
+        metrics: as `read_metrics` gives them, by scene; a method that is not in them has no LPIPS.
+        sizes: bytes of networks by experiment.
+        seed: of the bootstrap.
 
     Returns:
         Columns `method, scene, frame_ms, frame_ms_q1, frame_ms_q3, repeats, lpips, lpips_low,
-        lpips_high, size_kib`, then `thesis_<column>` and `<column>_minus_thesis` of the three
-        that the thesis prints. Times in ms, sizes in KiB; the order is that of `rows`.
-
-    Raises:
-        InputError: a method has no frame times.
+        lpips_high, size_kib`. Times in ms, sizes in KiB; the order is that of `rows`.
     """
     records = []
-    for row, scene in zip(rows, scenes, strict=True):
-        method = row["method"]
-        if method not in times[scene]["methods"]:
-            raise InputError(
-                f"frame times of {scene}: there are none of {method}: delete the file and run again"
-            )
+    for row in rows:
+        method, scene = row["method"], row["scene"]
         milliseconds = np.array(times[scene]["methods"][method]["ms"])
         first, median, third = np.quantile(milliseconds, (0.25, 0.5, 0.75))
-        values = metrics[scene].query("method == @method and metric == 'lpips'")["value"]
-        lpips = mean_interval(values.to_numpy(), seed) if len(values) else (np.nan,) * 3
-        if method in sizes:
-            size = sizes[method]
+        values = metrics[scene].query("method == @method and metric == 'lpips'")
+        values = values.sort_values(["view_set", "view"])["value"].to_numpy()
+        lpips = mean_interval(values, seed) if len(values) else (np.nan,) * 3
+        if row["experiment"]:
+            size = sizes[row["experiment"]]
         else:
             size = np.nan if method == RAY_TRACED else shadow_map_bytes(method)
-        record = {
-            "method": row["label"],
-            "scene": scene,
-            "frame_ms": median,
-            "frame_ms_q1": first,
-            "frame_ms_q3": third,
-            "repeats": len(milliseconds),
-            "lpips": lpips[0],
-            "lpips_low": lpips[1],
-            "lpips_high": lpips[2],
-            "size_kib": size / 1024,
-        }
-        for column in COLUMNS:
-            value = printed(published, published_table, row["published"] or method, column)
-            record |= {
-                f"thesis_{column}": value,
-                f"{column}_minus_thesis": record[column] - value,
+        records.append(
+            {
+                "method": row["label"],
+                "scene": scene,
+                "frame_ms": median,
+                "frame_ms_q1": first,
+                "frame_ms_q3": third,
+                "repeats": len(milliseconds),
+                "lpips": lpips[0],
+                "lpips_low": lpips[1],
+                "lpips_high": lpips[2],
+                "size_kib": size / 1024,
             }
-        records.append(record)
+        )
     return pd.DataFrame(records)
 
 
-def write_performance_table(
-    times_jsons: Sequence[Path],
-    metrics: Mapping[str, Sequence[Path]],
-    weights: Mapping[str, Path],
-    training_jsons: Sequence[Path],
-    published_csv: Path,
-    csv_path: Path,
-    md_path: Path,
-    *,
-    title: str,
-    number: str | None,
-    rows: Sequence[Mapping[str, str | None]],
-    scenes: Sequence[str],
-    scale: str,
-    seed: int,
-) -> None:
-    """Write a table of frame times as CSV and Markdown.
-
-    Args:
-        metrics: files of per-view metrics by scene.
-        weights: weight files by the key of the method; their size is measured.
-
-    Raises:
-        InputError: a file is missing or cut short.
-    """
-    times = read_frame_times(times_jsons)
-    frame = performance_table(
-        rows,
-        scenes,
-        times,
-        {scene: read_metrics(paths) for scene, paths in metrics.items()},
-        {name: network_bytes(path) for name, path in weights.items()},
-        number,
-        read_published(published_csv),
-        seed,
-    ).assign(scale=scale)
+def reading_columns(table: pd.DataFrame, with_thesis: bool) -> dict[str, list[str]]:
+    """The Markdown's cells by heading."""
     columns = {
-        "method": frame["method"].tolist(),
+        "method": table["method"].tolist(),
         "frame ms ↓": [
             interval_text(*values, 1)
-            for values in frame[["frame_ms", "frame_ms_q1", "frame_ms_q3"]].to_numpy()
+            for values in table[["frame_ms", "frame_ms_q1", "frame_ms_q3"]].to_numpy()
         ],
-        "thesis ms": thesis_texts(frame["thesis_frame_ms"], 1),
+        "thesis ms": number_texts(table["thesis_frame_ms"], "{:.1f}"),
         "LPIPS ↓": [
-            "" if np.isnan(values[0]) else interval_text(*values, 4)
-            for values in frame[["lpips", "lpips_low", "lpips_high"]].to_numpy()
+            interval_text(*values, 4)
+            for values in table[["lpips", "lpips_low", "lpips_high"]].to_numpy()
         ],
-        "thesis LPIPS": thesis_texts(frame["thesis_lpips"], 4),
-        "size KiB": thesis_texts(frame["size_kib"], 0),
-        "thesis KiB": thesis_texts(frame["thesis_size_kib"], 0),
+        "thesis LPIPS": number_texts(table["thesis_lpips"], "{:.4f}"),
+        "size KiB": number_texts(table["size_kib"], "{:.0f}"),
+        "thesis KiB": number_texts(table["thesis_size_kib"], "{:.0f}"),
     }
-    notes = [
-        "Frame time: median [quartiles] of whole frames, primary visibility and shading "
-        "included; LPIPS: mean over views [95 % bootstrap interval]; *thesis*: the number that "
-        "the thesis prints, its times from another machine.",
-        *(describe_times(values) for values in times.values()),
-        "A shadow map is rendered whole in each frame and its size is 4 N² bytes; ray tracing "
-        "sends a shadow ray from each pixel that faces the light.",
-        f"Scale: {scale}; seed {seed}; made on {datetime.date.today().isoformat()}.",
-        *(f"Network {describe_training(read_training(path))}." for path in training_jsons),
-    ]
-    if number:
-        title += f" (table {number} of the thesis)"
-    write_twins(frame, columns, csv_path, md_path, title=title, notes=notes)
+    return {
+        heading: cells
+        for heading, cells in columns.items()
+        if with_thesis or not heading.startswith("thesis")
+    }
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)

@@ -1,85 +1,82 @@
 """Memory of networks and shadow maps [4.4.2, table 4.7]."""
 
-import datetime
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes, shadow_map_file_bytes
-from neural_shadows.meshes.prepared_mesh import read_prepared
-from neural_shadows.reports.published import printed, read_published
-from neural_shadows.reports.tables.writing import thesis_texts, write_twins
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
+from neural_shadows.reports.inputs import by_folder
+from neural_shadows.reports.phrases import describe_run, titled
+from neural_shadows.reports.published import add_printed, read_published
+from neural_shadows.reports.tables.writing import number_texts, write_twins
+from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.tracing import Tracer
 
 MIB = 2**20
 
 
-def write_memory_table(
-    mesh_ply: Path,
-    weights: Mapping[str, Path],
-    published_csv: Path,
-    csv_path: Path,
-    md_path: Path,
+def write(
     *,
+    mesh_ply: Path,
+    weights: list[Path],
+    published_csv: Path,
+    csv: Path,
+    md: Path,
     title: str,
-    number: str | None,
-    rows: Sequence[Mapping[str, str | None]],
-    scale: str,
+    published: str | None,
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
 ) -> None:
     """Write the bytes of each method, by formula, beside the thesis's numbers.
 
     The formula is checked: a network's against its weight file, a map's against the file of a
-    map that is traced for it.
+    map that is traced for it. It knows no mesh, so that the thesis's numbers stand beside any.
 
     Args:
         mesh_ply: of the scene that the maps are traced of.
-        weights: weight files by the key of the method.
+        weights: of the networks among the rows.
+        published: the thesis's number of the table, "4.7"; None for one that is not in it.
+        rows: `method`, `label`, `experiment` and `published` of each; run: `scale`.
 
     Raises:
         InputError: a file's real size is not what the formula says.
     """
     mesh = read_prepared(mesh_ply)
-    tracer = Tracer(mesh.vertices, mesh.faces)
-    published = read_published(published_csv)
-    records = []
-    for row in rows:
-        method = row["method"]
-        if method in weights:
-            size = network_bytes(weights[method])
-        else:
-            size = shadow_map_bytes(method)
-            stored = shadow_map_file_bytes(mesh, tracer, method)
-            if stored != size:
-                raise InputError(
-                    f"{method}: its file holds {stored:,} bytes, the formula says {size:,}"
-                )
-        value = printed(published, number, row["published"] or method, "memory_mib")
-        records.append(
-            {
-                "method": row["label"],
-                "memory_mib": size / MIB,
-                "bytes": size,
-                "thesis_memory_mib": value,
-                "memory_mib_minus_thesis": size / MIB - value,
-                "scale": scale,
-            }
-        )
-    frame = pd.DataFrame(records).sort_values("bytes", ascending=False, kind="stable")
+    networks = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
+    sizes = [
+        networks[row["experiment"]] if row["experiment"] else _map_bytes(mesh, row["method"])
+        for row in rows
+    ]
+    table = pd.DataFrame({"method": [row["label"] for row in rows], "bytes": sizes})
+    table.insert(1, "memory_mib", table["bytes"] / MIB)
+    table = add_printed(table, rows, ["memory_mib"], published, read_published(published_csv))
+    table = table.assign(scale=run["scale"])
+    table = table.sort_values("bytes", ascending=False, kind="stable")
     columns = {
-        "method": frame["method"].tolist(),
-        "memory MiB": [f"{value:.4g}" for value in frame["memory_mib"]],
-        "thesis MiB": [
-            text.rstrip("0").rstrip(".") for text in thesis_texts(frame["thesis_memory_mib"], 4)
-        ],
-        "bytes": [f"{value:,}" for value in frame["bytes"]],
+        "method": table["method"].tolist(),
+        "memory MiB": number_texts(table["memory_mib"], "{:.4g}"),
+        "thesis MiB": number_texts(table["thesis_memory_mib"], "{:.4g}"),
+        "bytes": number_texts(table["bytes"], "{:,}"),
     }
     notes = [
         "By formula: 4 bytes for each weight of a network, 4 N² for a shadow map of N² texels. "
         "Checked: a network's against its weight file, a map's against the file of a traced map.",
-        f"Scale: {scale}; made on {datetime.date.today().isoformat()}.",
+        describe_run(run),
     ]
-    if number:
-        title += f" (table {number} of the thesis)"
-    write_twins(frame, columns, csv_path, md_path, title=title, notes=notes)
+    write_twins(table, columns, csv, md, title=titled(title, published), notes=notes)
+
+
+def _map_bytes(mesh: PreparedMesh, method: str) -> int:
+    size = shadow_map_bytes(method)
+    stored = shadow_map_file_bytes(mesh, Tracer(mesh.vertices, mesh.faces), method)
+    if stored != size:
+        raise InputError(f"{method}: its file holds {stored:,} bytes, the formula says {size:,}")
+    return size
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)

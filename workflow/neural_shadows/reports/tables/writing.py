@@ -7,30 +7,14 @@ import numpy as np
 import pandas as pd
 from tabulate import tabulate
 
-from neural_shadows.files.broken import reading
-from neural_shadows.files.csv_file import read_csv
 from neural_shadows.files.whole_files import write_text
-
-
-def read_table(path: str | Path, texts: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
-    """Read the CSV of a table that `write_twins` wrote.
-
-    Args:
-        texts, numbers: columns that it must have; a cell may be empty, and is then NaN.
-
-    Raises:
-        InputError: the file is missing; or not whole or no such table, and moved aside.
-    """
-    kinds = dict.fromkeys(texts, "str") | dict.fromkeys(numbers, "float64")
-    with reading(path, "table"):
-        return read_csv(path, kinds, others=True)
 
 
 def write_twins(
     frame: pd.DataFrame,
     columns: Mapping[str, Sequence[str]],
-    csv_path: str | Path,
-    md_path: str | Path,
+    csv: Path,
+    md: Path,
     *,
     title: str,
     notes: Sequence[str],
@@ -43,7 +27,7 @@ def write_twins(
         text_columns: how many columns from the left hold text; the others are aligned right.
         notes: one a line, below the table.
     """
-    write_text(csv_path, frame.to_csv(index=False, float_format="%.6g"))
+    write_text(csv, frame.to_csv(index=False, float_format="%.6g"))
     table = tabulate(
         columns,
         headers="keys",
@@ -52,16 +36,16 @@ def write_twins(
         colalign=["left"] * text_columns + ["right"] * (len(columns) - text_columns),
     )
     items = "\n".join(f"- {note}" for note in notes)
-    write_text(md_path, f"# {title}\n\n{table}\n\n{items}\n")
+    write_text(md, f"# {title}\n\n{table}\n\n{items}\n")
 
 
-def thesis_texts(values: Iterable[float], decimals: int) -> list[str]:
-    """Cells of printed numbers; empty where the thesis prints none."""
-    return ["" if np.isnan(value) else f"{value:.{decimals}f}" for value in values]
+def number_texts(values: Iterable[float], form: str, factor: float = 1) -> list[str]:
+    """Cells of numbers in a format, `{:.2f}`; empty for NaN."""
+    return ["" if np.isnan(value) else form.format(value * factor) for value in values]
 
 
 def interval_text(value: float, low: float, high: float, decimals: int) -> str:
-    """A cell: value [low, high], or `not available` for NaN."""
+    """A cell: value [low, high]; empty for NaN."""
     if np.isnan(value):
-        return "not available"
+        return ""
     return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
