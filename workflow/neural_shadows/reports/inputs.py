@@ -24,7 +24,7 @@ def depth_biases(rows: Sequence[Mapping[str, Any]], paths: Iterable[Path]) -> di
     """The depth bias of each network among the rows, by method.
 
     Args:
-        rows: resolved rows: `method`, `experiment`, and `bias`, a number or `held_out`.
+        rows: `method`, `experiment`, and `bias`, a number or `held_out`, of each.
         paths: what `find_depth_bias` wrote, a file for each experiment.
     """
     found = {path.stem: read_json(path)["depth_bias"] for path in paths}

@@ -32,9 +32,7 @@ def describe_run(run: Mapping[str, Any]) -> str:
 
 def describe_frames(run: Mapping[str, Any]) -> str:
     """One sentence on the frames whose quality is measured."""
-    return (
-        f"Frames of {run['width']} × {run['height']}; reference: {REFERENCES[run['reference']]}."
-    )
+    return f"Frames of {run['width']} × {run['height']}; reference: {REFERENCES[run['reference']]}."
 
 
 def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:

@@ -44,18 +44,19 @@ def add_printed(
 
     Args:
         frame: a row for each of `rows`, in their order.
-        rows: `method` and `published`, the row's key in the thesis's table (None: the method's).
+        rows: `published` of each, its key in the thesis's table.
         number: the thesis's number of the table, "4.3"; None for one that is not in it.
         published: see `read_published`; None where the thesis did not measure the same.
     """
     known = {} if published is None else published
     thesis = {
-        f"thesis_{column}": [
-            known.get((number, row["published"] or row["method"], column), np.nan) for row in rows
-        ]
+        f"thesis_{column}": [known.get((number, row["published"], column), np.nan) for row in rows]
         for column in columns
     }
     frame = frame.assign(**thesis)
     return frame.assign(
-        **{f"{column}_minus_thesis": frame[column] - frame[f"thesis_{column}"] for column in columns}
+        **{
+            f"{column}_minus_thesis": frame[column] - frame[f"thesis_{column}"]
+            for column in columns
+        }
     )

@@ -8,9 +8,51 @@ from pathlib import Path
 from platform import python_version
 from typing import Any
 
-from neural_shadows.running.benchmark_file import read_seconds
+import pandas as pd
 
 PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
+
+
+def run_facts(
+    *,
+    run: Mapping[str, Any],
+    meshes: Mapping[str, str],
+    records: Sequence[Mapping[str, Any]],
+    lpips: Mapping[str, Any] | None,
+    benchmarks: Path,
+    folder: Path,
+) -> dict[str, str]:
+    """Names and values of the facts, in the order to show them.
+
+    Args:
+        run: `scale`, `seed`, `width`, `height` (pixels).
+        meshes: a phrase on the mesh of each scene.
+        records: what the trainings wrote; lpips: what `find_lpips` wrote, None without it.
+        benchmarks: see `durations`; `folder`: the checkout.
+    """
+    facts = {"scale": run["scale"]}
+    facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
+    facts["frames"] = f"{run['width']} × {run['height']}"
+    if records:
+        samples = sorted({record["samples"] for record in records})
+        counts = " or ".join(f"{count:,}" for count in samples)
+        facts["training"] = f"{_counted(len(records), 'network')}, {counts} samples each"
+        machines = dict.fromkeys(_machine(record["machine"]) for record in records)
+        facts["hardware"] = "; ".join(machines)
+    if lpips:
+        facts["LPIPS"] = f"network {lpips['net']}" if lpips["available"] else "not available"
+    packages = ", ".join(f"{package} {version(package)}" for package in PACKAGES)
+    facts |= {
+        "seed": str(run["seed"]),
+        "versions": f"Python {python_version()}, {packages}",
+        "commit": commit_of(folder),
+        "durations": "; ".join(
+            f"{rule.replace('_', ' ')} {_span(seconds)} ({_counted(count, 'job')})"
+            for rule, (count, seconds) in durations(benchmarks).items()
+        ),
+        "made on": datetime.date.today().isoformat(),
+    }
+    return {name: value for name, value in facts.items() if value}
 
 
 def commit_of(folder: Path) -> str:
@@ -33,70 +75,24 @@ def durations(benchmarks: Path) -> dict[str, tuple[int, float]]:
 
     Args:
         benchmarks: the folder that has a folder for each rule.
-
-    Raises:
-        InputError: a file is not whole, and moved aside.
     """
     found = {}
     for folder in sorted(path for path in benchmarks.glob("*") if path.is_dir()):
-        seconds = [read_seconds(path).sum() for path in sorted(folder.glob("*.tsv"))]
+        seconds = [
+            pd.read_json(path, lines=True)["s"].sum() for path in sorted(folder.glob("*.jsonl"))
+        ]
         if seconds:
             found[folder.name] = len(seconds), float(sum(seconds))
     return found
 
 
-def run_facts(
-    *,
-    scale: str,
-    seed: int,
-    frames: str,
-    meshes: Mapping[str, str],
-    records: Sequence[Mapping[str, Any]],
-    lpips: Mapping[str, Any],
-    benchmarks: Path,
-    folder: Path,
-) -> list[tuple[str, str]]:
-    """Names and values of the facts, in the order to show them.
+def _machine(machine: Mapping[str, Any]) -> str:
+    gpu = f", {machine['gpu']}" if machine["gpu"] else ""
+    return f"{machine['cpu']}, {_counted(machine['cores'], 'core')}{gpu}"
 
-    Args:
-        frames: what is rendered, as a phrase.
-        meshes: a phrase on the mesh of each scene.
-        records: what the trainings wrote.
-        lpips: what `lpips_stage` wrote.
-        benchmarks: see `durations`; `folder`: the checkout.
-    """
-    machines = []
-    for record in records:
-        machine = record["machine"]
-        gpu = f", {machine['gpu']}" if machine["gpu"] else ""
-        machines.append(f"{machine['cpu']}, {machine['cores']} cores{gpu}")
-    samples = {record["samples"] for record in records}
-    times = durations(benchmarks)
-    return [
-        ("scale", scale),
-        *((f"mesh of {scene}", text) for scene, text in meshes.items()),
-        ("frames", frames),
-        (
-            "training",
-            f"{len(records)} networks, {' or '.join(f'{n:,}' for n in sorted(samples))} samples each",
-        ),
-        ("LPIPS", f"network {lpips['net']}" if lpips["available"] else "not available"),
-        ("seed", str(seed)),
-        ("hardware", "; ".join(dict.fromkeys(machines))),
-        (
-            "versions",
-            ", ".join([f"Python {python_version()}", *(f"{p} {version(p)}" for p in PACKAGES)]),
-        ),
-        ("commit", commit_of(folder)),
-        (
-            "durations",
-            "; ".join(
-                f"{rule.replace('_', ' ')} {_span(seconds)} ({count} job{'s' if count > 1 else ''})"
-                for rule, (count, seconds) in times.items()
-            ),
-        ),
-        ("made on", datetime.date.today().isoformat()),
-    ]
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'s' if count != 1 else ''}"
 
 
 def _span(seconds: float) -> str:

@@ -56,7 +56,7 @@ def write(
         metrics: per view, of all methods of the rows.
         depth_biases: those that were found, a file for each experiment.
         published: the thesis's number of the table, "4.3"; None for one that is not in it.
-        rows: see `layout.tables`; all of one scene.
+        rows: as `config.rows` gives them; all of one scene.
         run: `scale`, `seed`, `width`, `height` (pixels), `reference`.
         scenes: `procedural` and `seed` of the rows' scene.
 
@@ -96,6 +96,8 @@ def reading_columns(table: pd.DataFrame, with_thesis: bool) -> dict[str, list[st
     """The Markdown's cells by heading: rounded, shares in per cent, the thesis's beside ours."""
     columns = {"method": table["method"].tolist()}
     for metric, (heading, _, decimals) in READING.items():
+        if table[metric].isna().all():  # LPIPS without its trunk
+            continue
         columns[heading] = quality_cells(table, metric)
         if with_thesis and metric in PRINTED:
             printed = table[f"thesis_{metric}"]

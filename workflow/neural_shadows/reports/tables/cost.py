@@ -16,9 +16,7 @@ MIB = 2**20
 SLOPE_POINTS = 3  # the largest sizes, where what a stage does at any size weighs least
 
 
-def write(
-    *, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[str, Any]
-) -> None:
+def write(*, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[str, Any]) -> None:
     """Write the table of `cost_table` as CSV and Markdown.
 
     Args:

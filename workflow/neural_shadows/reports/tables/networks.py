@@ -69,7 +69,7 @@ def write(
         metrics: per view, of all rows that are not ray traced.
         weights, trainings: of the networks among the rows, each once.
         depth_biases: those that were found, a file for each experiment.
-        rows: see `layout.tables`.
+        rows: as `config.rows` gives them.
         run: `scale`, `seed` (of the bootstrap), `width`, `height` (pixels), `reference`.
         scenes: `procedural` and `seed` (of the viewpoints) of the rows' scenes.
 
@@ -96,8 +96,8 @@ def write(
         "which may be more once it is laid out for queries, and 4 N² bytes for a shadow map; "
         "training: preparation included; rays/s: of the network alone; frame: median of whole "
         "frames, primary visibility and shading included.",
-        "bias: of the depth test, in sphere radii; each network's best on held-out views, save "
-        "where `no bias` is said. Shadow maps keep their slope-scaled bias, which is not tuned.",
+        "bias: of the depth test, in sphere radii; each network's best on held-out views, unless it "
+        "is 0. Shadow maps keep their slope-scaled bias, which is not tuned.",
         *(
             f"Mesh of {scene}: {describe_mesh(report, scenes[scene])}; "
             f"seed {scenes[scene]['seed']}."
@@ -190,7 +190,10 @@ def reading_columns(table: pd.DataFrame) -> dict[str, list[str]]:
     return {
         "scene": table["scene"].tolist(),
         "method": table["method"].tolist(),
-        **{READING[name][0]: quality_cells(table, name) for name in ("lpips", "psnr", "ssim", "flip")},
+        **{
+            READING[name][0]: quality_cells(table, name)
+            for name in ("lpips", "psnr", "ssim", "flip")
+        },
         "false shadow % ↓": number_texts(table["false_shadow"], "{:.3f}", 100),
         "light leak % ↓": number_texts(table["light_leak"], "{:.3f}", 100),
         "size KiB ↓": number_texts(table["bytes"], "{:,.0f}", 1 / 1024),
