@@ -1,0 +1,121 @@
+"""A scene in its bounding sphere, its light, and what is sampled of it, in three dimensions."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyvista
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.rays.labels import chord_lengths
+from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.reports.figures.space import (
+    GROUND_COLOUR,
+    OBJECT_COLOUR,
+    add_sphere,
+    hero_view,
+    lines,
+    new_plotter,
+    surface,
+    write_pictures,
+)
+from neural_shadows.reports.figures.style import BLUE, COLOURS, ORANGE
+from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.lights import arc_directions, light_basis, lowest_elevation
+from neural_shadows.scenes.scene import Scene, open_scene
+
+RAYS = 300
+SHADE, LIGHT_COLOUR, DIRECTION_COLOUR = "#8d97a3", COLOURS[4], COLOURS[2]
+
+
+def draw(
+    mesh_ply: Path,
+    mesh_json: Path,
+    directions_npy: Path,
+    origins: list[Path],
+    bounds: list[Path],
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    scene: Mapping[str, Any],
+) -> None:
+    """Draw a scene with its light and view directions, and some of its training rays.
+
+    Raises:
+        InputError: an input file is missing or not whole, or there is no OpenGL.
+    """
+    rays = RaySet(directions_npy, sorted(origins), sorted(bounds))
+    opened = open_scene(mesh_ply, **scene)
+    view = hero_view(opened.up, 4.1)
+    left, right = new_plotter(view), new_plotter(view)
+    for plotter in (left, right):
+        plotter.add_mesh(surface(opened.objects[0]), color=OBJECT_COLOUR, smooth_shading=True)
+        add_sphere(plotter)
+    if opened.ground is not None:
+        centre = opened.ground * opened.up
+        disk = pyvista.Disc(center=centre, inner=0, outer=1.25, normal=opened.up, c_res=90)
+        left.add_mesh(disk, color=GROUND_COLOUR, lighting=False)
+    left.add_mesh(light_domain(opened), color=LIGHT_COLOUR, opacity=0.35, lighting=False)
+    style = {"render_points_as_spheres": True, "lighting": False}
+    towards = -rays.directions.astype(np.float32)
+    left.add_points(towards, color=DIRECTION_COLOUR, point_size=5, **style)
+    _add_rays(right, rays)
+    name = read_mesh_report(mesh_json)["name"]
+    write_pictures(
+        {
+            f"{len(towards):,} directions to shine from; up: {scene['up']}": left,
+            f"{RAYS} of {rays.count:,} training rays": right,
+        },
+        png,
+        svg,
+        title=f"{title} ({name})",
+        entries=[
+            Patch(color=LIGHT_COLOUR, alpha=0.5, label="where the scene's light comes from"),
+            Line2D([], [], color=DIRECTION_COLOUR, marker="o", lw=0, label="view directions"),
+            Line2D([], [], color=ORANGE, alpha=0.5, label="bounding sphere"),
+            Line2D([], [], color=ORANGE, label="ray: lit"),
+            Line2D([], [], color=BLUE, lw=4, label="ray: between its bounds"),
+            Line2D([], [], color=SHADE, label="ray: in shadow"),
+        ],
+    )
+
+
+def light_domain(scene: Scene) -> pyvista.PolyData:
+    """The part of the unit sphere that the scene's light comes from, a little outside it."""
+    (domain,) = scene.lights
+    lowest = lowest_elevation(domain)
+    if domain["domain"] == "single_axis":
+        angle = np.linspace(-1, 1, 90) * (np.pi / 2 - lowest)
+        arc = 1.01 * arc_directions(domain, scene.up, angle)
+        return pyvista.lines_from_points(arc).tube(radius=0.02)
+    elevation, turn = np.meshgrid(np.linspace(lowest, np.pi / 2, 40), np.linspace(0, 2 * np.pi, 91))
+    local = [np.cos(elevation) * np.cos(turn), np.cos(elevation) * np.sin(turn), np.sin(elevation)]
+    cap = 1.01 * np.stack(local, axis=-1) @ light_basis(scene.up)
+    return pyvista.StructuredGrid(*np.moveaxis(cap, -1, 0)).extract_surface()
+
+
+def _add_rays(plotter: pyvista.Plotter, rays: RaySet) -> None:
+    """Add rays evenly spaced through the ray set, in the colours of their bounds."""
+    index = np.linspace(0, rays.count - 1, RAYS).astype(np.int64)
+    o, d, t_lb, t_ub = rays.gather(index)
+    chord = chord_lengths(o, d)
+    end = np.minimum(t_ub, chord)
+    hit = t_lb < chord - 1e-6
+
+    def at(t: np.ndarray) -> np.ndarray:
+        return (o + t[:, None] * d)[hit]
+
+    style = {"lighting": False}
+    misses = lines(o[~hit], (o + chord[:, None] * d)[~hit])
+    plotter.add_mesh(misses, color=ORANGE, line_width=1, opacity=0.2, **style)
+    plotter.add_mesh(lines(at(0 * chord), at(t_lb)), color=ORANGE, line_width=2, **style)
+    plotter.add_mesh(lines(at(t_lb), at(end)), color=BLUE, line_width=6, **style)
+    plotter.add_mesh(lines(at(end), at(chord)), color=SHADE, line_width=2, **style)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)
