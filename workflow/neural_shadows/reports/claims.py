@@ -1,6 +1,6 @@
 """What the thesis concludes from its data, tested on ours [4, 5.1]."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,8 @@ from neural_shadows.metrics.intervals import (
     mean_interval,
     median_ratio_interval,
 )
+from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import by_folder
-from neural_shadows.reports.phrases import describe_run
 from neural_shadows.reports.tables.writing import write_twins
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
@@ -109,7 +109,7 @@ def write_claims(
         "intervals are too narrow; and none covers how trainings differ: each network was trained "
         "once, from one seed.",
         f"Meshes: {meshes}; seed {run['seed']}.",
-        describe_run(run),
+        phrases.describe_run(run),
     ]
     found = found.assign(scale=run["scale"], samples=samples, thesis_samples=THESIS_SAMPLES)
     title = "What the thesis claims, tested on this run"
@@ -165,17 +165,18 @@ def verdict_of_all(verdicts: Iterable[str]) -> str:
 
 def _judged(
     text: str,
-    count: int,
-    interval: Callable[[], Interval],
-    least: float = 0,
-    most: float = np.inf,
+    interval: Callable[..., Interval],
+    *values: np.ndarray,
+    seed: int,
+    bounds: tuple[float, float] = (0, np.inf),
     form: str = "+.4g",
 ) -> Finding:
-    """The finding of an interval, or that there are too few values for one."""
+    """The finding of an interval of some values, or that there are too few of them."""
+    count = min(map(len, values))
     if count < FEWEST:
         return Finding(UNDECIDED, f"{text}: {count} values are too few: {UNDECIDED}")
-    value, low, high = interval()
-    verdict = verdict_of(low, high, least, most)
+    value, low, high = interval(*values, seed)
+    verdict = verdict_of(low, high, *bounds)
     numbers = f"{value:{form}} [{low:{form}}, {high:{form}}]"
     return Finding(verdict, f"{text} {numbers}: {verdict}")
 
@@ -196,10 +197,10 @@ def better(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
             f"{second['method']} {b.mean():.4g}, advantage"
         )
         if first["scene"] == second["scene"]:
-            interval = mean_interval, sign * _gains(a, b)
+            compared = mean_interval, sign * _gains(a, b)
         else:
-            interval = difference_interval, sign * a.to_numpy(), sign * b.to_numpy()
-        findings.append(_judged(text, min(len(a), len(b)), _later(*interval, data.seed)))
+            compared = difference_interval, sign * a.to_numpy(), sign * b.to_numpy()
+        findings.append(_judged(text, *compared, seed=data.seed))
     return metric, findings
 
 
@@ -210,7 +211,7 @@ def larger_error(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Findin
     for method in claim["methods"]:
         a, b = _values(data, method, larger), _values(data, method, smaller)
         text = f"{method['method']}: {larger} {a.mean():.4g}, {smaller} {b.mean():.4g}, excess"
-        findings.append(_judged(text, len(a), _later(mean_interval, _gains(a, b), data.seed)))
+        findings.append(_judged(text, mean_interval, _gains(a, b), seed=data.seed))
     return f"{larger} − {smaller}", findings
 
 
@@ -220,8 +221,7 @@ def lower_loss(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]
     for first, second in claim["pairs"]:
         a, b = (_end_of(data.losses[method["experiment"]]) for method in (first, second))
         text = f"{first['method']} {a.mean():.4g}, {second['method']} {b.mean():.4g}, advantage"
-        interval = _later(difference_interval, b, a, data.seed)
-        findings.append(_judged(text, min(len(a), len(b)), interval))
+        findings.append(_judged(text, difference_interval, b, a, seed=data.seed))
     return "loss", findings
 
 
@@ -242,8 +242,17 @@ def frame_time(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]
             f"{first['method']} {np.median(a):.4g} ms, {second['method']} {np.median(b):.4g} ms, "
             f"ratio ({' and '.join(asked)})"
         )
-        interval = _later(median_ratio_interval, a, b, data.seed)
-        findings.append(_judged(text, len(a), interval, least, most, "#.3g"))
+        findings.append(
+            _judged(
+                text,
+                median_ratio_interval,
+                a,
+                b,
+                seed=data.seed,
+                bounds=(least, most),
+                form="#.3g",
+            )
+        )
     return "frame time", findings
 
 
@@ -253,10 +262,6 @@ KINDS = {
     "lower_loss": lower_loss,
     "frame_time": frame_time,
 }
-
-
-def _later(interval: Callable[..., Interval], *arguments: Any) -> Callable[[], Interval]:
-    return lambda: interval(*arguments)
 
 
 def _available(claim: Mapping[str, Any], data: Data) -> str:

@@ -20,7 +20,7 @@ def read_meshes(paths: Iterable[Path]) -> dict[str, dict[str, Any]]:
     return {path.parent.name: read_json(path) for path in paths}
 
 
-def depth_biases(rows: Sequence[Mapping[str, Any]], paths: Iterable[Path]) -> dict[str, float]:
+def read_biases(rows: Sequence[Mapping[str, Any]], paths: Iterable[Path]) -> dict[str, float]:
     """The depth bias of each network among the rows, by method.
 
     Args:

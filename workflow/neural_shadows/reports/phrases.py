@@ -15,7 +15,7 @@ def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = N
 
     Args:
         published: the thesis's number of the table, "4.3"; None for one that is not in it.
-        mesh: what `prepare_mesh` wrote; None where the table's numbers are of no one mesh.
+        mesh: what `prepare_mesh` wrote; None for a table of several meshes or of none.
     """
     if mesh is not None:
         title += f", mesh {mesh['name']}"
@@ -32,31 +32,26 @@ def describe_run(run: Mapping[str, Any]) -> str:
 
 def describe_frames(run: Mapping[str, Any]) -> str:
     """One sentence on the frames whose quality is measured."""
-    return f"Frames of {run['width']} × {run['height']}; reference: {REFERENCES[run['reference']]}."
+    reference = REFERENCES[run["reference"]]
+    return f"Frames of {run['width']} × {run['height']}; reference: {reference}."
 
 
 def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
-    """One phrase on a prepared mesh: name, size, whether it is closed.
+    """One phrase on a prepared mesh: name, what it is, size, whether it is closed.
 
     Args:
-        mesh: what `prepare_mesh` wrote; scene: its entry in `scenes`, which knows if it is
-            procedural.
+        mesh: what `prepare_mesh` wrote; scene: `procedural`, whether the pipeline made it.
     """
-    if mesh["thesis_mesh"]:
-        kind = ""
-    elif scene["procedural"]:
-        kind = " (a procedural stand-in, not the thesis's mesh)"
-    else:
-        kind = " (not the thesis's mesh)"
+    stand_in = "a procedural stand-in, " if scene["procedural"] else ""
+    kind = "" if mesh["thesis_mesh"] else f" ({stand_in}not the thesis's mesh)"
     closed = "watertight" if mesh["watertight"] else "open"
     return f"{mesh['name']}{kind}, {mesh['faces']:,} triangles, {closed}"
 
 
 def describe_training(record: Mapping[str, Any]) -> str:
     """One sentence on how a network was trained, and on what machine."""
-    training, machine = record["training"], record["machine"]
+    training, machine, threads = record["training"], record["machine"], record["threads"]
     device = machine["gpu"] if training["device"] == "cuda" else f"{machine['cpu']} CPU"
-    threads = record["threads"]
     return (
         f"Network {record['name']}: {record['parameters']:,} parameters, {training['steps']:,} "
         f"steps of {training['batch_size']:,} samples ({training['schedule']} learning rate "
@@ -78,7 +73,7 @@ def describe_times(times: Mapping[str, Any]) -> str:
 
 
 def describe_biases(rows: Sequence[Mapping[str, Any]], biases: Mapping[str, float]) -> list[str]:
-    """A sentence for each row of a comparison whose network is given a depth bias."""
+    """A sentence for each row whose network is given a depth bias; `biases` by method."""
     return [
         f"{row['label']}: a depth bias of {biases[row['method']]:g} sphere radii"
         + (", the best on held-out views." if row["bias"] == "held_out" else ".")

@@ -8,16 +8,8 @@ import pandas as pd
 
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports.inputs import depth_biases as biases_of_rows
-from neural_shadows.reports.phrases import (
-    describe_biases,
-    describe_frames,
-    describe_lpips,
-    describe_mesh,
-    describe_run,
-    describe_training,
-    titled,
-)
+from neural_shadows.reports import phrases
+from neural_shadows.reports.inputs import read_biases
 from neural_shadows.reports.published import add_printed, read_published
 from neural_shadows.reports.tables.quality import (
     READING,
@@ -79,17 +71,17 @@ def write(
             if mesh["thesis_mesh"]
             else f"*thesis*: empty, since it did not measure the mesh {mesh['name']}."
         )
-    biases = biases_of_rows(rows, depth_biases)
+    biases = read_biases(rows, depth_biases)
     notes += [
-        *describe_biases(rows, biases),
-        f"Mesh: {describe_mesh(mesh, scene)}; seed {scene['seed']}.",
-        *(describe_training(read_json(path)) for path in trainings),
-        describe_frames(run),
-        describe_lpips(lpips),
-        describe_run(run),
+        *phrases.describe_biases(rows, biases),
+        f"Mesh: {phrases.describe_mesh(mesh, scene)}; seed {scene['seed']}.",
+        *(phrases.describe_training(read_json(path)) for path in trainings),
+        phrases.describe_frames(run),
+        phrases.describe_lpips(lpips),
+        phrases.describe_run(run),
     ]
     columns = reading_columns(table, published is not None)
-    write_twins(table, columns, csv, md, title=titled(title, published, mesh), notes=notes)
+    write_twins(table, columns, csv, md, title=phrases.titled(title, published, mesh), notes=notes)
 
 
 def reading_columns(table: pd.DataFrame, with_thesis: bool) -> dict[str, list[str]]:

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports.phrases import describe_run
+from neural_shadows.reports import phrases
 from neural_shadows.reports.tables.writing import number_texts, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -43,7 +43,7 @@ def write(*, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[st
         "but are the first that a full machine takes back. Exponents: of the "
         f"{SLOPE_POINTS} largest sizes, 1 is linear.",
         f"Measured once each on {machine['cpu']}, {threads} threads, an evaluation on one.",
-        describe_run(run),
+        phrases.describe_run(run),
     ]
     write_twins(table, columns, csv, md, title=title, notes=notes)
 

@@ -12,8 +12,8 @@ from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.intervals import mean_interval
+from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import by_folder, read_meshes
-from neural_shadows.reports.phrases import describe_lpips, describe_run, describe_times, titled
 from neural_shadows.reports.published import add_printed, read_published
 from neural_shadows.reports.tables.writing import interval_text, number_texts, write_twins
 from neural_shadows.running.stage import run_stage
@@ -68,11 +68,11 @@ def write(
     notes = [
         "Frame time: median [quartiles] of whole frames, primary visibility and shading "
         "included; LPIPS: mean over views [95 % bootstrap interval].",
-        *(describe_times(values) for values in timed.values()),
+        *(phrases.describe_times(values) for values in timed.values()),
         "A shadow map is rendered whole in each frame and its size is 4 N² bytes; ray tracing "
         "sends a shadow ray from each pixel that faces the light.",
-        describe_lpips(read_json(lpips_json)),
-        describe_run(run),
+        phrases.describe_lpips(read_json(lpips_json)),
+        phrases.describe_run(run),
     ]
     if published:
         notes.insert(1, "*thesis*: the number that it prints, its times from another machine.")
@@ -82,7 +82,8 @@ def write(
             for scene in others
         ]
     columns = reading_columns(table, published is not None)
-    write_twins(table, columns, csv, md, title=titled(title, published), notes=notes)
+    title = phrases.titled(title, published)
+    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
 
 
 def frame_times_table(
@@ -136,6 +137,7 @@ def frame_times_table(
 def reading_columns(table: pd.DataFrame, with_thesis: bool) -> dict[str, list[str]]:
     """The Markdown's cells by heading."""
     columns = {
+        "scene": table["scene"].tolist(),
         "method": table["method"].tolist(),
         "frame ms ↓": [
             interval_text(*values, 1)

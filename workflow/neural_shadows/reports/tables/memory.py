@@ -9,8 +9,8 @@ import pandas as pd
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes, shadow_map_file_bytes
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
+from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import by_folder
-from neural_shadows.reports.phrases import describe_run, titled
 from neural_shadows.reports.published import add_printed, read_published
 from neural_shadows.reports.tables.writing import number_texts, write_twins
 from neural_shadows.running.stage import run_stage
@@ -46,9 +46,12 @@ def write(
         InputError: a file's real size is not what the formula says.
     """
     mesh = read_prepared(mesh_ply)
+    tracer = Tracer(mesh.vertices, mesh.faces)
     networks = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
     sizes = [
-        networks[row["experiment"]] if row["experiment"] else _map_bytes(mesh, row["method"])
+        networks[row["experiment"]]
+        if row["experiment"]
+        else _map_bytes(mesh, tracer, row["method"])
         for row in rows
     ]
     table = pd.DataFrame({"method": [row["label"] for row in rows], "bytes": sizes})
@@ -65,14 +68,14 @@ def write(
     notes = [
         "By formula: 4 bytes for each weight of a network, 4 N² for a shadow map of N² texels. "
         "Checked: a network's against its weight file, a map's against the file of a traced map.",
-        describe_run(run),
+        phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=titled(title, published), notes=notes)
+    write_twins(table, columns, csv, md, title=phrases.titled(title, published), notes=notes)
 
 
-def _map_bytes(mesh: PreparedMesh, method: str) -> int:
+def _map_bytes(mesh: PreparedMesh, tracer: Tracer, method: str) -> int:
     size = shadow_map_bytes(method)
-    stored = shadow_map_file_bytes(mesh, Tracer(mesh.vertices, mesh.faces), method)
+    stored = shadow_map_file_bytes(mesh, tracer, method)
     if stored != size:
         raise InputError(f"{method}: its file holds {stored:,} bytes, the formula says {size:,}")
     return size

@@ -11,16 +11,8 @@ from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports.inputs import by_folder, read_meshes
-from neural_shadows.reports.inputs import depth_biases as biases_of_rows
-from neural_shadows.reports.phrases import (
-    describe_frames,
-    describe_lpips,
-    describe_mesh,
-    describe_run,
-    describe_times,
-    describe_training,
-)
+from neural_shadows.reports import phrases
+from neural_shadows.reports.inputs import by_folder, read_biases, read_meshes
 from neural_shadows.reports.tables.quality import (
     METRICS,
     READING,
@@ -79,7 +71,7 @@ def write(
     timed = {one["scene"]: one for one in map(read_json, times)}
     records = {record["name"]: record for record in map(read_json, trainings)}
     sizes = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
-    biases = biases_of_rows(rows, depth_biases)
+    biases = read_biases(rows, depth_biases)
     reports, lpips = read_meshes(meshes), read_json(lpips_json)
     table = networks_table(
         rows,
@@ -99,15 +91,15 @@ def write(
         "bias: of the depth test, in sphere radii; each network's best on held-out views, unless it "
         "is 0. Shadow maps keep their slope-scaled bias, which is not tuned.",
         *(
-            f"Mesh of {scene}: {describe_mesh(report, scenes[scene])}; "
+            f"Mesh of {scene}: {phrases.describe_mesh(report, scenes[scene])}; "
             f"seed {scenes[scene]['seed']}."
             for scene, report in reports.items()
         ),
-        *(describe_times(values) for values in timed.values()),
-        *(describe_training(record) for record in records.values()),
-        describe_frames(run),
-        describe_lpips(lpips),
-        describe_run(run),
+        *(phrases.describe_times(values) for values in timed.values()),
+        *(phrases.describe_training(record) for record in records.values()),
+        phrases.describe_frames(run),
+        phrases.describe_lpips(lpips),
+        phrases.describe_run(run),
     ]
     write_twins(table, reading_columns(table), csv, md, title=title, notes=notes, text_columns=2)
 
