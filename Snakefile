@@ -6,36 +6,29 @@ min_version("9.10")
 
 
 configfile: "config/config.yaml"
+configfile: "config/reports.yaml"
 
 
 report: "workflow/report/workflow.rst"
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/scenes.smk"
+include: "workflow/rules/meshes.smk"
 include: "workflow/rules/rays.smk"
 include: "workflow/rules/networks.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/reports.smk"
-include: "workflow/rules/costs.smk"
-
-
-# Before the first job of a run that has any.
-onstart:
-    check_folders()
-
-
-# A job that was killed could not say so itself.
-onerror:
-    tell_of_killed_jobs(Path(LOGS), BEGUN)
-
-
-# Snakemake has now taken note of all networks.
-onsuccess:
-    forget_finished(Path(RESULTS) / "networks")
+include: "workflow/rules/viewer.smk"
 
 
 rule all:
     default_target: True
     input:
-        LAYOUT.all_reports(),
+        targets.all_reports(LAYOUT),
+
+
+onsuccess:
+    # Snakemake has now taken note of all networks.
+    remove_finished(Path(PATHS.network("", "")).parent)
+    made = [path for job in workflow.dag.finished_jobs for path in job.output]
+    print(targets.closing_words(LAYOUT, made))

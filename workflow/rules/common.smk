@@ -33,6 +33,7 @@ from neural_shadows.layout import claims, figures, parts, tables, targets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.running.module_graph import modules_of
+from neural_shadows.training.checkpoints import remove_finished
 
 try:
     check_duplicates(workflow.configfiles)

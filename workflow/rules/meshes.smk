@@ -29,13 +29,13 @@ rule download_mesh:
         downloaded_ply=PATHS.scene("downloaded.ply"),
     log:
         PATHS.log("download_mesh", "scene"),
+    retries: 2
     # On a cluster, nodes that compute often have no network.
     localrule: True
     conda:
         ENVIRONMENT
     resources:
         **usual(1000, minutes=30),
-    retries: 2
     message:
         "Downloading the mesh of scene {wildcards.scene}"
     script:

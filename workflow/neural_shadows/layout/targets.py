@@ -1,6 +1,8 @@
 """What a run makes unless it is asked for less, and what its page shows."""
 
 import re
+import shutil
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -105,9 +107,22 @@ def beyond(layout: Layout) -> list[str]:
     return found + [name for name in figures if not re.fullmatch(r"figure_\d+_\d+", name)]
 
 
-def made(layout: Layout, outputs: list[str]) -> list[str]:
-    """Of the files that a run has just made: the reports to be looked at, tables first."""
-    found = [path for path in outputs if path.startswith(f"{layout.paths.reports}/")]
-    order = {".md": 0, ".html": 1, ".png": 2}
-    shown = [path for path in found if Path(path).suffix in order]
-    return sorted(shown, key=lambda path: order[Path(path).suffix])
+def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
+    """What a run that went well says at its end: a table or two, and what to open.
+
+    Args:
+        outputs: all files that it made; tables are read, and cut to the terminal's width.
+    """
+    reports = [path for path in outputs if path.startswith(f"{layout.paths.reports}/")]
+    written = [Path(path) for path in reports if path.endswith(".md")]
+    columns = shutil.get_terminal_size().columns
+    lines = []
+    if len(written) <= 2:
+        for path in written:
+            for line in path.read_text(encoding="utf-8").splitlines():
+                lines.append(line if len(line) <= columns else f"{line[: columns - 1]}…")
+    pages = [path for path in reports if path.endswith(".html")]
+    pictures = [path for path in reports if path.endswith((".png", ".md"))]
+    if opened := pages or pictures:
+        lines.append(f"Open {', '.join(opened)}")
+    return "\n".join(lines)
