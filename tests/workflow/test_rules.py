@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 from checkout import ROOT
 from snakemake.api import SnakemakeApi
-from snakemake.io import is_flagged
 from snakemake.iocontainers import Wildcards
 from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
@@ -55,11 +54,8 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
 def given(rule: Any, wildcards: Wildcards) -> tuple[str, set[str]]:
     """The kind of a rule's script, and the names that it gives."""
     params = {name: _answer(value, wildcards) for name, value in rule.params.items()}
-    names = {*dict(rule.input.items()), *dict(rule.output.items()), *params}
-    for item in rule.input:
-        if is_flagged(item, "unpack"):
-            names |= item(wildcards).keys()
-    names |= params.get("settings", {}).keys()
+    files = [*rule.expand_input(wildcards)[0].keys(), *rule.output.keys()]
+    names = {*files, *params, *params.get("settings", {})}
     return params.get("kind", ""), names - {"settings", "code", "beside", "kind"}
 
 

@@ -56,6 +56,7 @@ rule prepare_mesh:
     resources:
         **usual(4000, minutes=10),
     params:
+        mesh=setting("scenes/{scene}/mesh"),
         name=setting("scenes/{scene}/mesh_name"),
     message:
         "Cleaning and normalising the mesh of scene {wildcards.scene}"

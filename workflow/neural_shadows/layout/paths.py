@@ -73,9 +73,14 @@ class Paths:
         """The log of a rule's job."""
         return f"{self.results}/logs/{rule}/{_of(rule, wildcards)}.log"
 
+    @cached_property
+    def benchmarks(self) -> str:
+        """The folder of the benchmarks of all rules."""
+        return f"{self.results}/benchmarks"
+
     def benchmark(self, rule: str, *wildcards: str) -> str:
         """Seconds and memory of a rule's job."""
-        return f"{self.results}/benchmarks/{rule}/{_of(rule, wildcards)}.tsv"
+        return f"{self.benchmarks}/{rule}/{_of(rule, wildcards)}.tsv"
 
     def report(self, name: str) -> str:
         """A table, a figure, or the page."""

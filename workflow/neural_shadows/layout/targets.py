@@ -39,14 +39,9 @@ def default_figures(layout: Layout) -> list[str]:
 def page_files(layout: Layout) -> dict[str, Any]:
     """All that the page shows of a whole run."""
     settings, paths = layout.settings, layout.paths
-    rows = [
-        *(row for name in default_tables(layout) for row in settings["tables"][name]["rows"]),
-        *(row for claim in settings["claims"].values() for row in claims.methods(claim)),
-    ]
-    pictured = tables.unique(
-        (row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED
-    )
-    scenes = tables.unique(scene for scene, _ in pictured)
+    rows = pictured(layout)
+    first = [(row["scene"], row["method"], "000") for row in rows]
+    scenes = tables.unique(row["scene"] for row in rows)
     return {
         "tables": [paths.report(f"{name}.md") for name in default_tables(layout)],
         "figures": [
@@ -57,13 +52,24 @@ def page_files(layout: Layout) -> dict[str, Any]:
         "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
         "pictures": [
             *(paths.reference("npz", scene, "000") for scene in scenes),
-            *(paths.evaluation("npz", *names, "000") for names in pictured),
+            *(paths.evaluation("npz", *names) for names in first),
         ],
-        "metrics": [paths.evaluation("csv", *names, "000") for names in pictured],
+        "metrics": [paths.evaluation("csv", *names) for names in first],
         "meshes": [paths.scene("mesh.json", scene) for scene in settings["scenes"]],
         "trainings": tables.networks(layout, rows, "training.json"),
         "lpips_json": [paths.lpips],
     }
+
+
+def pictured(layout: Layout) -> list[tables.Row]:
+    """The methods that default tables and claims show, each once by scene."""
+    rows = [
+        *(row for claim in layout.settings["claims"].values() for row in claims.methods(claim)),
+        *(r for name in default_tables(layout) for r in layout.settings["tables"][name]["rows"]),
+    ]
+    # Of a method that is in several tables, the label of the last.
+    found = {(row["scene"], row["method"]): row for row in rows if row["method"] != RAY_TRACED}
+    return list(found.values())
 
 
 def page_arguments(layout: Layout) -> dict[str, Any]:
@@ -72,8 +78,10 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
     return {
         "titles": titles,
         "beyond": beyond(layout),
+        "rows": pictured(layout),
         "run": layout.run(),
         "scenes": layout.scenes(layout.settings["scenes"]),
+        "benchmarks": layout.paths.benchmarks,
     }
 
 
