@@ -1,16 +1,23 @@
 """What all sections of the configuration share."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from functools import reduce
 from operator import or_
 from typing import Annotated, Any, get_args
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
-Text = Annotated[str, Field(min_length=1)]
 Seed = Annotated[int, Field(ge=0, lt=2**32)]
 
 
@@ -32,16 +39,16 @@ class Model(BaseModel):
 
 
 def instead(name: str, allowed: Iterable[str]) -> str:
-    """A wrong name, the one that was probably meant, and all that are allowed."""
+    """A wrong name, the one that was probably meant, and what is allowed."""
     allowed = list(allowed)
     close = get_close_matches(name, allowed, 1)
     meant = f"did you mean {close[0]!r}? " if close else ""
-    return f"{name!r}; {meant}allowed: {', '.join(allowed)}"
+    more = ", …" if len(allowed) > 20 else ""
+    return f"{name!r}; {meant}allowed: {', '.join(allowed[:20])}{more}"
 
 
 def check_known(key: str, name: str, section: str, names: Iterable[str]) -> None:
     """Check that what stands at a key is one of the names of a section."""
-    names = list(names)
     if name not in names:
         raise ValueError(f"{key}: no such name in `{section}`: {instead(name, names)}")
 
@@ -52,32 +59,31 @@ def check_power_of_two(value: int, key: str) -> None:
         raise ValueError(f"{key} = {value}: must be a power of two")
 
 
-def by_kind(key: str, *models: type[Model], default: str | None = None) -> Any:
-    """The union of models that the value of one key tells apart.
+def one_of(models: Iterable[type[Model]], tag: Callable[[dict], str | None], message: str) -> Any:
+    """The union of models, of which a function tells the one that a section is of.
 
     Tags are the classes' names, which no key of the configuration can be: messages leave out
     what is no key from the place of an error.
     """
+    return Annotated[
+        reduce(or_, (Annotated[model, Tag(model.__name__)] for model in models)),
+        Discriminator(
+            lambda value: tag(value) if isinstance(value, dict) else type(value).__name__,
+            custom_error_type="one_of",
+            custom_error_message=message,
+        ),
+    ]
+
+
+def by_kind(key: str, *models: type[Model], default: str | None = None) -> Any:
+    """The union of models that the value of one key tells apart."""
     tags = {
         kind: model.__name__
         for model in models
         for kind in get_args(model.model_fields[key].annotation)
     }
-
-    def tag(value: Any) -> str | None:
-        if isinstance(value, dict):
-            kind = value.get(key, default)
-            return tags.get(kind) if isinstance(kind, str) else None
-        return type(value).__name__
-
-    return Annotated[
-        reduce(or_, (Annotated[model, Tag(model.__name__)] for model in models)),
-        Discriminator(
-            tag,
-            custom_error_type="kind",
-            custom_error_message=f"`{key}` should be one of {', '.join(tags)}",
-        ),
-    ]
+    message = f"`{key}` should be one of {', '.join(tags)}"
+    return one_of(models, lambda section: tags.get(str(section.get(key, default))), message)
 
 
 def name_or(section: Any) -> Any:
@@ -85,4 +91,15 @@ def name_or(section: Any) -> Any:
     return Annotated[
         Annotated[Name, Tag("Name")] | Annotated[section, Tag("Section")],
         Discriminator(lambda value: "Name" if isinstance(value, str) else "Section"),
+    ]
+
+
+def section_or(model: type[Model], key: str) -> Any:
+    """A section, or only the value of its first key."""
+    return Annotated[
+        model,
+        BeforeValidator(
+            lambda value: {key: value} if isinstance(value, str) else value,
+            json_schema_input_type=str | model,
+        ),
     ]

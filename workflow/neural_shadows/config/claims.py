@@ -96,15 +96,15 @@ def scenes_of(config: "Config", methods: list[str]) -> dict[str, str]:
 def check(config: "Config") -> None:
     """Check names in claims: methods are networks, or shadow maps compared with one."""
     for name, claim in config.claims.items():
-        key = f"claims.{name}"
+        key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
             for method in methods:
-                _check_method(config, f"{key}.pairs", claim, method)
+                _check_method(config, key, claim, method)
             if all(map(is_shadow_map, methods)):
-                raise ValueError(f"{key}.pairs: {methods}: one of them should be an experiment")
+                raise ValueError(f"{key}: {methods}: one of them should be an experiment")
             if len(set(methods)) < len(methods):
                 raise ValueError(
-                    f"{key}.pairs: {methods[0]!r} is compared with itself; allowed: two methods"
+                    f"{key}: {methods[0]!r} is compared with itself; allowed: two methods"
                 )
             if isinstance(claim, FrameTimeClaim):
                 _check_timed(config, key, claim, methods)
@@ -126,11 +126,13 @@ def _check_timed(config: "Config", key: str, claim: FrameTimeClaim, methods: lis
     table = config.tables.get(claim.table)
     if not isinstance(table, FrameTimesTable):
         tables = [name for name, other in config.tables.items() if other.kind == "frame_times"]
-        raise ValueError(f"{key}.table: is no table of frame_times: {instead(claim.table, tables)}")
-    for method, scene in scenes_of(config, methods).items():
-        timed = [method_key(config, row) for row in table.rows.get(scene, [])]
-        if method not in timed:
-            raise ValueError(
-                f"{key}.pairs: {methods}: must be timed together on one scene of {claim.table}; "
-                f"{scene} has {', '.join(timed)}"
-            )
+        raise ValueError(
+            f"{key.removesuffix('.pairs')}.table: is no table of frame_times: {instead(claim.table, tables)}"
+        )
+    scene = scenes_of(config, methods)[methods[0]]
+    timed = [method_key(config, row) for row in table.rows.get(scene, [])]
+    if not set(methods) <= set(timed):
+        raise ValueError(
+            f"{key}: {methods}: must be timed together on one scene of {claim.table}; "
+            f"{scene} has {', '.join(timed)}"
+        )

@@ -83,8 +83,8 @@ def formatted(config: "Config", experiment: str, label: str | None = None) -> st
         return label.format(**settings)
     except (LookupError, ValueError, TypeError, AttributeError) as error:
         raise ValueError(
-            f"label = {label!r}: what stands in braces should be a setting of {experiment}; "
-            f"allowed: {', '.join(settings)}"
+            f"the label {label!r} of {experiment}: what stands in braces should be a setting of its "
+            f"network or training; allowed: {', '.join(settings)}"
         ) from error
 
 

@@ -1,10 +1,10 @@
 """`figures`: the figures of a run, by kind."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, by_kind, check_known, instead
+from neural_shadows.config.base import Model, Name, by_kind, check_known, instead, section_or
 from neural_shadows.config.experiments import formatted, network_of
 from neural_shadows.config.scenes import ViewSet
 from neural_shadows.config.tables import TableByScene, method_key, rows_by_scene
@@ -52,20 +52,13 @@ class CurveSettings(Model):
     )
 
 
-Curve = Annotated[
-    CurveSettings,
-    BeforeValidator(
-        lambda curve: {"experiment": curve} if isinstance(curve, str) else curve,
-        json_schema_input_type=str | CurveSettings,
-    ),
-]
-
-
 class LossFigure(AnyFigure):
     """Training loss over steps [figures 4.1 to 4.3]."""
 
     kind: Literal["loss"] = Field(description="`loss`")
-    curves: list[Curve] = Field(min_length=1, description="experiments, in the legend's order")
+    curves: list[section_or(CurveSettings, "experiment")] = Field(
+        min_length=1, description="experiments, in the legend's order"
+    )
 
 
 class WidthsFigure(AnyFigure):

@@ -12,7 +12,9 @@ def describe(error: ValidationError, values: Any) -> str:
     Args:
         values: what was checked; tells the keys in a problem's place from the tags of unions.
     """
-    problem = error.errors()[0]
+    # A default that is made from other keys is none where these are wrong.
+    problems = [one for one in error.errors() if one["type"] != "default_factory_not_called"]
+    problem, more = problems[0], len(problems) - 1
     key = _key(problem, values)
     message = problem["msg"].removeprefix("Value error, ")
     match problem["type"]:
@@ -27,7 +29,6 @@ def describe(error: ValidationError, values: Any) -> str:
             pass
         case _:
             key = f"{key} = {_shown(problem['input'])}"
-    more = error.error_count() - 1
     return f"{key + ': ' if key else ''}{message}" + (f" (and {more} more)" if more else "")
 
 

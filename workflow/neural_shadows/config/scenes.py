@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
-from neural_shadows.config.base import Model, Seed, by_kind
+from neural_shadows.config.base import Model, Seed, by_kind, one_of
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -65,12 +65,10 @@ class MeshFile(Model):
 MESHES = {"wyrm": Wyrm, "fence": Fence, "landscape": Landscape}
 
 
-def _mesh_class(value: Any) -> str | None:
-    if not isinstance(value, dict):
-        return type(value).__name__
-    match [key for key in ("generate", "download", "path") if key in value]:
-        case ["generate"] if value["generate"] in MESHES:
-            return MESHES[value["generate"]].__name__
+def _mesh_class(section: dict[str, Any]) -> str | None:
+    match [key for key in ("generate", "download", "path") if key in section]:
+        case ["generate"] if section["generate"] in MESHES:
+            return MESHES[section["generate"]].__name__
         case ["download"]:
             return "DownloadedMesh"
         case ["path"]:
@@ -78,21 +76,18 @@ def _mesh_class(value: Any) -> str | None:
     return None
 
 
-Mesh = Annotated[
-    Annotated[Wyrm, Tag("Wyrm")]
-    | Annotated[Fence, Tag("Fence")]
-    | Annotated[Landscape, Tag("Landscape")]
-    | Annotated[DownloadedMesh, Tag("DownloadedMesh")]
-    | Annotated[MeshFile, Tag("MeshFile")],
-    Discriminator(
-        _mesh_class,
-        custom_error_type="mesh",
-        custom_error_message=(
-            "should be one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, "
-            "{path: FILE} "
-            "(an overlay drops a key of the default by setting it to null)"
-        ),
-    ),
+WHERE_FROM = (
+    "one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, {path: FILE}"
+)
+Mesh = one_of(
+    [*MESHES.values(), DownloadedMesh, MeshFile],
+    _mesh_class,
+    f"should be {WHERE_FROM} (an overlay drops a key of the default by setting it to null)",
+)
+
+
+Elevation = Annotated[
+    float, Field(ge=1, lt=90, description="lowest light above the horizon, in degrees")
 ]
 
 
@@ -100,9 +95,7 @@ class SphereLight(Model):
     """Light from any direction of a cap of the sphere around the zenith."""
 
     domain: Literal["sphere"] = Field(description="`sphere`: uniform over the cap's area")
-    min_elevation_deg: float = Field(
-        20, ge=1, lt=90, description="lowest light above the horizon, in degrees"
-    )
+    min_elevation_deg: Elevation = 20
 
 
 class SingleAxisLight(Model):
@@ -110,9 +103,7 @@ class SingleAxisLight(Model):
 
     domain: Literal["single_axis"] = Field(description="`single_axis`: uniform in the angle")
     axis: Literal["x", "y", "z"] = Field(description="horizontal axis that the light turns about")
-    min_elevation_deg: float = Field(
-        20, ge=1, lt=90, description="lowest light above the horizon, in degrees"
-    )
+    min_elevation_deg: Elevation = 20
 
 
 ViewSet = Literal["shadow", "surface", "centre"]
@@ -121,11 +112,7 @@ ViewSet = Literal["shadow", "surface", "centre"]
 class Scene(Model):
     """A mesh, how it stands and how it is lit and seen [4.1, 4.1.1]."""
 
-    mesh: Mesh = Field(
-        description=(
-            "one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, {path: FILE}"
-        )
-    )
+    mesh: Mesh = Field(description=WHERE_FROM)
     up: Literal["x", "y", "z"] = Field("y", description="the mesh's axis that points up")
     ground: bool = Field(True, description="whether it stands on a plane that receives its shadow")
     light: by_kind("domain", SphereLight, SingleAxisLight) = Field(

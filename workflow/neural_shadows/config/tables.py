@@ -2,9 +2,9 @@
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, by_kind, check_known, instead
+from neural_shadows.config.base import Model, Name, by_kind, check_known, instead, section_or
 from neural_shadows.config.experiments import formatted
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import RAY_TRACED, biased_key, is_shadow_map
@@ -28,14 +28,7 @@ class RowSettings(Model):
     )
 
 
-Row = Annotated[
-    RowSettings,
-    BeforeValidator(
-        lambda row: {"method": row} if isinstance(row, str) else row,
-        json_schema_input_type=str | RowSettings,
-    ),
-]
-Rows = Annotated[list[Row], Field(min_length=1)]
+Rows = Annotated[list[section_or(RowSettings, "method")], Field(min_length=1)]
 
 
 class AnyTable(Model):
