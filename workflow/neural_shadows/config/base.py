@@ -31,26 +31,25 @@ class Model(BaseModel):
     def _check_keys(cls, values: Any) -> Any:
         for key in values if isinstance(values, dict) else ():
             if key not in cls.model_fields:
-                # A named error: pydantic's own does not say which keys there are.
-                raise PydanticCustomError(
-                    "unknown_key", "unknown key {key}", {"key": instead(str(key), cls.model_fields)}
-                )
+                # pydantic's own error does not say which keys there are.
+                told = {"key": not_among(str(key), cls.model_fields)}
+                raise PydanticCustomError("unknown_key", "unknown key: {key}", told)
         return values
 
 
-def instead(name: str, allowed: Iterable[str]) -> str:
-    """A wrong name, the one that was probably meant, and what is allowed."""
-    allowed = list(allowed)
-    close = get_close_matches(name, allowed, 1)
-    meant = f"did you mean {close[0]!r}? " if close else ""
-    more = ", …" if len(allowed) > 20 else ""
-    return f"{name!r}; {meant}allowed: {', '.join(allowed[:20])}{more}"
+def not_among(value: str, allowed: Iterable[str]) -> str:
+    """What is wrong with a value, what is allowed, and what was probably meant."""
+    names = list(allowed)
+    close = get_close_matches(value, names, 1)
+    meant = f" (did you mean {close[0]!r}?)" if close else ""
+    more = ", …" if len(names) > 20 else ""
+    return f"{value!r}{meant} is not among {', '.join(names[:20])}{more}"
 
 
-def check_known(key: str, name: str, section: str, names: Iterable[str]) -> None:
-    """Check that what stands at a key is one of the names of a section."""
-    if name not in names:
-        raise ValueError(f"{key}: no such name in `{section}`: {instead(name, names)}")
+def check_among(key: str, value: str, allowed: Iterable[str]) -> None:
+    """Check that what stands at a key is one of the names that it may be."""
+    if value not in allowed:
+        raise ValueError(f"{key}: {not_among(value, allowed)}")
 
 
 def check_power_of_two(value: int, key: str) -> None:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from neural_shadows.config.base import Model, Name, Seed, check_known, name_or
+from neural_shadows.config.base import Model, Name, Seed, check_among, name_or
 from neural_shadows.config.networks import Network
 from neural_shadows.config.trainings import Training
 from neural_shadows.evaluation.method_names import (
@@ -105,7 +105,7 @@ def check(config: "Config") -> None:
             )
         for part in ("scene", "sampling", "network", "training"):
             if isinstance(value := getattr(experiment, part), str):
-                check_known(f"{key}.{part}", value, f"{part}s", getattr(config, f"{part}s"))
+                check_among(f"{key}.{part}", value, getattr(config, f"{part}s"))
         same = trained.setdefault(experiment.model_dump_json(exclude={"label", "bias"}), name)
         if same != name:
             raise ValueError(

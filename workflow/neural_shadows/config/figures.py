@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, by_kind, check_known, instead, section_or
+from neural_shadows.config.base import Model, Name, by_kind, check_among, section_or
 from neural_shadows.config.experiments import formatted, network_of
 from neural_shadows.config.scenes import ViewSet
-from neural_shadows.config.tables import TableByScene, method_key, rows_by_scene
+from neural_shadows.config.tables import method_key, rows_by_scene
 from neural_shadows.evaluation.method_names import RAY_TRACED
 
 if TYPE_CHECKING:
@@ -123,70 +123,44 @@ KINDS_OF_TABLE = {
 }
 
 
-def check(config: "Config") -> None:
-    """Check names in figures, and that each is of a table or network that it can show."""
-    for name, figure in config.figures.items():
-        key = f"figures.{name}"
-        for part in ("table", "scene", "sampling", "experiment"):
-            if (value := getattr(figure, part, None)) is not None:
-                check_known(f"{key}.{part}", value, f"{part}s", getattr(config, f"{part}s"))
-        if table := getattr(figure, "table", None):
-            kind, allowed = config.tables[table].kind, KINDS_OF_TABLE[figure.kind]
-            if kind not in allowed:
-                raise ValueError(
-                    f"{key}.table: {table!r} is a table of {kind}; "
-                    f"allowed: one of {' or '.join(allowed)}"
-                )
-        match figure:
-            case LossFigure():
-                for curve in figure.curves:
-                    check_known(
-                        f"{key}.curves", curve.experiment, "experiments", config.experiments
-                    )
-                    formatted(config, curve.experiment, curve.label)
-            case FieldSliceFigure():
-                encoding = network_of(config, figure.experiment).encoding
-                if encoding != "occupancy_field":
-                    raise ValueError(
-                        f"{key}.experiment: {figure.experiment!r} is a network of {encoding}; "
-                        "allowed: one of occupancy_field"
-                    )
-            case ParetoFigure() | PicturesFigure():
-                _check_scene(config, key, figure)
-                if isinstance(figure, PicturesFigure):
-                    _check_pictures(config, key, figure)
-
-
 def figure_scene(config: "Config", figure: PicturesFigure | ParetoFigure) -> str:
     """The scene of a figure of a table: the one that it names, or the table's only one."""
     return figure.scene or next(iter(rows_by_scene(config, figure.table)))
 
 
-def _check_scene(config: "Config", key: str, figure: PicturesFigure | ParetoFigure) -> None:
-    scenes = rows_by_scene(config, figure.table)
-    if isinstance(config.tables[figure.table], TableByScene):
-        if figure.scene not in scenes:
-            raise ValueError(
-                f"{key}.scene: {figure.scene!r} is not in {figure.table}; "
-                f"allowed: {', '.join(scenes)}"
-            )
-    elif figure.scene is not None:
-        raise ValueError(f"{key}.scene: {figure.table!r} has one scene; leave `scene` out")
-
-
-def _check_pictures(config: "Config", key: str, figure: PicturesFigure) -> None:
-    scene = figure_scene(config, figure)
-    rows = rows_by_scene(config, figure.table)[scene]
-    drawn = [method_key(config, row) for row in rows if row.method != RAY_TRACED]
-    for method in figure.methods or []:
-        if method not in drawn:
-            raise ValueError(
-                f"{key}.methods: has no pictures in {figure.table}: {instead(method, drawn)}"
-            )
-    rendered = config.scenes[scene].view_sets
-    for view_set in figure.view_sets:
-        if view_set not in rendered:
-            raise ValueError(
-                f"{key}.view_sets: {view_set!r} is not rendered for {figure.table}; "
-                f"allowed: {', '.join(rendered)}"
-            )
+def check(config: "Config") -> None:
+    """Check names in figures, and that each is of a table or network that it can show."""
+    for name, figure in config.figures.items():
+        key = f"figures.{name}"
+        if hasattr(figure, "table"):
+            kinds = KINDS_OF_TABLE[figure.kind]
+            tables = [name for name, table in config.tables.items() if table.kind in kinds]
+            check_among(f"{key}.table", figure.table, tables)
+        match figure:
+            case MethodFigure():
+                check_among(f"{key}.scene", figure.scene, config.scenes)
+                check_among(f"{key}.sampling", figure.sampling, config.samplings)
+            case LossFigure():
+                for curve in figure.curves:
+                    check_among(f"{key}.curves", curve.experiment, config.experiments)
+                    formatted(config, curve.experiment, curve.label)
+            case FieldSliceFigure():
+                fields = [
+                    name
+                    for name in config.experiments
+                    if network_of(config, name).encoding == "occupancy_field"
+                ]
+                check_among(f"{key}.experiment", figure.experiment, fields)
+            case ParetoFigure() | PicturesFigure():
+                scenes = rows_by_scene(config, figure.table)
+                if figure.scene is not None or len(scenes) > 1:
+                    check_among(f"{key}.scene", figure.scene or "", scenes)
+                if isinstance(figure, PicturesFigure):
+                    scene = figure_scene(config, figure)
+                    drawn = [
+                        method_key(config, row) for row in scenes[scene] if row.method != RAY_TRACED
+                    ]
+                    for method in figure.methods or []:
+                        check_among(f"{key}.methods", method, drawn)
+                    for view_set in figure.view_sets:
+                        check_among(f"{key}.view_sets", view_set, config.scenes[scene].view_sets)

@@ -7,7 +7,7 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
-from neural_shadows.config.base import instead
+from neural_shadows.config.base import not_among
 from neural_shadows.config.messages import describe
 from neural_shadows.config.scenes import MESH_SUFFIXES, MeshFile
 from neural_shadows.config.whole import Config
@@ -108,7 +108,7 @@ def check_files(config: Config) -> None:
             key = "dragon" if short else f"scenes.{name}.mesh.path"
             if short and not Path(path).suffix and not Path(path).exists():
                 raise InputError(
-                    f"config: dragon: no such mesh: {instead(path, ['wyrm', 'stanford'])}, or a file"
+                    f"config: dragon: {not_among(path, ['wyrm', 'stanford'])}, and is no file"
                 )
             if Path(path.removesuffix(".gz")).suffix.lower() not in MESH_SUFFIXES:
                 raise InputError(

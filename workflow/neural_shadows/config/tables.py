@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, by_kind, check_known, instead, section_or
+from neural_shadows.config.base import Model, Name, by_kind, check_among, section_or
 from neural_shadows.config.experiments import formatted
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import RAY_TRACED, biased_key, is_shadow_map
@@ -152,52 +152,28 @@ def check(config: "Config") -> None:
     for name, table in config.tables.items():
         key = f"tables.{name}"
         if name in ("claims", "index"):
-            raise ValueError(
-                f"{key}: a report has this name; allowed: any other than claims, index"
-            )
+            raise ValueError(f"{key}: a report has this name; choose another")
         for figure in table.figures:
-            check_known(f"{key}.figures", figure, "figures", config.figures)
+            check_among(f"{key}.figures", figure, config.figures)
         if isinstance(table, CostTable):
-            _check_sizes(key, table)
+            for size in STAGES:
+                if (values := getattr(table, size)) != sorted(set(values)):
+                    raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
+        timed = [RAY_TRACED] if isinstance(table, TableByScene) else []
         for scene, rows in rows_by_scene(config, name).items():
-            if not scene:
-                raise ValueError(
-                    f"{key}.scene: is missing; give one of {', '.join(config.scenes)}, or a row "
-                    "that is an experiment"
-                )
-            check_known(f"{key}.rows", scene, "scenes", config.scenes)
+            check_among(f"{key}.scene", scene, config.scenes)
+            here = [name for name, other in config.experiments.items() if other.scene == scene]
             for row in rows:
-                _check_row(config, name, scene, row)
-            _check_once(f"{key}.rows: {scene}: method", [method_key(config, row) for row in rows])
-            _check_once(f"{key}.rows: {scene}: label", [row_label(config, row) for row in rows])
+                if not is_shadow_map(row.method):
+                    allowed = ["shadow_map_N", *timed, *here]
+                    check_among(f"{key}.rows of {scene}", row.method, allowed)
+                if row.bias is not None:
+                    check_among(f"{key}.rows with a bias", row.method, here)
+            _check_once(f"{key}.rows of {scene}", [method_key(config, row) for row in rows])
+            _check_once(f"{key}.rows of {scene}", [row_label(config, row) for row in rows])
 
 
-def _check_row(config: "Config", name: str, scene: str, row: RowSettings) -> None:
-    key = f"tables.{name}.rows"
-    timed = isinstance(config.tables[name], TableByScene)
-    if row.method in config.experiments:
-        if (own := config.experiments[row.method].scene) != scene:
-            raise ValueError(
-                f"{key}: {row.method!r} belongs to the scene {own!r}, not to {scene!r}"
-            )
-    elif row.bias is not None:
-        raise ValueError(f"{key}: {row.method!r} has no depth bias; allowed: that of an experiment")
-    elif not is_shadow_map(row.method) and not (timed and row.method == RAY_TRACED):
-        here = [name for name, other in config.experiments.items() if other.scene == scene]
-        others = ["shadow_map_N", *([RAY_TRACED] if timed else []), *here]
-        raise ValueError(f"{key}: no such method: {instead(row.method, others)}")
-
-
-def _check_once(what: str, values: list[str]) -> None:
+def _check_once(key: str, values: list[str]) -> None:
     for value in values:
         if values.count(value) > 1:
-            raise ValueError(f"{what} {value!r} is there twice; must be there only once")
-
-
-def _check_sizes(key: str, table: CostTable) -> None:
-    sizes = {size: getattr(table, size) for size in STAGES}
-    for size, values in sizes.items():
-        if values != sorted(set(values)):
-            raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
-    if not any(sizes.values()):
-        raise ValueError(f"{key}: needs a size; give one of {', '.join(sizes)}")
+            raise ValueError(f"{key}: {value!r} is there twice; should be there once")
