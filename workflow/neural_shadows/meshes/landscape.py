@@ -6,8 +6,8 @@ with steep, rounded sides.
 
 import numpy as np
 
-from neural_shadows.errors import InputError
-
+SEED = 7  # of places, sizes and heights
+PLATEAUS = 12
 HILLS = 10
 HILL_HEIGHT = (0.05, 0.16)
 HILL_RADIUS = (0.22, 0.5)
@@ -17,39 +17,30 @@ PLATEAU_RADIUS = (0.07, 0.2)
 SHOULDER = 0.02
 
 
-def make_landscape(*, cells: int, extrusions: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+def make_landscape(*, cells: int) -> tuple[np.ndarray, np.ndarray]:
     """Vertices ((cells + 1)², 3) float64 and faces (2 cells², 3) int64, seen from above.
 
     Args:
-        cells: of the grid, along a side.
-        extrusions: plateaus.
-        seed: of places, sizes and heights.
-
-    Raises:
-        InputError: fewer than 1 cell or 0 extrusions.
+        cells: of the grid, along a side, 1 or more.
     """
-    if cells < 1:
-        raise InputError(f"landscape: cells = {cells}: give 1 or more")
-    if extrusions < 0:
-        raise InputError(f"landscape: extrusions = {extrusions}: give 0 or more")
     side = np.linspace(-1, 1, cells + 1)
     x, z = np.meshgrid(side, side, indexing="ij")
-    vertices = np.stack([x, _heights(x, z, extrusions, seed), z], axis=-1).reshape(-1, 3)
+    vertices = np.stack([x, _heights(x, z), z], axis=-1).reshape(-1, 3)
     corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
     a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
     faces = np.stack([a, d, b, b, d, c], axis=-1).reshape(-1, 3)
     return vertices, faces
 
 
-def _heights(x: np.ndarray, z: np.ndarray, extrusions: int, seed: int) -> np.ndarray:
-    rng = np.random.default_rng(seed)
+def _heights(x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    rng = np.random.default_rng(SEED)
     height = np.zeros_like(x)
     for _ in range(HILLS):
         middle, radius = rng.uniform(-1, 1, 2), rng.uniform(*HILL_RADIUS)
         distance = np.hypot(x - middle[0], z - middle[1])
         height += rng.uniform(*HILL_HEIGHT) * np.exp(-((distance / radius) ** 2))
     raised = np.zeros_like(x)  # the highest where plateaus overlap: their sum would be spires
-    for _ in range(extrusions):
+    for _ in range(PLATEAUS):
         middle, angle = rng.uniform(-0.85, 0.85, 2), rng.uniform(0, np.pi)
         radii = rng.uniform(*PLATEAU_RADIUS, 2)
         along = np.cos(angle) * (x - middle[0]) + np.sin(angle) * (z - middle[1])

@@ -1,12 +1,14 @@
-"""Wavefront OBJ files: positions and faces."""
+"""Wavefront OBJ files: positions and faces.
+
+Not by trimesh, which counts relative indices from the file's end (its issue 2364), takes the index
+0 for 1, and drops vertices behind a tab and lines that are cut.
+"""
 
 import re
 from array import array
 from itertools import pairwise
 
 import numpy as np
-
-from neural_shadows.meshes.format_checks import check_indices
 
 # A line of a position or a face, up to a comment. Python's numbers may have underscores, the
 # format's not.
@@ -50,3 +52,16 @@ def parse_obj(data: bytes) -> tuple[np.ndarray, np.ndarray]:
     faces = np.frombuffer(corners, np.int64).reshape(-1, 3)
     check_indices(faces, len(vertices))
     return vertices, faces
+
+
+def check_indices(faces: np.ndarray, vertices: int) -> None:
+    """Refuse faces (F, 3) that name vertices which are not there.
+
+    Raises:
+        ValueError: the first such face.
+    """
+    bad = np.flatnonzero(((faces < 0) | (faces >= vertices)).any(axis=1))
+    if len(bad):
+        raise ValueError(
+            f"face {bad[0]} (counted from 0) names vertices {faces[bad[0]].tolist()} of {vertices}"
+        )

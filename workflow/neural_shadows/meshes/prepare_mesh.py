@@ -14,6 +14,7 @@ from neural_shadows.meshes.cleaning import clean_mesh
 from neural_shadows.meshes.open_sides import is_sheet
 from neural_shadows.meshes.reading import mesh_bytes, read_mesh
 from neural_shadows.meshes.thesis_meshes import is_thesis_mesh
+from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 
 _DROPPED = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "duplicate_faces")
@@ -57,13 +58,12 @@ def prepare_mesh(
     }
     if report["sheet"]:
         print(
-            f"mesh {source}: an open sheet without an inside: give its occupancy fields "
-            "`surface: sheet`"
+            f"mesh {source}: open and thin, without an inside; occupancy fields of it need "
+            "`surface: sheet`",
+            file=progress.TERMINAL,
         )
     with whole_file(mesh_ply) as part:
-        part.write_bytes(
-            trimesh.Trimesh(normalised, faces, process=False).export(file_type="ply")
-        )
+        part.write_bytes(trimesh.Trimesh(normalised, faces, process=False).export(file_type="ply"))
         write_json(mesh_json, report)
 
 

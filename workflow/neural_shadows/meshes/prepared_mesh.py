@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import trimesh
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.reading import read_mesh
@@ -40,7 +41,7 @@ def read_prepared(mesh_ply: str | Path) -> PreparedMesh:
     if not reach <= 1 + _SPHERE_SLACK:
         raise InputError(
             f"mesh {mesh_ply}: a vertex is {reach:g} from the origin, outside the unit sphere; "
-            "it was not prepared by this pipeline: delete it and run again"
+            "it was not prepared by this pipeline; delete it and run again"
         )
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -48,36 +49,23 @@ def read_prepared(mesh_ply: str | Path) -> PreparedMesh:
     if not lengths.all():
         raise InputError(
             f"mesh {mesh_ply}: face {lengths.argmin()} has no area; "
-            "it was not prepared by this pipeline: delete it and run again"
+            "it was not prepared by this pipeline; delete it and run again"
         )
     normals /= lengths
+    # Not all of trimesh's: it takes faces whose doubled area is below 2e-14 for degenerate, and
+    # such faces do occur in normalised space. Weighted by angle and not by area or count, normals
+    # do not depend on the triangulation (Thürmer and Wüthrich 1998).
+    vertex_normals = trimesh.geometry.weighted_vertex_normals(
+        len(vertices), faces, normals, trimesh.triangles.angles(corners)
+    )
+    # Where faces cancel (a fold, or sheets of opposite winding) one of them stands for all.
+    cancelled = np.linalg.norm(vertex_normals, axis=1) < 0.5
+    any_face = np.zeros(len(vertices), dtype=np.int64)
+    any_face[faces] = np.arange(len(faces))[:, None]
+    vertex_normals[cancelled] = normals[any_face[cancelled]]
     return PreparedMesh(
         vertices=vertices.astype(np.float32),
         faces=faces.astype(np.int32),
-        vertex_normals=_vertex_normals(corners, faces, normals, len(vertices)).astype(np.float32),
+        vertex_normals=vertex_normals.astype(np.float32),
         face_normals=normals.astype(np.float32),
     )
-
-
-def _vertex_normals(
-    corners: np.ndarray, faces: np.ndarray, face_normals: np.ndarray, count: int
-) -> np.ndarray:
-    """Unit normals (count, 3): the mean of the adjacent faces', weighted by their angle.
-
-    By angle and not by area or count, so that they do not depend on the triangulation
-    (Thürmer and Wüthrich 1998). trimesh computes the same, but takes faces whose doubled
-    area is below 2e-14 for degenerate, and such faces do occur in normalised space.
-    """
-    after = np.roll(corners, -1, axis=1) - corners
-    before = np.roll(corners, 1, axis=1) - corners
-    sines = np.linalg.norm(np.cross(after, before), axis=2)
-    angles = np.arctan2(sines, (after * before).sum(axis=2))
-    sums = np.zeros((count, 3))
-    np.add.at(sums, faces, angles[..., None] * face_normals[:, None])
-    # Where faces cancel (a fold, or sheets of opposite winding) one of them stands for all.
-    lengths = np.linalg.norm(sums, axis=1)
-    cancelled = lengths < 1e-6
-    any_face = np.zeros(count, dtype=np.int64)
-    any_face[faces] = np.arange(len(faces))[:, None]
-    sums[cancelled] = face_normals[any_face[cancelled]]
-    return sums / np.linalg.norm(sums, axis=1, keepdims=True)

@@ -12,15 +12,10 @@ import trimesh
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.formats import format_of
+from neural_shadows.meshes.obj_file import check_indices, parse_obj
 
 # What glTF data can be compressed by; trimesh reads zeros in its place.
 _COMPRESSED = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}
-
-# A face of an OBJ that is not three or more indices other than 0, with a comment at most.
-_NO_FACE = re.compile(
-    rb"^[ \t]*f(?!\S)(?!([ \t]+-?[1-9]\d*(/-?\d*){0,2}){3,}[ \t]*(#.*)?$).*$", re.MULTILINE
-)
-_RELATIVE_FACE = re.compile(rb"^[ \t]*f[ \t][^#\n]*?[ \t]-", re.MULTILINE)
 
 
 def read_mesh(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
@@ -42,7 +37,7 @@ def read_mesh(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
     kind = format_of(path)
     data = mesh_bytes(path)
     try:
-        vertices, faces = _parsed(data, kind)
+        vertices, faces = parse_obj(data) if kind == "obj" else _parse_with_trimesh(data, kind)
     except Exception as error:  # whatever a damaged file makes trimesh raise
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise InputError(
@@ -79,10 +74,10 @@ def mesh_bytes(path: str | Path) -> bytes:
     return data
 
 
-def _parsed(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
-    """Positions and faces, scenes flattened; ValueError where trimesh would read them wrongly."""
-    if kind == "obj":
-        data = _checked_obj(data)
+def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and faces of the other formats, scenes flattened."""
+    if kind == "ply":
+        _check_ply(data)
     if kind == "glb":
         _check_glb(data)
     # Without `fix_texture` the vertices of a PLY are not copied at texture seams.
@@ -92,28 +87,21 @@ def _parsed(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
     # Part by part: once joined, an index past the end of one part is a vertex of the next.
     for part in scene.geometry.values():
         if isinstance(part, trimesh.Trimesh):
-            _check_indices(part.faces, len(part.vertices))
+            check_indices(part.faces, len(part.vertices))
     mesh = scene.to_mesh()
     if len(mesh.faces) and mesh.vertices.shape[1:] != (3,):
         raise ValueError(f"its positions have {mesh.vertices.shape[1]} coordinates")
-    stated = re.search(rb"^element face (\d+)", data[:100_000], re.MULTILINE)
-    if kind == "ply" and stated and int(stated[1]) > len(mesh.faces):
-        raise ValueError(f"{len(mesh.faces):,} whole faces where its header says {int(stated[1]):,}")
     return np.array(mesh.vertices, dtype=np.float64), np.array(mesh.faces, dtype=np.int64)
 
 
-def _checked_obj(data: bytes) -> bytes:
-    """An OBJ with plain line ends, refused where trimesh drops or mistakes a face."""
-    data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").replace(b"\\\n", b" ")
-    if bad := _NO_FACE.search(data):
-        shown = bad.group().strip()[:80].decode("utf-8", "replace")
-        raise ValueError(f"the line '{shown}' is not understood")
-    # trimesh counts relative indices from the end of the file and not from their line (its
-    # issue 2364), which is the same only behind the last vertex.
-    relative = _RELATIVE_FACE.search(data)
-    if relative and re.compile(rb"^[ \t]*v[ \t]", re.MULTILINE).search(data, relative.end()):
-        raise ValueError("its faces count back from their line: export it with absolute indices")
-    return data
+def _check_ply(data: bytes) -> None:
+    """Refuse text with fewer rows than its header says, which trimesh takes for all."""
+    header, _, body = data.partition(b"end_header")
+    if re.search(rb"^format ascii", header, re.MULTILINE):
+        said = sum(map(int, re.findall(rb"^element \S+ (\d+)", header, re.MULTILINE)))
+        rows = len(body.split(b"\n")) - 2 + (not body.endswith(b"\n"))
+        if rows < said:
+            raise ValueError(f"{rows:,} rows where its header says {said:,}")
 
 
 def _check_glb(data: bytes) -> None:
@@ -121,12 +109,3 @@ def _check_glb(data: bytes) -> None:
     tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     if compressed := _COMPRESSED.intersection(tree.get("extensionsRequired", [])):
         raise ValueError(f"its data is compressed ({', '.join(compressed)}): export it without")
-
-
-def _check_indices(faces: np.ndarray, vertices: int) -> None:
-    """Refuse faces (F, 3) that name vertices which are not there."""
-    bad = np.flatnonzero(((faces < 0) | (faces >= vertices)).any(axis=1))
-    if len(bad):
-        raise ValueError(
-            f"face {bad[0]} (counted from 0) names vertices {faces[bad[0]].tolist()} of {vertices}"
-        )

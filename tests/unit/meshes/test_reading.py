@@ -1,0 +1,177 @@
+"""Mesh files of all formats, the broken ones included."""
+
+import gzip
+
+import numpy as np
+import pytest
+import trimesh
+from mesh_files import (
+    TETRAHEDRON,
+    TETRAHEDRON_FACES,
+    WRITERS,
+    ascii_ply,
+    binary_ply,
+    glb_tree,
+    obj,
+    pack_glb,
+)
+
+from neural_shadows.errors import InputError
+from neural_shadows.meshes.reading import read_mesh
+
+
+def save(path, content):
+    content = content.encode() if isinstance(content, str) else content
+    path.write_bytes(gzip.compress(content) if path.suffix == ".gz" else content)
+    return path
+
+
+@pytest.mark.parametrize("gz", ["", ".gz"])
+@pytest.mark.parametrize("file", WRITERS)
+def test_reads_each_format(tmp_path, file, gz):
+    content = WRITERS[file](TETRAHEDRON, TETRAHEDRON_FACES)
+    vertices, faces = read_mesh(save(tmp_path / f"Mesh.v1.{file.upper()}{gz}", content))
+    assert vertices.dtype == np.float64 and faces.dtype == np.int64
+    # the same triangles, corner by corner (STL has no shared vertices)
+    np.testing.assert_array_equal(vertices[faces], TETRAHEDRON[TETRAHEDRON_FACES])
+
+
+@pytest.mark.parametrize("endian", ["<", ">"])
+def test_reads_binary_ply_of_either_byte_order_with_other_columns(tmp_path, endian):
+    points = np.zeros(4, dtype=[("xyz", f"{endian}f8", 3), ("quality", "u1")])
+    points["xyz"] = TETRAHEDRON + 1e6 + 1 / 3
+    faces = np.zeros(4, dtype=[("n", "u1"), ("corners", f"{endian}i4", 3)])
+    faces["n"], faces["corners"] = 3, TETRAHEDRON_FACES
+    header = ascii_ply(TETRAHEDRON, TETRAHEDRON_FACES).split(b"end_header")[0].decode()
+    header = header.replace("ascii", f"binary_{'little' if endian == '<' else 'big'}_endian")
+    header = header.replace("double z", "double z\nproperty uchar quality")
+    content = header.encode() + b"end_header\n" + points.tobytes() + faces.tobytes()
+    vertices, faces = read_mesh(save(tmp_path / "m.ply", content))
+    np.testing.assert_array_equal(vertices, TETRAHEDRON + 1e6 + 1 / 3)
+    np.testing.assert_array_equal(faces, TETRAHEDRON_FACES)
+
+
+def test_texture_coordinates_do_not_copy_or_reorder_vertices(tmp_path):
+    ply = ascii_ply(TETRAHEDRON, TETRAHEDRON_FACES).decode()
+    ply = ply.replace("vertex_indices", "vertex_indices\nproperty list uchar float texcoord")
+    header, rows = ply.split("end_header\n")
+    rows = rows.splitlines()
+    rows[4:] = [f"{row} 6 0 {i} 1 {i} 1 {i + 1}" for i, row in enumerate(rows[4:])]
+    ply = "\n".join([f"{header}end_header", *rows, ""])
+    corners = " ".join(f"{i}/1" for i in (1, 2, 3))
+    text = obj(TETRAHEDRON, TETRAHEDRON_FACES[1:]).decode() + f"vt 0 0\nf {corners}\n"
+    for name, content, expected in (
+        ("m.ply", ply, TETRAHEDRON_FACES),
+        ("m.obj", text, [*TETRAHEDRON_FACES[1:], [0, 1, 2]]),
+    ):
+        vertices, faces = read_mesh(save(tmp_path / name, content))
+        np.testing.assert_array_equal(vertices, TETRAHEDRON)
+        np.testing.assert_array_equal(faces, expected)
+
+
+def test_polygons_become_triangles(tmp_path):
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-0.5, 0.5, 0]])
+    polygons = [[0, 1, 2, 3], [0, 3, 4], [0, 1, 2, 3, 4]]
+    for name, write in (("m.obj", obj), ("m.ply", ascii_ply)):
+        vertices, faces = read_mesh(save(tmp_path / name, write(square, polygons)))
+        a, b, c = vertices[faces].swapaxes(0, 1)
+        areas = np.cross(b - a, c - a)[:, 2] / 2
+        assert len(faces) == 2 + 1 + 3 and (areas > 0).all()
+        assert areas.sum() == pytest.approx(1 + 0.25 + 1.25)
+
+
+def test_glb_scenes_are_flattened_with_their_transforms(tmp_path):
+    ball = trimesh.creation.icosphere(1)
+    moved, mirrored = np.eye(4), np.diag([-2.0, 2, 2, 1])
+    moved[:3, 3] = [10, 0, 0]
+    mirrored[:3, 3] = [0, 20, 0]
+    scene = trimesh.Scene(ball)
+    scene.add_geometry(ball, transform=moved)
+    scene.add_geometry(ball, transform=mirrored)
+    scene.add_geometry(trimesh.PointCloud(np.full((3, 3), 99.0)))
+    vertices, faces = read_mesh(save(tmp_path / "scene.glb", scene.export(file_type="glb")))
+    assert len(faces) == 3 * len(ball.faces)
+    np.testing.assert_allclose(vertices[faces].min(axis=(0, 1)), [-2, -1, -2], atol=1e-6)
+    np.testing.assert_allclose(vertices[faces].max(axis=(0, 1)), [11, 22, 2], atol=1e-6)
+    # The mirrored part still faces outward, so the volumes add up: 1 + 1 + 2^3.
+    volume = trimesh.Trimesh(vertices, faces, process=False).volume
+    assert volume == pytest.approx(10 * ball.volume, rel=1e-5)
+
+
+def test_obj_lines_of_all_kinds_and_indices_relative_to_their_line(tmp_path):
+    text = (
+        "# two triangles\r\nmtllib no_such_file.mtl\n\nvt 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0 1 0 0\n"
+        "usemtl a\nf -3/1 -2/1 -1/1 # no\nv\t0 0 5\n  v 1 0 5\nv 0 1 5\nfo 9 9 9\nf -3//1 \\\n -2 6\n"
+    )
+    for content in (text, text.replace("\r\n", "\n").replace("\n", "\r")):
+        vertices, faces = read_mesh(save(tmp_path / "m.obj", content))
+        np.testing.assert_array_equal(faces, [[0, 1, 2], [3, 4, 5]])
+        np.testing.assert_array_equal(vertices[:, 2], [0, 0, 0, 5, 5, 5])
+
+
+PLY = ascii_ply(TETRAHEDRON, TETRAHEDRON_FACES).decode()
+QUADS = ascii_ply(TETRAHEDRON, [[0, 1, 2, 3]] * 4)
+BINARY = binary_ply(TETRAHEDRON, TETRAHEDRON_FACES)
+BOX = trimesh.creation.box()
+OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+DRACO = glb_tree(4, 12) | {"extensionsRequired": ["KHR_draco_mesh_compression"]}
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "reason"),
+    [
+        ("m.fbx", PLY, "one of .ply, .obj, .stl, .glb"),
+        ("ply", PLY, "one of .ply, .obj, .stl, .glb"),
+        ("empty.ply", "", "is empty"),
+        ("empty.ply.gz", b"", "is empty"),
+        ("garbage.ply", b"\x00\x01\x02", "cannot be read as PLY"),
+        ("garbage.obj", b"hello\n", "no triangles"),
+        ("garbage.stl", b"hello\n", "no triangles"),
+        ("garbage.glb", b"glTF" + bytes(100), "cannot be read as GLB"),
+        ("header_only.ply", PLY[: PLY.index("end_header")], "cannot be read as PLY"),
+        ("no_faces.ply", ascii_ply(TETRAHEDRON, []), "no triangles"),
+        ("cut_row.ply", PLY[:-12], "7 rows where its header says 8"),
+        ("cut_rows.ply", PLY[:-9], "7 rows where its header says 8"),
+        ("cut_quads.ply", QUADS[:-11], "7 rows where its header says 8"),
+        ("cut_binary.ply", BINARY[:-5], "cannot be read as PLY"),
+        ("cut.stl", BOX.export(file_type="stl")[:-7], "a truncated file"),
+        ("cut.glb", BOX.export(file_type="glb")[:-7], "cannot be read as GLB"),
+        ("words.ply", PLY.replace("0.0 1.0", "zero one"), "cannot be read as PLY"),
+        ("index.ply", PLY.replace("3 1 2 3", "3 1 2 4"), r"face 3 .* \[1, 2, 4\] of 4"),
+        ("negative.ply", PLY.replace("3 1 2 3", "3 1 2 -1"), r"face 3 .* \[1, 2, -1\] of 4"),
+        ("cloud.obj", "v 0 0 0\nv 1 0 0\n", "no triangles"),
+        ("index.obj", OBJ + "f 1 2 4\n", r"face 1 .* \[0, 1, 3\] of 3"),
+        ("zero.obj", OBJ + "f 0 1 2\n", "the line 'f 0 1 2'"),
+        ("cut.obj", OBJ + "f 1 2\n", "the line 'f 1 2'"),
+        ("words.obj", OBJ + "f a b c\n", "the line 'f a b c'"),
+        ("flat.obj", "v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "the line 'v 0 0'"),
+        ("draco.glb", pack_glb(DRACO, bytes(400)), "KHR_draco_mesh_compression"),
+        ("cut.ply.gz", gzip.compress(PLY.encode())[:-20], "compressed data is damaged"),
+        ("not_gzip.ply.gz", PLY.encode(), "compressed data is damaged"),
+    ],
+)
+def test_refuses_bad_files_in_one_line(tmp_path, name, content, reason):
+    path = tmp_path / name
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    with pytest.raises(InputError, match=reason) as caught:
+        read_mesh(path)
+    message = str(caught.value)
+    assert "\n" not in message and str(path) in message and len(message) < 400 + len(str(path))
+
+
+def test_refuses_an_index_past_the_end_of_its_part_of_a_scene(tmp_path):
+    # Joined to the next part, index 3 would be a vertex of that one.
+    parts = [trimesh.Trimesh(TETRAHEDRON[:3] + o, [[0, 1, 2]], process=False) for o in (0, 5)]
+    content = trimesh.Scene(parts).export(file_type="glb")
+    good, bad = (np.array([0, 1, last], "<u4").tobytes() for last in (2, 3))
+    assert content.count(good) >= 1
+    with pytest.raises(InputError, match=r"\[0, 1, 3\] of 3"):
+        read_mesh(save(tmp_path / "m.glb", content.replace(good, bad)))
+
+
+def test_refuses_missing_files_and_folders(tmp_path):
+    with pytest.raises(InputError, match="nothing.ply: cannot be read .No such file"):
+        read_mesh(tmp_path / "nothing.ply")
+    (tmp_path / "folder.ply").mkdir()
+    with pytest.raises(InputError, match="Is a directory"):
+        read_mesh(tmp_path / "folder.ply")
