@@ -1,12 +1,10 @@
-import math
-from pathlib import Path
-
+import numpy as np
+import pandas as pd
 import pytest
+from report_samples import PUBLISHED, row
 
 from neural_shadows.errors import InputError
-from neural_shadows.reports.published import printed, read_published
-
-PATH = Path(__file__).parents[3] / "config" / "published.csv"
+from neural_shadows.reports.published import add_printed, read_published
 
 # rows x columns of each table in the thesis
 SIZES = {
@@ -22,17 +20,17 @@ SIZES = {
 
 @pytest.fixture(scope="module")
 def published():
-    return read_published(PATH)
+    return read_published(PUBLISHED)
 
 
 def test_all_tables_are_complete(published):
-    assert set(published["table"]) == set(SIZES)
-    assert len(published) == 102
-    for table, (rows, columns) in SIZES.items():
-        part = published[published["table"] == table]
-        assert (part["row"].nunique(), part["column"].nunique()) == (rows, columns), table
-        assert len(part) == rows * columns, table
-        assert part.groupby("row")["label"].nunique().eq(1).all()
+    frame = published.reset_index()
+    assert set(frame["table"]) == set(SIZES)
+    assert len(frame) == 102
+    for table, size in SIZES.items():
+        part = frame[frame["table"] == table]
+        assert (part["row"].nunique(), part["column"].nunique()) == size, table
+        assert len(part) == np.prod(size), table
 
 
 @pytest.mark.parametrize(
@@ -59,63 +57,49 @@ def test_all_tables_are_complete(published):
     ],
 )
 def test_spot_values(published, table, row, column, value):
-    assert printed(published, table, row, column) == value
+    assert published[table, row, column] == value
 
 
 def test_one_number_printed_twice_agrees(published):
     # The 256-wide single-axis landscape network is in tables 4.5 and 4.6, the dragon's in 4.3 too.
-    assert printed(published, "4.6", "landscape_256", "lpips") == printed(
-        published, "4.5", "network_single_axis", "lpips"
-    )
-    assert printed(published, "4.6", "dragon_256", "lpips") == printed(
-        published, "4.3", "network", "lpips"
-    )
+    for one, other in (
+        ("landscape_256", ("4.5", "network_single_axis")),
+        ("dragon_256", ("4.3", "network")),
+    ):
+        assert published["4.6", one, "lpips"] == published[(*other, "lpips")]
 
 
 def test_sizes_follow_from_the_parameter_counts(published):
     for width, parameters in {64: 40_896, 128: 147_328, 256: 556_800}.items():
-        size = printed(published, "4.6", f"dragon_{width}", "size_kib")
+        size = published["4.6", f"dragon_{width}", "size_kib"]
         assert size == pytest.approx(parameters * 4 / 1024, abs=0.51)
-    memory = printed(published, "4.7", "network", "memory_mib")
+    memory = published["4.7", "network", "memory_mib"]
     assert memory == pytest.approx(556_800 * 4 / 2**20, abs=0.005)
-
-
-def test_shadow_map_memory_is_four_bytes_a_texel(published):
     for resolution in (128, 256, 512, 1024, 2048):
-        memory = printed(published, "4.7", f"shadow_map_{resolution}", "memory_mib")
+        memory = published["4.7", f"shadow_map_{resolution}", "memory_mib"]
         assert memory == resolution**2 * 4 / 2**20
 
 
-def test_what_is_not_printed_is_nan(published):
-    assert math.isnan(printed(published, "4.6", "dragon_64", "psnr"))
-    assert math.isnan(printed(published, "4.9", "network", "lpips"))
+def test_printed_numbers_stand_beside_ours(published):
+    rows = [row("dragon", published="network"), row("dragon_field")]
+    frame = pd.DataFrame({"psnr": [30.0, 40.0]})
+    beside = add_printed(frame, rows, ["psnr"], "4.3", published)
+    assert beside["thesis_psnr"][0] == 27.39
+    assert beside["psnr_minus_thesis"][0] == pytest.approx(2.61)
+    assert beside.loc[1, ["thesis_psnr", "psnr_minus_thesis"]].isna().all()
+    for number, values in ((None, published), ("4.3", None)):
+        assert add_printed(frame, rows, ["psnr"], number, values)["thesis_psnr"].isna().all()
 
 
-HEAD = "table,row,label,column,value,unit,section\n"
+LINE = "4.1,a,A,psnr,25,dB,4.2.1\n"
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("table,row\n4.1,uniform\n", "no column label"),
-        (HEAD + "4.1,a,A,psnr,high,dB,4.2.1\n", "cannot be"),
-        (HEAD + "4.1,a,A,psnr,,dB,4.2.1\n", "line 2"),
-        (HEAD + "4.1,a,A,psnr,25,dB,4.2.1,1,2\n4.1,b,A,psnr,25,dB,4.2.1,1,2,3\n", "cannot be read"),
-        (
-            HEAD + "4.1,a,A,psnr,25,dB,4.2.1\n" * 2,
-            "is there twice",
-        ),
-    ],
+    "text", ["table,row\n4.1,uniform\n", LINE, LINE.replace("25", "high"), LINE.replace("25", "")]
 )
-def test_bad_file_is_named(tmp_path, text, message):
+def test_bad_file_is_named(tmp_path, text):
     path = tmp_path / "printed.csv"
-    path.write_text(text)
-    with pytest.raises(InputError, match=message) as caught:
+    head = "" if text.startswith("table") else f"table,row,label,column,value,unit,section\n{LINE}"
+    path.write_text(head + text)
+    with pytest.raises(InputError, match=r"printed\.csv: "):
         read_published(path)
-    assert str(path) in str(caught.value)
-    assert "\n" not in str(caught.value)
-
-
-def test_missing_file_is_named(tmp_path):
-    with pytest.raises(InputError, match="none.csv"):
-        read_published(tmp_path / "none.csv")

@@ -9,8 +9,6 @@ import pandas as pd
 
 from neural_shadows.errors import InputError
 
-KEYS = ["table", "row", "column"]
-
 
 def read_published(path: str | Path) -> pd.Series:
     """Read the printed numbers: a Series of values by (table, row, column).
@@ -19,17 +17,17 @@ def read_published(path: str | Path) -> pd.Series:
     table 4.7: their 256 and 64 KiB are 0.25 and 0.0625 MiB, so that the column has one unit.
 
     Raises:
-        InputError: the file has no such columns, a line without a number, or the same table,
-            row and column twice.
+        InputError: the file is damaged, or has a line without a number or one that is there twice.
     """
     try:
         published = pd.read_csv(path, dtype={"table": str, "value": float})
-        published = published.set_index(KEYS, verify_integrity=True)["value"]
+        published = published.set_index(["table", "row", "column"])["value"]
     except (OSError, ValueError, KeyError) as error:
         raise InputError(f"{path}: cannot be read ({error}): restore it from git") from error
-    if not np.isfinite(published).all():
-        missing = " ".join(published.index[~np.isfinite(published)][0])
-        raise InputError(f"{path}: {missing} has no value: restore it from git")
+    wrong = published.index.duplicated() | ~np.isfinite(published)
+    if wrong.any():
+        first = ", ".join(published.index[wrong][0])
+        raise InputError(f"{path}: {first} is there twice, or has no value")
     return published
 
 

@@ -1,99 +1,103 @@
-import json
-
-import numpy as np
 import pandas as pd
 import pytest
+from report_samples import (
+    PUBLISHED,
+    RUN,
+    cells_of,
+    metrics_of,
+    row,
+    write_lpips,
+    write_mesh,
+    write_metrics,
+    write_record,
+)
 from sample_records import FRAME_TIMES
 
-from neural_shadows.errors import InputError
-from neural_shadows.evaluation.frame_times import read_frame_times
-from neural_shadows.reports.published import read_published
-from neural_shadows.reports.tables.frame_times import performance_table
+from neural_shadows.reports.tables import frame_times
 
-PUBLISHED = read_published("config/published.csv")
 ROWS = [
-    {"method": "dragon", "label": "Dragon, 256", "published": "dragon_256"},
-    {"method": "dragon_64", "label": "Dragon, 64", "published": None},
-    {"method": "ray_traced", "label": "ray traced", "published": None},
-    {"method": "shadow_map_512", "label": "512²", "published": None},
+    row("dragon", "256 wide", published="dragon_256"),
+    row("ray_traced", "Ray traced"),
+    row("shadow_map_512", "512²"),
+    row("fence", "Fence", scene="fence"),
 ]
 TIMES = {
     "dragon": {
-        "methods": {
-            "dragon": {"ms": [10.0, 30.0, 20.0, 50.0, 40.0]},
-            "dragon_64": {"ms": [5.0]},
-            "ray_traced": {"ms": [1.0, 2.0]},
-            "shadow_map_512": {"ms": [3.0, 3.0]},
-        }
-    }
+        "dragon": {"ms": [10.0, 30.0, 20.0, 50.0, 40.0]},
+        "ray_traced": {"ms": [1.0, 2.0]},
+        "shadow_map_512": {"ms": [3.0, 3.0]},
+    },
+    "fence": {"fence": {"ms": [7.0]}},
 }
-METRICS = pd.DataFrame(
-    [
-        (view, "surface", method, metric, value + view / 100)
-        for view in range(2)
-        for method, value in (("dragon", 0.1), ("dragon_64", 0.2), ("shadow_map_512", 0.3))
-        for metric in ("lpips", "psnr")
-    ],
-    columns=["view", "view_set", "method", "metric", "value"],
-)
+LPIPS = {"dragon": {"dragon": 0.1, "shadow_map_512": 0.3}, "fence": {"fence": 0.2}}
 
 
-def table(rows=ROWS):
-    return performance_table(
-        rows,
-        ["dragon"] * len(rows),
-        TIMES,
-        {"dragon": METRICS},
-        {"dragon": 2_227_200, "dragon_64": 163_584},
-        "4.6",
-        PUBLISHED,
-        seed=1,
-    ).set_index("method")
+@pytest.fixture
+def written(tmp_path, monkeypatch):
+    monkeypatch.setattr(frame_times, "network_bytes", lambda path: 2_227_200)
+
+    def write_table(thesis_mesh):
+        csv, md = tmp_path / "t.csv", tmp_path / "t.md"
+        metrics = {
+            scene: metrics_of({method: {"lpips": mean} for method, mean in means.items()})
+            for scene, means in LPIPS.items()
+        }
+        frame_times.write(
+            times=[
+                write_record(
+                    tmp_path / f"frame_times/t/{scene}.json",
+                    {**FRAME_TIMES, "scene": scene, "methods": methods},
+                )
+                for scene, methods in TIMES.items()
+            ],
+            metrics=[p for s, frame in metrics.items() for p in write_metrics(tmp_path, s, frame)],
+            weights=[tmp_path / f"networks/{name}/weights" for name in ("dragon", "fence")],
+            meshes=[
+                write_mesh(tmp_path, thesis_mesh=thesis_mesh),
+                write_mesh(tmp_path, "fence", thesis_mesh=True),
+            ],
+            lpips_json=write_lpips(tmp_path),
+            published_csv=PUBLISHED,
+            csv=csv,
+            md=md,
+            title="Times",
+            published="4.6",
+            rows=ROWS,
+            run=RUN,
+        )
+        return pd.read_csv(csv).set_index("method"), md
+
+    return write_table
 
 
-def test_median_quartiles_lpips_and_size_beside_the_thesis():
-    row = table().loc["Dragon, 256"]
-    assert (row["frame_ms_q1"], row["frame_ms"], row["frame_ms_q3"]) == (20, 30, 40)
-    assert row["repeats"] == 5
-    assert row["lpips"] == pytest.approx(0.105)
-    assert row["lpips_low"] < row["lpips"] < row["lpips_high"]
-    assert row["size_kib"] == 2175
-    assert (row["thesis_frame_ms"], row["thesis_lpips"], row["thesis_size_kib"]) == (
-        29.1,
-        0.0379,
-        2175,
+def test_median_quartiles_lpips_and_size_beside_the_thesis(written):
+    table, md = written(thesis_mesh=True)
+    ours = table.loc["256 wide"]
+    assert ours[["frame_ms_q1", "frame_ms", "frame_ms_q3"]].tolist() == [20, 30, 40]
+    assert ours["repeats"] == 5
+    assert ours["lpips"] == pytest.approx(0.1)
+    assert ours["lpips_low"] < ours["lpips"] < ours["lpips_high"]
+    theirs = ours[["thesis_frame_ms", "thesis_lpips", "thesis_size_kib"]]
+    assert theirs.tolist() == [29.1, 0.0379, 2175]
+    assert ours["frame_ms_minus_thesis"] == pytest.approx(30 - 29.1)
+    assert ours["size_kib_minus_thesis"] == 0
+    assert cells_of(md, 0)["frame ms ↓"] == "30.0 [20.0, 40.0]"
+    assert table["scene"].tolist() == ["dragon"] * 3 + ["fence"]
+
+
+def test_baselines_have_what_applies_to_them(written):
+    table, md = written(thesis_mesh=True)
+    assert table.loc["Ray traced", ["lpips", "size_kib"]].isna().all()
+    assert table.loc["512²", "size_kib"] == 1024
+    assert table.loc["512²", "lpips"] == pytest.approx(0.3)
+    assert cells_of(md, 1)["LPIPS ↓"] == ""
+
+
+def test_of_another_mesh_the_thesis_says_sizes_alone(written):
+    table, md = written(thesis_mesh=False)
+    ours = table.loc["256 wide"]
+    assert ours[["thesis_frame_ms", "thesis_lpips", "frame_ms_minus_thesis"]].isna().all()
+    assert ours["thesis_size_kib"] == 2175
+    assert (
+        "*thesis* has sizes alone for dragon: it did not measure the mesh wyrm." in md.read_text()
     )
-    assert row["frame_ms_minus_thesis"] == pytest.approx(30 - 29.1)
-    assert row["size_kib_minus_thesis"] == 0
-
-
-def test_baselines_have_what_applies_to_them():
-    frame = table()
-    assert frame.index.tolist() == [row["label"] for row in ROWS]
-    assert np.isnan(frame.loc["ray traced", "lpips"])
-    assert np.isnan(frame.loc["ray traced", "size_kib"])
-    assert frame.loc["512²", "size_kib"] == 1024
-    assert frame.loc["512²", "lpips"] == pytest.approx(0.305)
-    assert np.isnan(frame.loc["512²", "thesis_frame_ms"])
-
-
-def test_method_without_times_is_named():
-    rows = [{"method": "fence", "label": "Fence", "published": None}]
-    with pytest.raises(InputError, match="frame times of dragon: there are none of fence"):
-        table(rows)
-
-
-@pytest.mark.parametrize("text", ["", '{"scene": "dragon"}', "[1]"])
-def test_times_cut_short_are_named(tmp_path, text):
-    path = tmp_path / "dragon.json"
-    path.write_text(text)
-    with pytest.raises(
-        InputError, match=r"dragon\.json: (not a whole JSON file|no file of frame times)"
-    ):
-        read_frame_times([path])
-
-
-def test_times_are_read_by_scene(tmp_path):
-    path = tmp_path / "x.json"
-    path.write_text(json.dumps(FRAME_TIMES))
-    assert list(read_frame_times([path])) == ["dragon"]

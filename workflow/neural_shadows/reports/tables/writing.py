@@ -7,7 +7,21 @@ import numpy as np
 import pandas as pd
 from tabulate import tabulate
 
+from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_text
+
+
+def read_table(path: Path, texts: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
+    """The named columns of a CSV that `write_twins` wrote; an empty cell is NaN.
+
+    Raises:
+        InputError: it has no such columns.
+    """
+    kinds = dict.fromkeys(texts, str) | dict.fromkeys(numbers, float)
+    try:
+        return pd.read_csv(path, usecols=list(kinds), dtype=kinds)
+    except ValueError as error:
+        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
 
 
 def write_twins(
