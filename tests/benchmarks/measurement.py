@@ -26,16 +26,8 @@ class Row:
         """What stands in the columns."""
         share = self.rate / self.ceiling if self.ceiling else None
         ratio = self.rate / self.peer_rate if self.peer_rate else None
-        return [
-            self.stage,
-            self.device,
-            self.rate,
-            self.unit,
-            self.ceiling,
-            share,
-            self.peer,
-            ratio,
-        ]
+        ceiling = (self.ceiling, share)
+        return [self.stage, self.device, self.rate, self.unit, *ceiling, self.peer, ratio]
 
 
 def table(rows: list[Row]) -> pd.DataFrame:

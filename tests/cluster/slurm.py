@@ -7,11 +7,12 @@ import socket
 import subprocess
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-SYSTEM_PATH = ("/usr/sbin", "/sbin")  # where daemons are, often not searched
+# Daemons are where is often not searched.
+PATH = os.pathsep.join([os.environ.get("PATH", ""), "/usr/sbin", "/sbin"])
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel", "scontrol")
 
 CONFIG = """\
@@ -52,11 +53,6 @@ NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory=64000 Gres=gpu:2 State
 PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
 """
 
-GPUS = """\
-Name=gpu File=/dev/null
-Name=gpu File=/dev/zero
-"""
-
 
 class Job(NamedTuple):
     """A line of the queue."""
@@ -67,17 +63,19 @@ class Job(NamedTuple):
     """What the executor says of it: `rule_train_wildcards_dragon`, `group_rays`."""
 
 
-def missing_programs() -> list[str]:
-    """Programs of Slurm and munge that are not installed."""
-    path = os.pathsep.join([os.environ.get("PATH", ""), *SYSTEM_PATH])
-    return [name for name in PROGRAMS if shutil.which(name, path=path) is None]
+def missing() -> list[str]:
+    """What this machine lacks for a throw-away cluster."""
+    lacking = [name for name in PROGRAMS if shutil.which(name, path=PATH) is None]
+    if find_spec("snakemake_executor_plugin_slurm") is None:
+        lacking.append("snakemake-executor-plugin-slurm")
+    return lacking if os.geteuid() == 0 else [*lacking, "root, which its daemons and jobs run as"]
 
 
-def wait_for(condition: Callable[[], object], what: str, seconds: float = 60) -> None:
-    """Wait until `condition()` is true; fails after `seconds`."""
-    deadline = time.monotonic() + seconds
+def wait_for(condition: Callable[[], object], what: str) -> None:
+    """Wait until `condition()` is true; fails after a minute."""
+    deadline = time.monotonic() + 60
     while not condition():
-        assert time.monotonic() < deadline, f"no {what} within {seconds} s"
+        assert time.monotonic() < deadline, f"no {what} within a minute"
         time.sleep(0.2)
 
 
@@ -87,7 +85,6 @@ def _free_port() -> int:
         return listening.getsockname()[1]
 
 
-@dataclass
 class Slurm:
     """One controller and one node, both on this machine.
 
@@ -95,14 +92,12 @@ class Slurm:
         folder: where all of its files go; its path must be short, since it holds a socket.
     """
 
-    folder: Path
-    daemons: dict[str, subprocess.Popen] = field(default_factory=dict)
-
-    @property
-    def environment(self) -> dict[str, str]:
-        """What the programs of Slurm need to find this cluster, besides `os.environ`."""
-        path = [str(self.folder / "bin"), os.environ.get("PATH", ""), *SYSTEM_PATH]
-        return {"SLURM_CONF": str(self.folder / "slurm.conf"), "PATH": os.pathsep.join(path)}
+    def __init__(self, folder: Path):
+        self.folder, self.config = folder, folder / "slurm.conf"
+        self._daemons: list[subprocess.Popen] = []
+        # What the programs of Slurm need to find this cluster, besides `os.environ`.
+        path = os.pathsep.join([str(folder / "bin"), PATH])
+        self.environment = {"SLURM_CONF": str(self.config), "PATH": path}
 
     def start(self) -> None:
         """Write the configuration and start munge, the controller and the node."""
@@ -110,14 +105,15 @@ class Slurm:
             (self.folder / name).mkdir(mode=0o755)
         # The executor starts srun without any variable of Slurm's, this cluster's name among them.
         srun = self.folder / "bin" / "srun"
-        config = self.folder / "slurm.conf"
-        srun.write_text(f'#!/bin/sh\nSLURM_CONF={config} exec {shutil.which("srun")} "$@"\n')
+        program = shutil.which("srun", path=PATH)
+        srun.write_text(f'#!/bin/sh\nSLURM_CONF={self.config} exec {program} "$@"\n')
         srun.chmod(0o755)
-        key = self.folder / "munge" / "key"
-        key.write_bytes(os.urandom(128))
-        key.chmod(0o400)
-        (self.folder / "gres.conf").write_text(GPUS)
-        (self.folder / "slurm.conf").write_text(
+        munge = self.folder / "munge"
+        (munge / "key").write_bytes(os.urandom(128))
+        (munge / "key").chmod(0o400)
+        gpus = "Name=gpu File=/dev/null\nName=gpu File=/dev/zero\n"
+        (self.folder / "gres.conf").write_text(gpus)
+        self.config.write_text(
             CONFIG.format(
                 folder=self.folder,
                 host=socket.gethostname().split(".")[0],
@@ -126,51 +122,43 @@ class Slurm:
                 node_port=_free_port(),
             )
         )
-        munge = self.folder / "munge"
         files = [f"--{name}-file={munge / name}" for name in ("key", "pid", "log", "seed")]
-        self._spawn("munged", f"--socket={munge / 'socket'}", *files, "--foreground", "--force")
+        self._start("munged", f"--socket={munge}/socket", *files, "--foreground", "--force")
         wait_for((munge / "socket").exists, "munge socket")
-        self.start_daemon("slurmctld")
-        wait_for(self.answers, "controller")
-        self.start_daemon("slurmd")
+        self._start("slurmctld", "-D")
+        wait_for(lambda: self._run("scontrol", "ping").returncode == 0, "controller")
+        self._start("slurmd", "-D")
         wait_for(lambda: "idle" in self.ask("sinfo", "-h", "-o", "%T"), "idle node")
 
-    def start_daemon(self, name: str) -> None:
-        """Start `slurmctld` or `slurmd`, for the first time or after it was killed."""
-        self._spawn(name, "-D")
-
-    def _spawn(self, name: str, *arguments: str) -> None:
-        with (self.folder / f"{name}.out").open("a") as output:
-            self.daemons[name] = subprocess.Popen(
-                [name, *arguments],
+    def _start(self, *command: str) -> None:
+        with (self.folder / f"{command[0]}.out").open("w") as output:
+            daemon = subprocess.Popen(
+                command,
                 env=os.environ | self.environment,
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
             )
-
-    def kill_daemon(self, name: str) -> None:
-        """Kill a daemon; what it started runs on."""
-        self.daemons[name].kill()
-        self.daemons[name].wait()
+        self._daemons.append(daemon)
 
     def stop(self) -> None:
         """End all jobs and daemons."""
         try:
-            running = [job.id for job in self.queue() if job.state == "RUNNING"]
-            for step in self.processes_of(*running):
-                os.kill(step, signal.SIGKILL)
+            for pid in self.processes_of(*(job.id for job in self.queue())):
+                os.kill(pid, signal.SIGKILL)
         finally:  # also where it was the controller that did not start
-            for name in ("slurmd", "slurmctld", "munged"):
-                if name in self.daemons:
-                    self.kill_daemon(name)
+            for daemon in reversed(self._daemons):
+                daemon.kill()
+                daemon.wait()
+
+    def _run(self, *command: str) -> subprocess.CompletedProcess[str]:
+        environment = os.environ | self.environment
+        return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
 
     def ask(self, *command: str) -> str:
         """What one of Slurm's programs says; it must succeed."""
-        done = subprocess.run(
-            command, env=os.environ | self.environment, capture_output=True, text=True, timeout=60
-        )
+        done = self._run(*command)
         assert done.returncode == 0, f"{command}: {done.stderr}"
         return done.stdout
 
@@ -179,32 +167,16 @@ class Slurm:
         lines = self.ask("squeue", "-h", "--states=all", "-o", "%i|%T|%k").splitlines()
         return sorted((Job(*line.split("|")) for line in lines), key=lambda job: int(job.id))
 
-    def answers(self) -> bool:
-        """Whether the controller does."""
-        return (
-            subprocess.run(
-                ["scontrol", "ping"],
-                env=os.environ | self.environment,
-                capture_output=True,
-                timeout=60,
-            ).returncode
-            == 0
-        )
-
     def processes_of(self, *jobs: str) -> list[int]:
-        """Processes of running jobs, their steps' keepers (slurmstepd) included."""
-        ours = f"SLURM_CONF={self.folder / 'slurm.conf'}".encode()
+        """Processes of running jobs."""
+        ours = f"SLURM_CONF={self.config}".encode()
         names = {f"SLURM_JOB_ID={job}".encode() for job in jobs}
         found = []
-        for entry in Path("/proc").iterdir():
-            if not entry.name.isdigit():
-                continue
+        for entry in Path("/proc").glob("[0-9]*"):
             try:
                 variables = {*(entry / "environ").read_bytes().split(b"\0")}
-                title = (entry / "cmdline").read_bytes()
             except OSError:  # ended meanwhile
                 continue
-            keeper = any(title.startswith(f"slurmstepd: [{job}.".encode()) for job in jobs)
-            if ours in variables and (keeper or names & variables):
+            if ours in variables and names & variables:
                 found.append(int(entry.name))
         return found
