@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from neural_shadows.config.base import instead
+from neural_shadows.config.base import not_among
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
@@ -42,7 +42,7 @@ class Layout:
         """
         entries = self.settings[section]
         if name not in entries:
-            raise InputError(f"no such name in `{section}`: {instead(name, entries)}")
+            raise InputError(f"{section}: {not_among(name, entries)}")
         return entries[name]
 
     def run(self) -> dict[str, Any]:
