@@ -2,9 +2,29 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from neural_shadows.evaluation.first_frames import write_first_frames
+from neural_shadows.evaluation.per_view_metrics import write_metrics
+from neural_shadows.evaluation.references import References
+from neural_shadows.evaluation.shadow_methods import (
+    network_method,
+    open_network,
+    traced_method,
+)
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.metrics.flip import flip
+from neural_shadows.metrics.psnr_ssim import psnr, ssim
+from neural_shadows.metrics.shadow_error import shadow_error
+from neural_shadows.rendering.shading import shade
+from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.scene import open_scene
+
+if TYPE_CHECKING:
+    from neural_shadows.metrics.lpips_distance import Lpips
 
 
 def evaluate(
@@ -26,7 +46,7 @@ def evaluate(
     """Shade the batch's frames by one method, and measure them.
 
     Writes tidy metrics (a row per view and metric) and, for people to look at, the picture of
-    each view set's first frame, see `FirstFrames`.
+    each view set's first frame, see `write_first_frames`.
 
     Args:
         references: what `render_references` wrote.
@@ -40,6 +60,62 @@ def evaluate(
     Raises:
         InputError: an input file cannot be read.
     """
+    if weights:
+        if depth_bias_json:
+            bias = read_json(depth_bias_json)["depth_bias"]
+        network, dtype = open_network(weights, device, precision, threads)
+        answer = network_method(network, dtype, bias or 0.0)
+    else:
+        answer = traced_method(method, open_scene(mesh_ply, **scene))
+    lpips = _open_lpips(lpips_json, device, threads)
+    batch = References(references)
+    rows: list[dict[str, Any]] = []
+    pictures: dict[str, np.ndarray] = {}
+    with progress_bar(len(batch), "views", method) as bar:
+        for frame, truth in batch:
+            visibility = answer(frame)
+            image, reference = shade(frame, visibility), shade(frame, truth)
+            pictures.setdefault(frame.view.view_set, image)
+            values = frame_metrics(image, reference, lpips)
+            error = shadow_error(visibility, truth)
+            values |= {
+                "shadow_error": error.total,
+                "false_shadow": error.false_shadow,
+                "light_leak": error.light_leak,
+            }
+            key = {"view": frame.view.index, "view_set": frame.view.view_set, "method": method}
+            rows += [key | {"metric": name, "value": value} for name, value in values.items()]
+            bar.update()
+    write_first_frames(pictures_npz, method, pictures)
+    write_metrics(metrics_csv, rows)
+
+
+def frame_metrics(
+    image: np.ndarray, reference: np.ndarray, lpips: "Lpips | None"
+) -> dict[str, float]:
+    """Image metrics of a frame (H, W); without `lpips` its value is left out."""
+    values = {
+        "psnr": psnr(image, reference),
+        "ssim": ssim(image, reference),
+        "flip": flip(image, reference),
+    }
+    if lpips is not None:
+        values["lpips"] = lpips(image, reference)
+    return values
+
+
+def _open_lpips(lpips_json: Path, device: str, threads: int) -> "Lpips | None":
+    found = read_json(lpips_json)
+    if not found["available"]:
+        return None
+    import torch
+
+    from neural_shadows.metrics.lpips_distance import make_lpips
+    from neural_shadows.networks.compute import choose_device
+
+    torch.set_num_threads(threads)
+    trunk = Path(found["trunk"]) if found["trunk"] else None
+    return make_lpips(found["net"], trunk, choose_device(device).type)
 
 
 if "snakemake" in globals():

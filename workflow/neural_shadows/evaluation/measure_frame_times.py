@@ -1,10 +1,70 @@
 """The stage that times a frame by each way of shadowing it, on one machine [4.4.1]."""
 
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import torch
+from torch import Tensor
+
+from neural_shadows.evaluation.method_names import RAY_TRACED, experiment_of, is_shadow_map
+from neural_shadows.evaluation.shadow_methods import (
+    ShadowMethod,
+    network_method,
+    open_network,
+    traced_method,
+)
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
+from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
+from neural_shadows.rendering.shading import shade
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.scene import open_scene
+
+WARM_UP = 2  # frames of each method before the timed ones
+
+
+class StopwatchNetwork:
+    """A network whose last query was timed: how many rays, in how many seconds."""
+
+    def __init__(self, network: ShadowNetwork):
+        self.network = network
+        self.rays, self.seconds = 0, 0.0
+
+    @property
+    def device(self) -> torch.device:
+        """See `DepthQuery.device`."""
+        return self.network.device
+
+    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
+        """See `ShadowNetwork.depths`; a GPU is waited for."""
+        started = time.perf_counter()
+        depths = self.network.depths(origins, d, dtype)
+        if self.device.type == "cuda":
+            torch.cuda.synchronize()
+        self.rays, self.seconds = len(origins), time.perf_counter() - started
+        return depths
+
+
+def shadow_times(methods: Mapping[str, ShadowMethod], frame: GBuffer) -> dict[str, float]:
+    """Milliseconds that shadowing and shading a frame takes, by each method in turn.
+
+    Turns spread a disturbance of the machine over all methods.
+    """
+    milliseconds = {}
+    for name, answer in methods.items():
+        started = time.perf_counter()
+        # A network's answer is copied to the CPU, which waits for a GPU to be done.
+        shade(frame, answer(frame))
+        milliseconds[name] = 1000 * (time.perf_counter() - started)
+    return milliseconds
 
 
 def measure_frame_times(
@@ -36,6 +96,65 @@ def measure_frame_times(
     Raises:
         InputError: an input file cannot be read, or a setting does not fit the scene.
     """
+    torch.set_num_threads(1)
+    opened = open_scene(mesh_ply, **scene)
+    chosen = choose_device(device)
+    files = {path.parent.name: path for path in weights}
+    networks: dict[str, StopwatchNetwork] = {}
+    timed: dict[str, ShadowMethod] = {}
+    for method in methods:
+        if method == RAY_TRACED or is_shadow_map(method):
+            timed[method] = traced_method(method, opened, whole_map=True)
+        else:
+            network, dtype = open_network(files[experiment_of(method)], device, precision, 1)
+            networks[method] = StopwatchNetwork(network)
+            timed[method] = network_method(networks[method], dtype)
+
+    width, height, repeats = (frame_times[key] for key in ("width", "height", "repeats"))
+    per_set = -(-repeats // len(frames["view_sets"]))
+    viewpoints = draw_viewpoints(
+        opened, frames["view_sets"], range(per_set), width / height, frames["seed"]
+    )
+    viewpoints = sorted(viewpoints, key=lambda view: view.index)[:repeats]  # the sets in turn
+
+    milliseconds: dict[str, list[float]] = {method: [] for method in timed}
+    rates: dict[str, list[float]] = {method: [] for method in networks}
+    rays = []
+    with progress_bar(WARM_UP + repeats, "frames", "frame times") as bar:
+        for i in range(-WARM_UP, repeats):
+            view = viewpoints[i % len(viewpoints)]
+            started = time.perf_counter()
+            frame = render_gbuffer(opened, view, width, height)
+            # The same work for every method, so timed once and counted for each.
+            primary = 1000 * (time.perf_counter() - started)
+            times = shadow_times(timed, frame)
+            if i >= 0:
+                rays.append(len(sphere_rays(*on_device(frame.p, view.light, chosen)).index))
+                for method, value in times.items():
+                    milliseconds[method].append(primary + value)
+                for method, network in networks.items():
+                    rates[method].append(network.rays / network.seconds)
+            bar.update()
+    write_json(
+        times_json,
+        {
+            "scene": times_json.stem,
+            "width": width,
+            "height": height,
+            "view_sets": list(frames["view_sets"]),
+            "views": len(viewpoints),
+            "repeats": repeats,
+            "warm_up": WARM_UP,
+            "seed": frames["seed"],
+            "device": chosen.type,
+            "precision": str(choose_dtype(precision, chosen)).removeprefix("torch."),
+            "cpu_threads": 1,
+            "machine": describe_machine(),
+            "sphere_rays": float(np.median(rays)),  # of a frame: those that a network answers
+            "methods": {method: {"ms": values} for method, values in milliseconds.items()},
+            "rays_per_second": rates,  # of a network's query alone, by frame
+        },
+    )
 
 
 if "snakemake" in globals():

@@ -1,16 +1,17 @@
-"""Metrics per view as `evaluate` wrote them."""
+"""Metrics per view: a row for each view, view set, method and metric."""
 
-from collections.abc import Iterable
+import csv
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-
-import numpy as np
-import pandas as pd
+from typing import TYPE_CHECKING, Any
 
 from neural_shadows.errors import InputError
-from neural_shadows.files.broken import broken, reading
-from neural_shadows.files.csv_file import read_csv
+from neural_shadows.files.whole_files import whole_file
 
-METRICS_DTYPES = {
+if TYPE_CHECKING:
+    import pandas as pd
+
+COLUMNS = {
     "view": "int64",
     "view_set": "str",
     "method": "str",
@@ -19,32 +20,32 @@ METRICS_DTYPES = {
 }
 
 
-def read_metrics(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Read and join per-view metrics: a row per view, view set, method and metric.
+def write_metrics(metrics_csv: Path, rows: Iterable[Mapping[str, Any]]) -> None:
+    """Write rows with the keys of `COLUMNS`."""
+    with whole_file(metrics_csv) as part, part.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(COLUMNS), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
-    Columns: `view` (int), `view_set`, `method`, `metric`, `value` (float, finite), and `file`,
-    the path that the row came from.
+
+def read_metrics(paths: Iterable[Path]) -> "pd.DataFrame":
+    """Read and join files of `write_metrics`.
+
+    Columns: `view` (int), `view_set`, `method`, `metric`, `value` (float).
 
     Raises:
-        InputError: a file is missing, cut short or not one of metrics (it is then moved aside),
-            or repeats what it or an earlier one holds.
+        InputError: a file cannot be read, or is not of metrics.
     """
-    metrics = pd.concat([_read_one(path) for path in paths], ignore_index=True)
-    twice = metrics.duplicated(["view", "view_set", "method", "metric"])
-    if twice.any():
-        row = metrics[twice].iloc[0]
-        raise InputError(
-            f"{row['file']}: {row['metric']} of {row['method']} in {row['view_set']} view "
-            f"{row['view']} was given before: delete the file and run again"
-        )
-    return metrics
+    import pandas as pd  # takes a third of a second, which each job that only writes would wait
+
+    return pd.concat(map(_read_one, paths), ignore_index=True)
 
 
-def _read_one(path: str | Path) -> pd.DataFrame:
-    with reading(path, "file of metrics"):
-        metrics = read_csv(path, METRICS_DTYPES)
-    if metrics.empty or metrics.isna().any(axis=None):
-        raise broken(path, "metrics are cut short")
-    if not np.isfinite(metrics["value"]).all():
-        raise broken(path, "a value is not finite")
-    return metrics.assign(file=str(path))
+def _read_one(path: Path) -> "pd.DataFrame":
+    import pandas as pd
+
+    try:
+        return pd.read_csv(path, dtype=COLUMNS, usecols=list(COLUMNS))
+    except (OSError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(f"{path}: cannot be read ({reason}); delete it and run again") from error

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.first_frames import FirstFrames
+from neural_shadows.evaluation.first_frames import write_first_frames
 from neural_shadows.evaluation.references import write_references
 from neural_shadows.evaluation.shadow_methods import REFERENCES, traced_method
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
@@ -34,7 +34,7 @@ def render_references(
 
     Args:
         references: for the G-buffers and the visibilities, see `References`.
-        pictures_npz: for the picture of each set's first view, see `FirstFrames`.
+        pictures_npz: for the picture of each set's first view, see `write_first_frames`.
         scene: `up`, `ground` and `light`, see `open_scene`.
         frames: `width`, `height` (pixels), `view_sets` and `seed`, see `draw_viewpoints`.
         reference: `exact`, or the thesis's `shadow_map` of 32768² texels.
@@ -42,6 +42,30 @@ def render_references(
     Raises:
         InputError: the mesh cannot be read, or a setting does not fit the scene.
     """
+    opened = open_scene(mesh_ply, **scene)
+    answer = traced_method(REFERENCES[reference], opened)
+    width, height = frames["width"], frames["height"]
+
+    def render(view_set: str, index: int) -> tuple[GBuffer, np.ndarray]:
+        (view,) = draw_viewpoints(opened, [view_set], [index], width / height, frames["seed"])
+        frame = render_gbuffer(opened, view, width, height)
+        return frame, answer(frame)
+
+    views = [(view_set, i) for view_set in frames["view_sets"] for i in range(first, last)]
+    with (
+        ThreadPoolExecutor(threads) as pool,  # Embree and NumPy release the GIL
+        progress_bar(len(views), "views", "references") as bar,
+    ):
+        rendered = []
+        for one in pool.map(render, *zip(*views, strict=True)):
+            rendered.append(one)
+            bar.update()
+    pictures: dict[str, np.ndarray] = {}
+    for frame, visibility in rendered:
+        if frame.view.view_set not in pictures:
+            pictures[frame.view.view_set] = shade(frame, visibility)
+    write_first_frames(pictures_npz, "reference", pictures)
+    write_references(references, rendered, opened.ground)
 
 
 if "snakemake" in globals():

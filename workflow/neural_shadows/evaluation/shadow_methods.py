@@ -5,6 +5,7 @@ its n surface points, (n,) float32 in [0, 1]; 0 where a surface is turned from t
 """
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +26,7 @@ from neural_shadows.shadow_maps.shadow_map import (
 if TYPE_CHECKING:  # torch takes seconds to import, which jobs without a network need not wait for
     import torch
 
+    from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
     from neural_shadows.networks.object_space.shadow_query import DepthQuery
 
 ShadowMethod = Callable[[GBuffer], np.ndarray]
@@ -75,3 +77,25 @@ def network_method(
         return frame.visibility(lit.cpu().numpy())
 
     return visibility
+
+
+def open_network(
+    weights: Path, device: str, precision: str, threads: int
+) -> tuple["ShadowNetwork", "torch.dtype"]:
+    """A trained network on its device, and the number format of its products there.
+
+    Args:
+        device: `auto`, `cpu` or `cuda`; `precision`: `auto`, `float32` or `bfloat16`.
+        threads: of PyTorch on the CPU, from now on.
+
+    Raises:
+        InputError: the file cannot be read, or there is no such device.
+    """
+    import torch
+
+    from neural_shadows.networks.compute import choose_device, choose_dtype
+    from neural_shadows.networks.weight_file import load_network
+
+    torch.set_num_threads(threads)
+    chosen = choose_device(device)
+    return load_network(weights)[0].to(chosen), choose_dtype(precision, chosen)

@@ -1,16 +1,9 @@
 """PSNR and SSIM of grey frames."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from skimage.metrics import structural_similarity
 
 from neural_shadows.metrics.grey_images import check_grey
-
-if TYPE_CHECKING:
-    import torch
-
-    Features = list[torch.Tensor]
 
 
 def psnr(image: np.ndarray, reference: np.ndarray) -> float:
@@ -19,7 +12,8 @@ def psnr(image: np.ndarray, reference: np.ndarray) -> float:
     Raises:
         ValueError: the images are no pair of grey images in [0, 1].
     """
-    _check_pair(image, reference)
+    check_grey(reference)
+    check_grey(image, reference.shape)
     mean_square = np.mean(np.square(image - reference, dtype=np.float64))
     return float(-10 * np.log10(max(mean_square, 1e-10)))  # 1e-10 is 100 dB
 
@@ -31,7 +25,8 @@ def ssim(image: np.ndarray, reference: np.ndarray) -> float:
         ValueError: the images are no pair of grey images in [0, 1], or have a side
             shorter than the window's 11 pixels.
     """
-    _check_pair(image, reference)
+    check_grey(reference)
+    check_grey(image, reference.shape)
     return float(
         structural_similarity(
             image,
@@ -42,8 +37,3 @@ def ssim(image: np.ndarray, reference: np.ndarray) -> float:
             data_range=1.0,
         )
     )
-
-
-def _check_pair(image: np.ndarray, reference: np.ndarray) -> None:
-    check_grey(reference)
-    check_grey(image, reference.shape)

@@ -1,40 +1,28 @@
-"""The share of wrong pixels, and which way they are wrong."""
+"""How much of a frame's visibility is wrong, and which way it is wrong."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    import torch
-
-    Features = list[torch.Tensor]
-
 
 class ShadowError(NamedTuple):
-    """Shares, in [0, 1], of the object and receiver pixels whose visibility is wrong."""
+    """Means over the surface points; of hard shadows, shares of points that are wrong."""
 
     false_shadow: float
-    """Dark where the reference is lit."""
+    """Darker than the reference."""
     light_leak: float
-    """Lit where the reference is dark."""
+    """Brighter than the reference."""
     total: float
 
 
-def shadow_error(
-    lit: np.ndarray, reference_lit: np.ndarray, shaded_mask: np.ndarray
-) -> ShadowError:
-    """Share of wrong visibility among the pixels that show object or receiver.
-
-    `lit`, `reference_lit` and `shaded_mask` are bool arrays of one shape (H, W); the
-    mask is true where object or receiver is seen.
+def shadow_error(visibility: np.ndarray, reference: np.ndarray) -> ShadowError:
+    """Mean difference of visibilities in [0, 1] of a frame's n surface points, each (n,).
 
     Raises:
-        ValueError: the mask is empty.
+        ValueError: there are no points.
     """
-    shaded = np.count_nonzero(shaded_mask)
-    if shaded == 0:
+    if len(reference) == 0:
         raise ValueError("shadow_error: no pixel shows object or receiver")
-    wrong = shaded_mask & (lit != reference_lit)
-    total = np.count_nonzero(wrong)
-    false_shadow = np.count_nonzero(wrong & reference_lit)
-    return ShadowError(false_shadow / shaded, (total - false_shadow) / shaded, total / shaded)
+    difference = np.subtract(visibility, reference, dtype=np.float64)
+    sums = (-difference).clip(0).sum(), difference.clip(0).sum(), np.abs(difference).sum()
+    return ShadowError(*(float(total / len(reference)) for total in sums))

@@ -1,6 +1,6 @@
 """What a camera sees, and where it must ask for shadow."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -71,7 +71,6 @@ def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GB
 
     # np.take throughout: on rows of three it is ten times as fast as an index in brackets.
     pixel = np.flatnonzero(hit)
-    count = len(pixel)
     face, u, v = face[pixel], u[pixel], v[pixel]
     n_g = np.take(mesh.face_normals, face, axis=0)
     # Both normals are turned by the geometric one: the far side of an open sheet is shaded too.
@@ -86,27 +85,39 @@ def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GB
     n = _interpolate(mesh.vertex_normals, corners, u, v)
     cos_shading = side * (n @ light) / np.maximum(np.sqrt(_dot(n, n)), np.float32(1e-12))
 
-    if scene.ground is not None:
-        below, p_ground = _ground_hits(
-            view, directions.reshape(height, width, 3), hit, scene.ground
-        )
-        lit_side = np.concatenate([lit_side, np.arange(count, count + len(below))])
-        pixel = np.concatenate([pixel, below])
-        p_ground += np.float32(SHADING_OFFSET) * view.up.astype(np.float32)
-        p = np.concatenate([p, p_ground])
-        cos_ground = np.full(len(below), view.up @ view.light, np.float32)
-        cos_geometric = np.concatenate([cos_geometric, cos_ground])
-        cos_shading = np.concatenate([cos_shading, cos_ground])
-    return GBuffer(
+    frame = GBuffer(
         view=view,
         width=width,
         height=height,
         pixel=pixel,
-        is_object=np.arange(len(pixel)) < count,
+        is_object=np.ones(len(pixel), bool),
         lit_side=lit_side,
         p=p,
         cos_geometric=cos_geometric,
         cos_shading=np.maximum(cos_shading, 0),
+    )
+    if scene.ground is None:
+        return frame
+    return with_ground(frame, *_ground_hits(view, directions, width, hit, scene.ground))
+
+
+def with_ground(frame: GBuffer, pixel: np.ndarray, p: np.ndarray) -> GBuffer:
+    """The frame with g points of the ground after its own.
+
+    Args:
+        pixel: (g,) int64, the pixels that show them; p: (g, 3) float32, see `ground_points`.
+    """
+    own = len(frame.pixel)
+    up = frame.view.up
+    cos = np.full(len(pixel), up @ frame.view.light, np.float32)
+    return replace(
+        frame,
+        pixel=np.concatenate([frame.pixel, pixel]),
+        is_object=np.arange(own + len(pixel)) < own,
+        lit_side=np.concatenate([frame.lit_side, np.arange(own, own + len(pixel))]),
+        p=np.concatenate([frame.p, p + np.float32(SHADING_OFFSET) * up.astype(np.float32)]),
+        cos_geometric=np.concatenate([frame.cos_geometric, cos]),
+        cos_shading=np.concatenate([frame.cos_shading, cos]),
     )
 
 
@@ -118,15 +129,35 @@ def _interpolate(values: np.ndarray, corners: np.ndarray, u: np.ndarray, v: np.n
     return result
 
 
-def _ground_hits(view: Viewpoint, directions: np.ndarray, hit: np.ndarray, ground: float):
+def _ground_hits(
+    view: Viewpoint, directions: np.ndarray, width: int, hit: np.ndarray, ground: float
+):
     """Pixels (g,) whose rays pass the object and meet the ground's disc, and where: (g, 3)."""
-    # The camera has no roll, so that all rays of a row descend alike.
-    slope = directions[:, 0] @ view.up.astype(np.float32)
-    t = np.float32(ground - view.eye @ view.up) / np.minimum(slope, np.float32(-1e-30))
-    width = directions.shape[1]
-    pixel = np.flatnonzero(np.repeat(slope < 0, width) & ~hit)
-    p = np.take(directions.reshape(-1, 3), pixel, axis=0)
-    p *= np.take(t, pixel // width)[:, None]
-    p += view.eye.astype(np.float32)
+    descends = np.repeat(_slopes(view, directions, width) < 0, width)
+    pixel = np.flatnonzero(descends & ~hit)
+    p = _on_plane(view, directions, width, pixel, ground)
     inside = np.flatnonzero(_dot(p, p) < GROUND_RADIUS**2 + ground**2)
     return pixel[inside], np.take(p, inside, axis=0)
+
+
+def ground_points(
+    view: Viewpoint, width: int, height: int, pixel: np.ndarray, ground: float
+) -> np.ndarray:
+    """Where the rays of pixels (g,) that show the ground meet it: (g, 3) float32."""
+    return _on_plane(view, _pixel_directions(view, width, height), width, pixel, ground)
+
+
+def _slopes(view: Viewpoint, directions: np.ndarray, width: int) -> np.ndarray:
+    """How much the rays of each row rise: (height,). The camera has no roll: all of a row alike."""
+    return directions[::width] @ view.up.astype(np.float32)
+
+
+def _on_plane(
+    view: Viewpoint, directions: np.ndarray, width: int, pixel: np.ndarray, ground: float
+) -> np.ndarray:
+    slope = np.minimum(_slopes(view, directions, width), np.float32(-1e-30))
+    t = np.float32(ground - view.eye @ view.up) / slope
+    p = np.take(directions, pixel, axis=0)
+    p *= np.take(t, pixel // width)[:, None]
+    p += view.eye.astype(np.float32)
+    return p
