@@ -43,4 +43,3 @@ def test_a_low_sun_leaves_a_part_of_it_in_shadow(landscape):
     dark |= landscape.face_normals @ light <= 0
     share = np.average(dark, weights=landscape.area_faces)
     assert 0.1 < share < 0.4
-

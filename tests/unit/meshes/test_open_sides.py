@@ -25,7 +25,11 @@ def above(height):
         (TUBE.vertices, TUBE.faces[np.abs(TUBE.face_normals[:, 2]) < 0.5], True),
         (BALL.vertices, BALL.faces, False),
         (*above(-0.95), False),  # a scan with a hole
-        (np.vstack([BOX.vertices, BOX.vertices + 0.2]), np.vstack([BOX.faces, BOX.faces + 8]), False),
+        (
+            np.vstack([BOX.vertices, BOX.vertices + 0.2]),
+            np.vstack([BOX.faces, BOX.faces + 8]),
+            False,
+        ),
     ],
 )
 @pytest.mark.parametrize("winding", ["out", "in", "mixed"])

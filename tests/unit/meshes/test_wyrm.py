@@ -13,11 +13,6 @@ def wyrm():
     return trimesh.Trimesh(*make_wyrm(), process=False)
 
 
-@pytest.fixture(scope="module")
-def coarse():
-    return make_wyrm(64)
-
-
 def sampled(parts, cells=60):
     """Distance grid of the parts with the coordinates (..., 3) of its samples, and the cell."""
     grid, origin, cell = distance_grid(parts, cells)
@@ -79,36 +74,21 @@ def test_part_thinner_than_a_cell_is_thickened_to_stay_whole():
     assert np.diff(along).max() < cell
 
 
-def test_is_closed_outward_and_one_piece(wyrm):
-    merged = trimesh.Trimesh(wyrm.vertices, wyrm.faces, process=True)
-    assert merged.is_watertight and merged.is_winding_consistent
-    assert merged.volume > 0.1
-    assert merged.body_count == 1
-
-
-def test_stays_closed_in_single_precision(wyrm):
+def test_is_closed_outward_and_one_piece_in_single_precision(wyrm):
     """PLY files hold float32: no two vertices may fall together there."""
     rounded = trimesh.Trimesh(wyrm.vertices.astype(np.float32), wyrm.faces, process=True)
-    assert rounded.is_watertight and len(rounded.vertices) == len(wyrm.vertices)
+    assert rounded.is_watertight and rounded.is_winding_consistent and rounded.volume > 0.1
+    assert rounded.body_count == 1 and len(rounded.vertices) == len(wyrm.vertices)
     assert rounded.nondegenerate_faces().all()
-    assert wyrm.edges_unique_length.min() > 0.005 * wyrm.extents.max() / 220
 
 
 def test_default_has_the_promised_size(wyrm):
     assert 100_000 <= len(wyrm.faces) <= 250_000
-    assert wyrm.vertices.dtype == np.float64 and wyrm.faces.dtype == np.int64
     assert np.argmax(wyrm.extents) == 0
 
 
-def test_coarse_is_closed_outward_and_one_piece(coarse):
-    mesh = trimesh.Trimesh(*coarse)
-    assert mesh.is_watertight and mesh.volume > 0 and mesh.body_count == 1
-    assert 10_000 < len(mesh.faces) < 40_000
-
-
-def test_same_bytes_twice(coarse):
-    again = make_wyrm(64)
-    assert [a.tobytes() for a in again] == [a.tobytes() for a in coarse]
+def test_same_bytes_twice():
+    assert [a.tobytes() for a in make_wyrm(64)] == [a.tobytes() for a in make_wyrm(64)]
 
 
 @pytest.mark.parametrize("x, z", [(-0.33, 0.24), (-0.21, -0.24), (0.39, 0.23), (0.23, -0.23)])
@@ -116,30 +96,6 @@ def test_every_foot_stands_on_the_ground(wyrm, x, z):
     assert wyrm.bounds[0, 1] == 0
     under = np.hypot(wyrm.vertices[:, 0] - x, wyrm.vertices[:, 2] - z) < 0.2
     assert wyrm.vertices[under, 1].min() < 0.01 * wyrm.scale
-
-
-def chords(mesh, x, y):
-    """Lengths inside the mesh of rays along -z through the points (x, y), per pair of hits."""
-    origins = np.stack([x, y, np.full(len(x), 2.0)], axis=1)
-    down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-    hits, rays, _ = mesh.ray.intersects_location(origins, down)
-    lengths = []
-    for ray in np.unique(rays):
-        z = np.sort(hits[rays == ray, 2])
-        if len(z) % 2 == 0:  # an odd count grazes an edge
-            lengths.extend(z[1::2] - z[::2])
-    return np.array(lengths)
-
-
-def test_has_thin_horns_thin_wings_and_a_thick_body(wyrm):
-    size = wyrm.extents.max()
-    pick = np.random.default_rng(7)
-    horns = chords(wyrm, pick.uniform(0.3, 0.55, 2000), pick.uniform(1.5, 1.75, 2000))
-    wings = chords(wyrm, pick.uniform(-0.5, -0.3, 200), pick.uniform(1.25, 1.5, 200))
-    body = chords(wyrm, pick.uniform(0.2, 0.3, 200), pick.uniform(0.5, 0.6, 200))
-    assert len(horns) > 50 and np.median(horns) < 0.02 * size
-    assert len(wings) > 300 and np.median(wings) < 0.02 * size
-    assert np.median(body) > 0.15 * size
 
 
 def test_rejects_too_few_cells():
