@@ -16,9 +16,9 @@ def git(folder, *arguments):
 @pytest.fixture
 def benchmarks(tmp_path):
     for name, seconds in {"train/a": 100.5, "train/b": 80.0, "evaluate/x": 2.25}.items():
-        path = tmp_path / "benchmarks" / f"{name}.jsonl"
+        path = tmp_path / "benchmarks" / f"{name}.tsv"
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(f'{{"s": {seconds}, "h:m:s": "0:01:00"}}\n')
+        path.write_text(f"s\th:m:s\tmax_rss\n{seconds}\t0:01:00\t90.5\n")
     return tmp_path / "benchmarks"
 
 

@@ -9,7 +9,7 @@ from PIL import Image
 
 from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.evaluation.method_names import is_shadow_map
-from neural_shadows.metrics.flip import Flip
+from neural_shadows.metrics.flip import flip_map
 from neural_shadows.reports.inputs import by_folder
 from neural_shadows.reports.page_blocks import webp_uri
 
@@ -24,23 +24,22 @@ def frame_comparisons(
     rows: Sequence[Mapping[str, Any]],
     meshes: Mapping[str, str],
 ) -> list[dict[str, Any]]:
-    """The frames of each scene as `frame_comparison` gives them.
+    """The frames of each scene that has some, as `frame_comparison` gives them.
 
     Args:
         pictures, metrics: the first batches, in folders of scenes.
-        rows: `method`, `scene` and `label` of methods.
+        rows: `method`, `scene` and `label` of methods; the last of a method counts.
         meshes: a phrase on the mesh of each scene.
     """
     scores = by_folder(metrics)
-    return [
-        frame_comparison(
-            scene,
-            f"{scene}: {meshes[scene]}",
-            read_first_frames(paths, scores[scene]),
-            {row["method"]: row["label"] for row in rows if row["scene"] == scene},
-        )
-        for scene, paths in by_folder(pictures).items()
-    ]
+    comparisons = []
+    for scene, paths in by_folder(pictures).items():
+        frames = read_first_frames(paths, scores[scene]) if scene in scores else []
+        if frames and REFERENCE in frames[0].images:
+            labels = {row["method"]: row["label"] for row in rows if row["scene"] == scene}
+            title = f"{scene}: {meshes.get(scene, '')}"
+            comparisons.append(frame_comparison(scene, title, frames, labels))
+    return comparisons
 
 
 def frame_comparison(
@@ -48,11 +47,14 @@ def frame_comparison(
 ) -> dict[str, Any]:
     """A scene's frames and FLIP maps as plain data for the page's script.
 
-    The maps show each method against the reference.
+    The maps show each method against the reference. Two methods of one label bear their keys.
     """
     methods = sorted(frames[0].images, key=lambda method: method != REFERENCE)
     networks = [name for name in methods if name != REFERENCE and not is_shadow_map(name)]
-    names = {REFERENCE: "Reference", **labels}
+    names = {REFERENCE: "Reference"} | {
+        method: f"{label} ({method})" if list(labels.values()).count(label) > 1 else label
+        for method, label in labels.items()
+    }
     return {
         "scene": scene,
         "title": title,
@@ -65,13 +67,12 @@ def frame_comparison(
 
 def _view(frame: FirstFrame) -> dict[str, Any]:
     reference = frame.images[REFERENCE].astype(np.float32) / 255
-    flip = Flip(reference)
     pictures = {}
     for method, image in frame.images.items():
         scores = frame.scores.get(method, {})
         pictures[method] = {
             "frame": webp_uri(Image.fromarray(image)),
-            "map": webp_uri(map_picture(flip.error_map(image.astype(np.float32) / 255))),
+            "map": webp_uri(map_picture(flip_map(image.astype(np.float32) / 255, reference))),
             "scores": ", ".join(
                 text.format(scores[name]) for name, text in SCORES.items() if name in scores
             ),

@@ -78,9 +78,7 @@ def durations(benchmarks: Path) -> dict[str, tuple[int, float]]:
     """
     found = {}
     for folder in sorted(path for path in benchmarks.glob("*") if path.is_dir()):
-        seconds = [
-            pd.read_json(path, lines=True)["s"].sum() for path in sorted(folder.glob("*.jsonl"))
-        ]
+        seconds = [pd.read_csv(path, sep="\t")["s"].sum() for path in sorted(folder.glob("*.tsv"))]
         if seconds:
             found[folder.name] = len(seconds), float(sum(seconds))
     return found

@@ -51,7 +51,9 @@ def _egl_starts() -> bool:
     egl.eglGetProcAddress.restype = pointer
     egl.eglInitialize.argtypes = [pointer] * 3
     egl.eglTerminate.argtypes = [pointer]
-    query, display_of = map(egl.eglGetProcAddress, (b"eglQueryDevicesEXT", b"eglGetPlatformDisplayEXT"))
+    query, display_of = map(
+        egl.eglGetProcAddress, (b"eglQueryDevicesEXT", b"eglGetPlatformDisplayEXT")
+    )
     if not query or not display_of:
         return False
     query = ctypes.CFUNCTYPE(number, number, pointer, pointer)(query)

@@ -134,9 +134,7 @@ def _draw_methods(axes: Axes, points: pd.DataFrame) -> None:
     for _, row in points.iterrows():
         colour, marker = STYLES.get(row["kind"], OTHER)
         spread = [[row["error"] - row["low"]], [row["high"] - row["error"]]]
-        axes.errorbar(
-            row["cost"], row["error"], spread, color=colour, marker=marker, capsize=2
-        )
+        axes.errorbar(row["cost"], row["error"], spread, color=colour, marker=marker, capsize=2)
     best = points.iloc[front(points["cost"].to_numpy(), points["error"].to_numpy())]
     axes.plot(best["cost"], best["error"], color=FRONT_COLOUR, linewidth=1, zorder=0)
     for _, row in best.iterrows():

@@ -70,7 +70,9 @@ def width_figure(
         axes.grid(**GRID)
     quality.set_ylabel("LPIPS, mean [95 % interval]")
     quality.set_ylim(bottom=0)
-    quality.set_title("the thesis does not say which network its LPIPS is of: compare slopes", fontsize=9)
+    quality.set_title(
+        "the thesis does not say which network its LPIPS is of: compare slopes", fontsize=9
+    )
     speed.set_ylabel("frame time, ms, median [quartiles]")
     speed.set_yscale("log")  # ours and the thesis's machine may be far apart
     figure.legend(
