@@ -1,0 +1,186 @@
+"""Meshes as they are found: whatever is in the file, it is read rightly or refused in one line."""
+
+import gzip
+import os
+import resource
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from corpus.damage import changed_bytes, changed_numbers, reads, strangers
+from corpus.odd_meshes import BALL, drawn, right, sheet, wrong
+from hypothesis import given
+from mesh_files import TETRAHEDRON, TETRAHEDRON_FACES, WRITERS, binary_ply, glb_tree, pack_glb
+
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.rays.describe_rays import describe_rays
+from neural_shadows.rays.draw_directions import draw_directions
+from neural_shadows.rays.label_rays import label_rays
+from neural_shadows.rays.sample_rays import sample_rays
+
+pytestmark = pytest.mark.filterwarnings("ignore")  # numpy's, of numbers out of range
+
+
+def read(path):
+    out = path.parent / "out"
+    prepare_mesh(path, out / "mesh.ply", out / "mesh.json", mesh={}, name="thing")
+    mesh = read_prepared(out / "mesh.ply")
+    assert 0 <= mesh.faces.min() <= mesh.faces.max() < len(mesh.vertices)
+    assert np.linalg.norm(mesh.vertices, axis=1).max() < 1 + 1e-4
+    for normals in mesh.vertex_normals, mesh.face_normals:
+        assert np.abs(np.linalg.norm(normals, axis=1) - 1).max() < 1e-5
+
+
+def reads_as(tmp_path, file, content):
+    (tmp_path / file).write_bytes(content)
+    return reads(read, tmp_path / file)
+
+
+@pytest.mark.parametrize("file", WRITERS)
+def test_odd_shapes(tmp_path, file):
+    for name, vertices, faces in right():
+        assert reads_as(tmp_path, file, WRITERS[file](vertices, faces)), name
+    for name, vertices, faces in wrong():
+        assert not reads_as(tmp_path, file, WRITERS[file](vertices, faces)), name
+
+
+@pytest.mark.parametrize("file", [*WRITERS, "source.ply.gz"])
+def test_in_the_place_of_a_mesh(tmp_path, monkeypatch, file):
+    monkeypatch.chdir(tmp_path)
+    for name, content in strangers().items():
+        assert not reads_as(tmp_path, file, content), name
+    whole = WRITERS[file.removesuffix(".gz")](BALL.vertices, BALL.faces)
+    whole = gzip.compress(whole) if file.endswith(".gz") else whole
+    for share in (0.1, 0.5, 0.9):  # a cut OBJ may be one of fewer faces
+        cut = whole[: int(share * len(whole))]
+        assert not reads_as(tmp_path, file, cut) or file.endswith("obj")
+    assert {path.name for path in tmp_path.iterdir()} <= {file, "out"}
+
+
+REPLACED = {
+    "ascii.ply": [
+        (b"vertex 4", b"vertex 2147483648"),
+        (b"face 4", b"face 1" + b"0" * 100),
+        (b"vertex 4", b"vertex -4"),
+        (b"vertex 4", b"vertex 3"),
+        (b"face 4", b"face 5"),
+        (b"end_header\n", b""),
+        (b"ascii 1.0", b"utf_16 1.0"),
+        (b"double x", b"quad x"),
+        (b"property double z\n", b""),
+        (b"3 1 2 3", b"3 1 2 4"),
+        (b"3 1 2 3", b"3 one two three"),
+        (b"0.0 1.0 0.0", b"0,0 1,0 0,0"),
+        (b"0.0 1.0 0.0", b"0.0 1e999 0.0"),
+    ],
+    "source.ply": [(b"vertex 4", b"vertex 9223372036854775808"), (b"list uchar", b"list uint")],
+    "source.obj": [
+        *(
+            (b"f 1 2 4", b"f " + face)
+            for face in (b"1 2 9", b"0 1 2", b"-1 -2 -9", b"1 2", b"/ / /")
+        ),
+        *((b"f 1 2 4", b"f 1 2 " + index) for index in (b"2.5", b"1" + b"0" * 5000)),
+        *(
+            (b"v 1.0 0.0 0.0", b"v " + row)
+            for row in (b"1", b"a b c", b"1,5 2,5 3,5", b"1e999 0 0")
+        ),
+    ],
+    "ascii.stl": [
+        (b"vertex 0.0 0.0 0.0", b"vertex 0.0 x 0.0"),
+        (b"vertex 0.0 0.0 0.0", b"vertex 0.0 0.0"),
+        (b"vertex 0.0 0.0 0.0", b"vertex 1e999 0.0 0.0"),
+    ],
+    "source.glb": [
+        *(
+            (b'"count": 4', b'"count": ' + count)
+            for count in (b"2147483648", b"-4", b"3.5", b'"4"')
+        ),
+        (b'"type": "VEC3"', b'"type": "VEC2"'),
+        (b'"bufferView": 0', b'"bufferView": 7'),
+        (b'"byteOffset": 48', b'"byteOffset": 1000000000'),
+        (b'"POSITION"', b'"OTHER"'),
+        (b'"mesh": 0', b'"mesh": 3'),
+        (b'"byteLength": 96', b'"uri": "file:///etc/passwd", "byteLength": 96'),
+    ],
+}
+
+
+@pytest.mark.parametrize("file", REPLACED)
+def test_something_else_in_a_header_or_a_row(tmp_path, file):
+    whole = WRITERS[file](TETRAHEDRON, TETRAHEDRON_FACES)
+    assert reads_as(tmp_path, file, whole)
+    for old, new in REPLACED[file]:
+        if file == "source.glb":
+            text = WRITERS[file](TETRAHEDRON, TETRAHEDRON_FACES)
+            length = int.from_bytes(text[12:16], "little")
+            assert old in text[:length]
+            changed = pack_glb(text[20 : 20 + length].replace(old, new), text[28 + length :])
+        else:
+            assert old in whole, old
+            changed = whole.replace(old, new, 1)
+        assert not reads_as(tmp_path, file, changed), (old, new)
+
+
+def test_glb_compressed_by_meshopt(tmp_path):
+    tree = glb_tree(4, 12) | {"extensionsRequired": ["EXT_meshopt_compression"]}
+    assert not reads_as(tmp_path, "source.glb", pack_glb(tree, bytes(96)))
+
+
+@pytest.mark.parametrize("file", WRITERS)
+def test_drawn_damage(tmp_path, file):
+    whole = WRITERS[file](BALL.vertices, BALL.faces)
+
+    @given(changed_bytes(whole))
+    def bytes_changed(content):
+        reads_as(tmp_path, file, content)
+
+    @given(changed_numbers(whole))
+    def numbers_changed(content):
+        reads_as(tmp_path, file, content)
+
+    @given(drawn())
+    def mesh_drawn(mesh):
+        reads_as(tmp_path, file, WRITERS[file](*mesh))
+
+    bytes_changed()
+    if file in ("ascii.ply", "source.obj", "ascii.stl"):
+        numbers_changed()
+    mesh_drawn()
+
+
+PREPARE = """
+import sys
+from pathlib import Path
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
+source = Path(sys.argv[1])
+prepare_mesh(source, source.with_name("m.ply"), source.with_name("m.json"), mesh={}, name="large")
+"""
+
+
+@pytest.mark.parametrize("file", ["source.ply", "source.obj", "source.glb", "source.stl"])
+def test_two_million_triangles(tmp_path, file):
+    (tmp_path / file).write_bytes(WRITERS[file](*sheet(2_000_000)))
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    subprocess.run([sys.executable, "-c", PREPARE, tmp_path / file], env=environment, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)  # its memory is the largest child's
+    assert after.ru_utime - before < 90 and after.ru_maxrss < 4 * 2**20
+
+
+@pytest.mark.parametrize("name, vertices, faces", right(), ids=[name for name, *_ in right()])
+def test_odd_shapes_have_rays(tmp_path, name, vertices, faces):
+    (tmp_path / "source.ply").write_bytes(binary_ply(vertices, faces))
+    mesh, directions, origins, bounds, rays = (
+        tmp_path / name for name in ("m.ply", "d.npy", "o.npy", "b.npy", "rays.json")
+    )
+    prepare_mesh(tmp_path / "source.ply", mesh, tmp_path / "m.json", mesh={}, name="thing")
+    sampling = {"sampler": "poisson_quadtree", "directions": 20, "points_per_direction": 100}
+    sampling |= {"silhouette_resolution": 32, "min_quad": 1}
+    made = {"mesh_ply": mesh, "directions_npy": directions, "seed": 3}
+    part = {"origins_npy": origins, "first": 0, "last": 20}
+    draw_directions(directions_npy=directions, sampling=sampling, seed=3)
+    sample_rays(**made, **part, sampling=sampling)
+    label_rays(**made, **part, bounds_npy=bounds)
+    describe_rays(**made, origins=[origins], bounds=[bounds], rays_json=rays, sampling=sampling)

@@ -1,0 +1,122 @@
+"""What else users bring: a configuration, and a trunk for LPIPS."""
+
+from copy import deepcopy
+from pathlib import Path
+
+import pytest
+import torch
+import torchvision
+import yaml
+from corpus.damage import changed_bytes, changed_numbers, reads, strangers
+from hypothesis import given
+from snakemake.utils import update_config
+
+from neural_shadows.config.reading import check_duplicates, check_files, read_config
+from neural_shadows.errors import InputError
+from neural_shadows.metrics.lpips_trunk import read_trunk
+
+CONFIG = Path(__file__).parents[2] / "config"
+DEFAULT = {}
+for file in ("config.yaml", "reports.yaml"):
+    DEFAULT |= yaml.safe_load((CONFIG / file).read_text())
+
+OVERLAY = b"""
+scale: mine
+networks:
+  small: {frequencies: 4, width: 64, hidden_layers: 2}
+trainings:
+  short: {steps: 20, batch_size: 256, learning_rate: 0.001}
+"""
+
+
+def read_overlay(path):
+    """As Snakemake merges it. Messages on a value name its key and not the file."""
+    check_duplicates([path])
+    values = deepcopy(DEFAULT)
+    update_config(values, yaml.safe_load(path.read_text()))
+    try:
+        check_files(read_config(values))
+    except InputError as error:
+        assert str(error).startswith("config: ")
+        raise InputError(f"{error} [{path.name}]") from error
+
+
+def overlay(tmp_path, content):
+    (tmp_path / "mine.yaml").write_bytes(content)
+    return reads(read_overlay, tmp_path / "mine.yaml")
+
+
+def test_in_the_place_of_an_overlay(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert overlay(tmp_path, OVERLAY)
+    for name, content in strangers().items():
+        assert not overlay(tmp_path, content), name
+    for content in (
+        b"scale: mine\nscale: yours\n",
+        b"scale: [1\n",
+        b"\tscale: mine\n",
+        b"sacle: mine\n",
+        b"scale: {a: 1}\n",
+        b"scenes: 3\n",
+        b"scenes: {dragon: {mesh: {path: no_such_file.ply}}}\n",
+        b"x: !!python/object/apply:os.system [touch pickle_ran]\n",
+        b"scale: &a [*a]\n",
+        b"networks: {small: {frequencies: 10000000000}}\n",
+        b"experiments: {dragon: {network: no_such}}\n",
+    ):
+        assert not overlay(tmp_path, content), content
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.yaml"]
+
+
+@pytest.mark.parametrize("change", [changed_bytes, changed_numbers])
+def test_drawn_overlays(tmp_path, change):
+    @given(change(OVERLAY))
+    def check(content):
+        overlay(tmp_path, content)
+
+    check()
+
+
+def trunk(tmp_path, content):
+    (tmp_path / "trunk.pth").write_bytes(content)
+    return reads(lambda path: read_trunk("squeeze", path), tmp_path / "trunk.pth")
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    path = tmp_path_factory.mktemp("whole") / "trunk.pth"
+    torch.manual_seed(0)
+    torch.save(torchvision.models.squeezenet1_1(weights=None).features.state_dict(), path)
+    return path
+
+
+def test_in_the_place_of_a_trunk(tmp_path, monkeypatch, whole):
+    monkeypatch.chdir(tmp_path)
+    assert trunk(tmp_path, whole.read_bytes())
+    for name, content in strangers().items():
+        assert not trunk(tmp_path, content), name
+    for share in (0.1, 0.5, 0.99):
+        assert not trunk(tmp_path, whole.read_bytes()[: int(share * whole.stat().st_size)])
+    state, key = torch.load(whole, weights_only=True), "0.weight"
+    for name, changed in {
+        "a tensor alone": state[key],
+        "a list": list(state.values()),
+        "no tensors": {},
+        "a word": state | {key: "weights"},
+        "another shape": state | {key: state[key][:5]},
+        "without data": state | {key: state[key].to("meta")},
+        "complex": state | {key: state[key].to(torch.complex64)},
+        "NaN": state | {key: state[key] * torch.nan},
+    }.items():
+        torch.save(changed, tmp_path / "changed")
+        content = (tmp_path / "changed").read_bytes()
+        assert not trunk(tmp_path, content), name
+    assert not (tmp_path / "pickle_ran").exists()
+
+
+def test_drawn_trunks(tmp_path, whole):
+    @given(changed_bytes(whole.read_bytes()))
+    def check(content):
+        trunk(tmp_path, content)
+
+    check()
