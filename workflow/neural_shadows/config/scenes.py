@@ -16,7 +16,7 @@ MESH_SUFFIXES = (".ply", ".obj", ".stl", ".glb")
 class GeneratedMesh(Model):
     """A mesh that the pipeline makes."""
 
-    generate: str
+    generate: str = Field(description="which mesh")
 
 
 class Wyrm(GeneratedMesh):
