@@ -1,24 +1,18 @@
-"""How long each stage takes, and how much memory, as one size grows and the others stay."""
+"""The stage that measures seconds and memory of each stage, as one size grows and others stay."""
 
 import json
 import shutil
 import subprocess
 import sys
-import tempfile
-import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import trimesh
-
+from neural_shadows.evaluation.cost_stages import NEEDED, frame_height
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.hardware import describe_machine
-from neural_shadows.running.process_memory import held_bytes, peak_bytes
-
-POINTS_PER_DIRECTION = 10_000  # the thesis's [4.1]
+from neural_shadows.running.stage import run_stage
 
 # What stays as it is while one of them grows.
 BASE = {
@@ -28,23 +22,6 @@ BASE = {
     "views": 4,
     "frame_width": 600,
 }
-# Sizes of the run that warms a stage up: libraries loaded, kernels compiled.
-TINY = {
-    "subdivisions": 2,
-    "samples": POINTS_PER_DIRECTION,
-    "width": 16,
-    "views": 1,
-    "frame_width": 48,
-}
-NEEDED = {
-    "mesh": ("mesh",),
-    "rays": ("mesh", "rays"),
-    "labels": ("mesh", "rays", "labels"),
-    "training": ("mesh", "rays", "labels", "training"),
-    "evaluation": ("mesh", "evaluation"),
-}
-TRAINING_STEPS = 200
-BATCH_SIZE = 1024
 
 
 def size_of(over: str, value: int) -> tuple[str, int]:
@@ -53,12 +30,8 @@ def size_of(over: str, value: int) -> tuple[str, int]:
         case "subdivisions":
             return "triangles", 20 * 4**value
         case "frame_width":
-            return "pixels", value * _height(value)
+            return "pixels", value * frame_height(value)
     return over, value
-
-
-def _height(frame_width: int) -> int:
-    return frame_width * 2 // 3
 
 
 def measure_cost(
@@ -75,7 +48,10 @@ def measure_cost(
     Raises:
         RuntimeError: a stage failed; its message is in the log.
     """
+    value = int(value)  # a wildcard's is text
     settings = {"seed": seed, "device": device, "precision": precision, "threads": threads}
+    measured = STAGES[over]
+    needed = dict.fromkeys(stage for last in measured for stage in NEEDED[last])
     found = []
     # Beside the result: a hundred million rays take 2 GB, which a system's /tmp may not have.
     # Named after it, so that what a killed job left is found.
@@ -83,16 +59,10 @@ def measure_cost(
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     try:
-        sizes = BASE | {over: value}
-        measured = STAGES[over]
-        done: set[str] = set()
-        for stage in measured:
-            for needed in NEEDED[stage]:
-                if needed not in done:
-                    result = _in_process(needed, folder, sizes, settings)
-                    done.add(needed)
-                    if needed in measured:
-                        found.append({"stage": needed, **result})
+        for stage in needed:
+            result = _in_process(stage, folder, BASE | {over: value}, settings)
+            if stage in measured:
+                found.append({"stage": stage, **result})
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     name, size = size_of(over, value)
@@ -105,7 +75,7 @@ def measure_cost(
 def _in_process(stage: str, folder: Path, sizes: Mapping[str, int], settings: Mapping[str, Any]):
     job = json.dumps({"stage": stage, "folder": str(folder), "sizes": sizes, "settings": settings})
     done = subprocess.run(
-        [sys.executable, "-m", "neural_shadows.evaluation.measure_cost", job],
+        [sys.executable, "-m", "neural_shadows.evaluation.cost_stages", job],
         stdout=subprocess.PIPE,
         text=True,
     )
@@ -116,134 +86,5 @@ def _in_process(stage: str, folder: Path, sizes: Mapping[str, int], settings: Ma
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def bumpy_sphere(subdivisions: int) -> trimesh.Trimesh:
-    """A sphere with waves, which shadow each other: 20 · 4^subdivisions triangles."""
-    ball = trimesh.creation.icosphere(subdivisions)
-    waves = np.sin(7 * ball.vertices).prod(axis=1, keepdims=True)
-    return trimesh.Trimesh(ball.vertices * (1 + 0.3 * waves), ball.faces, process=False)
-
-
-def stage_work(
-    stage: str, folder: Path, sizes: Mapping[str, int], settings: Mapping[str, Any]
-) -> Callable[[], object]:
-    """One stage as the workflow runs it, on files in `folder`, ready to be called."""
-    mesh_ply, directions = folder / "mesh.ply", folder / "directions.npy"
-    origins, bounds = folder / "origins.000.npy", folder / "bounds.000.npy"
-    count = sizes["samples"] // POINTS_PER_DIRECTION
-    part = {"first": 0, "last": count, "threads": settings["threads"]}
-    network = {
-        "encoding": "frequency",
-        "frequencies": 10,
-        "width": sizes["width"],
-        "hidden_layers": 8,
-    }
-    match stage:
-        case "mesh":
-            from neural_shadows.meshes.prepare_mesh import prepare_mesh
-
-            source = folder / "source.ply"
-            bumpy_sphere(sizes["subdivisions"]).export(source)
-            return lambda: prepare_mesh(source, mesh_ply, folder / "mesh.json", name="bumpy sphere")
-        case "rays":
-            from neural_shadows.rays.draw_directions import make_directions
-            from neural_shadows.rays.sample_rays import make_rays
-
-            sampler, seed = "poisson_quadtree", settings["seed"]
-            make_directions(directions, sampler=sampler, directions=count, seed=seed)
-            return lambda: make_rays(
-                mesh_ply,
-                directions,
-                origins,
-                sampler=sampler,
-                points_per_direction=POINTS_PER_DIRECTION,
-                silhouette_resolution=128,
-                min_quad=1,
-                seed=seed,
-                **part,
-            )
-        case "labels":
-            from neural_shadows.rays.label_rays import make_labels
-
-            seed = settings["seed"]
-            return lambda: make_labels(mesh_ply, directions, origins, bounds, seed=seed, **part)
-        case "training":
-            from neural_shadows.rays.ray_set import RaySet
-            from neural_shadows.training.train import train
-
-            return lambda: train(
-                RaySet(directions, [origins], [bounds]),
-                folder / "weights.safetensors",
-                folder / "loss.csv",
-                folder / "training.json",
-                name="cost",
-                network=network,
-                steps=TRAINING_STEPS,
-                batch_size=BATCH_SIZE,
-                learning_rate=1e-4,
-                schedule="constant",
-                loss={},
-                mesh_ply=None,
-                data={},
-                state_folder=folder / "unfinished",
-                **settings,
-            )
-    from neural_shadows.evaluation.evaluate import evaluate
-    from neural_shadows.networks.kinds import make_network
-    from neural_shadows.networks.weight_file import save_network
-
-    made = make_network(network)
-    made.initialise(settings["seed"])
-    save_network(folder / "untrained.safetensors", made, {"network": network})
-    write_json(
-        folder / "lpips.json",
-        {"net": "alex", "trunk": None, "available": False, "reason": "not measured"},
-    )
-    width = sizes["frame_width"]
-    frames = {
-        "up": "y",
-        "ground": True,
-        "light": {"domain": "sphere", "min_elevation_deg": 20},
-        "width": width,
-        "height": _height(width),
-        "seed": settings["seed"],
-    }
-    return lambda: evaluate(
-        mesh_ply,
-        folder / "lpips.json",
-        {"network": folder / "untrained.safetensors"},
-        {"network": 0.0},
-        folder / "metrics.csv",
-        folder / "pictures.npz",
-        shadow_maps=[512],
-        view_set="surface",
-        first=0,
-        last=sizes["views"],
-        frames=frames,
-        reference="exact",
-        device=settings["device"],
-        precision=settings["precision"],
-        threads=1,  # as an evaluation job has
-    )
-
-
-def _main(job: Mapping[str, Any]) -> None:
-    """Warm one stage up, run it, and print its seconds and its memory as JSON."""
-    stage, settings = job["stage"], job["settings"]
-    with tempfile.TemporaryDirectory(dir=job["folder"]) as folder:
-        for needed in NEEDED[stage]:
-            stage_work(needed, Path(folder), TINY, settings)()
-    work = stage_work(stage, Path(job["folder"]), job["sizes"], settings)
-    before = held_bytes()
-    started = time.perf_counter()
-    work()
-    seconds = time.perf_counter() - started
-    peak = peak_bytes()
-    print(json.dumps({"seconds": seconds, "bytes": max(0, peak - before), "peak_bytes": peak}))
-
-
-if __name__ == "__main__":
-    try:
-        _main(json.loads(sys.argv[1]))
-    except Exception as error:
-        print(f"{type(error).__name__}: {error}")
-        raise
+if "snakemake" in globals():
+    run_stage(snakemake, measure_cost)

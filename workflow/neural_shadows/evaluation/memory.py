@@ -11,7 +11,7 @@ from neural_shadows.files.whole_files import write_array
 from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.scenes.tracing import Tracer
-from neural_shadows.shadow_maps.shadow_map import shadow_map_frame, texel_heights
+from neural_shadows.shadow_maps.shadow_map import shadow_map_square, texel_heights
 
 FLOAT_BYTES = 4
 
@@ -44,8 +44,8 @@ def shadow_map_bytes(method: str) -> int:
 def shadow_map_file_bytes(mesh: PreparedMesh, tracer: Tracer, method: str) -> int:
     """Size of the file that a map of this mesh makes, without the header that names its shape."""
     resolution = resolution_of(method)
-    frame = shadow_map_frame(mesh.vertices, np.array([0.0, 0.0, 1.0]))
-    heights = texel_heights(tracer, frame, resolution, np.arange(resolution**2))
+    square = shadow_map_square(mesh.vertices, np.array([0.0, 0.0, 1.0]))
+    heights = texel_heights(tracer, square, resolution, np.arange(resolution**2))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "map.npy"
         write_array(path, heights.reshape(resolution, resolution))
