@@ -36,6 +36,12 @@ def test_reads_each_format(tmp_path, file, gz):
     np.testing.assert_array_equal(vertices[faces], TETRAHEDRON[TETRAHEDRON_FACES])
 
 
+def test_all_solids_of_a_text_stl_are_read(tmp_path):
+    solid = WRITERS["ascii.stl"](TETRAHEDRON, TETRAHEDRON_FACES)
+    _, faces = read_mesh(save(tmp_path / "m.stl", solid + solid.replace(b"thing", b"other")))
+    assert len(faces) == 8
+
+
 @pytest.mark.parametrize("endian", ["<", ">"])
 def test_reads_binary_ply_of_either_byte_order_with_other_columns(tmp_path, endian):
     points = np.zeros(4, dtype=[("xyz", f"{endian}f8", 3), ("quality", "u1")])

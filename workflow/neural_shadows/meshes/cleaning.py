@@ -31,9 +31,7 @@ def clean_mesh(
 
     Returns:
         Vertices (V', 3) float64 and faces (F', 3) int64 in their first order, and a report:
-        the counts before and after, what was merged and dropped, and how closed the surface
-        is (`watertight`: two faces at every edge; `open_edges`: edges of a single face;
-        `non_manifold_edges`: edges of more than two; `bodies`: connected components).
+        the counts before and after, and what was merged and dropped.
 
     Raises:
         InputError: a NaN or infinite coordinate, or no face with an area.
@@ -46,7 +44,8 @@ def clean_mesh(
             f"mesh {name}: vertex {bad[0]} (counted from 0) is ({x}, {y}, {z}), and "
             f"{len(bad)} in all have a coordinate that is not a finite number; mend the mesh"
         )
-    used = np.unique(faces)
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces] = True
     low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
     diagonal = np.linalg.norm(high - low)
     if not 0 < diagonal < np.inf:
@@ -61,7 +60,7 @@ def clean_mesh(
         points, faces, vertex_attributes={"source": vertices}, process=False, validate=False
     )
     mesh.merge_vertices(digits_vertex=DIGITS)
-    merged = len(used) - len(mesh.vertices)
+    merged = int(used.sum()) - len(mesh.vertices)
     high_enough = mesh.nondegenerate_faces(height=10**-DIGITS)
     if not high_enough.any():
         raise InputError(
@@ -70,7 +69,6 @@ def clean_mesh(
     mesh.update_faces(high_enough)
     mesh.update_faces(mesh.unique_faces())
     mesh.remove_unreferenced_vertices()
-    uses = np.bincount(mesh.edges_unique_inverse)
     report = {
         "source_vertices": len(vertices),
         "source_faces": len(faces),
@@ -80,9 +78,25 @@ def clean_mesh(
         "unreferenced_vertices": len(vertices) - merged - len(mesh.vertices),
         "degenerate_faces": int((~high_enough).sum()),
         "duplicate_faces": int(high_enough.sum()) - len(mesh.faces),
-        "watertight": mesh.is_watertight,
+    }
+    return mesh.vertex_attributes["source"], np.asarray(mesh.faces, np.int64), report
+
+
+def closedness(faces: np.ndarray) -> dict[str, Any]:
+    """How closed the surface of a clean mesh is.
+
+    Args:
+        faces: (F, 3) vertex indices, all of which occur.
+
+    Returns:
+        `watertight`: two faces at every edge; `open_edges`: edges of a single face;
+        `non_manifold_edges`: edges of more than two; `bodies`: connected components.
+    """
+    mesh = trimesh.Trimesh(np.zeros((faces.max() + 1, 3)), faces, process=False)
+    uses = np.bincount(mesh.edges_unique_inverse)
+    return {
+        "watertight": bool((uses == 2).all()),
         "open_edges": int((uses == 1).sum()),
         "non_manifold_edges": int((uses > 2).sum()),
         "bodies": mesh.body_count,
     }
-    return mesh.vertex_attributes["source"], np.asarray(mesh.faces, np.int64), report

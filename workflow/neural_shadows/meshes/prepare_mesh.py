@@ -10,7 +10,7 @@ import trimesh
 
 from neural_shadows.files.whole_files import sha256_of, whole_file, write_json
 from neural_shadows.meshes.bounding_sphere import minimal_bounding_sphere
-from neural_shadows.meshes.cleaning import clean_mesh
+from neural_shadows.meshes.cleaning import clean_mesh, closedness
 from neural_shadows.meshes.open_sides import is_sheet
 from neural_shadows.meshes.reading import mesh_bytes, read_mesh
 from neural_shadows.meshes.thesis_meshes import is_thesis_mesh
@@ -29,8 +29,8 @@ def prepare_mesh(
         source: any mesh that `read_mesh` reads.
         mesh_ply: the mesh in normalised space, as binary float32 PLY.
         mesh_json: the report: `name`, `source` (file name) and its `sha256`, `thesis_mesh`
-            (`is_thesis_mesh`), `centre` (c) and `radius` (r) in the source's unit, the report of
-            `clean_mesh`, and `sheet` (`is_sheet`).
+            (`is_thesis_mesh`), `centre` (c) and `radius` (r) in the source's unit, the reports of
+            `clean_mesh` and `closedness`, and `sheet` (`is_sheet`).
         mesh: the scene's section, which says where the source is from.
         name: what tables call the mesh; messages name its file.
 
@@ -43,6 +43,7 @@ def prepare_mesh(
     # float32 can bring distinct vertices together (its spacing at 1 is 6e-8), so what is
     # written is cleaned once more.
     normalised, faces, again = clean_mesh(normalised, faces, str(source))
+    closed = closedness(faces)
     content = hashlib.sha256(mesh_bytes(source)).hexdigest()
     report = {
         "name": name,
@@ -54,7 +55,8 @@ def prepare_mesh(
         **again,
         **{key: report[key] for key in ("source_vertices", "source_faces")},
         **{key: report[key] + again[key] for key in _DROPPED},
-        "sheet": not again["watertight"] and is_sheet(normalised, faces),
+        **closed,
+        "sheet": not closed["watertight"] and is_sheet(normalised, faces),
     }
     if report["sheet"]:
         print(
