@@ -66,9 +66,9 @@ def _figure(config: "Config", name: str) -> Section:
     section = figure.model_dump()
     if figure.kind == "loss":
         section["curves"] = curves_of(config, figure)
-    if figure.kind in ("pictures", "pareto", "widths"):
+    if figure.kind in ("pictures", "errors_3d", "pareto", "widths"):
         section["rows"] = rows_of_figure(config, name)
-    if figure.kind in ("pictures", "pareto"):
+    if figure.kind in ("pictures", "errors_3d", "pareto"):
         section["scene"] = figure_scene(config, figure)
     return section
 

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 from neural_shadows.config.claims import compared, scenes_of
 from neural_shadows.config.experiments import formatted, network_of
-from neural_shadows.config.figures import LossFigure, PicturesFigure, figure_scene
+from neural_shadows.config.figures import LossFigure, MethodsFigure, figure_scene
 from neural_shadows.config.tables import RowSettings, method_key, row_label, rows_by_scene
 from neural_shadows.evaluation.method_names import RAY_TRACED, experiment_of
 
@@ -57,7 +57,7 @@ def rows_of_figure(config: "Config", name: str) -> list[Row]:
         ]
         return [row | {"width": width} for row, width in zip(rows, widths) if width]
     rows = [row for row in rows if row["scene"] == figure_scene(config, figure)]
-    if isinstance(figure, PicturesFigure):
+    if isinstance(figure, MethodsFigure):
         # Ray tracing's pictures are the reference, which is shown anyway.
         rows = [row for row in rows if row["method"] != RAY_TRACED]
         if figure.methods is not None:
