@@ -20,7 +20,7 @@ MISTAKES = [
     ("dragon.label", "{", "the label '{' of dragon"),
     ("reference", {}, "experiments.reference: tables and pictures have a method of this name"),
     ("shadow_map_64", {}, "experiments.shadow_map_64: tables and pictures have a method"),
-    ("dragon_biased", {}, "a name that does not end in '_biased'"),
+    ("dragon_biased", {}, "experiments.dragon_biased: tables and pictures have a method"),
     ("twin", {"label": "Twin"}, "experiments.twin: is the same as experiments.dragon"),
 ]
 

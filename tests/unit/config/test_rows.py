@@ -3,7 +3,7 @@
 import pytest
 
 from neural_shadows.config.reading import read_config
-from neural_shadows.config.rows import methods_of_claims, rows_of, rows_of_claim, rows_of_figure
+from neural_shadows.config.rows import rows_of, rows_of_claim, rows_of_figure
 
 
 @pytest.fixture
@@ -75,7 +75,3 @@ def test_rows_of_claims(config):
     (pair,) = rows_of_claim(config, "fence_better_than_128")
     assert pair[1] == row("shadow_map_128", "128² shadow map", "fence")
     assert len(rows_of_claim(config, "lower_bound_costs_more")) == 4
-    methods = [r["method"] for r in methods_of_claims(config)]
-    assert "landscape_axis_64" in methods and "dragon_high_rate" not in methods
-    losses = {r["method"] for r in methods_of_claims(config, "lower_loss")}
-    assert "dragon_high_rate" in losses and "shadow_map_512" not in losses

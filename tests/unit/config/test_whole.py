@@ -1,6 +1,7 @@
 """The shipped files: valid, with every key of use, and as the schema for editors says."""
 
 import json
+import re
 from pathlib import Path
 
 import jsonschema
@@ -54,6 +55,19 @@ def test_every_key_is_reached(shipped):
         if key not in ("kind", "encoding")
     }
     assert there - used == BY_HAND
+
+
+def test_examples_of_the_readme_are_valid(shipped):
+    text = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
+    examples = re.findall(r"```yaml\n(.*?)```", text, re.DOTALL)
+    values = shipped()
+    for example in examples:
+        for section, entries in yaml.safe_load(example).items():
+            values[section] = values[section] | entries if isinstance(entries, dict) else entries
+    assert (
+        len(examples) == 3
+        and {"teapot", "dragon_small"} <= resolved(read_config(values))["experiments"].keys()
+    )
 
 
 def subclasses(model):

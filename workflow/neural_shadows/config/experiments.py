@@ -7,11 +7,7 @@ from pydantic import Discriminator, Field, Tag
 from neural_shadows.config.base import Model, Name, Seed, check_among, name_or
 from neural_shadows.config.networks import Network
 from neural_shadows.config.trainings import Training
-from neural_shadows.evaluation.method_names import (
-    BIASED_SUFFIX,
-    RAY_TRACED,
-    SHADOW_MAP_PREFIX,
-)
+from neural_shadows.evaluation.method_names import BIASED_SUFFIX, RAY_TRACED, SHADOW_MAP_PREFIX
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -35,18 +31,12 @@ class Experiment(Model):
     seed: Seed | None = Field(None, description="seed of this training; without it the scene's")
     bias: DepthBias = Field(
         0.0,
-        description=(
-            "added to t_pred in the query, in sphere radii (thesis: 0); `held_out`: the best on "
-            "views that are in no table"
-        ),
+        description="added to t_pred, in sphere radii; `held_out`: the best on views in no table",
     )
     label: str | None = Field(
         None,
         min_length=1,
-        description=(
-            "its name in tables and figures; may hold keys of its network and training, as "
-            "`{resolution}³ field`; without it the experiment's name"
-        ),
+        description="its name in tables; may hold settings, as `{resolution}³ field`",
     )
 
 
@@ -93,15 +83,11 @@ def check(config: "Config") -> None:
     trained: dict[str, str] = {}
     for name, experiment in config.experiments.items():
         key = f"experiments.{name}"
-        if name in ("reference", RAY_TRACED) or name.startswith(SHADOW_MAP_PREFIX):
+        taken = name in ("reference", RAY_TRACED) or name.startswith(SHADOW_MAP_PREFIX)
+        if taken or name.endswith(BIASED_SUFFIX):
             raise ValueError(
                 f"{key}: tables and pictures have a method of this name; allowed: any other than "
-                f"'reference', '{RAY_TRACED}' and '{SHADOW_MAP_PREFIX}…'"
-            )
-        if name.endswith(BIASED_SUFFIX):
-            raise ValueError(
-                f"{key}: tables call a network with its depth bias so; allowed: a name that does "
-                f"not end in '{BIASED_SUFFIX}'"
+                f"'reference', '{RAY_TRACED}', '{SHADOW_MAP_PREFIX}…' and '…{BIASED_SUFFIX}'"
             )
         for part in ("scene", "sampling", "network", "training"):
             if isinstance(value := getattr(experiment, part), str):
@@ -110,6 +96,6 @@ def check(config: "Config") -> None:
         if same != name:
             raise ValueError(
                 f"{key}: is the same as experiments.{same}, and would train the same network "
-                "twice; use that one, or change a name or the seed"
+                "twice; use that one, or change the seed"
             )
         formatted(config, name)

@@ -13,6 +13,9 @@ from neural_shadows.config.scenes import MESH_SUFFIXES, MeshFile
 from neural_shadows.config.whole import Config
 from neural_shadows.errors import InputError
 
+# What `dragon` may be beside a file.
+MESHES_BY_NAME = {"wyrm": {"generate": "wyrm"}, "stanford": {"download": "stanford_dragon"}}
+
 
 def _without_nulls(value: Any) -> Any:
     """A section without the keys that are null, by which an overlay drops them."""
@@ -21,17 +24,7 @@ def _without_nulls(value: Any) -> Any:
     return {key: _without_nulls(part) for key, part in value.items() if part is not None}
 
 
-def _mesh_of_shorthand(value: str) -> dict[str, str]:
-    match value:
-        case "wyrm":
-            return {"generate": "wyrm"}
-        case "stanford":
-            return {"download": "stanford_dragon"}
-        case path:
-            return {"path": path}
-
-
-class _NoDuplicates(yaml.SafeLoader):
+class _NoDuplicates(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
     """Reads YAML, but refuses a key that is given twice, of which YAML keeps the last."""
 
     def construct_mapping(self, node, deep=False):
@@ -81,7 +74,7 @@ def read_config(values: dict[str, Any]) -> Config:
         scenes = values.get("scenes")
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):
             raise InputError("config: dragon: there is no scene named `dragon` in `scenes`")
-        mesh = _mesh_of_shorthand(shorthand)
+        mesh = MESHES_BY_NAME.get(shorthand, {"path": shorthand})
         old = scenes["dragon"].get("mesh")
         # `--config dragon=wyrm` over a scene that is a wyrm already keeps its resolution.
         if not (isinstance(old, dict) and mesh.items() <= old.items()):
@@ -108,7 +101,7 @@ def check_files(config: Config) -> None:
             key = "dragon" if short else f"scenes.{name}.mesh.path"
             if short and not Path(path).suffix and not Path(path).exists():
                 raise InputError(
-                    f"config: dragon: {not_among(path, ['wyrm', 'stanford'])}, and is no file"
+                    f"config: dragon: {not_among(path, MESHES_BY_NAME)}, and is no file"
                 )
             if Path(path.removesuffix(".gz")).suffix.lower() not in MESH_SUFFIXES:
                 raise InputError(

@@ -42,20 +42,15 @@ def _row(config: "Config", scene: str, row: RowSettings, published: str | None) 
 
 
 def rows_of_figure(config: "Config", name: str) -> list[Row]:
-    """The rows of a figure of a table: those of its scene, with pictures, or with a width.
-
-    Rows of a figure of `widths` have their network's `width` too.
-    """
+    """The rows of a figure of a table: those of its scene, or of `widths` those with a `width`."""
     figure = config.figures[name]
     rows = rows_of(config, figure.table)
     if figure.kind == "widths":
+        networks = [row for row in rows if row["experiment"]]
         widths = [
-            getattr(network_of(config, row["experiment"]), "width", None)
-            if row["experiment"]
-            else None
-            for row in rows
+            network_of(config, row["experiment"]).model_dump().get("width") for row in networks
         ]
-        return [row | {"width": width} for row, width in zip(rows, widths) if width]
+        return [row | {"width": width} for row, width in zip(networks, widths) if width]
     rows = [row for row in rows if row["scene"] == figure_scene(config, figure)]
     if isinstance(figure, MethodsFigure):
         # Ray tracing's pictures are the reference, which is shown anyway.
@@ -68,10 +63,7 @@ def rows_of_figure(config: "Config", name: str) -> list[Row]:
 def curves_of(config: "Config", figure: LossFigure) -> list[dict[str, str]]:
     """The curves of a figure of losses, each with `experiment` and `label`."""
     return [
-        {
-            "experiment": curve.experiment,
-            "label": formatted(config, curve.experiment, curve.label),
-        }
+        {"experiment": curve.experiment, "label": formatted(config, curve.experiment, curve.label)}
         for curve in figure.curves
     ]
 
@@ -87,16 +79,3 @@ def rows_of_claim(config: "Config", name: str) -> list[list[Row]]:
 def _method_row(config: "Config", scene: str, key: str) -> Row:
     bias = "held_out" if experiment_of(key) != key else None
     return _row(config, scene, RowSettings(method=experiment_of(key), bias=bias), None)
-
-
-def methods_of_claims(config: "Config", *kinds: str) -> list[Row]:
-    """The methods that claims of some kinds compare, or of all that need pictures, each once."""
-    kinds = kinds or ("better", "larger_error")
-    rows = [
-        row
-        for name, claim in config.claims.items()
-        if claim.kind in kinds
-        for methods in rows_of_claim(config, name)
-        for row in methods
-    ]
-    return list({(row["scene"], row["method"]): row for row in rows}.values())

@@ -121,10 +121,7 @@ class Scene(Model):
     view_sets: list[ViewSet] = Field(
         min_length=1,
         default_factory=lambda scene: ["shadow", "surface"] if scene["ground"] else ["centre"],
-        description=(
-            "where cameras look: `shadow`, at the cast shadow; `surface`, at the object; `centre`; "
-            "without it [shadow, surface] on a ground, else [centre]"
-        ),
+        description="where cameras look: by default [shadow, surface] on a ground, else [centre]",
     )
     seed: Seed | None = Field(
         None, description="seed of this scene alone; without it the config's `seed`"

@@ -36,9 +36,7 @@ class AnyTable(Model):
 
     title: str = Field(min_length=1, description="heading of the table")
     published: str | None = Field(
-        None,
-        pattern=r"^4\.[1-7]$",
-        description="the thesis's number of this table; null for a table of your own",
+        None, pattern=r"^4\.[1-7]$", description="the thesis's number of this table"
     )
     figures: list[Name] = Field(
         [], description="names in `figures` that are made and shown beside the table"
