@@ -31,4 +31,5 @@ onsuccess:
     # Snakemake has now taken note of all networks.
     remove_finished(Path(PATHS.network("", "")).parent)
     made = [path for job in workflow.dag.finished_jobs for path in job.output]
-    print(targets.closing_words(LAYOUT, made))
+    if words := targets.closing_words(LAYOUT, made):
+        print(words)

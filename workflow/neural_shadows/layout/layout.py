@@ -6,11 +6,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from pydantic import TypeAdapter
+
 from neural_shadows.config.base import not_among
+from neural_shadows.config.networks import Network
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
 from neural_shadows.layout.paths import Paths
+
+_NETWORK = TypeAdapter(Network)
 
 
 @dataclass(frozen=True)
@@ -105,13 +110,14 @@ class Layout:
     # Networks
 
     def training_files(self, experiment: str) -> dict[str, Any]:
-        """The ray set that an experiment trains on."""
+        """What an experiment trains on: a ray set, and the mesh if its network is laid out by it."""
         settings = self.entry("experiments", experiment)
         names = settings["scene"], settings["sampling"]
+        needs_mesh = _NETWORK.validate_python(settings["network"]).needs_mesh
         return {
             "directions_npy": self.paths.rays("directions.npy", *names),
             "rays_json": self.paths.rays("rays.json", *names),
-            "mesh_ply": self.paths.scene("mesh.ply", names[0]),
+            "mesh_ply": [self.paths.scene("mesh.ply", names[0])] * needs_mesh,
             **self.shards(*names),
         }
 

@@ -45,5 +45,6 @@ def progress_bar(total: int, unit: str, title: str, initial: int = 0) -> tqdm:
         file=_LogAndTerminal(TERMINAL),
         mininterval=_SECONDS,
         maxinterval=_SECONDS,
+        delay=_SECONDS,  # nothing of what takes no longer
         bar_format=_LINE,
     )
