@@ -28,16 +28,8 @@ THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
 LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
 FEWEST = 10  # views, frames or points of a curve; a bootstrap of fewer is far too narrow
 
-Interval = tuple[float, float, float]
+Claim = Mapping[str, Any]
 Method = Mapping[str, Any]  # `method`, `scene`, `experiment`
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One comparison of a claim: its verdict and the numbers behind it."""
-
-    verdict: str
-    evidence: str
 
 
 @dataclass(frozen=True)
@@ -52,6 +44,27 @@ class Data:
     losses: Mapping[str, pd.DataFrame]
     times: Mapping[tuple[str, str], Mapping[str, Any]]
     seed: int
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One comparison of a claim: it holds if the interval of the values lies within the bounds."""
+
+    text: str
+    interval: Callable[..., tuple[float, float, float]]
+    values: Sequence[np.ndarray]
+    bounds: tuple[float, float] = (0, np.inf)
+    form: str = "+.4g"
+
+    def judged(self, seed: int) -> tuple[str, str]:
+        """The verdict, and the numbers behind it."""
+        count = min(map(len, self.values))
+        if count < FEWEST:
+            return UNDECIDED, f"{self.text}: {count} values are too few: {UNDECIDED}"
+        value, low, high = self.interval(*self.values, seed)
+        verdict = verdict_of(low, high, *self.bounds)
+        numbers = f"{value:{self.form}} [{low:{self.form}}, {high:{self.form}}]"
+        return verdict, f"{self.text} {numbers}: {verdict}"
 
 
 def write_claims(
@@ -71,13 +84,9 @@ def write_claims(
     Args:
         metrics, losses, times: per-view metrics, loss curves and frame times of the methods that
             claims name; their folders say of which scene, experiment and table.
-        claims: see `judge`.
-        run: `scale`, `seed` (of the bootstrap).
+        claims: see `judge`; run: `scale`, `seed` (of the bootstrap).
         samples: that a network of this run was trained on, at most.
         scenes: `mesh_name` of each scene.
-
-    Raises:
-        InputError: a file is missing or cut short, or holds no data of a claim.
     """
     data = Data(
         {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()},
@@ -116,7 +125,7 @@ def write_claims(
     write_twins(found, columns, csv, md, title=title, notes=notes, text_columns=len(columns))
 
 
-def judge(claims: Mapping[str, Mapping[str, Any]], data: Data) -> pd.DataFrame:
+def judge(claims: Mapping[str, Claim], data: Data) -> pd.DataFrame:
     """Test claims: a row each with `claim, section, statement, verdict, metric, evidence`.
 
     Args:
@@ -129,15 +138,16 @@ def judge(claims: Mapping[str, Mapping[str, Any]], data: Data) -> pd.DataFrame:
     """
     rows = []
     for name, claim in claims.items():
-        metric, findings = KINDS[claim["kind"]](claim, data)
+        metric, comparisons = KINDS[claim["kind"]](claim, data)
+        verdicts, evidence = zip(*(comparison.judged(data.seed) for comparison in comparisons))
         rows.append(
             {
                 "claim": name,
                 "section": claim["section"],
                 "statement": claim["statement"],
-                "verdict": verdict_of_all(finding.verdict for finding in findings),
+                "verdict": verdict_of_all(verdicts),
                 "metric": metric,
-                "evidence": "; ".join(finding.evidence for finding in findings),
+                "evidence": "; ".join(evidence),
             }
         )
     return pd.DataFrame(rows)
@@ -163,97 +173,64 @@ def verdict_of_all(verdicts: Iterable[str]) -> str:
     return SUPPORTED if verdicts == {SUPPORTED} else UNDECIDED
 
 
-def _judged(
-    text: str,
-    interval: Callable[..., Interval],
-    *values: np.ndarray,
-    seed: int,
-    bounds: tuple[float, float] = (0, np.inf),
-    form: str = "+.4g",
-) -> Finding:
-    """The finding of an interval of some values, or that there are too few of them."""
-    count = min(map(len, values))
-    if count < FEWEST:
-        return Finding(UNDECIDED, f"{text}: {count} values are too few: {UNDECIDED}")
-    value, low, high = interval(*values, seed)
-    verdict = verdict_of(low, high, *bounds)
-    numbers = f"{value:{form}} [{low:{form}}, {high:{form}}]"
-    return Finding(verdict, f"{text} {numbers}: {verdict}")
-
-
-def better(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
+def better(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     """Pairs (better, worse) by the mean over views of an image metric.
 
     Methods of one scene are seen from the same views, and compared view by view.
     """
     metric = _available(claim, data)
-    instead = "" if metric == claim["metric"] else f"{metric.upper()} for want of LPIPS: "
+    text = "" if metric == claim["metric"] else f"{metric.upper()} for want of LPIPS: "
     sign = 1 if metric in HIGHER_IS_BETTER else -1
-    findings = []
+    comparisons = []
     for first, second in claim["pairs"]:
         a, b = _values(data, first, metric), _values(data, second, metric)
-        text = (
-            f"{'' if findings else instead}{first['method']} {a.mean():.4g}, "
-            f"{second['method']} {b.mean():.4g}, advantage"
-        )
+        text += f"{_mean(first, a)}, {_mean(second, b)}, advantage"
         if first["scene"] == second["scene"]:
-            compared = mean_interval, sign * _gains(a, b)
+            comparisons.append(Comparison(text, mean_interval, [sign * _gains(a, b)]))
         else:
-            compared = difference_interval, sign * a.to_numpy(), sign * b.to_numpy()
-        findings.append(_judged(text, *compared, seed=data.seed))
-    return metric, findings
+            values = [sign * a.to_numpy(), sign * b.to_numpy()]
+            comparisons.append(Comparison(text, difference_interval, values))
+        text = ""  # said once a claim
+    return metric, comparisons
 
 
-def larger_error(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
+def larger_error(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     """Of each method, more of one error than of another, view by view."""
     larger, smaller = claim["more"], claim["less"]
-    findings = []
+    comparisons = []
     for method in claim["methods"]:
         a, b = _values(data, method, larger), _values(data, method, smaller)
         text = f"{method['method']}: {larger} {a.mean():.4g}, {smaller} {b.mean():.4g}, excess"
-        findings.append(_judged(text, mean_interval, _gains(a, b), seed=data.seed))
-    return f"{larger} − {smaller}", findings
+        comparisons.append(Comparison(text, mean_interval, [_gains(a, b)]))
+    return f"{larger} − {smaller}", comparisons
 
 
-def lower_loss(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
+def lower_loss(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     """Pairs (lower, higher) by the mean of the last tenth of the training loss."""
-    findings = []
+    comparisons = []
     for first, second in claim["pairs"]:
         a, b = (_end_of(data.losses[method["experiment"]]) for method in (first, second))
-        text = f"{first['method']} {a.mean():.4g}, {second['method']} {b.mean():.4g}, advantage"
-        findings.append(_judged(text, difference_interval, b, a, seed=data.seed))
-    return "loss", findings
+        text = f"{_mean(first, a)}, {_mean(second, b)}, advantage"
+        comparisons.append(Comparison(text, difference_interval, [b, a]))
+    return "loss", comparisons
 
 
-def frame_time(claim: Mapping[str, Any], data: Data) -> tuple[str, list[Finding]]:
+def frame_time(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     """Pairs (slower, faster) of a scene by the ratio of their median frame times, within bounds."""
-    least = -np.inf if claim["at_least"] is None else claim["at_least"]
-    most = np.inf if claim["at_most"] is None else claim["at_most"]
-    asked = [
-        f"{word} {claim[key]:g}"
-        for key, word in (("at_least", "at least"), ("at_most", "at most"))
-        if claim[key] is not None
-    ]
-    findings = []
+    limits = {"at_least": -np.inf, "at_most": np.inf}
+    limits |= (given := {key: claim[key] for key in limits if claim[key] is not None})
+    asked = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in given.items())
+    comparisons = []
     for first, second in claim["pairs"]:
         methods = data.times[claim["table"], first["scene"]]["methods"]
         a, b = (np.array(methods[method["method"]]["ms"]) for method in (first, second))
-        text = (
-            f"{first['method']} {np.median(a):.4g} ms, {second['method']} {np.median(b):.4g} ms, "
-            f"ratio ({' and '.join(asked)})"
+        medians = (
+            f"{first['method']} {np.median(a):.4g} ms, {second['method']} {np.median(b):.4g} ms"
         )
-        findings.append(
-            _judged(
-                text,
-                median_ratio_interval,
-                a,
-                b,
-                seed=data.seed,
-                bounds=(least, most),
-                form="#.3g",
-            )
-        )
-    return "frame time", findings
+        text = f"{medians}, ratio ({asked})"
+        bounds = (limits["at_least"], limits["at_most"])
+        comparisons.append(Comparison(text, median_ratio_interval, [a, b], bounds, "#.3g"))
+    return "frame time", comparisons
 
 
 KINDS = {
@@ -264,12 +241,16 @@ KINDS = {
 }
 
 
-def _available(claim: Mapping[str, Any], data: Data) -> str:
+def _available(claim: Claim, data: Data) -> str:
     """The claim's metric, or FLIP in the place of LPIPS where its trunk is not available."""
     scenes = {method["scene"] for pair in claim["pairs"] for method in pair}
     given = {name for scene in scenes for name in data.metrics[scene]["metric"].unique()}
     metric = claim["metric"]
     return "flip" if metric == "lpips" and "lpips" not in given else metric
+
+
+def _mean(method: Method, values: np.ndarray | pd.Series) -> str:
+    return f"{method['method']} {values.mean():.4g}"
 
 
 def _values(data: Data, method: Method, metric: str) -> pd.Series:

@@ -25,10 +25,9 @@ def run_facts(
     """Names and values of the facts, in the order to show them.
 
     Args:
-        run: `scale`, `seed`, `width`, `height` (pixels).
-        meshes: a phrase on the mesh of each scene.
-        records: what the trainings wrote; lpips: what `find_lpips` wrote, None without it.
-        benchmarks: see `durations`; `folder`: the checkout.
+        run: `scale`, `seed`, `width`, `height` (pixels); meshes: a phrase on that of each scene.
+        records, lpips: what the trainings and `find_lpips` wrote.
+        benchmarks: see `durations`; folder: the checkout.
     """
     facts = {"scale": run["scale"]}
     facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
