@@ -1,6 +1,6 @@
 """What the thesis concludes from its data, tested on ours [4, 5.1]."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
