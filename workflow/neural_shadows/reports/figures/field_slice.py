@@ -23,14 +23,14 @@ from neural_shadows.reports.figures.style import new_figure, write_figure
 from neural_shadows.running.stage import run_stage
 
 PIXELS = 900  # of the slice's side
-DETAIL = 0.14  # half the side of the detail, in sphere radii
+DETAIL = 0.07  # half the side of the detail, in sphere radii
 EMPTY_COLOUR, ENCLOSED_COLOUR = "#f4f4f4", "#5b6b7b"
 
 
 def draw(
     mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
-    """Draw the slice whole and in detail, below the outline's highest point.
+    """Draw the slice whole and in detail, at the outline's highest point.
 
     Args:
         weights: of an occupancy field.
@@ -46,9 +46,8 @@ def draw(
     whole.set_title(
         f"bricks of {BRICK}³ cells at the surface, {field.resolution}³ cells in all", fontsize=11
     )
-    # The highest point stands in the upper quarter: above it nothing is to be seen.
     ends = cut.outline.reshape(-1, 2)
-    centre = ends[ends[:, 1].argmax()] - (0, DETAIL / 2)
+    centre = ends[ends[:, 1].argmax()]
     square = {"fill": False, "edgecolor": OUTLINE, "linewidth": 1}
     whole.add_patch(Rectangle(centre - DETAIL, 2 * DETAIL, 2 * DETAIL, **square))
     image = _show(detail, field, cut, centre, DETAIL)

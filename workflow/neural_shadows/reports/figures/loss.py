@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
@@ -37,6 +38,17 @@ def draw(
     write_figure(loss_figure(frames, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
+def smoothed(values: np.ndarray) -> np.ndarray:
+    """Running mean of a curve (n,), over as many points on either side, fewer at its ends: (n,).
+
+    pandas' would lean to one side at the ends, and the first tenth of a loss falls fastest.
+    """
+    i = np.arange(len(values))
+    reach = np.minimum(np.minimum(i, i[::-1]), round(SMOOTHING * len(values) / 2))
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    return (total[i + reach + 1] - total[i - reach]) / (2 * reach + 1)
+
+
 def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
     """Draw loss over samples, both logarithmic; the points pale and their running mean.
 
@@ -47,16 +59,13 @@ def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
     axes = figure.subplots()
     for i, (label, curve) in enumerate(curves.items()):
         samples, loss, colour = curve["samples"], curve["loss"], COLOURS[i % len(COLOURS)]
-        # At the ends the points themselves: a mean of one side would be off where a loss falls.
-        window = 2 * round(SMOOTHING * len(loss) / 2) + 1
-        mean = loss.rolling(window, center=True).mean().fillna(loss)
         axes.plot(samples, loss, color=colour, alpha=0.25, linewidth=0.8)
         text = f"{label} (at the end {loss.iloc[-1]:.3g})"
-        axes.plot(samples, mean, color=colour, linewidth=1.8, label=text)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("training samples")
-    axes.set_ylabel("dead-zone loss")
+        axes.plot(samples, smoothed(loss.to_numpy()), color=colour, linewidth=1.8, label=text)
+    axes.set(xscale="log", yscale="log", xlabel="training samples", ylabel="dead-zone loss")
+    # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
+    settled = max(curve["loss"].iloc[len(curve) // 100 :].max() for curve in curves.values())
+    axes.set_ylim(top=min(axes.get_ylim()[1], 3 * settled))
     axes.grid(which="both", **GRID)
     axes.legend()
     return figure

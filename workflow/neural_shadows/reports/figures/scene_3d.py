@@ -50,16 +50,17 @@ def draw(
     """
     rays = RaySet(directions_npy, sorted(origins), sorted(bounds))
     opened = open_scene(mesh_ply, **scene)
-    view = hero_view(opened.up, 4.1)
+    view = hero_view(opened.up, 3.9)
     left, right = new_plotter(view), new_plotter(view)
-    for plotter in (left, right):
-        plotter.add_mesh(surface(opened.objects[0]), color=OBJECT_COLOUR, smooth_shading=True)
+    for plotter, opacity in ((left, 1.0), (right, 0.35)):  # rays go on inside the object
+        shape = surface(opened.objects[0])
+        plotter.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True, opacity=opacity)
         add_sphere(plotter)
     if opened.ground is not None:
         centre = opened.ground * opened.up
-        disk = pyvista.Disc(center=centre, inner=0, outer=1.25, normal=opened.up, c_res=90)
+        disk = pyvista.Disc(center=centre, inner=0, outer=1.2, normal=opened.up, c_res=90)
         left.add_mesh(disk, color=GROUND_COLOUR, lighting=False)
-    left.add_mesh(light_domain(opened), color=LIGHT_COLOUR, opacity=0.35, lighting=False)
+    left.add_mesh(light_domain(opened), color=LIGHT_COLOUR, opacity=0.2, lighting=False)
     style = {"render_points_as_spheres": True, "lighting": False}
     towards = -rays.directions.astype(np.float32)
     left.add_points(towards, color=DIRECTION_COLOUR, point_size=5, **style)
@@ -84,7 +85,7 @@ def draw(
     )
 
 
-def light_domain(scene: Scene) -> pyvista.PolyData:
+def light_domain(scene: Scene) -> pyvista.DataSet:
     """The part of the unit sphere that the scene's light comes from, a little outside it."""
     (domain,) = scene.lights
     lowest = lowest_elevation(domain)
@@ -95,7 +96,7 @@ def light_domain(scene: Scene) -> pyvista.PolyData:
     elevation, turn = np.meshgrid(np.linspace(lowest, np.pi / 2, 40), np.linspace(0, 2 * np.pi, 91))
     local = [np.cos(elevation) * np.cos(turn), np.cos(elevation) * np.sin(turn), np.sin(elevation)]
     cap = 1.01 * np.stack(local, axis=-1) @ light_basis(scene.up)
-    return pyvista.StructuredGrid(*np.moveaxis(cap, -1, 0)).extract_surface()
+    return pyvista.StructuredGrid(*np.moveaxis(cap, -1, 0))
 
 
 def _add_rays(plotter: pyvista.Plotter, rays: RaySet) -> None:

@@ -16,7 +16,7 @@ from neural_shadows.reports.figures.style import new_figure, write_figure
 from neural_shadows.scenes.cameras import Viewpoint
 from neural_shadows.scenes.lights import light_basis
 
-PIXELS = 900  # of a picture's side
+WIDTH, HEIGHT = 900, 800  # pixels of a picture
 OBJECT_COLOUR = "#d8d4cc"
 GROUND_COLOUR = "#f1eee6"
 FOV = 36.0
@@ -45,13 +45,14 @@ def new_plotter(view: Viewpoint) -> pyvista.Plotter:
     if window is None:
         raise InputError(opengl.MISSING)
     os.environ["VTK_DEFAULT_OPENGL_WINDOW"] = window
-    plotter = pyvista.Plotter(off_screen=True, window_size=(PIXELS, PIXELS), lighting="none")
+    plotter = pyvista.Plotter(off_screen=True, window_size=(WIDTH, HEIGHT), lighting="none")
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
     plotter.camera_position = (view.eye, view.target, view.up)
     plotter.camera.view_angle = view.fov
     plotter.add_light(pyvista.Light(position=4 * view.light, intensity=0.8))
     plotter.add_light(pyvista.Light(light_type="headlight", intensity=0.35))
+    plotter.add_axes(line_width=3, viewport=(0, 0, 0.16, 0.18))
     return plotter
 
 
@@ -71,7 +72,7 @@ def lines(starts: np.ndarray, ends: np.ndarray) -> pyvista.PolyData:
 def add_sphere(plotter: pyvista.Plotter) -> None:
     """Add the bounding sphere as a net."""
     sphere = pyvista.Sphere(radius=1, theta_resolution=36, phi_resolution=18)
-    plotter.add_mesh(sphere, style="wireframe", color="#d55e00", opacity=0.12, lighting=False)
+    plotter.add_mesh(sphere, style="wireframe", color="#d55e00", opacity=0.2, lighting=False)
 
 
 def write_pictures(
@@ -80,7 +81,7 @@ def write_pictures(
     svg: Path,
     *,
     title: str,
-    entries: Sequence[Artist],
+    entries: Sequence[Artist] = (),
     scale: tuple[str, ScalarMappable] | None = None,
 ) -> None:
     """Write windows beside each other, each under its heading, with one legend.
@@ -88,7 +89,7 @@ def write_pictures(
     Args:
         scale: label and colours of a scale at the right.
     """
-    figure = new_figure(title, 6.1 * len(shown) + (0.8 if scale else 0), 6.9)
+    figure = new_figure(title, 6.2 * len(shown) + (0.9 if scale else 0), 6.4)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
     for axes, (heading, plotter) in zip(panels, shown.items()):
         axes.imshow(plotter.screenshot(return_img=True))
@@ -97,5 +98,6 @@ def write_pictures(
         axes.set_axis_off()
     if scale:
         figure.colorbar(scale[1], ax=panels, label=scale[0], shrink=0.7)
-    figure.legend(handles=entries, loc="outside lower center", ncols=min(len(entries), 4))
+    if entries:
+        figure.legend(handles=entries, loc="outside lower center", ncols=4)
     write_figure(figure, png, svg)

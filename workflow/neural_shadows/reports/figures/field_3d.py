@@ -1,0 +1,87 @@
+"""The surface that an occupancy field has learned, in three dimensions, beside the mesh."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyvista
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+
+from neural_shadows.networks.object_space.field_marching import SOLID
+from neural_shadows.networks.object_space.occupancy_field_network import (
+    LIMIT,
+    OccupancyFieldNetwork,
+)
+from neural_shadows.networks.weight_file import load_network
+from neural_shadows.reports.figures.field_slice import field_logits
+from neural_shadows.reports.figures.space import (
+    OBJECT_COLOUR,
+    hero_view,
+    new_plotter,
+    surface,
+    write_pictures,
+)
+from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.scene import open_scene
+
+MOST_CELLS = 256  # a side: 17 million vertices, 70 MB
+COLOURS = "RdBu_r"
+
+
+def draw(
+    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+) -> None:
+    """Draw the mesh, and beside it where the field's logit is 0, coloured by the distance.
+
+    Args:
+        weights: of an occupancy field.
+
+    Raises:
+        InputError: an input file is missing or not whole, or there is no OpenGL.
+    """
+    opened = open_scene(mesh_ply, **scene)
+    view = hero_view(opened.up)
+    left, right = new_plotter(view), new_plotter(view)
+    shape = surface(opened.objects[0])
+    left.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True)
+    field, _ = load_network(weights)
+    learned = learned_surface(field).compute_implicit_distance(shape)
+    cell = 2 / field.resolution
+    distance = learned["implicit_distance"] / cell
+    learned["cells"] = np.abs(distance) if field.surface == "sheet" else distance
+    right.add_mesh(
+        learned, scalars="cells", cmap=COLOURS, clim=(-1, 1), smooth_shading=True, show_scalar_bar=False
+    )
+    within = np.mean(np.abs(distance) < 0.5)
+    write_pictures(
+        {
+            f"the mesh: {shape.n_cells:,} triangles": left,
+            f"the field of {field.resolution}³ cells: {within:.0%} within half a cell": right,
+        },
+        png,
+        svg,
+        title=title,
+        scale=("outside the mesh > 0 > inside it, cells", ScalarMappable(Normalize(-1, 1), COLOURS)),
+    )
+
+
+def learned_surface(field: OccupancyFieldNetwork) -> pyvista.PolyData:
+    """Where the logits between the vertices of the field's cells turn positive."""
+    size = min(field.resolution, MOST_CELLS)
+    at = np.linspace(-1, 1, size + 1, dtype=np.float32)
+    x, y = np.meshgrid(at, at)
+    logits = np.empty((size + 1, *x.shape), np.float32)
+    for layer, z in zip(logits, at):
+        p = np.stack([x, y, np.full_like(x, z)], axis=-1).reshape(-1, 3)
+        held, bricks = field_logits(field, p)
+        nothing = np.where(bricks == SOLID, LIMIT, -LIMIT)
+        layer[:] = np.where(np.isnan(held), nothing, held).reshape(x.shape)
+    grid = pyvista.ImageData(dimensions=(size + 1,) * 3, spacing=(2 / size,) * 3, origin=(-1,) * 3)
+    grid["logit"] = logits.ravel()
+    return grid.contour([0.0], "logit")
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)
