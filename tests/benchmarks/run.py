@@ -60,8 +60,9 @@ def main() -> None:
         mesh_ply = arguments.mesh
         if mesh_ply is None:
             made, mesh_ply = Path(folder) / "made.ply", Path(folder) / "mesh.ply"
-            generate_mesh(made, generate="wyrm", cells=256)
-            prepare_mesh(made, mesh_ply, Path(folder) / "mesh.json", name="wyrm")
+            mesh = {"generate": "wyrm", "cells": 256}
+            generate_mesh(made, mesh)
+            prepare_mesh(made, mesh_ply, Path(folder) / "mesh.json", mesh, "wyrm")
         found = table([row for rows in measure(arguments, mesh_ply) for row in rows])
     print(found.to_string(index=False, float_format="{:,.4g}".format, na_rep=""))
     write_text(TABLE, found.to_csv(index=False, lineterminator="\n", float_format="%.6g"))

@@ -168,15 +168,17 @@ class Slurm:
         return sorted((Job(*line.split("|")) for line in lines), key=lambda job: int(job.id))
 
     def processes_of(self, *jobs: str) -> list[int]:
-        """Processes of running jobs."""
+        """Processes of running jobs, their steps' keepers (slurmstepd) included."""
         ours = f"SLURM_CONF={self.config}".encode()
         names = {f"SLURM_JOB_ID={job}".encode() for job in jobs}
         found = []
         for entry in Path("/proc").glob("[0-9]*"):
             try:
                 variables = {*(entry / "environ").read_bytes().split(b"\0")}
+                title = (entry / "cmdline").read_bytes()
             except OSError:  # ended meanwhile
                 continue
-            if ours in variables and names & variables:
+            keeper = any(title.startswith(f"slurmstepd: [{job}.".encode()) for job in jobs)
+            if ours in variables and (keeper or names & variables):
                 found.append(int(entry.name))
         return found
