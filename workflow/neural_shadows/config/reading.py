@@ -9,9 +9,10 @@ from pydantic import ValidationError
 
 from neural_shadows.config.base import not_among
 from neural_shadows.config.messages import describe
-from neural_shadows.config.scenes import MESH_SUFFIXES, MeshFile
+from neural_shadows.config.scenes import MeshFile
 from neural_shadows.config.whole import Config
 from neural_shadows.errors import InputError
+from neural_shadows.meshes.formats import format_of
 
 # What `dragon` may be beside a file.
 MESHES_BY_NAME = {"wyrm": {"generate": "wyrm"}, "stanford": {"download": "stanford_dragon"}}
@@ -99,16 +100,13 @@ def check_files(config: Config) -> None:
             path = scene.mesh.path
             short = name == "dragon" and config.dragon == path
             key = "dragon" if short else f"scenes.{name}.mesh.path"
-            if short and not Path(path).suffix and not Path(path).exists():
-                raise InputError(
-                    f"config: dragon: {not_among(path, MESHES_BY_NAME)}, and is no file"
-                )
-            if Path(path.removesuffix(".gz")).suffix.lower() not in MESH_SUFFIXES:
-                raise InputError(
-                    f"config: {key} = {path!r}: cannot be read by its suffix; "
-                    f"allowed: {', '.join(MESH_SUFFIXES)}, also with .gz"
-                )
+            if short and "." not in path and not Path(path).exists():
+                raise InputError(f"config: dragon: {not_among(path, MESHES_BY_NAME)}, and no file")
             _check_file(key, path)
+            try:
+                format_of(path)
+            except InputError as error:
+                raise InputError(f"config: {key}: {error}") from error
     if config.metrics.lpips.trunk is not None:
         _check_file("metrics.lpips.trunk", config.metrics.lpips.trunk)
 

@@ -10,8 +10,6 @@ from neural_shadows.config.base import Model, Seed, by_kind, one_of
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
 
-MESH_SUFFIXES = (".ply", ".obj", ".stl", ".glb")
-
 
 class GeneratedMesh(Model):
     """A mesh that the pipeline makes."""
