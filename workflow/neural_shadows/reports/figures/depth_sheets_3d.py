@@ -1,6 +1,7 @@
-"""A network's depths for one light between their bounds, in three dimensions (figure 3.2)."""
+"""A network's depths for one light beside their bounds, in three dimensions (figure 3.2)."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,53 +10,97 @@ import pyvista
 import torch
 from matplotlib.patches import Patch
 
-from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rays.labels import chord_lengths, dual_bounds
 from neural_shadows.rays.silhouette import entry_points
+from neural_shadows.reports.figures.hero_view import hero_view
 from neural_shadows.reports.figures.space import (
     FALSE_SHADOW,
     LIGHT_LEAK,
     OBJECT_COLOUR,
-    hero_view,
     new_plotter,
     write_pictures,
 )
-from neural_shadows.reports.figures.style import BLUE, ORANGE
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.scene import Scene, open_scene
+from neural_shadows.scenes.scene import open_scene
 
-RAYS = 400  # along a side of the disk
+RAYS = 500  # along a side of the disk across the light
+TOLERANCE = 0.005  # of a depth that counts as right: two thirds of a cell of a 256³ field
+STEP = 0.15  # in depth between neighbouring rays: beyond it, a sheet is torn
 
 
 def draw(
     mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
-    """Draw t_pred as a sheet, below t_lb and above t_ub where it is right, whole and cut open.
-
-    Depth runs downwards from the sphere, as the light does; the disk is across it.
+    """Draw t_lb, t_pred and t_ub of a light's rays that hit, each as a sheet where it lies.
 
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
     """
     opened = open_scene(mesh_ply, **scene)
     network, _ = load_network(weights)
-    whole = depth_sheets(opened, network)
-    view = hero_view(np.array([0.0, 0.0, 1.0]))
-    left, right = new_plotter(view), new_plotter(view)
+    view = hero_view(opened.up)
+    # From nearer the light, where less of the sheets is torn.
+    eye = view.eye / np.linalg.norm(view.eye) + 0.9 * view.light
+    view = replace(view, eye=3.0 * eye / np.linalg.norm(eye))
+    d = (-view.light).astype(np.float32)
+    at = (np.arange(RAYS) + 0.5) / RAYS * 2 - 1
+    disk = np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
+    o = entry_points(-view.light, disk)  # offsets beyond the sphere are taken to its rim
+    t_lb, t_ub = dual_bounds(opened.tracer, o, d)
+    chord = chord_lengths(o, np.broadcast_to(d, o.shape))
+    hit = ((disk**2).sum(axis=1) < 0.99) & (t_lb < chord - 1e-6)
+    t_ub = np.minimum(t_ub, chord)
+    with torch.inference_mode():
+        depths = network.depths(torch.from_numpy(o), torch.from_numpy(d), torch.float32)
+    t_pred = np.minimum(depths.numpy(), chord)
+    early, late = t_pred < t_lb - TOLERANCE, t_pred > t_ub + TOLERANCE
+    colour = np.select([early, late], [1, 2])
+    plotters = []
+    for t in (t_lb, t_pred, t_ub):
+        sheet = sheet_of(np.where(hit, t, np.nan), o + t[:, None] * d)
+        sheet["colour"] = (colour if t is t_pred else 0 * colour)[sheet["ray"]]
+        plotters.append(new_plotter(view))
+        plotters[-1].add_mesh(
+            sheet,
+            scalars="colour",
+            cmap=[OBJECT_COLOUR, FALSE_SHADOW, LIGHT_LEAK],
+            clim=(0, 2),
+            interpolate_before_map=False,
+            smooth_shading=True,
+            show_scalar_bar=False,
+        )
+    right = 1 - np.mean((early | late)[hit])
+    headings = (
+        "t$_{lb}$: what the light meets",
+        f"t$_{{pred}}$: {right:.0%} right",
+        "t$_{ub}$: where it would leave",
+    )
     write_pictures(
-        {"t$_{pred}$ of the rays of one light, from above": left, "cut open": right},
+        dict(zip(headings, plotters)),
         png,
         svg,
         title=title,
         entries=[
-            Patch(color=ORANGE, alpha=0.5, label="t$_{lb}$, the first hit"),
-            Patch(color=BLUE, alpha=0.5, label="t$_{ub}$, the second hit"),
-            Patch(color=OBJECT_COLOUR, label="t$_{pred}$ between them: right"),
+            Patch(color=OBJECT_COLOUR, label="t$_{pred}$ between the bounds: right"),
             Patch(color=FALSE_SHADOW, label="before t$_{lb}$: false shadow"),
             Patch(color=LIGHT_LEAK, label="behind t$_{ub}$: light leak"),
         ],
     )
+
+
+def sheet_of(depths: np.ndarray, points: np.ndarray) -> pyvista.PolyData:
+    """Quads between the points (RAYS², 3) of rays whose depths (RAYS²,), NaN for none, are near.
+
+    The sheet's points have the index of their `ray`.
+    """
+    i = np.arange(RAYS**2).reshape(RAYS, RAYS)
+    quads = np.stack([i[:-1, :-1], i[:-1, 1:], i[1:, 1:], i[1:, :-1]], axis=-1).reshape(-1, 4)
+    quads = quads[np.ptp(depths[quads], axis=1) < STEP]
+    rays, corners = np.unique(quads, return_inverse=True)
+    sheet = pyvista.PolyData.from_regular_faces(points[rays], corners.reshape(-1, 4))
+    sheet["ray"] = rays
+    return sheet
 
 
 if "snakemake" in globals():

@@ -16,9 +16,9 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
 )
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.reports.figures.field_slice import field_logits
+from neural_shadows.reports.figures.hero_view import hero_view
 from neural_shadows.reports.figures.space import (
     OBJECT_COLOUR,
-    hero_view,
     new_plotter,
     surface,
     write_pictures,
@@ -42,7 +42,7 @@ def draw(
         InputError: an input file is missing or not whole, or there is no OpenGL.
     """
     opened = open_scene(mesh_ply, **scene)
-    view = hero_view(opened.up)
+    view = hero_view(opened.up, 3.0)
     left, right = new_plotter(view), new_plotter(view)
     shape = surface(opened.objects[0])
     left.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True)
@@ -52,7 +52,12 @@ def draw(
     distance = learned["implicit_distance"] / cell
     learned["cells"] = np.abs(distance) if field.surface == "sheet" else distance
     right.add_mesh(
-        learned, scalars="cells", cmap=COLOURS, clim=(-1, 1), smooth_shading=True, show_scalar_bar=False
+        learned,
+        scalars="cells",
+        cmap=COLOURS,
+        clim=(-0.5, 0.5),
+        smooth_shading=True,
+        show_scalar_bar=False,
     )
     within = np.mean(np.abs(distance) < 0.5)
     write_pictures(
@@ -63,7 +68,10 @@ def draw(
         png,
         svg,
         title=title,
-        scale=("outside the mesh > 0 > inside it, cells", ScalarMappable(Normalize(-1, 1), COLOURS)),
+        scale=(
+            "outside the mesh > 0 > inside it, cells",
+            ScalarMappable(Normalize(-0.5, 0.5), COLOURS),
+        ),
     )
 
 

@@ -46,8 +46,9 @@ def draw(
     whole.set_title(
         f"bricks of {BRICK}³ cells at the surface, {field.resolution}³ cells in all", fontsize=11
     )
+    # The highest point stands a little above the middle: there is less to be seen above it.
     ends = cut.outline.reshape(-1, 2)
-    centre = ends[ends[:, 1].argmax()]
+    centre = ends[ends[:, 1].argmax()] - (0, 0.4 * DETAIL)
     square = {"fill": False, "edgecolor": OUTLINE, "linewidth": 1}
     whole.add_patch(Rectangle(centre - DETAIL, 2 * DETAIL, 2 * DETAIL, **square))
     image = _show(detail, field, cut, centre, DETAIL)

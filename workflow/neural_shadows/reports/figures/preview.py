@@ -18,17 +18,15 @@ from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.reports.figures.drawing import draw_quads, draw_silhouette
-from neural_shadows.reports.figures.style import ORANGE
+from neural_shadows.reports.figures.hero_view import DISTANCE, FOV, hero_view
+from neural_shadows.reports.figures.style import COLOURS, ORANGE
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import Viewpoint, camera_axes
-from neural_shadows.scenes.lights import light_basis
 from neural_shadows.scenes.scene import Scene, open_scene
 
 PIXELS = 700  # of the picture of the object, square
 RESOLUTION = 128  # of the silhouette, as in the default config
-FOV = 36.0
-DISTANCE = 3.6  # radii: the sphere then fills nine tenths of the frame
-AXIS_COLOURS = dict(zip("xyz", ("#d55e00", "#009e73", "#0072b2")))
+AXIS_COLOURS = dict(zip("xyz", (COLOURS[1], COLOURS[2], COLOURS[0])))
 
 
 def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Mapping[str, Any]) -> None:
@@ -68,18 +66,6 @@ def describe(report: Mapping[str, Any], up: str) -> list[str]:
         f"Up is {up}: if the object does not stand as it should, change the scene's `up`.",
         f"{closed} Orange: its bounding sphere, in which all lengths are measured.",
     ]
-
-
-def hero_view(up: np.ndarray) -> Viewpoint:
-    """A three-quarter view from above, lit over the camera's left shoulder."""
-    # From 20 degrees above the horizon and 30 off a coordinate axis, which shows most objects
-    # from neither front nor side.
-    side, across, _ = light_basis(up)
-    heading = np.cos(np.radians(30)) * side + np.sin(np.radians(30)) * across
-    eye = DISTANCE * (np.cos(np.radians(20)) * heading + np.sin(np.radians(20)) * up)
-    # Most of what is seen is lit, and the shadow is seen too.
-    light = heading + 0.9 * np.cross(heading, up) + 1.1 * up
-    return Viewpoint("preview", 0, eye, np.zeros(3), up, FOV, light / np.linalg.norm(light))
 
 
 def _draw_object(axes: Axes, scene: Scene, view: Viewpoint) -> None:

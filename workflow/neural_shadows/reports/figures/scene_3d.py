@@ -12,11 +12,11 @@ from matplotlib.patches import Patch
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.rays.labels import chord_lengths
 from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.reports.figures.hero_view import hero_view
 from neural_shadows.reports.figures.space import (
-    GROUND_COLOUR,
     OBJECT_COLOUR,
+    add_ground,
     add_sphere,
-    hero_view,
     lines,
     new_plotter,
     surface,
@@ -56,10 +56,7 @@ def draw(
         shape = surface(opened.objects[0])
         plotter.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True, opacity=opacity)
         add_sphere(plotter)
-    if opened.ground is not None:
-        centre = opened.ground * opened.up
-        disk = pyvista.Disc(center=centre, inner=0, outer=1.2, normal=opened.up, c_res=90)
-        left.add_mesh(disk, color=GROUND_COLOUR, lighting=False)
+    add_ground(left, opened)
     left.add_mesh(light_domain(opened), color=LIGHT_COLOUR, opacity=0.2, lighting=False)
     style = {"render_points_as_spheres": True, "lighting": False}
     towards = -rays.directions.astype(np.float32)

@@ -12,27 +12,15 @@ from matplotlib.cm import ScalarMappable
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.reports.figures import opengl
-from neural_shadows.reports.figures.style import new_figure, write_figure
+from neural_shadows.reports.figures.style import BLUE, ORANGE, new_figure, write_figure
 from neural_shadows.scenes.cameras import Viewpoint
-from neural_shadows.scenes.lights import light_basis
+from neural_shadows.scenes.scene import Scene
 
 WIDTH, HEIGHT = 900, 800  # pixels of a picture
 OBJECT_COLOUR = "#d8d4cc"
+FALSE_SHADOW, LIGHT_LEAK = ORANGE, BLUE
 GROUND_COLOUR = "#f1eee6"
-FOV = 36.0
-DISTANCE = 3.6  # radii: the unit sphere then fills nine tenths of the frame
-
-
-def hero_view(up: np.ndarray, distance: float = DISTANCE) -> Viewpoint:
-    """A three-quarter view from above, lit over the camera's left shoulder."""
-    # From 20 degrees above the horizon and 30 off a coordinate axis, which shows most objects
-    # from neither front nor side.
-    side, across, _ = light_basis(up)
-    heading = np.cos(np.radians(30)) * side + np.sin(np.radians(30)) * across
-    eye = distance * (np.cos(np.radians(20)) * heading + np.sin(np.radians(20)) * up)
-    # Most of what is seen is lit, and the shadow is seen too.
-    light = heading + 0.9 * np.cross(heading, up) + 1.1 * up
-    return Viewpoint("hero", 0, eye, np.zeros(3), up, FOV, light / np.linalg.norm(light))
+REACH = 1.2  # radii of what is shown of the ground
 
 
 def new_plotter(view: Viewpoint) -> pyvista.Plotter:
@@ -72,7 +60,15 @@ def lines(starts: np.ndarray, ends: np.ndarray) -> pyvista.PolyData:
 def add_sphere(plotter: pyvista.Plotter) -> None:
     """Add the bounding sphere as a net."""
     sphere = pyvista.Sphere(radius=1, theta_resolution=36, phi_resolution=18)
-    plotter.add_mesh(sphere, style="wireframe", color="#d55e00", opacity=0.2, lighting=False)
+    plotter.add_mesh(sphere, style="wireframe", color=ORANGE, opacity=0.2, lighting=False)
+
+
+def add_ground(plotter: pyvista.Plotter, scene: Scene) -> None:
+    """Add a disk of the ground, if the scene has one."""
+    if scene.ground is not None:
+        centre = scene.ground * scene.up
+        disk = pyvista.Disc(center=centre, inner=0, outer=REACH, normal=scene.up, c_res=90)
+        plotter.add_mesh(disk, color=GROUND_COLOUR, lighting=False)
 
 
 def write_pictures(
@@ -89,7 +85,9 @@ def write_pictures(
     Args:
         scale: label and colours of a scale at the right.
     """
-    figure = new_figure(title, 6.2 * len(shown) + (0.9 if scale else 0), 6.4)
+    width = min(6.2, 18 / len(shown))
+    height = width * HEIGHT / WIDTH + (1.3 if entries else 0.8)
+    figure = new_figure(title, width * len(shown) + (0.9 if scale else 0), height)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
     for axes, (heading, plotter) in zip(panels, shown.items()):
         axes.imshow(plotter.screenshot(return_img=True))

@@ -1,0 +1,110 @@
+"""Where methods err: false shadow and light leak as points on the scene, in three dimensions."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.patches import Patch
+
+from neural_shadows.evaluation.references import References
+from neural_shadows.evaluation.shadow_methods import (
+    ShadowMethod,
+    network_method,
+    open_network,
+    traced_method,
+)
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.figures.hero_view import hero_view
+from neural_shadows.reports.figures.space import (
+    FALSE_SHADOW,
+    LIGHT_LEAK,
+    OBJECT_COLOUR,
+    REACH,
+    add_ground,
+    new_plotter,
+    surface,
+    write_pictures,
+)
+from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.scene import open_scene
+
+MOST_POINTS = 20_000
+
+
+def draw(
+    mesh_ply: Path,
+    references: Path,
+    weights: list[Path],
+    depth_biases: list[Path],
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    scene: Mapping[str, Any],
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
+    threads: int = 1,
+) -> None:
+    """Draw the wrong points of a batch of viewpoints by each method.
+
+    Args:
+        references: of the batch.
+        weights, depth_biases: of the rows' experiments.
+
+    Raises:
+        InputError: an input file is missing or not whole, or there is no OpenGL.
+    """
+    opened = open_scene(mesh_ply, **scene)
+    networks = {path.parent.name: path for path in weights}
+    biases = {path.stem: path for path in depth_biases}
+    shown = {}
+    for row in rows:
+        if row["experiment"] is None:
+            method = traced_method(row["method"], opened)
+        else:
+            network, dtype = open_network(networks[row["experiment"]], "auto", "auto", threads)
+            bias = row["bias"]
+            if bias == "held_out":
+                bias = read_json(biases[row["experiment"]])["depth_bias"]
+            method = network_method(network, dtype, bias or 0.0)
+        p, error, share = wrong_points(method, References(references))
+        plotter = new_plotter(hero_view(opened.up, 3.7))
+        plotter.add_mesh(surface(opened.objects[0]), color=OBJECT_COLOUR, smooth_shading=True)
+        add_ground(plotter, opened)
+        for sign, colour in ((-1, FALSE_SHADOW), (1, LIGHT_LEAK)):
+            if np.any(error == sign):
+                plotter.add_points(p[error == sign], color=colour, point_size=4, lighting=False)
+        shown[f"{row['label']}\n{share:.2%} of the points wrong"] = plotter
+    write_pictures(
+        shown,
+        png,
+        svg,
+        title=f"{title} ({run['scale']} scale)",
+        entries=[
+            Patch(color=FALSE_SHADOW, label="false shadow"),
+            Patch(color=LIGHT_LEAK, label="light leak"),
+        ],
+    )
+
+
+def wrong_points(method: ShadowMethod, batch: References) -> tuple[np.ndarray, np.ndarray, float]:
+    """Points (k, 3) where a method errs, the sign of the error (k,), and the share of all points.
+
+    At most `MOST_POINTS` near the object; the share is of all points that face the light.
+    """
+    points, signs, count, total = [], [], 0, 0
+    for frame, truth in batch:
+        error = np.sign(np.round(method(frame)) - np.round(truth))[frame.lit_side]
+        wrong = np.flatnonzero(error)
+        count, total = count + len(wrong), total + len(error)
+        near = wrong[np.linalg.norm(frame.p[wrong], axis=1) < 1.1 * REACH]
+        points.append(frame.p[near])
+        signs.append(error[near])
+    p, sign = np.concatenate(points), np.concatenate(signs)
+    thin = slice(None, None, 1 + len(p) // MOST_POINTS)
+    return p[thin], sign[thin], count / max(total, 1)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)
