@@ -41,8 +41,7 @@ rule render_references:
     params:
         scene=setting("scenes/{scene}/scene"),
         frames=setting("scenes/{scene}/frames"),
-        first=of(LAYOUT.first_view),
-        last=of(LAYOUT.last_view),
+        settings=of(LAYOUT.view_range),
         reference=setting("rendering/reference"),
     message:
         "Rendering references of {wildcards.scene}, batch {wildcards.batch}"
@@ -81,7 +80,7 @@ rule evaluate:
         references=PATHS.reference("safetensors"),
         mesh_ply=PATHS.scene("mesh.ply"),
         weights=of(LAYOUT.weights),
-        depth_bias_json=of(LAYOUT.method_bias),
+        depth_bias_json=of(LAYOUT.bias_file),
         lpips_json=PATHS.lpips,
         code=lambda wildcards: code(
             "evaluation/evaluate", LAYOUT.method_encodings(wildcards.method)

@@ -42,8 +42,7 @@ rule sample_rays:
     params:
         sampling=setting("samplings/{sampling}"),
         seed=setting("scenes/{scene}/seed"),
-        first=of(LAYOUT.first_direction),
-        last=of(LAYOUT.last_direction),
+        settings=of(LAYOUT.shard_range),
     message:
         "Sampling rays of {wildcards.scene} ({wildcards.sampling}), shard {wildcards.shard}"
     script:
@@ -69,8 +68,7 @@ rule label_rays:
         **usual(4000, minutes=10),
     params:
         seed=setting("scenes/{scene}/seed"),
-        first=of(LAYOUT.first_direction),
-        last=of(LAYOUT.last_direction),
+        settings=of(LAYOUT.shard_range),
     message:
         "Tracing labels of {wildcards.scene} ({wildcards.sampling}), shard {wildcards.shard}"
     script:

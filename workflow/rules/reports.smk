@@ -6,7 +6,7 @@ rule table:
         unpack(of(tables.files)),
         code=lambda wildcards: code(
             f"reports/tables/{tables.kind(LAYOUT, wildcards.table)}",
-            LAYOUT.encodings(tables.experiments(LAYOUT, wildcards.table)),
+            tables.encodings(LAYOUT, wildcards.table),
         ),
     output:
         csv=report(
@@ -36,7 +36,7 @@ rule figure:
         unpack(of(figures.files)),
         code=lambda wildcards: code(
             f"reports/figures/{figures.kind(LAYOUT, wildcards.figure)}",
-            LAYOUT.encodings(figures.experiments(LAYOUT, wildcards.figure)),
+            figures.encodings(LAYOUT, wildcards.figure),
         ),
     output:
         png=report(

@@ -3,9 +3,8 @@
 
 rule export_network:
     input:
+        unpack(of(LAYOUT.export_files)),
         weights=PATHS.network("weights.safetensors"),
-        mesh_json=of(LAYOUT.experiment_mesh_json),
-        depth_bias_json=of(LAYOUT.experiment_bias),
         code=lambda wildcards: code(
             "viewer/export_network", LAYOUT.encodings([wildcards.experiment])
         ),

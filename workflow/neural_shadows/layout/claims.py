@@ -18,9 +18,7 @@ def files(layout: Layout) -> dict[str, list[str]]:
             case "lower_loss":
                 losses += tables.networks(layout, rows, "loss.csv")
             case "frame_time":
-                times += [
-                    layout.paths.frame_times(claim["table"], row["scene"]) for row in rows
-                ]
+                times += [layout.paths.frame_times(claim["table"], row["scene"]) for row in rows]
     found = {"metrics": metrics, "losses": losses, "times": times}
     return {name: tables.unique(paths) for name, paths in found.items()}
 

@@ -5,66 +5,84 @@ from typing import Any
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 
+# What a kind's function is told beside its title; those that are not here, the scene alone.
+TOLD = {
+    "pictures": ("rows", "view_sets", "run"),
+    "errors_3d": ("scene", "rows", "run"),
+    "loss": ("curves", "run"),
+    "widths": ("rows", "run"),
+    "pareto": ("scene", "rows", "run"),
+    "cost": ("run",),
+    "view_directions": ("seed",),
+    "overview": ("scene", "sampling", "seed"),
+    "quadtree": ("scene", "sampling", "seed"),
+}
+
 
 def files(layout: Layout, figure: str) -> dict[str, Any]:
     """The files that a figure is made of, as its kind's function names them."""
-    settings = layout.entry("figures", figure)
-    paths = layout.paths
-    match settings["kind"]:
+    settings, paths = layout.entry("figures", figure), layout.paths
+    kind, scene = settings["kind"], _scene(layout, figure)
+    mesh_ply = {"mesh_ply": paths.scene("mesh.ply", scene)}
+    mesh = mesh_ply | {"mesh_json": paths.scene("mesh.json", scene)}
+    match kind:
         case "pictures":
-            first = [(settings["scene"], row["method"], "000") for row in settings["rows"]]
+            first = [(scene, row["method"], "000") for row in settings["rows"]]
             return {
                 "metrics": [paths.evaluation("csv", *names) for names in first],
                 "pictures": [
-                    paths.reference("npz", settings["scene"], "000"),
+                    paths.reference("npz", scene, "000"),
                     *(paths.evaluation("npz", *names) for names in first),
                 ],
-                "mesh_json": paths.scene("mesh.json", settings["scene"]),
+                "mesh_json": mesh["mesh_json"],
+            }
+        case "errors_3d":
+            return mesh_ply | {
+                "references": paths.reference("safetensors", scene, "000"),
+                "weights": tables.networks(layout, settings["rows"], "weights.safetensors"),
+                "depth_biases": tables.depth_biases(layout, settings["rows"]),
+            }
+        case "field_slice" | "field_3d" | "depth_sheets_3d":
+            return mesh_ply | {
+                "weights": paths.network("weights.safetensors", settings["experiment"])
             }
         case "loss":
             curves = settings["curves"]
-            return {"losses": [paths.network("loss.csv", one["experiment"]) for one in curves]}
+            return {"losses": [paths.network("loss.csv", curve["experiment"]) for curve in curves]}
         case "widths" | "pareto":
             return {"table": paths.report(f"{settings['table']}.csv")}
         case "cost":
             return {"costs": tables.costs(layout, settings["table"])}
-        case "field_slice":
-            experiment = settings["experiment"]
-            scene = layout.entry("experiments", experiment)["scene"]
-            return {
-                "mesh_ply": paths.scene("mesh.ply", scene),
-                "weights": paths.network("weights.safetensors", experiment),
+        case "view_directions":
+            return {}
+        case "scene_3d":
+            directions = paths.rays("directions.npy", scene, settings["sampling"])
+            return mesh | {
+                "directions_npy": directions,
+                **layout.shards(scene, settings["sampling"]),
             }
         case _:  # a picture of the method
-            scene = settings["scene"]
-            return {
-                "mesh_ply": paths.scene("mesh.ply", scene),
-                "mesh_json": paths.scene("mesh.json", scene),
-            }
+            return mesh
 
 
 def arguments(layout: Layout, figure: str) -> dict[str, Any]:
     """What the function of a figure's kind is told beside its files."""
+    settings, scene = layout.entry("figures", figure), _scene(layout, figure)
+    values = {**settings, "run": layout.run(), "seed": layout.settings["seed"]}
+    if scene is not None:
+        values["seed"] = layout.entry("scenes", scene)["seed"]
+    if scene is not None and settings["kind"] != "pareto":
+        values["scene"] = layout.entry("scenes", scene)["scene"]
+    if "sampling" in settings:
+        values["sampling"] = layout.entry("samplings", settings["sampling"])
+    return {key: values[key] for key in ("title", *TOLD.get(settings["kind"], ("scene",)))}
+
+
+def _scene(layout: Layout, figure: str) -> str | None:
     settings = layout.entry("figures", figure)
-    title, run = {"title": settings["title"]}, {"run": layout.run()}
-    match settings["kind"]:
-        case "pictures":
-            return title | run | {key: settings[key] for key in ("rows", "view_sets")}
-        case "loss":
-            return title | run | {"curves": settings["curves"]}
-        case "widths":
-            return title | run | {"rows": settings["rows"]}
-        case "pareto":
-            return title | run | {key: settings[key] for key in ("scene", "rows")}
-        case "cost":
-            return title | run
-        case "field_slice":
-            scene = layout.entry("experiments", settings["experiment"])["scene"]
-            return title | {"scene": layout.entry("scenes", scene)["scene"]}
-        case _:
-            scene = layout.entry("scenes", settings["scene"])
-            sampling = layout.entry("samplings", settings["sampling"])
-            return title | {"scene": scene["scene"], "sampling": sampling, "seed": scene["seed"]}
+    if "experiment" in settings:
+        return layout.entry("experiments", settings["experiment"])["scene"]
+    return settings.get("scene")
 
 
 def kind(layout: Layout, figure: str) -> str:
@@ -78,7 +96,8 @@ def labels(layout: Layout, figure: str) -> dict[str, str]:
     return {"figure": number, "title": layout.entry("figures", figure)["title"]}
 
 
-def experiments(layout: Layout, figure: str) -> list[str]:
-    """The networks whose weights a figure reads."""
+def encodings(layout: Layout, figure: str) -> set[str]:
+    """The kinds of the networks whose weights a figure reads."""
     settings = layout.entry("figures", figure)
-    return [settings["experiment"]] if "experiment" in settings else []
+    rows = settings["rows"] if settings["kind"] == "errors_3d" else [settings]
+    return layout.encodings(tables.experiments_of(rows))

@@ -1,4 +1,4 @@
-"""A checked configuration, the files of its run, and what each stage reads."""
+"""A checked configuration, the files of its run, and what each stage is given."""
 
 import os
 from collections.abc import Iterable, Mapping
@@ -52,31 +52,27 @@ class Layout:
 
     def run(self) -> dict[str, Any]:
         """What a report says of the run that it was made in."""
-        rendering = self.settings["rendering"]
-        kept = {key: rendering[key] for key in ("width", "height", "reference")}
-        return {"scale": self.settings["scale"], "seed": self.settings["seed"], **kept}
+        kept = ("width", "height", "reference")
+        rendering = {key: self.settings["rendering"][key] for key in kept}
+        return {"scale": self.settings["scale"], "seed": self.settings["seed"], **rendering}
 
     def scenes(self, names: Iterable[str]) -> dict[str, dict[str, Any]]:
         """What a report says of some scenes."""
-        found = {}
-        for name in dict.fromkeys(names):
-            scene = self.entry("scenes", name)
-            found[name] = {
+        scenes = {name: self.entry("scenes", name) for name in dict.fromkeys(names)}
+        return {
+            name: {
                 "mesh_name": scene["mesh_name"],
                 "procedural": "generate" in scene["mesh"],
                 "seed": scene["seed"],
             }
-        return found
-
-    # Meshes and rays
+            for name, scene in scenes.items()
+        }
 
     def mesh_source(self, scene: str) -> str:
         """The file that a scene's mesh is read from: the user's own, or one that a rule makes."""
         mesh = self.entry("scenes", scene)["mesh"]
-        if "path" in mesh:
-            return mesh["path"]
-        made = "generated" if "generate" in mesh else "downloaded"
-        return self.paths.scene(f"{made}.ply", scene)
+        made = "generated.ply" if "generate" in mesh else "downloaded.ply"
+        return mesh["path"] if "path" in mesh else self.paths.scene(made, scene)
 
     def direction_light(self, scene: str, sampling: str) -> Mapping[str, Any] | None:
         """The light domain that view directions are drawn from; None for the whole sphere."""
@@ -87,17 +83,11 @@ class Layout:
                 return {"domain": "sphere", "min_elevation_deg": 0}
         return None
 
-    def first_direction(self, sampling: str, shard: str) -> int:
-        """The first view direction of a shard."""
-        return self._directions(sampling, shard)[0]
-
-    def last_direction(self, sampling: str, shard: str) -> int:
-        """The last view direction of a shard, exclusive."""
-        return self._directions(sampling, shard)[1]
-
-    def _directions(self, sampling: str, shard: str) -> tuple[int, int]:
+    def shard_range(self, sampling: str, shard: str) -> dict[str, int]:
+        """First and last (exclusive) view direction of a shard."""
         settings = self.entry("samplings", sampling)
-        return part_range(settings["directions"], settings["shards"], int(shard))
+        first, last = part_range(settings["directions"], settings["shards"], int(shard))
+        return {"first": first, "last": last}
 
     def shards(self, scene: str, sampling: str) -> dict[str, list[str]]:
         """All shards of a ray set."""
@@ -106,8 +96,6 @@ class Layout:
             stem: self.paths.ray_shards(stem, scene, sampling, count)
             for stem in ("origins", "bounds")
         }
-
-    # Networks
 
     def training_files(self, experiment: str) -> dict[str, Any]:
         """What an experiment trains on: a ray set, and the mesh if its network is laid out by it."""
@@ -121,55 +109,49 @@ class Layout:
             **self.shards(*names),
         }
 
-    def experiment_mesh_json(self, experiment: str) -> str:
-        """What is known of the mesh of an experiment's scene."""
-        return self.paths.scene("mesh.json", self.entry("experiments", experiment)["scene"])
+    def export_files(self, experiment: str) -> dict[str, Any]:
+        """What an export says of its network: the mesh's sphere, and the depth bias if found."""
+        scene = self.entry("experiments", experiment)["scene"]
+        return {
+            "mesh_json": self.paths.scene("mesh.json", scene),
+            "depth_bias_json": self.bias_file(experiment),
+        }
 
-    def experiment_bias(self, experiment: str) -> list[str]:
-        """The file of an experiment's depth bias, if it is one that is found."""
-        found = self.entry("experiments", experiment)["bias"] == HELD_OUT
-        return [self.paths.depth_bias(experiment)] * found
+    def encodings(self, experiments: Iterable[str]) -> set[str]:
+        """The kinds of networks of some experiments."""
+        return {self.entry("experiments", name)["network"]["encoding"] for name in experiments}
+
+    def view_range(self, batch: str) -> dict[str, int]:
+        """First and last (exclusive) viewpoint of a batch in each view set."""
+        first, last = view_range(self.settings["rendering"], batch)
+        return {"first": first, "last": last}
 
     def held_out_views(self, experiment: str) -> str:
         """The references of the viewpoints that an experiment's depth bias is found on."""
         scene = self.entry("experiments", experiment)["scene"]
         return self.paths.reference("safetensors", scene, HELD_OUT)
 
-    def encodings(self, experiments: Iterable[str]) -> set[str]:
-        """The kinds of networks of some experiments."""
-        return {self.entry("experiments", name)["network"]["encoding"] for name in experiments}
-
-    # Methods, evaluated batch by batch
-
-    def first_view(self, batch: str) -> int:
-        """The first viewpoint of a batch in each view set."""
-        return view_range(self.settings["rendering"], batch)[0]
-
-    def last_view(self, batch: str) -> int:
-        """The last viewpoint of a batch in each view set, exclusive."""
-        return view_range(self.settings["rendering"], batch)[1]
-
     def bias(self, method: str) -> float | str | None:
         """The depth bias of a method that is a network: a number, or `held_out`."""
         if is_shadow_map(method):
             return None
-        experiment = experiment_of(method)
-        return self.entry("experiments", experiment)["bias"] if method == experiment else HELD_OUT
-
-    def weights(self, method: str) -> list[str]:
-        """The weights of a method that is a network."""
         name = experiment_of(method)
-        return [] if is_shadow_map(method) else [self.paths.network("weights.safetensors", name)]
+        return self.entry("experiments", name)["bias"] if method == name else HELD_OUT
 
-    def method_encodings(self, method: str) -> set[str]:
-        """The kind of network of a method that is one."""
-        return set() if is_shadow_map(method) else self.encodings([experiment_of(method)])
-
-    def method_bias(self, method: str) -> list[str]:
+    def bias_file(self, method: str) -> list[str]:
         """The file of a method's depth bias, if it is one that is found."""
         return [self.paths.depth_bias(experiment_of(method))] * (self.bias(method) == HELD_OUT)
 
-    def evaluations(self, scene: str, method: str, ending: str) -> list[str]:
-        """A method's files of all batches: metrics (`csv`) or pictures (`npz`)."""
+    def weights(self, method: str) -> list[str]:
+        """The weights of a method that is a network."""
+        file = self.paths.network("weights.safetensors", experiment_of(method))
+        return [file] * (not is_shadow_map(method))
+
+    def method_encodings(self, method: str) -> set[str]:
+        """The kind of network of a method that is one."""
+        return self.encodings([experiment_of(method)] * (not is_shadow_map(method)))
+
+    def metrics(self, scene: str, method: str) -> list[str]:
+        """A method's metrics of all batches."""
         parts = batches(self.settings["rendering"])
-        return [self.paths.evaluation(ending, scene, method, part) for part in parts]
+        return [self.paths.evaluation("csv", scene, method, part) for part in parts]

@@ -10,70 +10,59 @@ from neural_shadows.layout.parts import HELD_OUT
 
 Row = Mapping[str, Any]
 
-PUBLISHED = ("comparison", "frame_times", "memory")
-"""Kinds whose values stand beside the thesis's."""
+# What a kind's function is made of and told beside its title.
+FILES = {
+    "comparison": ("metrics", "mesh_json", "trainings", "depth_biases", "lpips_json"),
+    "frame_times": ("times", "metrics", "weights", "meshes", "lpips_json"),
+    "networks": (
+        *("times", "metrics", "weights", "trainings", "depth_biases", "meshes", "lpips_json"),
+    ),
+    "memory": ("mesh_ply", "weights"),
+    "cost": ("costs",),
+}
+TOLD = {
+    "comparison": ("published", "rows", "run", "scenes"),
+    "frame_times": ("published", "rows", "run"),
+    "networks": ("rows", "run", "scenes"),
+    "memory": ("published", "rows", "run"),
+    "cost": ("run",),
+}
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
     """The files that a table is made of, as its kind's function names them."""
-    settings = layout.entry("tables", table)
-    rows, paths = settings["rows"], layout.paths
+    settings, paths = layout.entry("tables", table), layout.paths
+    kind, rows = settings["kind"], settings["rows"]
     scenes = unique(row["scene"] for row in rows)
-    match settings["kind"]:
-        case "comparison":
-            found = {
-                "metrics": metrics(layout, rows),
-                "mesh_json": paths.scene("mesh.json", scenes[0]),
-                "trainings": networks(layout, rows, "training.json"),
-                "depth_biases": depth_biases(layout, rows),
-                "lpips_json": paths.lpips,
-            }
-        case "frame_times":
-            found = {
-                "times": [paths.frame_times(table, scene) for scene in scenes],
-                "metrics": metrics(layout, rows),
-                "weights": networks(layout, rows, "weights.safetensors"),
-                "meshes": [paths.scene("mesh.json", scene) for scene in scenes],
-                "lpips_json": paths.lpips,
-            }
-        case "networks":
-            found = {
-                "times": [paths.frame_times(table, scene) for scene in scenes],
-                "metrics": metrics(layout, rows),
-                "weights": networks(layout, rows, "weights.safetensors"),
-                "trainings": networks(layout, rows, "training.json"),
-                "depth_biases": depth_biases(layout, rows),
-                "meshes": [paths.scene("mesh.json", scene) for scene in scenes],
-                "lpips_json": paths.lpips,
-            }
-        case "memory":
-            found = {
-                "mesh_ply": paths.scene("mesh.ply", scenes[0]),
-                "weights": networks(layout, rows, "weights.safetensors"),
-            }
-        case "cost":
-            found = {"costs": costs(layout, table)}
-    if settings["kind"] in PUBLISHED:
+    reports = [paths.scene("mesh.json", scene) for scene in scenes]
+    values = {
+        "metrics": metrics(layout, rows),
+        "mesh_json": reports[:1],
+        "meshes": reports,
+        "mesh_ply": [paths.scene("mesh.ply", scene) for scene in scenes[:1]],
+        "trainings": networks(layout, rows, "training.json"),
+        "weights": networks(layout, rows, "weights.safetensors"),
+        "depth_biases": depth_biases(layout, rows),
+        "times": [paths.frame_times(table, scene) for scene in scenes],
+        "lpips_json": paths.lpips,
+        "costs": costs(layout, table) if kind == "cost" else [],
+    }
+    found = {name: values[name] for name in FILES[kind]}
+    if "published" in TOLD[kind]:
         found["published_csv"] = layout.source("config/published.csv")
     # Not read: asking for a table makes the figures and the previews that belong to it.
-    beside = [paths.report(f"{name}.png") for name in settings["figures"]]
-    if settings["kind"] == "comparison":
-        beside += [paths.report(f"scenes/{scene}.png") for scene in scenes]
-    return found | {"beside": beside}
+    found["beside"] = [paths.report(f"{name}.png") for name in settings["figures"]]
+    if kind == "comparison":
+        found["beside"] += [paths.report(f"scenes/{scene}.png") for scene in scenes]
+    return found
 
 
 def arguments(layout: Layout, table: str) -> dict[str, Any]:
     """What the function of a table's kind is told beside its files."""
     settings = layout.entry("tables", table)
-    told = {"title": settings["title"], "run": layout.run()}
-    if settings["kind"] == "cost":
-        return told
-    told["rows"] = settings["rows"]
-    if settings["kind"] in PUBLISHED:
-        told["published"] = settings["published"]
-    if settings["kind"] in ("comparison", "networks"):
-        told["scenes"] = layout.scenes(row["scene"] for row in settings["rows"])
-    return told
+    scenes = layout.scenes(row["scene"] for row in settings["rows"])
+    values = {**settings, "run": layout.run(), "scenes": scenes}
+    return {key: values[key] for key in ("title", *TOLD[settings["kind"]])}
 
 
 def kind(layout: Layout, table: str) -> str:
@@ -87,11 +76,11 @@ def labels(layout: Layout, table: str) -> dict[str, str]:
     return {"table": settings["published"] or table, "title": settings["title"]}
 
 
-def experiments(layout: Layout, table: str) -> list[str]:
-    """The networks whose weights a table reads, each once."""
-    if kind(layout, table) == "comparison":
-        return []
-    return experiments_of(layout.entry("tables", table)["rows"])
+def encodings(layout: Layout, table: str) -> set[str]:
+    """The kinds of the networks whose weights a table reads."""
+    settings = layout.entry("tables", table)
+    reads = "weights" in FILES[settings["kind"]]
+    return layout.encodings(experiments_of(settings["rows"]) if reads else [])
 
 
 def timed_rows(layout: Layout, table: str, scene: str) -> list[Row]:
@@ -114,19 +103,10 @@ def timed_encodings(layout: Layout, table: str, scene: str) -> set[str]:
     return layout.encodings(experiments_of(timed_rows(layout, table, scene)))
 
 
-def experiments_of(rows: Sequence[Row]) -> list[str]:
-    """The networks among the rows, each once."""
-    return unique(row["experiment"] for row in rows if row["experiment"] is not None)
-
-
-def metrics(layout: Layout, rows: Sequence[Row], ending: str = "csv") -> list[str]:
+def metrics(layout: Layout, rows: Sequence[Row]) -> list[str]:
     """The metrics of all batches of the rows' methods, each once; a ray-traced one has none."""
-    return unique(
-        path
-        for row in rows
-        if row["method"] != RAY_TRACED
-        for path in layout.evaluations(row["scene"], row["method"], ending)
-    )
+    named = [(row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED]
+    return unique(path for names in named for path in layout.metrics(*names))
 
 
 def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:
@@ -136,15 +116,19 @@ def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:
 
 def depth_biases(layout: Layout, rows: Sequence[Row]) -> list[str]:
     """The depth bias of each network among the rows that has one found, each once."""
-    return unique(
-        layout.paths.depth_bias(row["experiment"]) for row in rows if row["bias"] == HELD_OUT
-    )
+    found = [row["experiment"] for row in rows if row["bias"] == HELD_OUT]
+    return unique(layout.paths.depth_bias(name) for name in found)
 
 
 def costs(layout: Layout, table: str) -> list[str]:
     """The measurements of a table of costs, a file for each size."""
     settings = layout.entry("tables", table)
     return [layout.paths.cost(over, value) for over in STAGES for value in settings[over]]
+
+
+def experiments_of(rows: Sequence[Row]) -> list[str]:
+    """The networks among the rows, each once."""
+    return unique(row["experiment"] for row in rows if row.get("experiment") is not None)
 
 
 def unique(values: Iterable[Any]) -> list[Any]:

@@ -9,6 +9,7 @@ from typing import Any
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.layout import claims, tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.figures import opengl
 
 
 def all_reports(layout: Layout) -> list[str]:
@@ -30,10 +31,14 @@ def default_tables(layout: Layout) -> list[str]:
 
 
 def default_figures(layout: Layout) -> list[str]:
-    """Names of the figures that are: those of no table, or of such a table."""
+    """Names of the figures that are: those of no table, or of such a table, that can be drawn."""
     shown = [None, *default_tables(layout)]
-    entries = layout.settings["figures"].items()
-    return [name for name, figure in entries if figure.get("table") in shown]
+    drawn = opengl.available()
+    return [
+        name
+        for name, figure in layout.settings["figures"].items()
+        if figure.get("table") in shown and (drawn or not figure["kind"].endswith("_3d"))
+    ]
 
 
 def page_files(layout: Layout) -> dict[str, Any]:
