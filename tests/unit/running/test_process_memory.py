@@ -23,7 +23,7 @@ def test_memory_that_was_given_back_is_in_the_peak_alone():
 
 def test_what_the_parent_held_does_not_count():
     array = np.ones(512 * MIB, np.uint8)
-    code = "from neural_shadows.process_memory import peak_bytes; print(peak_bytes())"
+    code = "from neural_shadows.running.process_memory import peak_bytes; print(peak_bytes())"
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     said = subprocess.check_output([sys.executable, "-c", code], env=environment, text=True)
     assert len(array) == 512 * MIB
