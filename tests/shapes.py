@@ -5,6 +5,7 @@ import trimesh
 
 from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.scenes.cameras import Viewpoint
+from neural_shadows.scenes.scene import Scene, make_scene
 from neural_shadows.scenes.tracing import Tracer
 
 Y_UP = np.array([0.0, 1.0, 0.0])
@@ -20,6 +21,14 @@ def prepared(shape: trimesh.Trimesh) -> tuple[PreparedMesh, Tracer]:
         face_normals=np.array(shape.face_normals, np.float32),
     )
     return mesh, Tracer(mesh.vertices, mesh.faces)
+
+
+SPHERE_OF_LIGHTS = {"domain": "sphere", "min_elevation_deg": 20}
+
+
+def scene_of(shape: trimesh.Trimesh, up=Y_UP, ground=True, light=SPHERE_OF_LIGHTS) -> Scene:
+    """A scene of a shape as it lies."""
+    return make_scene(prepared(shape)[0], up=up, ground=ground, light=light)
 
 
 def bumpy_sphere(subdivisions: int) -> trimesh.Trimesh:

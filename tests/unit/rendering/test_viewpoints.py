@@ -2,28 +2,25 @@ import numpy as np
 import pytest
 import trimesh
 from scipy.stats import kstest
-from shapes import Y_UP, box, prepared, sheet
+from shapes import box, scene_of, sheet
 
 from neural_shadows.errors import InputError
-from neural_shadows.rendering.gbuffer import ground_height, primary_hits
-from neural_shadows.rendering.shading import reference_visibility, visibility
-from neural_shadows.rendering.viewpoints import VIEW_SETS, draw_viewpoints, surface_points
+from neural_shadows.rendering.exact_shadow import exact_visibility
+from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.rendering.viewpoints import draw_viewpoints, surface_points
+from neural_shadows.scenes.cameras import VIEW_SETS
 
 W, H = 150, 100
-SPHERE = {"domain": "sphere", "min_elevation_deg": 20}
 ARC = {"domain": "single_axis", "axis": "x", "min_elevation_deg": 20}
 
 
 @pytest.fixture(scope="module")
 def torus():
-    return prepared(trimesh.creation.torus(0.7, 0.3))
+    return scene_of(trimesh.creation.torus(0.7, 0.3))
 
 
-def draw(scene, view_sets, indices, **changes):
-    settings = {"up": Y_UP, "ground": True, "light_domain": SPHERE, "seed": 11} | changes
-    return draw_viewpoints(
-        *scene, view_sets=view_sets, indices=indices, width=W, height=H, **settings
-    )
+def draw(scene, view_sets, indices, seed=11):
+    return draw_viewpoints(scene, view_sets, indices, W / H, seed)
 
 
 def same(a, b):
@@ -44,46 +41,37 @@ def surface_views(torus):
 
 
 def test_shadow_frames_are_filled_with_cast_shadow(torus, shadow_views):
-    mesh, tracer = torus
     cast, covered = [], []
     for view in shadow_views:
-        points = primary_hits(mesh, tracer, view, W, H, ground_height(mesh, Y_UP))
-        dark = ~visibility(points, reference_visibility(tracer, points))
-        cast.append(np.count_nonzero(dark & ~points.is_object) / (W * H))
-        covered.append(np.count_nonzero(points.is_object) / (W * H))
+        frame = render_gbuffer(torus, view, W, H)
+        dark = exact_visibility(torus.tracer, frame) == 0
+        cast.append(np.count_nonzero(dark & ~frame.is_object) / (W * H))
+        covered.append(np.count_nonzero(frame.is_object) / (W * H))
+        assert view.target[1] == pytest.approx(torus.ground, abs=1e-6)
+        assert view.eye[1] > torus.ground + 0.1
     assert np.mean(cast) > 0.35 and np.quantile(cast, 0.2) > 0.2
     assert np.mean(covered) < 0.2
 
 
-def test_shadow_views_aim_at_the_ground(torus, shadow_views):
-    ground = ground_height(torus[0], Y_UP)
-    for view in shadow_views:
-        assert view.target[1] == pytest.approx(ground, abs=1e-6)
-        assert view.eye[1] > ground + 0.1
-
-
 def test_surface_frames_show_the_surface_in_their_middle(torus, surface_views):
-    mesh, tracer = torus
-    ground = ground_height(mesh, Y_UP)
     covered = []
     for view in surface_views:
-        points = primary_hits(mesh, tracer, view, W + 1, H + 1, ground)  # odd: a pixel's centre
-        middle = np.flatnonzero(points.pixel == (H // 2) * (W + 1) + W // 2)
-        assert points.is_object[middle].all() and len(middle) == 1
+        frame = render_gbuffer(torus, view, W + 1, H + 1)  # odd: a pixel's centre
+        (middle,) = np.flatnonzero(frame.pixel == (H // 2) * (W + 1) + W // 2)
+        assert frame.is_object[middle]
         # It is the target, and not something before it; and it faces the light.
-        query = np.flatnonzero(points.facing == middle)
-        assert len(query) == 1
-        assert np.linalg.norm(points.p[query] - view.target) < 2e-3
-        covered.append(points.is_object.mean() * len(points.pixel) / ((W + 1) * (H + 1)))
-        assert view.eye[1] > ground and np.linalg.norm(view.eye) > 1
+        (query,) = np.flatnonzero(frame.lit_side == middle)
+        assert np.linalg.norm(frame.p[query] - view.target) < 2e-3
+        covered.append(np.count_nonzero(frame.is_object) / ((W + 1) * (H + 1)))
+        assert view.eye[1] > torus.ground and np.linalg.norm(view.eye) > 1
     assert np.mean(covered) > 0.4
 
 
 def test_surface_points_are_uniform_by_area():
     # Two triangles, of areas 1 : 3, apart from each other.
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 0, 1], [5, 0, 0], [8, 0, 0], [5, 0, 1]], float)
-    mesh, _ = prepared(trimesh.Trimesh(corners, [[0, 1, 2], [3, 4, 5]], process=False))
-    points, normals = surface_points(mesh, np.array([1.0, 4.0]), 8000, np.random.default_rng(2))
+    scene = scene_of(trimesh.Trimesh(corners, [[0, 1, 2], [3, 4, 5]], process=False))
+    points, normals = surface_points(scene, 8000, np.random.default_rng(2))
     np.testing.assert_array_equal(normals, np.tile([0.0, -1.0, 0.0], (8000, 1)))
     first = points[:, 0] < 2
     assert first.mean() == pytest.approx(0.25, abs=0.02)
@@ -97,14 +85,15 @@ def test_surface_points_are_uniform_by_area():
 def test_surface_that_no_light_reaches_is_refused():
     upright = sheet(0.0, 0.5)
     upright.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 0, 1]))
-    scene = prepared(upright)
-    scene[0].face_normals[:] = [1, 0, 0]  # and the arc about x has no light along x
+    scene = scene_of(upright, light=ARC)
+    scene.objects[0].face_normals[:] = [1, 0, 0]  # and the arc about x has no light along x
     with pytest.raises(InputError, match="view_sets: surface"):
-        draw(scene, ["surface"], range(1), light_domain=ARC)
+        draw(scene, ["surface"], range(1))
 
 
-def test_centre_views_look_down_at_the_centre(torus):
-    for view in draw(torus, ["centre"], range(50), ground=False, light_domain=ARC):
+def test_centre_views_look_down_at_the_centre():
+    scene = scene_of(trimesh.creation.torus(0.7, 0.3), ground=False, light=ARC)
+    for view in draw(scene, ["centre"], range(50)):
         np.testing.assert_array_equal(view.target, 0)
         elevation = np.degrees(np.arcsin(view.eye[1] / np.linalg.norm(view.eye)))
         assert 20 <= elevation <= 70
@@ -129,20 +118,19 @@ def test_viewpoints_depend_on_seed_set_and_index_alone(torus, shadow_views, surf
 
 
 @pytest.mark.parametrize("up", np.eye(3))
-def test_every_axis_can_be_up(torus, up):
-    mesh, tracer = prepared(box(0.9, 1.0, 1.1))
-    ground = ground_height(mesh, up)
-    for view in draw((mesh, tracer), VIEW_SETS, range(4), up=up):
-        assert view.eye @ up > ground
+def test_every_axis_can_be_up(up):
+    scene = scene_of(box(0.9, 1.0, 1.1), up=up)
+    for view in draw(scene, VIEW_SETS, range(4)):
+        assert view.eye @ up > scene.ground
         assert view.light @ up >= np.sin(np.radians(20))
-        points = primary_hits(mesh, tracer, view, W, H, ground)
-        dark = ~visibility(points, reference_visibility(tracer, points))
-        shown = points.is_object if view.view_set != "shadow" else dark & ~points.is_object
+        frame = render_gbuffer(scene, view, W, H)
+        dark = exact_visibility(scene.tracer, frame) == 0
+        shown = frame.is_object if view.view_set != "shadow" else dark & ~frame.is_object
         assert np.count_nonzero(shown) > 0.1 * W * H
 
 
 def test_sets_that_cannot_be_drawn_are_named(torus):
     with pytest.raises(InputError, match="view_sets: shadow needs a ground"):
-        draw(torus, ["surface", "shadow"], range(1), ground=False)
+        draw(scene_of(box(1, 1, 1), ground=False), ["surface", "shadow"], range(1))
     with pytest.raises(InputError, match="view_sets: 'orbit'"):
         draw(torus, ["orbit"], range(1))

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -69,43 +70,49 @@ def _mesh(folder: Path, sizes: Sizes, settings: Settings) -> Work:
 
     source = folder / "source.ply"
     bumpy_sphere(sizes["subdivisions"]).export(source)
-    return lambda: prepare_mesh(
-        source, folder / "mesh.ply", folder / "mesh.json", mesh={}, name="bumpy sphere"
+    return partial(
+        prepare_mesh,
+        source,
+        folder / "mesh.ply",
+        folder / "mesh.json",
+        mesh={},
+        name="bumpy sphere",
     )
+
+
+def _directions(sizes: Sizes) -> int:
+    return sizes["samples"] // POINTS_PER_DIRECTION
+
+
+def _shard(folder: Path, sizes: Sizes, settings: Settings) -> dict[str, Any]:
+    """What `sample_rays` and `label_rays` both take."""
+    return {
+        "mesh_ply": folder / "mesh.ply",
+        "directions_npy": folder / "directions.npy",
+        "origins_npy": folder / "origins.npy",
+        "first": 0,
+        "last": _directions(sizes),
+        "seed": settings["seed"],
+        "threads": settings["threads"],
+    }
 
 
 def _rays(folder: Path, sizes: Sizes, settings: Settings) -> Work:
     from neural_shadows.rays.draw_directions import draw_directions
     from neural_shadows.rays.sample_rays import sample_rays
 
-    sampling = SAMPLING | {"directions": sizes["samples"] // POINTS_PER_DIRECTION}
-    directions = folder / "directions.npy"
-    draw_directions(directions_npy=directions, sampling=sampling, seed=settings["seed"])
-    return lambda: sample_rays(
-        mesh_ply=folder / "mesh.ply",
-        directions_npy=directions,
-        origins_npy=folder / "origins.npy",
-        sampling=sampling,
-        seed=settings["seed"],
-        first=0,
-        last=sampling["directions"],
-        threads=settings["threads"],
+    sampling = SAMPLING | {"directions": _directions(sizes)}
+    shard = _shard(folder, sizes, settings)
+    draw_directions(
+        directions_npy=shard["directions_npy"], sampling=sampling, seed=settings["seed"]
     )
+    return partial(sample_rays, sampling=sampling, **shard)
 
 
 def _labels(folder: Path, sizes: Sizes, settings: Settings) -> Work:
     from neural_shadows.rays.label_rays import label_rays
 
-    return lambda: label_rays(
-        mesh_ply=folder / "mesh.ply",
-        directions_npy=folder / "directions.npy",
-        origins_npy=folder / "origins.npy",
-        bounds_npy=folder / "bounds.npy",
-        seed=settings["seed"],
-        first=0,
-        last=sizes["samples"] // POINTS_PER_DIRECTION,
-        threads=settings["threads"],
-    )
+    return partial(label_rays, bounds_npy=folder / "bounds.npy", **_shard(folder, sizes, settings))
 
 
 def _network(width: int) -> dict[str, Any]:
@@ -116,7 +123,8 @@ def _training(folder: Path, sizes: Sizes, settings: Settings) -> Work:
     from neural_shadows.training.train import train
 
     write_json(folder / "rays.json", {})
-    return lambda: train(
+    return partial(
+        train,
         directions_npy=folder / "directions.npy",
         origins=[folder / "origins.npy"],
         bounds=[folder / "bounds.npy"],

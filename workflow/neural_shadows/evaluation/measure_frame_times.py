@@ -31,26 +31,20 @@ from neural_shadows.scenes.scene import open_scene
 WARM_UP = 2  # frames of each method before the timed ones
 
 
-class StopwatchNetwork:
-    """A network whose last query was timed: how many rays, in how many seconds."""
+def record_rates(network: ShadowNetwork, rates: list[float]) -> ShadowNetwork:
+    """The network, each of whose queries now adds its rays a second to `rates`."""
+    depths = network.depths
 
-    def __init__(self, network: ShadowNetwork):
-        self.network = network
-        self.rays, self.seconds = 0, 0.0
-
-    @property
-    def device(self) -> torch.device:
-        """See `DepthQuery.device`."""
-        return self.network.device
-
-    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
-        """See `ShadowNetwork.depths`; a GPU is waited for."""
+    def timed(origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
         started = time.perf_counter()
-        depths = self.network.depths(origins, d, dtype)
-        if self.device.type == "cuda":
+        answer = depths(origins, d, dtype)
+        if answer.is_cuda:
             torch.cuda.synchronize()
-        self.rays, self.seconds = len(origins), time.perf_counter() - started
-        return depths
+        rates.append(len(origins) / (time.perf_counter() - started))
+        return answer
+
+    network.depths = timed
+    return network
 
 
 def shadow_times(methods: Mapping[str, ShadowMethod], frame: GBuffer) -> dict[str, float]:
@@ -100,15 +94,15 @@ def measure_frame_times(
     opened = open_scene(mesh_ply, **scene)
     chosen = choose_device(device)
     files = {path.parent.name: path for path in weights}
-    networks: dict[str, StopwatchNetwork] = {}
+    rates: dict[str, list[float]] = {}
     timed: dict[str, ShadowMethod] = {}
     for method in methods:
         if method == RAY_TRACED or is_shadow_map(method):
             timed[method] = traced_method(method, opened, whole_map=True)
         else:
             network, dtype = open_network(files[experiment_of(method)], device, precision, 1)
-            networks[method] = StopwatchNetwork(network)
-            timed[method] = network_method(networks[method], dtype)
+            rates[method] = []
+            timed[method] = network_method(record_rates(network, rates[method]), dtype)
 
     width, height, repeats = (frame_times[key] for key in ("width", "height", "repeats"))
     per_set = -(-repeats // len(frames["view_sets"]))
@@ -118,7 +112,6 @@ def measure_frame_times(
     viewpoints = sorted(viewpoints, key=lambda view: view.index)[:repeats]  # the sets in turn
 
     milliseconds: dict[str, list[float]] = {method: [] for method in timed}
-    rates: dict[str, list[float]] = {method: [] for method in networks}
     rays = []
     with progress_bar(WARM_UP + repeats, "frames", "frame times") as bar:
         for i in range(-WARM_UP, repeats):
@@ -132,8 +125,6 @@ def measure_frame_times(
                 rays.append(len(sphere_rays(*on_device(frame.p, view.light, chosen)).index))
                 for method, value in times.items():
                     milliseconds[method].append(primary + value)
-                for method, network in networks.items():
-                    rates[method].append(network.rays / network.seconds)
             bar.update()
     write_json(
         times_json,
@@ -152,7 +143,8 @@ def measure_frame_times(
             "machine": describe_machine(),
             "sphere_rays": float(np.median(rays)),  # of a frame: those that a network answers
             "methods": {method: {"ms": values} for method, values in milliseconds.items()},
-            "rays_per_second": rates,  # of a network's query alone, by frame
+            # of a network's query alone, by frame
+            "rays_per_second": {method: found[WARM_UP:] for method, found in rates.items()},
         },
     )
 

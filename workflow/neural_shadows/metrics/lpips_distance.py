@@ -15,7 +15,7 @@ Lpips = Callable[[np.ndarray, np.ndarray], float]
 """Distance of a grey image (H, W) in [0, 1] to its reference; 0 for identical ones."""
 
 
-def make_lpips(net: Net, trunk: Path | None, device: str = "cpu") -> Lpips:
+def load_model(net: Net, trunk: Path | None) -> lpips.LPIPS:
     """LPIPS 0.1 with the trunk from a file, or with torchvision's from torch's cache.
 
     That cache is `$TORCH_HOME/hub/checkpoints`, by default in `~/.cache/torch`; what is not in it
@@ -34,8 +34,13 @@ def make_lpips(net: Net, trunk: Path | None, device: str = "cpu") -> Lpips:
         # lpips cuts the trunk in slices but keeps the layers' numbers: slice2.3.weight.
         slices = {key: weights[key.partition(".")[2]] for key in model.net.state_dict()}
         model.net.load_state_dict(slices)
+    return model.eval()
+
+
+def make_lpips(net: Net, trunk: Path | None, device: str = "cpu") -> Lpips:
+    """LPIPS of grey frames. Arguments and errors as of `load_model`."""
     # Channels last: the trunk is 1.8 times as fast, at the same values to 1e-8.
-    model = model.eval().to(device, memory_format=torch.channels_last)
+    model = load_model(net, trunk).to(device, memory_format=torch.channels_last)
 
     def rgb(image: np.ndarray) -> torch.Tensor:
         grey = torch.tensor(image, dtype=torch.float32, device=device)
