@@ -1,60 +1,53 @@
 import numpy as np
-import pandas as pd
 import pytest
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation import first_frames
-from neural_shadows.evaluation.first_frames import read_first_frames
+from neural_shadows.evaluation.first_frames import read_first_frames, write_first_frames
+from neural_shadows.evaluation.per_view_metrics import COLUMNS, read_metrics, write_metrics
 
 SHAPE = (8, 12)
 
 
-def batch(folder, name, view_set, methods):
-    """Files of a batch: views 0 and 1 with a PSNR each, and the first view's frames."""
-    images = {method: np.full(SHAPE, level, np.uint8) for method, level in methods.items()}
-    np.savez_compressed(folder / f"{name}.npz", reference=np.zeros(SHAPE, np.uint8), **images)
-    rows = [
-        (view, view_set, method, "psnr", level + view / 2)
-        for view in (0, 1)
-        for method, level in methods.items()
-    ]
-    frame = pd.DataFrame(rows, columns=["view", "view_set", "method", "metric", "value"])
-    frame.to_csv(folder / f"{name}.csv", index=False, lineterminator="\n")
-    return folder / f"{name}.npz", folder / f"{name}.csv"
-
-
 @pytest.fixture
-def batches(tmp_path):
-    return [
-        batch(tmp_path, "a", "shadow", {"map": 10, "net": 20}),
-        batch(tmp_path, "b", "surface", {"map": 30, "net": 40}),
-        batch(tmp_path, "c", "shadow", {"other": 50}),
-    ]
+def batch(tmp_path):
+    """Pictures of a reference and two methods; metrics of the methods in views 0 and 1."""
+    pictures, metrics = [], []
+    for method, level in {"reference": 0, "map": 10, "net": 20}.items():
+        images = {s: np.full(SHAPE, level / 255, np.float32) for s in ("shadow", "surface")}
+        pictures.append(tmp_path / f"{method}.000.npz")
+        write_first_frames(pictures[-1], method, images)
+        rows = [
+            (view, view_set, method, "psnr", level + view / 3)
+            for view in (0, 1)
+            for view_set in images
+        ]
+        metrics.append(tmp_path / f"{method}.000.csv")
+        write_metrics(metrics[-1], [dict(zip(COLUMNS, row, strict=True)) for row in rows])
+    return pictures, metrics[1:]
 
 
-def test_evaluations_are_joined_by_view_set(batches):
-    shadow, surface = read_first_frames(*zip(*batches, strict=True))
+def test_methods_are_joined_by_view_set(batch):
+    shadow, surface = read_first_frames(*batch)
     assert shadow.caption == "aimed at the cast shadow"
-    assert list(shadow.images) == ["reference", "map", "net", "other"]
-    assert shadow.images["other"].tolist() == np.full(SHAPE, 50).tolist()
-    assert shadow.scores["net"] == {"psnr": 20}  # of the first view alone
-    assert list(surface.images) == ["reference", "map", "net"]
-    assert surface.scores["net"] == {"psnr": 40}
+    for frame in (shadow, surface):
+        assert list(frame.images) == ["reference", "map", "net"]
+        assert (frame.images["net"] == 20).all() and frame.images["net"].dtype == np.uint8
+        assert frame.scores == {"map": {"psnr": 10}, "net": {"psnr": 20}}  # of the first view
+
+
+def test_metrics_come_back_to_the_bit(batch):
+    metrics = read_metrics(batch[1])
+    assert list(metrics.columns) == list(COLUMNS)
+    last = metrics[(metrics["method"] == "net") & (metrics["view"] == 1)]
+    assert last["value"].tolist() == [20 + 1 / 3] * 2
 
 
 @pytest.mark.parametrize("size", [0, 40, -30])
-def test_frames_cut_short_are_named(batches, size):
-    picture, _ = batches[0]
-    picture.write_bytes(picture.read_bytes()[:size])
-    with pytest.raises(InputError, match=r"a\.npz: not a whole file of frames"):
-        read_first_frames(*zip(*batches, strict=True))
-
-
-def test_frames_that_unpack_to_more_than_memory_are_refused(batches, monkeypatch):
-    picture, _ = batches[0]
-    frames = 3 * (SHAPE[0] * SHAPE[1] + 128)  # each with its header
-    monkeypatch.setattr(first_frames, "MOST_ALL_BYTES", frames)
-    read_first_frames(*zip(*batches, strict=True))
-    monkeypatch.setattr(first_frames, "MOST_ALL_BYTES", frames - 1)
-    with pytest.raises(InputError, match=rf"{picture.name}: .*unpacks to more than {frames - 1}"):
-        read_first_frames(*zip(*batches, strict=True))
+def test_damaged_files_are_named(batch, size):
+    pictures, metrics = batch
+    pictures[0].write_bytes(pictures[0].read_bytes()[:size])
+    with pytest.raises(InputError, match=r"reference\.000\.npz: cannot be read"):
+        read_first_frames(pictures, metrics)
+    metrics[0].write_text("view,view_set\n1,shadow\n"[:size] if size >= 0 else "<html>\n")
+    with pytest.raises(InputError, match=r"map\.000\.csv: cannot be read"):
+        read_metrics(metrics)

@@ -1,100 +1,53 @@
-import json
-
-import numpy as np
 import pytest
-import torch
-import trimesh
-from shapes import bumpy_sphere, looking, prepared, unit
+from evaluated import FRAMES, SCENE, make_evaluated
 
-from neural_shadows.evaluation import measure_frame_times as frame_times
+from neural_shadows.evaluation import measure_frame_times as stage
 from neural_shadows.evaluation.measure_frame_times import measure_frame_times, shadow_times
-from neural_shadows.evaluation.shadow_methods import StopwatchNetwork, shadow_passes
-from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
-from neural_shadows.networks.weight_file import save_network
-from neural_shadows.rendering.gbuffer import primary_hits
-from neural_shadows.rendering.shading import reference_visibility
-from neural_shadows.shadow_maps.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
-
-KIND = {"encoding": "frequency"}
-TINY = {"frequencies": 2, "width": 16, "hidden_layers": 1}
+from neural_shadows.evaluation.references import References
+from neural_shadows.files.whole_files import read_json
 
 
 @pytest.fixture(scope="module")
-def frame():
-    mesh, tracer = prepared(bumpy_sphere(4))
-    points = primary_hits(mesh, tracer, looking((0, 1, 3), unit(1, 1, 0.3)), 150, 100, -1.0)
-    return mesh, tracer, points
+def files(tmp_path_factory):
+    return make_evaluated(tmp_path_factory.mktemp("timed"))
 
 
-def test_passes_answer_as_the_evaluation_does(frame):
-    mesh, tracer, points = frame
-    network = FrequencyNetwork(**TINY)
-    network.initialise(1)
-    passes = shadow_passes(
-        mesh, tracer, {"net": StopwatchNetwork(network)}, [64, 200], torch.float32
-    )
-    assert list(passes) == ["ray_traced", "shadow_map_64", "shadow_map_200", "net"]
-    answers = {name: lit_of(points) for name, lit_of in passes.items()}
-    receivers = receivers_of(shadow_map_frame(mesh.vertices, points.light), points)
-    np.testing.assert_array_equal(answers["ray_traced"], reference_visibility(tracer, points))
-    for resolution in (64, 200):
-        # The whole map against the one that is traced only where it is looked up.
-        lazy = shadow_map_lit(tracer, receivers, resolution)
-        np.testing.assert_array_equal(answers[f"shadow_map_{resolution}"], lazy)
-    p, light = on_device(points.p, points.light, torch.device("cpu"))
-    expected = network_lit(network, p, light, dtype=torch.float32)
-    np.testing.assert_array_equal(answers["net"], expected.numpy())
-    assert 0 < answers["ray_traced"].mean() < 1
-
-
-def test_times_are_milliseconds_of_each_pass(frame, monkeypatch):
-    _, _, points = frame
+def test_times_are_milliseconds_of_each_method(files, monkeypatch):
+    frame, truth = next(iter(References(files.references)))
     clock = [0.0]
-    monkeypatch.setattr(frame_times.time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(stage.time, "perf_counter", lambda: clock[0])
 
     def taking(seconds):
-        def lit_of(points):
+        def answer(frame):
             clock[0] += seconds
-            return np.ones(len(points.p), bool)
+            return truth
 
-        return lit_of
+        return answer
 
-    times = shadow_times({"a": taking(0.25), "b": taking(1.5)}, points)
+    times = shadow_times({"a": taking(0.25), "b": taking(1.5)}, frame)
     assert times == {"a": pytest.approx(250), "b": pytest.approx(1500)}
 
 
-def test_file_of_times_names_methods_views_and_machine(tmp_path):
-    shape = trimesh.creation.icosphere(3)
-    shape.export(tmp_path / "mesh.ply")
-    network = FrequencyNetwork(**TINY)
-    network.initialise(1)
-    save_network(tmp_path / "net.safetensors", network, {"network": KIND | TINY})
+def test_file_of_times_names_methods_views_and_machine(files, tmp_path):
+    methods = ["ray_traced", "shadow_map_32", "net", "net_biased"]
     measure_frame_times(
-        tmp_path / "mesh.ply",
-        {"net": tmp_path / "net.safetensors"},
-        tmp_path / "times.json",
-        scene_name="ball",
-        shadow_maps=[32],
-        view_sets=["shadow", "surface"],
-        frames={
-            "up": "y",
-            "ground": True,
-            "light": {"domain": "sphere", "min_elevation_deg": 20},
-            "width": 96,
-            "height": 64,
-            "seed": 3,
-        },
-        repeats=5,
-        warm_up=2,
+        files.mesh_ply,
+        [files.weights],
+        tmp_path / "ball.json",
+        methods=methods,
+        scene=SCENE,
+        frames=FRAMES,
+        frame_times={"width": 120, "height": 80, "repeats": 5},
         device="cpu",
     )
-    times = json.loads((tmp_path / "times.json").read_text())
-    assert list(times["methods"]) == ["ray_traced", "shadow_map_32", "net"]
+    times = read_json(tmp_path / "ball.json")
+    assert times["scene"] == "ball" and (times["width"], times["height"]) == (120, 80)
+    assert list(times["methods"]) == methods
     for values in times["methods"].values():
-        assert len(values["ms"]) == 5
-        assert min(values["ms"]) > 0
-    assert times["views"] == 5
-    assert times["device"] == "cpu"
-    assert 0 < times["sphere_rays"] <= 96 * 64
-    assert times["machine"]["cpu"]
+        assert len(values["ms"]) == 5 and min(values["ms"]) > 0
+    assert times["views"] == 5 and times["device"] == "cpu" and times["machine"]["cpu"]
+    assert 0 < times["sphere_rays"] <= 120 * 80
+    assert {name: len(rates) for name, rates in times["rays_per_second"].items()} == {
+        "net": 5,
+        "net_biased": 5,
+    }

@@ -57,7 +57,7 @@ def read_first_frames(pictures: Sequence[Path], metrics: Sequence[Path]) -> list
 
 def _read_arrays(path: Path) -> dict[str, np.ndarray]:
     try:
-        with np.load(path, allow_pickle=False) as arrays:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return dict(arrays)
     except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
         raise InputError(f"{path}: cannot be read ({error}); delete it and run again") from error

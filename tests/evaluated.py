@@ -1,0 +1,44 @@
+"""A small scene with references and an untrained network on disk, for tests of evaluation."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+from shapes import SPHERE_OF_LIGHTS, bumpy_sphere
+
+from neural_shadows.evaluation.render_references import render_references
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.weight_file import save_network
+
+SCENE = {"up": "y", "ground": True, "light": SPHERE_OF_LIGHTS}
+FRAMES = {"width": 96, "height": 64, "view_sets": ["shadow", "surface"], "seed": 3}
+TINY = {"frequencies": 2, "width": 16, "hidden_layers": 1}
+
+
+class Evaluated(NamedTuple):
+    """Files of a batch of two views of each set."""
+
+    mesh_ply: Path
+    references: Path
+    pictures_npz: Path
+    lpips_json: Path
+    weights: Path  # of the experiment `net`
+
+
+def make_evaluated(folder: Path, shape=None, first: int = 0, **settings) -> Evaluated:
+    """Write them; `settings` are those of `render_references`."""
+    names = ("mesh.ply", "000.safetensors", "000.npz", "lpips.json", "net/weights.safetensors")
+    files = Evaluated(*(folder / name for name in names))
+    folder.mkdir(exist_ok=True)
+    (bumpy_sphere(4) if shape is None else shape).export(files.mesh_ply)
+    render_references(
+        files.mesh_ply,
+        files.references,
+        files.pictures_npz,
+        **{"scene": SCENE, "frames": FRAMES, "first": first, "last": first + 2} | settings,
+    )
+    write_json(files.lpips_json, {"available": False})
+    network = FrequencyNetwork(**TINY)
+    network.initialise(1)
+    save_network(files.weights, network, {"network": {"encoding": "frequency"} | TINY})
+    return files
