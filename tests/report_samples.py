@@ -1,11 +1,12 @@
 """Rows, metrics and the context of a run, for the tests of reports."""
 
+import inspect
 import json
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from sample_records import LPIPS, MESH
+from sample_records import LPIPS, MESH, TRAINING
 
 from neural_shadows.evaluation.method_names import RAY_TRACED, experiment_of, is_shadow_map
 from neural_shadows.reports.tables.quality import METRICS
@@ -76,6 +77,33 @@ def write_mesh(folder, scene="dragon", **changes):
 def write_lpips(folder, available=True):
     """What `find_lpips` writes."""
     return write_record(folder / "lpips.json", {**LPIPS, "available": available})
+
+
+def written_table(write, folder, **given):
+    """The table (CSV as a frame, and the Markdown's path) that a kind's `write` makes.
+
+    What is not given are the files and settings of one scene with one network, `dragon`.
+    """
+    files = {
+        "mesh_json": lambda: write_mesh(folder),
+        "meshes": lambda: [write_mesh(folder)],
+        "trainings": lambda: [write_record(folder / "networks/dragon/training.json", TRAINING)],
+        "lpips_json": lambda: write_lpips(folder),
+    }
+    settings = {
+        "depth_biases": [],
+        "weights": [folder / "networks/dragon/weights.safetensors"],
+        "published_csv": PUBLISHED,
+        "csv": folder / "table.csv",
+        "md": folder / "table.md",
+        "title": "Title",
+        "published": None,
+        "run": RUN,
+        "scenes": SCENES,
+    } | given
+    takes = inspect.signature(write).parameters
+    write(**{name: settings[name] if name in settings else files[name]() for name in takes})
+    return pd.read_csv(folder / "table.csv"), folder / "table.md"
 
 
 def cells_of(md, line):

@@ -1,9 +1,5 @@
-import pandas as pd
 import pytest
 from report_samples import (
-    PUBLISHED,
-    RUN,
-    SCENES,
     cells_of,
     metrics_of,
     row,
@@ -11,8 +7,8 @@ from report_samples import (
     write_mesh,
     write_metrics,
     write_record,
+    written_table,
 )
-from sample_records import TRAINING
 
 from neural_shadows.reports.tables.comparison import write
 from neural_shadows.reports.tables.quality import METRICS
@@ -32,43 +28,33 @@ MEANS = {
 
 @pytest.fixture
 def written(tmp_path):
-    def write_table(metrics=METRICS, published="4.3", **mesh):
+    def written(metrics=METRICS, published="4.3", **mesh):
         means = {
             method: {metric: mean for metric, mean in zip(METRICS, values) if metric in metrics}
             for method, values in MEANS.items()
         }
-        csv, md = tmp_path / "table.csv", tmp_path / "table.md"
-        write(
+        bias_json = tmp_path / "depth_biases" / "dragon_field.json"
+        return written_table(
+            write,
+            tmp_path,
             metrics=write_metrics(tmp_path, "dragon", metrics_of(means)),
             mesh_json=write_mesh(tmp_path, **mesh),
-            trainings=[write_record(tmp_path / "networks/dragon/training.json", TRAINING)],
-            depth_biases=[
-                write_record(tmp_path / "depth_biases/dragon_field.json", {"depth_bias": 0.008})
-            ],
+            depth_biases=[write_record(bias_json, {"depth_bias": 0.008})],
             lpips_json=write_lpips(tmp_path, "lpips" in metrics),
-            published_csv=PUBLISHED,
-            csv=csv,
-            md=md,
             title="Networks and maps",
             published=published,
             rows=ROWS,
-            run=RUN,
-            scenes=SCENES,
         )
-        return pd.read_csv(csv), md
 
-    return write_table
+    return written
 
 
 def test_rows_are_sorted_by_lpips_beside_the_thesis(written):
     table, md = written(thesis_mesh=True)
     assert table["method"].tolist() == ["2048² shadow map", "Field", "Thesis's network"]
     ours = table.iloc[2]
-    assert (ours["thesis_lpips"], ours["thesis_psnr"], ours["thesis_ssim"]) == (
-        0.0379,
-        27.39,
-        0.9772,
-    )
+    theirs = ours[["thesis_lpips", "thesis_psnr", "thesis_ssim"]]
+    assert theirs.tolist() == [0.0379, 27.39, 0.9772]
     assert ours["psnr_minus_thesis"] == pytest.approx(27 - 27.39)
     assert table.loc[1, ["thesis_lpips", "lpips_minus_thesis"]].isna().all()
     context = ours[["mesh", "scale", "width", "height", "lpips_net", "seed"]].tolist()

@@ -1,7 +1,6 @@
 import numpy as np
-import pandas as pd
 import pytest
-from report_samples import RUN, write_record
+from report_samples import write_record, written_table
 from sample_records import MACHINE
 
 from neural_shadows.reports.tables.cost import growth, write
@@ -37,9 +36,7 @@ def test_growth_is_that_of_the_largest_sizes():
 def test_table_has_a_row_for_each_stage_and_size(tmp_path):
     sizes = (10**4, 10**2, 10**3)
     costs = [write_record(tmp_path / f"samples.{size}.json", measured(size)) for size in sizes]
-    csv, md = tmp_path / "cost.csv", tmp_path / "cost.md"
-    write(costs=costs, csv=csv, md=md, title="Costs", run=RUN)
-    table = pd.read_csv(csv)
+    table, md = written_table(write, tmp_path, costs=costs)
     assert table["stage"].tolist() == ["labels"] * 3 + ["training"] * 3
     assert table["size"].tolist() == [100, 1000, 10000] * 2
     labels, training = (table[table["stage"] == stage] for stage in ("labels", "training"))

@@ -1,7 +1,6 @@
-import pandas as pd
 import pytest
 import trimesh
-from report_samples import PUBLISHED, RUN, row
+from report_samples import row, written_table
 
 from neural_shadows.errors import InputError
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
@@ -18,37 +17,24 @@ ROWS = [
 
 @pytest.fixture
 def write(tmp_path):
-    trimesh.creation.icosphere(2).export(tmp_path / "mesh.ply")
+    mesh_ply = tmp_path / "mesh.ply"
+    trimesh.creation.icosphere(2).export(mesh_ply)
     weights = tmp_path / "networks" / "dragon" / "weights.safetensors"
     weights.parent.mkdir(parents=True)
-    save_network(
-        weights, FrequencyNetwork(**THESIS), {"network": {"encoding": "frequency"} | THESIS}
+    network = {"encoding": "frequency"} | THESIS
+    save_network(weights, FrequencyNetwork(**THESIS), {"network": network})
+    return lambda: written_table(
+        memory.write, tmp_path, mesh_ply=mesh_ply, rows=ROWS, published="4.7"
     )
-
-    def write():
-        memory.write(
-            mesh_ply=tmp_path / "mesh.ply",
-            weights=[weights],
-            published_csv=PUBLISHED,
-            csv=tmp_path / "table.csv",
-            md=tmp_path / "table.md",
-            title="Memory",
-            published="4.7",
-            rows=ROWS,
-            run=RUN,
-        )
-        return pd.read_csv(tmp_path / "table.csv"), (tmp_path / "table.md").read_text()
-
-    return write
 
 
 def test_table_agrees_with_the_thesis_to_its_last_printed_digit(write):
-    frame, markdown = write()
-    assert frame["method"].tolist() == ["Thesis's network", "512² shadow map", "128² shadow map"]
-    assert frame["bytes"].tolist() == [2_227_200, 4 * 512**2, 4 * 128**2]
-    assert frame["thesis_memory_mib"].tolist() == [2.12, 1, 0.0625]
-    assert frame["memory_mib_minus_thesis"].abs().max() < 0.005
-    assert "2,227,200" in markdown
+    table, md = write()
+    assert table["method"].tolist() == ["Thesis's network", "512² shadow map", "128² shadow map"]
+    assert table["bytes"].tolist() == [2_227_200, 4 * 512**2, 4 * 128**2]
+    assert table["thesis_memory_mib"].tolist() == [2.12, 1, 0.0625]
+    assert table["memory_mib_minus_thesis"].abs().max() < 0.005
+    assert "2,227,200" in md.read_text()
 
 
 def test_a_map_that_takes_more_than_the_formula_is_refused(write, monkeypatch):
