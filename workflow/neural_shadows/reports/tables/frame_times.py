@@ -36,29 +36,35 @@ def write(
     rows: Sequence[Mapping[str, Any]],
     run: Mapping[str, Any],
 ) -> None:
-    """Write a table of frame times as CSV and Markdown.
+    """Write a table of frame times as CSV and Markdown, in the order of `rows`.
 
-    The thesis's times and LPIPS stand beside methods on its own mesh alone; its sizes do
-    beside any.
+    CSV: `method, scene, frame_ms, frame_ms_q1, frame_ms_q3, repeats, lpips, lpips_low, lpips_high,
+    size_kib`, then `thesis_<column>` and `<column>_minus_thesis` of the three that the thesis
+    prints. Its times and LPIPS stand beside methods on its own meshes alone; its sizes beside any.
 
     Args:
         times, meshes: what `measure_frame_times` and `prepare_mesh` wrote, a file for each scene.
         metrics: per view, of the rows that have an LPIPS.
         weights: of the networks among the rows; their size is measured.
         published: the thesis's number of the table, "4.6"; None for one that is not in it.
-        rows: `method`, `label`, `published`, `scene` and `experiment` of each.
+        rows: as `config.rows` gives them.
         run: `scale`, `seed` (of the bootstrap).
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
-    table = frame_times_table(
-        rows,
-        timed,
-        {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()},
-        {name: network_bytes(path) for name, [path] in by_folder(weights).items()},
-        run["seed"],
+    measured = {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()}
+    sizes = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
+    reports = read_meshes(meshes)
+    table = pd.DataFrame(
+        {
+            "method": row["label"],
+            "scene": row["scene"],
+            **_times(timed[row["scene"]]["methods"][row["method"]]["ms"]),
+            **_lpips(measured[row["scene"]], row["method"], run["seed"]),
+            "size_kib": _bytes(row, sizes) / 1024,
+        }
+        for row in rows
     )
     table = add_printed(table, rows, PRINTED, published, read_published(published_csv))
-    reports = read_meshes(meshes)
     others = [scene for scene, mesh in reports.items() if not mesh["thesis_mesh"]]
     for column in ("frame_ms", "lpips"):
         names = [f"thesis_{column}", f"{column}_minus_thesis"]
@@ -75,63 +81,37 @@ def write(
         phrases.describe_run(run),
     ]
     if published:
-        notes.insert(1, "*thesis*: the number that it prints, its times from another machine.")
-        notes[2:2] = [
-            f"*thesis* has sizes alone for {scene}: it did not measure the mesh "
-            f"{reports[scene]['name']}."
-            for scene in others
+        notes[1:1] = [
+            "*thesis*: the number that it prints, its times from another machine.",
+            *(
+                f"*thesis* has sizes alone for {scene}: it did not measure the mesh "
+                f"{reports[scene]['name']}."
+                for scene in others
+            ),
         ]
     columns = reading_columns(table, published is not None)
     title = phrases.titled(title, published)
     write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
 
 
-def frame_times_table(
-    rows: Sequence[Mapping[str, Any]],
-    times: Mapping[str, Mapping[str, Any]],
-    metrics: Mapping[str, pd.DataFrame],
-    sizes: Mapping[str, int],
-    seed: int,
-) -> pd.DataFrame:
-    """A row per method: median frame time with its quartiles, mean LPIPS, size of the method.
+def _times(milliseconds: Sequence[float]) -> dict[str, float]:
+    first, median, third = np.quantile(milliseconds, (0.25, 0.5, 0.75))
+    repeats = len(milliseconds)
+    return {"frame_ms": median, "frame_ms_q1": first, "frame_ms_q3": third, "repeats": repeats}
 
-    Args:
-        times: what `measure_frame_times` wrote, by scene.
-        metrics: as `read_metrics` gives them, by scene; a method that is not in them has no LPIPS.
-        sizes: bytes of networks by experiment.
-        seed: of the bootstrap.
 
-    Returns:
-        Columns `method, scene, frame_ms, frame_ms_q1, frame_ms_q3, repeats, lpips, lpips_low,
-        lpips_high, size_kib`. Times in ms, sizes in KiB; the order is that of `rows`.
-    """
-    records = []
-    for row in rows:
-        method, scene = row["method"], row["scene"]
-        milliseconds = np.array(times[scene]["methods"][method]["ms"])
-        first, median, third = np.quantile(milliseconds, (0.25, 0.5, 0.75))
-        values = metrics[scene].query("method == @method and metric == 'lpips'")
-        values = values.sort_values(["view_set", "view"])["value"].to_numpy()
-        lpips = mean_interval(values, seed) if len(values) else (np.nan,) * 3
-        if row["experiment"]:
-            size = sizes[row["experiment"]]
-        else:
-            size = np.nan if method == RAY_TRACED else shadow_map_bytes(method)
-        records.append(
-            {
-                "method": row["label"],
-                "scene": scene,
-                "frame_ms": median,
-                "frame_ms_q1": first,
-                "frame_ms_q3": third,
-                "repeats": len(milliseconds),
-                "lpips": lpips[0],
-                "lpips_low": lpips[1],
-                "lpips_high": lpips[2],
-                "size_kib": size / 1024,
-            }
-        )
-    return pd.DataFrame(records)
+def _lpips(metrics: pd.DataFrame, method: str, seed: int) -> dict[str, float]:
+    """NaN for a method, such as the reference itself, that is in no metrics."""
+    values = metrics.query("method == @method and metric == 'lpips'")
+    values = values.sort_values(["view_set", "view"])["value"].to_numpy()
+    interval = mean_interval(values, seed) if len(values) else (np.nan,) * 3
+    return dict(zip(("lpips", "lpips_low", "lpips_high"), interval))
+
+
+def _bytes(row: Mapping[str, Any], networks: Mapping[str, int]) -> float:
+    if row["experiment"]:
+        return networks[row["experiment"]]
+    return np.nan if row["method"] == RAY_TRACED else shadow_map_bytes(row["method"])
 
 
 def reading_columns(table: pd.DataFrame, with_thesis: bool) -> dict[str, list[str]]:

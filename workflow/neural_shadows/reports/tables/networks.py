@@ -54,7 +54,10 @@ def write(
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
-    """Write the table as CSV and Markdown.
+    """Write the table as CSV and Markdown, in the order of `rows`, scenes kept together.
+
+    CSV: `scene`, `method`, the metrics with their intervals, `FACTS`, `views` and the context. A
+    ray-traced row has no quality: it is the reference itself.
 
     Args:
         times, meshes: what `measure_frame_times` and `prepare_mesh` wrote, a file for each scene.
@@ -73,16 +76,23 @@ def write(
     sizes = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
     biases = read_biases(rows, depth_biases)
     reports, lpips = read_meshes(meshes), read_json(lpips_json)
-    table = networks_table(
-        rows,
-        {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()},
-        [method_facts(row, timed[row["scene"]], sizes, records, biases) for row in rows],
-        {
-            scene: context_columns(report, lpips, run, scenes[scene]["seed"])
-            for scene, report in reports.items()
-        },
-        run["seed"],
-    )
+    parts = []
+    for scene, paths in by_folder(metrics).items():
+        here = [row for row in rows if row["scene"] == scene]
+        known = pd.DataFrame(
+            {"scene": scene, "method": row["label"]}
+            | _facts(row, timed[scene], sizes, records, biases)
+            for row in here
+        )
+        measured = [row for row in here if row["method"] != RAY_TRACED]
+        quality = quality_table(read_metrics(paths), measured, run["seed"])
+        context = context_columns(reports[scene], lpips, run, scenes[scene]["seed"])
+        parts.append(known.merge(quality.assign(**context), on="method", how="left"))
+    table = pd.concat(parts, ignore_index=True)
+    quality = [name for metric in METRICS for name in (metric, f"{metric}_low", f"{metric}_high")]
+    first = ["scene", "method", *quality, *FACTS]
+    table = table[first + [name for name in table if name not in first]]
+
     notes = [
         "Mean over a scene's views [95 % bootstrap interval]; size: what the weight file stores, "
         "which may be more once it is laid out for queries, and 4 N² bytes for a shadow map; "
@@ -104,20 +114,14 @@ def write(
     write_twins(table, reading_columns(table), csv, md, title=title, notes=notes, text_columns=2)
 
 
-def method_facts(
+def _facts(
     row: Mapping[str, Any],
     times: Mapping[str, Any],
     sizes: Mapping[str, int],
     records: Mapping[str, Mapping[str, Any]],
     depth_biases: Mapping[str, float],
 ) -> dict[str, Any]:
-    """The `FACTS` of a row.
-
-    Args:
-        times: of the row's scene, as `measure_frame_times` wrote them.
-        sizes, records: bytes of networks and what trainings wrote, by experiment.
-        depth_biases: of networks by method.
-    """
+    """The `FACTS` of a row, from its scene's times; sizes and records are by experiment."""
     method, experiment = row["method"], row["experiment"]
     first, median, third = np.quantile(times["methods"][method]["ms"], (0.25, 0.5, 0.75))
     facts = dict.fromkeys(FACTS, np.nan) | {
@@ -140,41 +144,6 @@ def method_facts(
     elif method != RAY_TRACED:
         facts["bytes"] = shadow_map_bytes(method)
     return facts
-
-
-def networks_table(
-    rows: Sequence[Mapping[str, Any]],
-    metrics: Mapping[str, pd.DataFrame],
-    facts: Sequence[Mapping[str, Any]],
-    contexts: Mapping[str, Mapping[str, Any]],
-    seed: int,
-) -> pd.DataFrame:
-    """A row per method in the order of `rows`, scenes kept together.
-
-    Args:
-        rows: `method`, `label` and `scene` of each; `facts`: the `FACTS` of each.
-        metrics: as `read_metrics` gives it, by scene. A ray-traced row has none: it is the
-            reference itself.
-        contexts: see `context_columns`, by scene.
-
-    Returns:
-        Columns `scene, method`, the metrics with their intervals, `FACTS`, `views` and the
-        context.
-
-    Raises:
-        InputError: a method lacks a finite value.
-    """
-    frames = []
-    for scene, context in contexts.items():
-        here = [(row, fact) for row, fact in zip(rows, facts) if row["scene"] == scene]
-        measured = [row for row, _ in here if row["method"] != RAY_TRACED]
-        quality = quality_table(metrics[scene], measured, seed).assign(**context)
-        known = pd.DataFrame([{"method": row["label"], **fact} for row, fact in here])
-        frames.append(known.merge(quality, on="method", how="left").assign(scene=scene))
-    table = pd.concat(frames, ignore_index=True)
-    quality = [name for metric in METRICS for name in (metric, f"{metric}_low", f"{metric}_high")]
-    context = [name for name in table if name not in {"scene", "method", *quality, *FACTS}]
-    return table[["scene", "method", *quality, *FACTS, *context]]
 
 
 def reading_columns(table: pd.DataFrame) -> dict[str, list[str]]:
