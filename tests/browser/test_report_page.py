@@ -3,7 +3,7 @@
 import shutil
 
 import pytest
-from report_page import write_page
+from report_page import make_page
 
 CHROMIUM = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
@@ -12,7 +12,7 @@ pytestmark = pytest.mark.skipif(
     CHROMIUM is None, reason="no Chromium on this machine: apt-get install chromium"
 )
 playwright_api = pytest.importorskip(
-    "playwright.sync_api", reason="no Playwright: pip install -r envs/requirements.txt"
+    "playwright.sync_api", reason="no Playwright: pip install -r envs/browser.txt"
 )
 
 
@@ -27,7 +27,7 @@ def browser():
 
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):
-    return write_page(tmp_path_factory.mktemp("page")).as_uri()
+    return make_page(tmp_path_factory.mktemp("page")).as_uri()
 
 
 @pytest.fixture
@@ -113,7 +113,7 @@ def test_divider_follows_the_keyboard(open_page):
 def test_any_two_methods_of_any_view_can_be_compared(open_page):
     page = open_page()
     options = page.locator(".left option").all_inner_texts()
-    assert options == ["Reference", "128² shadow map", "512² shadow map", "network dragon"]
+    assert options == ["Reference", "128² shadow map", "512² shadow map", "Thesis's network"]
     seen = {tuple(sources(page))}
     for selector, value in ((".left", "shadow_map_128"), (".right", "dragon"), (".view", "1")):
         page.locator(selector).select_option(value)
@@ -185,7 +185,7 @@ def test_contents_lead_to_every_table_and_figure(open_page):
     links = page.locator("details a, nav a").evaluate_all(
         "links => links.map(link => link.getAttribute('href'))"
     )
-    assert {"#table_4_3", "#figure_4_1", "#claims", "#compare"} <= set(links)
+    assert {"#table-table_4_3", "#figure-figure_4_1", "#claims", "#compare"} <= set(links)
     for link in links:
         assert page.locator(link).count() == 1
 

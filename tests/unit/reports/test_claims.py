@@ -1,9 +1,7 @@
-import json
-
 import numpy as np
 import pandas as pd
 import pytest
-from report_samples import RUN, SCENES, row, write_metrics
+from report_samples import row, write_metrics, write_record, written_table
 
 from neural_shadows.errors import InputError
 from neural_shadows.reports.claims import (
@@ -22,16 +20,17 @@ VIEWS = 24
 VIEW_LEVEL = np.random.default_rng(5).uniform(0.0, 0.5, VIEWS)
 
 
+AT_LEAST_1 = {"at_least": 1, "at_most": None}
+
+
 def metrics_of(values):
     """Tidy metrics of {(method, metric): (views,)}."""
-    return pd.DataFrame(
-        [
-            (view, "surface", method, metric, float(value))
-            for (method, metric), series in values.items()
-            for view, value in enumerate(series)
-        ],
-        columns=["view", "view_set", "method", "metric", "value"],
-    )
+    rows = [
+        (view, "surface", *key, float(value))
+        for key, series in values.items()
+        for view, value in enumerate(series)
+    ]
+    return pd.DataFrame(rows, columns=["view", "view_set", "method", "metric", "value"])
 
 
 def noise(seed, scale=0.001, count=VIEWS):
@@ -171,13 +170,8 @@ def test_frame_times_are_compared_as_a_ratio_of_medians(bounds, verdict):
     slower = 20 + noise(2, 0.3, 15)
     slower[3] = 400.0  # a disturbance, which a median does not see
     methods = {"slower": {"ms": slower}, "faster": {"ms": 10 + noise(1, 0.1, 15)}}
-    claim = {
-        "kind": "frame_time",
-        "table": "t",
-        "pairs": [[row("slower"), row("faster")]],
-        "at_least": None,
-        "at_most": None,
-    }
+    pair = [row("slower"), row("faster")]
+    claim = {"kind": "frame_time", "table": "t", "pairs": [pair], "at_least": None, "at_most": None}
     found = judged(claim | bounds, times={("t", "dragon"): {"methods": methods}})
     assert found["verdict"] == verdict
 
@@ -191,37 +185,27 @@ def test_claims_are_written_with_the_scale_that_the_thesis_had(tmp_path):
     loss_csv = tmp_path / "networks" / "good" / "loss.csv"
     loss_csv.parent.mkdir(parents=True)
     loss_csv.write_text("step,samples,learning_rate,loss\n1,9,0.1,0.5\n")
-    times_json = tmp_path / "frame_times" / "t" / "dragon.json"
-    times_json.parent.mkdir(parents=True)
-    times_json.write_text(json.dumps({"methods": {"good": {"ms": [1]}, "bad": {"ms": [2]}}}))
-    said = {"section": "4.3", "statement": "Good is better than bad."}
+    times = {"methods": {"good": {"ms": [1]}, "bad": {"ms": [2]}}}
     pair = [row("good"), row("bad")]
-    write_claims(
+    found, md = written_table(
+        write_claims,
+        tmp_path,
         metrics=write_metrics(tmp_path, "dragon", one_scene()),
         losses=[loss_csv],
-        times=[times_json],
-        csv=tmp_path / "claims.csv",
-        md=tmp_path / "claims.md",
+        times=[write_record(tmp_path / "frame_times" / "t" / "dragon.json", times)],
         claims={
-            "quality": {**said, **better("good", "bad")},
-            "loss": {**said, "kind": "lower_loss", "pairs": [[row("good")] * 2]},
-            "time": {
-                **said,
-                "kind": "frame_time",
-                "table": "t",
-                "pairs": [pair],
-                "at_least": 1,
-                "at_most": None,
-            },
+            name: {"section": "4.3", "statement": "Good is better than bad.", **claim}
+            for name, claim in {
+                "quality": better("good", "bad"),
+                "loss": {"kind": "lower_loss", "pairs": [[row("good")] * 2]},
+                "time": {"kind": "frame_time", "table": "t", "pairs": [pair], **AT_LEAST_1},
+            }.items()
         },
-        run=RUN,
         samples=20_480_000,
-        scenes=SCENES,
     )
-    found = pd.read_csv(tmp_path / "claims.csv")
     assert found["verdict"].tolist() == [SUPPORTED, UNDECIDED, UNDECIDED]
     assert (found["samples"][0], found["thesis_samples"][0]) == (20_480_000, 65_536_000_000)
-    markdown = (tmp_path / "claims.md").read_text()
-    assert "1 supported, 0 contradicted, 2 undecided of 3" in markdown
-    assert "3,200 times as many" in markdown
-    assert "Meshes: dragon wyrm, fence fence; seed 1." in markdown
+    text = md.read_text()
+    assert "1 supported, 0 contradicted, 2 undecided of 3" in text
+    assert "3,200 times as many" in text
+    assert "Meshes: dragon wyrm, fence fence; seed 1." in text
