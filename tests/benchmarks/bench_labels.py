@@ -13,11 +13,11 @@ import trimesh
 from measurement import Row, median_seconds
 
 from neural_shadows.meshes.prepared_mesh import read_prepared
-from neural_shadows.rays.draw_directions import make_directions
-from neural_shadows.rays.label_rays import make_labels
+from neural_shadows.rays.draw_directions import draw_directions
+from neural_shadows.rays.label_rays import label_rays
 from neural_shadows.rays.labels import SECOND_HIT_STEP
 from neural_shadows.rays.ray_set import RaySet
-from neural_shadows.rays.sample_rays import make_rays
+from neural_shadows.rays.sample_rays import sample_rays
 from neural_shadows.rays.silhouette import silhouette
 from neural_shadows.scenes.tracing import Tracer
 
@@ -34,32 +34,32 @@ def rows(mesh_ply: Path, quick: bool) -> list[Row]:
 
 
 def _rows(mesh_ply: Path, folder: Path, count: int, rounds: int) -> list[Row]:
-    directions_npy = folder / "directions.npy"
-    origins_npy, bounds_npy = folder / "origins.npy", folder / "bounds.npy"
-    make_directions(directions_npy, sampler="poisson_quadtree", directions=count, seed=0)
+    files = {
+        "mesh_ply": mesh_ply,
+        "directions_npy": folder / "directions.npy",
+        "origins_npy": folder / "origins.npy",
+    }
+    sampling = {
+        "sampler": "poisson_quadtree",
+        "directions": count,
+        "points_per_direction": POINTS,
+        "silhouette_resolution": RESOLUTION,
+        "min_quad": 1,
+    }
+    draw_directions(directions_npy=files["directions_npy"], sampling=sampling, seed=0)
     mesh = read_prepared(mesh_ply)
     tracer = Tracer(mesh.vertices, mesh.faces)
-    part = {"first": 0, "last": count, "threads": THREADS}
+    part = {"seed": 0, "first": 0, "last": count, "threads": THREADS}
 
     def rays() -> None:
-        make_rays(
-            mesh_ply,
-            directions_npy,
-            origins_npy,
-            sampler="poisson_quadtree",
-            points_per_direction=POINTS,
-            silhouette_resolution=RESOLUTION,
-            min_quad=1,
-            seed=0,
-            **part,
-        )
+        sample_rays(**files, sampling=sampling, **part)
 
     def labels() -> None:
-        make_labels(mesh_ply, directions_npy, origins_npy, bounds_npy, seed=0, **part)
+        label_rays(**files, bounds_npy=folder / "bounds.npy", **part)
 
     rays()
     labels()
-    ray_set = RaySet(directions_npy, [origins_npy], [bounds_npy])
+    ray_set = RaySet(files["directions_npy"], [files["origins_npy"]], [folder / "bounds.npy"])
     directions, origins = ray_set.directions, ray_set.origins[0]
 
     def trace(i: int) -> None:

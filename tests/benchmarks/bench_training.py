@@ -10,12 +10,11 @@ import torch
 from measurement import Row, median_seconds
 
 from neural_shadows.networks.compute import choose_device, choose_dtype
-from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
-from neural_shadows.networks.object_space.shadow_network import TRAINING_CHUNK, LabelledBatch
+from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.training.batches import batch_indices
 from neural_shadows.training.cuda_graph import WARM_UP, recorded
-from neural_shadows.training.training_run import TrainingRun, chunk_size, gradient_pool
+from neural_shadows.training.training_run import TrainingRun, gradient_pool
 
 THREADS = 2
 DESK_BATCH, THESIS_BATCH = 1024, 65536
@@ -50,18 +49,20 @@ def rows(quick: bool) -> list[Row]:
     return found
 
 
-def _new_run(width: int, device: torch.device) -> TrainingRun:
+def _new_run(width: int, batch: int, device: torch.device, precision: str) -> TrainingRun:
     network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
     network.initialise(0)
-    return TrainingRun(network, device, DeadZone(), 0)
+    settings = {"steps": 1, "batch_size": batch, "learning_rate": 1e-4, "schedule": "constant"}
+    made = {"loss": {}, "seed": 0, "device": device.type, "precision": precision}
+    return TrainingRun(network, settings | made)
 
 
-def _stepper(run: TrainingRun, rays: RandomRays, batch: int, dtype, chunk: int, pool=None):
-    rate = torch.tensor(1e-4, dtype=torch.float64, device=run.step.device)
+def _stepper(run: TrainingRun, rays: RandomRays, pool=None):
+    batch = run.settings["batch_size"]
 
     def step() -> None:
         indices = batch_indices(run.step, seed=0, batch_size=batch, count=rays.count)
-        run.train_step(rays.gather(indices), rate, dtype, chunk, pool)
+        run.train_step(rays.gather(indices), pool)
 
     return step
 
@@ -91,13 +92,13 @@ def _products(network: FrequencyNetwork, dtype: torch.dtype, rows: int):
 def _cpu_row(width: int, rounds: int) -> Row:
     cpu = torch.device("cpu")
     dtype = choose_dtype("auto", cpu)
-    run, rays = _new_run(width, cpu), RandomRays(cpu)
-    chunk = chunk_size(DESK_BATCH, cpu, TRAINING_CHUNK)
-    pool = gradient_pool(THREADS)
-    ours = _stepper(run, rays, DESK_BATCH, dtype, chunk, pool)
-    plain = _stepper(_new_run(width, cpu), rays, DESK_BATCH, torch.float32, DESK_BATCH)
+    run, whole = (_new_run(width, DESK_BATCH, cpu, name) for name in ("auto", "float32"))
+    whole.chunk = DESK_BATCH
+    rays, pool = RandomRays(cpu), gradient_pool(THREADS)
+    ours, plain = _stepper(run, rays, pool), _stepper(whole, rays)
     # Each thread multiplies for itself, as in our step: nothing has to be waited for.
-    products = [_products(run.network, dtype, chunk) for _ in range(DESK_BATCH // chunk)]
+    parts = DESK_BATCH // run.chunk
+    products = [_products(run.network, dtype, run.chunk) for _ in range(parts)]
 
     def with_threads(threads: int, work):
         def threaded() -> None:
@@ -128,11 +129,9 @@ def _cuda_row(width: int, rounds: int) -> Row:
     dtype = choose_dtype("auto", cuda)
     rays = RandomRays(cuda)
 
-    def stepper(dtype):
-        return _stepper(_new_run(width, cuda), rays, THESIS_BATCH, dtype, THESIS_BATCH)
-
-    ours, plain = recorded(stepper(dtype)), stepper(torch.float32)
-    products = _products(_new_run(width, cuda).network, dtype, THESIS_BATCH)
+    run, exact = (_new_run(width, THESIS_BATCH, cuda, name) for name in ("auto", "float32"))
+    ours, plain = recorded(_stepper(run, rays)), _stepper(exact, rays)
+    products = _products(run.network, dtype, THESIS_BATCH)
     for _ in range(WARM_UP + 1):
         ours()
 

@@ -12,13 +12,15 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from neural_shadows.evaluation.shadow_methods import REFERENCE_MAP_RESOLUTION, reference_of
+from neural_shadows.evaluation.shadow_methods import REFERENCES, open_network, traced_method
 from neural_shadows.metrics.psnr_ssim import psnr
-from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
-from neural_shadows.networks.weight_file import load_network
-from neural_shadows.rendering.scene_frames import open_scene
+from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.scenes.scene import open_scene
+
+LIGHT = {"domain": "sphere", "min_elevation_deg": 20}
 
 
 def main() -> None:
@@ -28,36 +30,28 @@ def main() -> None:
     parser.add_argument("--width", type=int, default=600)
     parser.add_argument("--height", type=int, default=400)
     parser.add_argument("--seed", type=int, default=2026)
-    arguments = parser.parse_args()
-    scene = open_scene(
-        arguments.results / "scenes/dragon/mesh.ply",
-        up="y",
-        ground=True,
-        light={"domain": "sphere", "min_elevation_deg": 20},
-        width=arguments.width,
-        height=arguments.height,
-        seed=arguments.seed,
-    )
-    network, _ = load_network(arguments.results / "networks/dragon/weights.safetensors")
-    dtype = choose_dtype("auto", torch.device("cpu"))
-    exact, large_map = (
-        reference_of(scene.mesh, scene.tracer, kind) for kind in ("exact", "shadow_map")
-    )
+    asked = parser.parse_args()
+    mesh_ply = asked.results / "scenes/dragon/mesh.ply"
+    scene = open_scene(mesh_ply, up="y", ground=True, light=LIGHT)
+    weights = asked.results / "networks/dragon/weights.safetensors"
+    network, dtype = open_network(weights, "cpu", "auto", 2)
+    exact, large_map = (traced_method(REFERENCES[kind], scene) for kind in ("exact", "shadow_map"))
 
     values: dict[str, list[float]] = {"map": [], "clamped": [], "not clamped": []}
-    for view in scene.viewpoints(["shadow", "surface"], range(arguments.views)):
-        points = scene.points(view)
-        reference = shade(points, exact(points))
-        values["map"].append(psnr(shade(points, large_map(points)), reference))
-        p, light = on_device(points.p, points.light, network.device)
+    sets, aspect = ["shadow", "surface"], asked.width / asked.height
+    for view in draw_viewpoints(scene, sets, range(asked.views), aspect, asked.seed):
+        frame = render_gbuffer(scene, view, asked.width, asked.height)
+        reference = shade(frame, exact(frame))
+        values["map"].append(psnr(shade(frame, large_map(frame)), reference))
+        p, light = on_device(frame.p, view.light, network.device)
         rays = sphere_rays(p, light)
         t_pred = network.depths(rays.origins, -light, dtype)
         for name, s in (("clamped", torch.minimum(rays.s, rays.chord)), ("not clamped", rays.s)):
             lit = torch.ones(len(p), dtype=torch.bool)
             lit[rays.index] = s <= t_pred
-            values[name].append(psnr(shade(points, lit.numpy()), reference))
-    print(f"mean PSNR in dB over {2 * arguments.views} views:")
-    print(f"{REFERENCE_MAP_RESOLUTION}² map against exact rays: {np.mean(values['map']):.1f}")
+            values[name].append(psnr(shade(frame, frame.visibility(lit.numpy())), reference))
+    print(f"mean PSNR in dB over {2 * asked.views} views:")
+    print(f"32768² map against exact rays: {np.mean(values['map']):.1f}")
     print(f"  lowest of a view: {np.min(values['map']):.1f}")
     print(f"network, s clamped to the chord: {np.mean(values['clamped']):.2f}")
     print(f"network, s not clamped: {np.mean(values['not clamped']):.2f}")

@@ -11,37 +11,40 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
-from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.training.loss_curve import read_loss
 from neural_shadows.training.train import train
 
 SEEDS = (1, 2, 3)
 FIFTHS = 5
 
 
-def loss_curve(rays: RaySet, folder: Path, steps: int, precision: str, seed: int) -> np.ndarray:
+def loss_curve(rays: Path, folder: Path, steps: int, precision: str, seed: int) -> np.ndarray:
     """Mean loss in each fifth of a training at the desk scale's settings."""
+    results = folder / "network"
     train(
-        rays,
-        folder / "weights.safetensors",
-        folder / "loss.csv",
-        folder / "training.json",
-        name=f"{precision} {seed}",
-        network={"encoding": "frequency", "frequencies": 10, "width": 256, "hidden_layers": 8},
-        steps=steps,
-        batch_size=1024,
-        learning_rate=0.001,
-        schedule="cosine",
-        loss={},
-        seed=seed,
+        directions_npy=rays / "directions.npy",
+        origins=sorted(rays.glob("origins.*.npy")),
+        bounds=sorted(rays.glob("bounds.*.npy")),
+        rays_json=rays / "rays.json",
         mesh_ply=None,
-        data={},
-        state_folder=folder / "unfinished",
+        weights=results / "weights.safetensors",
+        loss_csv=results / "loss.csv",
+        training_json=results / "training.json",
+        network={"encoding": "frequency", "frequencies": 10, "width": 256, "hidden_layers": 8},
+        training={
+            "steps": steps,
+            "batch_size": 1024,
+            "learning_rate": 0.001,
+            "schedule": "cosine",
+            "loss": {},
+        },
+        seed=seed,
+        experiment=f"{precision} {seed}",
         precision=precision,
         threads=2,
     )
-    loss = pd.read_csv(folder / "loss.csv")["loss"].to_numpy()
+    loss = read_loss(results / "loss.csv")["loss"].to_numpy()
     return np.array([part.mean() for part in np.array_split(loss, FIFTHS)])
 
 
@@ -50,12 +53,11 @@ def main() -> None:
     parser.add_argument("rays", type=Path, help="folder of a ray set")
     parser.add_argument("--steps", type=int, default=5000)
     arguments = parser.parse_args()
-    rays = RaySet.in_folder(arguments.rays)
     curves = {}
     for seed in SEEDS:
         for precision in ("bfloat16", "float32"):
             with tempfile.TemporaryDirectory() as folder:
-                curve = loss_curve(rays, Path(folder), arguments.steps, precision, seed)
+                curve = loss_curve(arguments.rays, Path(folder), arguments.steps, precision, seed)
             curves.setdefault(precision, []).append(curve)
             print(f"{precision:8} seed {seed}: {'  '.join(f'{loss:.4f}' for loss in curve)}")
     ours, exact = (np.array(curves[precision]) for precision in ("bfloat16", "float32"))
