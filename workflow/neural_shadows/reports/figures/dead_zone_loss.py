@@ -8,7 +8,7 @@ import numpy as np
 import torch
 
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.reports.figures.drawing import method_figure, open_slice
+from neural_shadows.reports.figures.drawing import open_figure
 from neural_shadows.reports.figures.mesh_slice import slice_rays
 from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, write_figure
 from neural_shadows.running.stage import run_stage
@@ -18,8 +18,8 @@ def draw(
     mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
     """Draw the loss of the ray with the most distant bounds, and of the longest that misses."""
-    figure = method_figure(title, mesh_json, 9, 4.6)
-    rays = slice_rays(open_slice(mesh_ply, scene), 401)
+    cut, figure = open_figure(mesh_ply, mesh_json, scene, title, 9, 4.6)
+    rays = slice_rays(cut, 401)
     axes = figure.subplots()
     t = torch.linspace(0, 2, 401)
     chosen = []

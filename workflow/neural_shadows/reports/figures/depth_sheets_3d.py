@@ -8,19 +8,12 @@ from typing import Any
 import numpy as np
 import pyvista
 import torch
-from matplotlib.patches import Patch
 
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rays.labels import chord_lengths, dual_bounds
 from neural_shadows.rays.silhouette import entry_points
+from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.space import (
-    FALSE_SHADOW,
-    LIGHT_LEAK,
-    OBJECT_COLOUR,
-    new_plotter,
-    write_pictures,
-)
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -55,16 +48,17 @@ def draw(
         depths = network.depths(torch.from_numpy(o), torch.from_numpy(d), torch.float32)
     t_pred = np.minimum(depths.numpy(), chord)
     early, late = t_pred < t_lb - TOLERANCE, t_pred > t_ub + TOLERANCE
-    colour = np.select([early, late], [1, 2])
+    error = np.select([early, late], [1, 2])
+    colours = [space.OBJECT_COLOUR, space.FALSE_SHADOW, space.LIGHT_LEAK]
     plotters = []
     for t in (t_lb, t_pred, t_ub):
         sheet = sheet_of(np.where(hit, t, np.nan), o + t[:, None] * d)
-        sheet["colour"] = (colour if t is t_pred else 0 * colour)[sheet["ray"]]
-        plotters.append(new_plotter(view))
+        sheet["error"] = (error if t is t_pred else 0 * error)[sheet["ray"]]
+        plotters.append(space.new_plotter(view))
         plotters[-1].add_mesh(
             sheet,
-            scalars="colour",
-            cmap=[OBJECT_COLOUR, FALSE_SHADOW, LIGHT_LEAK],
+            scalars="error",
+            cmap=colours,
             clim=(0, 2),
             interpolate_before_map=False,
             smooth_shading=True,
@@ -76,16 +70,12 @@ def draw(
         f"t$_{{pred}}$: {right:.0%} right",
         "t$_{ub}$: where it would leave",
     )
-    write_pictures(
+    space.write_pictures(
         dict(zip(headings, plotters)),
         png,
         svg,
         title=title,
-        entries=[
-            Patch(color=OBJECT_COLOUR, label="t$_{pred}$ between the bounds: right"),
-            Patch(color=FALSE_SHADOW, label="before t$_{lb}$: false shadow"),
-            Patch(color=LIGHT_LEAK, label="behind t$_{ub}$: light leak"),
-        ],
+        colours=dict(zip(("between the bounds", "false shadow", "light leak"), colours)),
     )
 
 

@@ -13,15 +13,13 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D, Transform
 
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.quadtree import build_quadtree
 from neural_shadows.rays.sampling import sample_quads
 from neural_shadows.rays.silhouette import plane_basis, silhouette
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, SliceRays, slice_mesh
 from neural_shadows.reports.figures.style import BLUE, ORANGE, new_figure
-from neural_shadows.scenes.lights import axis_vector
-from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.scenes.scene import open_scene
 
 SHADE = "#b9c2cc"
 OUTLINE = "#222222"
@@ -33,19 +31,20 @@ FEW_RAYS = 25
 DRAWN_SEGMENTS = 4000
 
 
-def open_slice(mesh_ply: Path, scene: Mapping[str, Any]) -> MeshSlice:
-    """The slice of a prepared mesh that the figures show.
+def open_figure(
+    mesh_ply: Path, mesh_json: Path, scene: Mapping[str, Any], title: str, *size: float
+) -> tuple[MeshSlice, Figure]:
+    """The slice of a scene that the figures show, and an empty figure whose title names the mesh.
+
+    Args:
+        size: width and height, inches.
 
     Raises:
-        InputError: the mesh is missing or not whole.
+        InputError: a file is missing or not whole.
     """
-    mesh = read_prepared(mesh_ply)
-    return slice_mesh(mesh, Tracer(mesh.vertices, mesh.faces), axis_vector(scene["up"], "up"))
-
-
-def method_figure(title: str, mesh_json: Path, width: float = 12.5, height: float = 6.6) -> Figure:
-    """An empty figure of so many inches whose title names the mesh."""
-    return new_figure(f"{title} ({read_mesh_report(mesh_json)['name']})", width, height)
+    cut = slice_mesh(open_scene(mesh_ply, **scene))
+    name = read_mesh_report(mesh_json)["name"]
+    return cut, new_figure(f"{title} ({name})", *(size or (12.5, 6.6)))
 
 
 def draw_disk(axes: Axes, title: str) -> None:

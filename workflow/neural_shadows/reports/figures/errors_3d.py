@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.patches import Patch
 
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.shadow_methods import (
@@ -15,17 +14,8 @@ from neural_shadows.evaluation.shadow_methods import (
     traced_method,
 )
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.space import (
-    FALSE_SHADOW,
-    LIGHT_LEAK,
-    OBJECT_COLOUR,
-    REACH,
-    add_ground,
-    new_plotter,
-    surface,
-    write_pictures,
-)
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -69,22 +59,19 @@ def draw(
                 bias = read_json(biases[row["experiment"]])["depth_bias"]
             method = network_method(network, dtype, bias or 0.0)
         p, error, share = wrong_points(method, References(references))
-        plotter = new_plotter(hero_view(opened.up, 3.7))
-        plotter.add_mesh(surface(opened.objects[0]), color=OBJECT_COLOUR, smooth_shading=True)
-        add_ground(plotter, opened)
-        for sign, colour in ((-1, FALSE_SHADOW), (1, LIGHT_LEAK)):
+        plotter = space.new_plotter(hero_view(opened.up, 3.7))
+        space.add_object(plotter, opened)
+        space.add_ground(plotter, opened)
+        for sign, colour in ((-1, space.FALSE_SHADOW), (1, space.LIGHT_LEAK)):
             if np.any(error == sign):
                 plotter.add_points(p[error == sign], color=colour, point_size=4, lighting=False)
         shown[f"{row['label']}\n{share:.2%} of the points wrong"] = plotter
-    write_pictures(
+    space.write_pictures(
         shown,
         png,
         svg,
         title=f"{title} ({run['scale']} scale)",
-        entries=[
-            Patch(color=FALSE_SHADOW, label="false shadow"),
-            Patch(color=LIGHT_LEAK, label="light leak"),
-        ],
+        colours={"false shadow": space.FALSE_SHADOW, "light leak": space.LIGHT_LEAK},
     )
 
 
@@ -98,7 +85,7 @@ def wrong_points(method: ShadowMethod, batch: References) -> tuple[np.ndarray, n
         error = np.sign(np.round(method(frame)) - np.round(truth))[frame.lit_side]
         wrong = np.flatnonzero(error)
         count, total = count + len(wrong), total + len(error)
-        near = wrong[np.linalg.norm(frame.p[wrong], axis=1) < 1.1 * REACH]
+        near = wrong[np.linalg.norm(frame.p[wrong], axis=1) < 1.1 * space.REACH]
         points.append(frame.p[near])
         signs.append(error[near])
     p, sign = np.concatenate(points), np.concatenate(signs)

@@ -15,14 +15,9 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
     OccupancyFieldNetwork,
 )
 from neural_shadows.networks.weight_file import load_network
+from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.field_slice import field_logits
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.space import (
-    OBJECT_COLOUR,
-    new_plotter,
-    surface,
-    write_pictures,
-)
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -43,9 +38,8 @@ def draw(
     """
     opened = open_scene(mesh_ply, **scene)
     view = hero_view(opened.up, 3.0)
-    left, right = new_plotter(view), new_plotter(view)
-    shape = surface(opened.objects[0])
-    left.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True)
+    left, right = space.new_plotter(view), space.new_plotter(view)
+    shape = space.add_object(left, opened)
     field, _ = load_network(weights)
     learned = learned_surface(field).compute_implicit_distance(shape)
     cell = 2 / field.resolution
@@ -60,7 +54,7 @@ def draw(
         show_scalar_bar=False,
     )
     within = np.mean(np.abs(distance) < 0.5)
-    write_pictures(
+    space.write_pictures(
         {
             f"the mesh: {shape.n_cells:,} triangles": left,
             f"the field of {field.resolution}³ cells: {within:.0%} within half a cell": right,

@@ -17,10 +17,11 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
     OccupancyFieldNetwork,
 )
 from neural_shadows.networks.weight_file import load_network
-from neural_shadows.reports.figures.drawing import OUTLINE, draw_outline, open_slice
-from neural_shadows.reports.figures.mesh_slice import MeshSlice
+from neural_shadows.reports.figures.drawing import OUTLINE, draw_outline
+from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_mesh
 from neural_shadows.reports.figures.style import new_figure, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.scene import open_scene
 
 PIXELS = 900  # of the slice's side
 DETAIL = 0.07  # half the side of the detail, in sphere radii
@@ -38,7 +39,7 @@ def draw(
     Raises:
         InputError: an input file is not whole.
     """
-    cut = open_slice(mesh_ply, scene)
+    cut = slice_mesh(open_scene(mesh_ply, **scene))
     field, _ = load_network(weights)
     figure = new_figure(title, 13, 6.6)
     whole, detail = figure.subplots(1, 2)

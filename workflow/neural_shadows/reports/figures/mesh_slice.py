@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import trimesh
 
-from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.rays.labels import check_bounds, dual_bounds
+from neural_shadows.scenes.scene import Scene
 from neural_shadows.scenes.tracing import Tracer
 
 LIGHT_ELEVATION = 50.0  # degrees in the plane: shadows as long as the object is high
@@ -57,8 +57,9 @@ class SliceRays:
         return self.origins + np.asarray(t)[:, None] * self.direction
 
 
-def slice_mesh(mesh: PreparedMesh, tracer: Tracer, up: np.ndarray) -> MeshSlice:
-    """Cut a mesh by the upright plane along its greatest horizontal extent."""
+def slice_mesh(scene: Scene) -> MeshSlice:
+    """Cut a scene's object by the upright plane along its greatest horizontal extent."""
+    (mesh,), up = scene.objects, scene.up
     horizontal = [axis for axis in np.eye(3) if axis @ up == 0]
     across = max(horizontal, key=lambda axis: np.ptp(mesh.vertices @ axis))
     shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
@@ -67,7 +68,7 @@ def slice_mesh(mesh: PreparedMesh, tracer: Tracer, up: np.ndarray) -> MeshSlice:
     direction = np.cos(elevation) * across - np.sin(elevation) * up
     basis = np.stack([across, up], axis=1)
     outline = np.asarray(segments).reshape(-1, 2, 3) @ basis
-    return MeshSlice(across, up, outline, direction, tracer)
+    return MeshSlice(across, up, outline, direction, scene.tracer)
 
 
 def slice_rays(cut: MeshSlice, count: int) -> SliceRays:

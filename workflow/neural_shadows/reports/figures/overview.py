@@ -9,20 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from neural_shadows.rays.poisson_disk import sphere_directions
-from neural_shadows.reports.figures.drawing import (
-    FEW_RAYS,
-    OUTLINE,
-    SHADE,
-    SHOWN_DIRECTIONS,
-    SHOWN_POINTS,
-    SilhouetteDrawing,
-    draw_bounded_rays,
-    draw_disk,
-    draw_hemisphere,
-    draw_outline,
-    method_figure,
-    open_slice,
-)
+from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
 from neural_shadows.reports.figures.style import BLUE, ORANGE, write_figure
 from neural_shadows.running.stage import run_stage
@@ -40,25 +27,27 @@ def draw(
     seed: int,
 ) -> None:
     """Draw directions, points on a silhouette, labels and a query beside each other."""
-    cut, figure = open_slice(mesh_ply, scene), method_figure(title, mesh_json, 13.3, 4)
+    cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title, 13.3, 4)
     directions, points, labels, query = figure.subplots(1, 4)
-    draw_hemisphere(directions, sphere_directions(SHOWN_DIRECTIONS, seed)[0], "a  view directions")
-    draw_disk(points, "b  rays through a silhouette's quadtree")
-    shown = SilhouetteDrawing(cut, sampling, seed, SHOWN_POINTS // 3)
+    drawing.draw_hemisphere(
+        directions, sphere_directions(drawing.SHOWN_DIRECTIONS, seed)[0], "a  view directions"
+    )
+    drawing.draw_disk(points, "b  rays through a silhouette's quadtree")
+    shown = drawing.SilhouetteDrawing(cut, sampling, seed, drawing.SHOWN_POINTS // 3)
     shown.draw(points)
     shown.draw_quads(points)
     shown.draw_points(points, 2)
-    draw_disk(labels, "c  labels: bounds along the rays")
-    draw_bounded_rays(labels, slice_rays(cut, FEW_RAYS), 1.0)
-    draw_outline(labels, cut)
+    drawing.draw_disk(labels, "c  labels: bounds along the rays")
+    drawing.draw_bounded_rays(labels, slice_rays(cut, drawing.FEW_RAYS), 1.0)
+    drawing.draw_outline(labels, cut)
     _draw_query(query, cut)
     write_figure(figure, png, svg)
 
 
 def _draw_query(axes: Axes, cut: MeshSlice) -> None:
     """Draw a ray with a point in shadow on it."""
-    draw_disk(axes, "d  a query: p is in shadow, as s > t$_s$")
-    draw_outline(axes, cut)
+    drawing.draw_disk(axes, "d  a query: p is in shadow, as s > t$_s$")
+    drawing.draw_outline(axes, cut)
     rays = slice_rays(cut, 401)
     # The ray whose parts before, in and behind the object are all long enough to be seen.
     end = rays.end
@@ -67,14 +56,14 @@ def _draw_query(axes: Axes, cut: MeshSlice) -> None:
     o, d = rays.origins[i], rays.direction
     first, last, chord = float(rays.t_lb[i]), float(end[i]), float(rays.chord[i])
     depth, s = (first + last) / 2, last + 0.6 * (chord - last)
-    parts = ((-0.2, 0, ORANGE, ":"), (0, depth, ORANGE, "-"), (depth, s, SHADE, "-"))
+    parts = ((-0.2, 0, ORANGE, ":"), (0, depth, ORANGE, "-"), (depth, s, drawing.SHADE, "-"))
     for begin, stop, colour, style in parts:
         line = np.stack([o + begin * d, o + stop * d]).T
         axes.plot(*line, color=colour, linewidth=2, linestyle=style)
     axes.annotate("light", o - 0.26 * d, ha="center", va="center", color=ORANGE)
     axes.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25))
     side = 0.13 * np.array([-d[1], d[0]])
-    for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", OUTLINE)):
+    for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", drawing.OUTLINE)):
         axes.plot(*(o + t * d), "o", color=colour, zorder=4)
         style = {"ha": "center", "va": "center", "fontsize": 12, "zorder": 5}
         halo = [withStroke(linewidth=2.5, foreground="white")]

@@ -18,6 +18,7 @@ from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.reports.figures.style import DPI, ORANGE, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.cameras import VIEW_SETS
 
 # Grey levels in [0, 1]. Light and shadow differ by 0.75 n.l, neighbouring facets by far less;
 # a step of an 8-bit picture is 0.004.
@@ -56,10 +57,11 @@ def draw(
         InputError: a file is missing or not whole.
     """
     labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
-    frames = read_first_frames(pictures, metrics)
+    captions = [VIEW_SETS[view_set] for view_set in view_sets]
+    frames = [f for f in read_first_frames(pictures, metrics) if f.caption in captions]
     mesh = read_mesh_report(mesh_json)["name"]
     heading = f"{title} ({mesh}, {run['scale']} scale)"
-    write_figure(picture_strip([frames[name] for name in view_sets], labels, heading), png, svg)
+    write_figure(picture_strip(frames, labels, heading), png, svg)
 
 
 def choose_crop(frames: Mapping[str, np.ndarray]) -> tuple[int, int, int, int]:

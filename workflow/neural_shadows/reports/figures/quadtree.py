@@ -4,13 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.reports.figures.drawing import (
-    SHOWN_POINTS,
-    SilhouetteDrawing,
-    draw_disk,
-    method_figure,
-    open_slice,
-)
+from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.style import write_figure
 from neural_shadows.running.stage import run_stage
 
@@ -27,14 +21,14 @@ def draw(
     seed: int,
 ) -> None:
     """Draw a silhouette's quadtree, and points divided over its quads."""
-    cut, figure = open_slice(mesh_ply, scene), method_figure(title, mesh_json)
-    shown = SilhouetteDrawing(cut, sampling, seed, SHOWN_POINTS)
+    cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title)
+    shown = drawing.SilhouetteDrawing(cut, sampling, seed, drawing.SHOWN_POINTS)
     left, right = figure.subplots(1, 2)
     quads = f"quadtree of {len(shown.quads):,} quads"
-    draw_disk(left, f"silhouette of {shown.resolution}² texels, {quads}")
+    drawing.draw_disk(left, f"silhouette of {shown.resolution}² texels, {quads}")
     shown.draw(left)
     shown.draw_quads(left)
-    draw_disk(right, f"{SHOWN_POINTS:,} points, divided evenly over the quads")
+    drawing.draw_disk(right, f"{drawing.SHOWN_POINTS:,} points, divided evenly over the quads")
     shown.draw(right)
     shown.draw_points(right, 3)
     write_figure(figure, png, svg)

@@ -6,22 +6,12 @@ from typing import Any
 
 import numpy as np
 import pyvista
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.rays.labels import chord_lengths
 from neural_shadows.rays.ray_set import RaySet
+from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.space import (
-    OBJECT_COLOUR,
-    add_ground,
-    add_sphere,
-    lines,
-    new_plotter,
-    surface,
-    write_pictures,
-)
 from neural_shadows.reports.figures.style import BLUE, COLOURS, ORANGE
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.lights import arc_directions, light_basis, lowest_elevation
@@ -51,19 +41,18 @@ def draw(
     rays = RaySet(directions_npy, sorted(origins), sorted(bounds))
     opened = open_scene(mesh_ply, **scene)
     view = hero_view(opened.up, 3.9)
-    left, right = new_plotter(view), new_plotter(view)
+    left, right = space.new_plotter(view), space.new_plotter(view)
     for plotter, opacity in ((left, 1.0), (right, 0.35)):  # rays go on inside the object
-        shape = surface(opened.objects[0])
-        plotter.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True, opacity=opacity)
-        add_sphere(plotter)
-    add_ground(left, opened)
+        space.add_object(plotter, opened, opacity)
+        space.add_sphere(plotter)
+    space.add_ground(left, opened)
     left.add_mesh(light_domain(opened), color=LIGHT_COLOUR, opacity=0.2, lighting=False)
     style = {"render_points_as_spheres": True, "lighting": False}
     towards = -rays.directions.astype(np.float32)
     left.add_points(towards, color=DIRECTION_COLOUR, point_size=5, **style)
     _add_rays(right, rays)
     name = read_mesh_report(mesh_json)["name"]
-    write_pictures(
+    space.write_pictures(
         {
             f"{len(towards):,} directions to shine from; up: {scene['up']}": left,
             f"{RAYS} of {rays.count:,} training rays": right,
@@ -71,14 +60,13 @@ def draw(
         png,
         svg,
         title=f"{title} ({name})",
-        entries=[
-            Patch(color=LIGHT_COLOUR, alpha=0.5, label="where the scene's light comes from"),
-            Line2D([], [], color=DIRECTION_COLOUR, marker="o", lw=0, label="view directions"),
-            Line2D([], [], color=ORANGE, alpha=0.5, label="bounding sphere"),
-            Line2D([], [], color=ORANGE, label="ray: lit"),
-            Line2D([], [], color=BLUE, lw=4, label="ray: between its bounds"),
-            Line2D([], [], color=SHADE, label="ray: in shadow"),
-        ],
+        colours={
+            "where the scene's light is": LIGHT_COLOUR,
+            "view directions": DIRECTION_COLOUR,
+            "ray: lit": ORANGE,
+            "ray: between its bounds": BLUE,
+            "ray: in shadow": SHADE,
+        },
     )
 
 
@@ -108,11 +96,11 @@ def _add_rays(plotter: pyvista.Plotter, rays: RaySet) -> None:
         return (o + t[:, None] * d)[hit]
 
     style = {"lighting": False}
-    misses = lines(o[~hit], (o + chord[:, None] * d)[~hit])
+    misses = space.lines(o[~hit], (o + chord[:, None] * d)[~hit])
     plotter.add_mesh(misses, color=ORANGE, line_width=1, opacity=0.2, **style)
-    plotter.add_mesh(lines(at(0 * chord), at(t_lb)), color=ORANGE, line_width=2, **style)
-    plotter.add_mesh(lines(at(t_lb), at(end)), color=BLUE, line_width=6, **style)
-    plotter.add_mesh(lines(at(end), at(chord)), color=SHADE, line_width=2, **style)
+    plotter.add_mesh(space.lines(at(0 * chord), at(t_lb)), color=ORANGE, line_width=2, **style)
+    plotter.add_mesh(space.lines(at(t_lb), at(end)), color=BLUE, line_width=6, **style)
+    plotter.add_mesh(space.lines(at(end), at(chord)), color=SHADE, line_width=2, **style)
 
 
 if "snakemake" in globals():

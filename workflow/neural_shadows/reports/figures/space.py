@@ -1,16 +1,15 @@
 """What the figures in three dimensions share: VTK's window, the camera, the page around it."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 import pyvista
-from matplotlib.artist import Artist
 from matplotlib.cm import ScalarMappable
+from matplotlib.patches import Patch
 
 from neural_shadows.errors import InputError
-from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.reports.figures import opengl
 from neural_shadows.reports.figures.style import BLUE, ORANGE, new_figure, write_figure
 from neural_shadows.scenes.cameras import Viewpoint
@@ -44,10 +43,12 @@ def new_plotter(view: Viewpoint) -> pyvista.Plotter:
     return plotter
 
 
-def surface(mesh: PreparedMesh) -> pyvista.PolyData:
-    """A prepared mesh as VTK has it, with its smooth normals."""
+def add_object(plotter: pyvista.Plotter, scene: Scene, opacity: float = 1.0) -> pyvista.PolyData:
+    """Add a scene's object with its smooth normals; also returned."""
+    (mesh,) = scene.objects
     shape = pyvista.PolyData.from_regular_faces(mesh.vertices, mesh.faces)
     shape.point_data.active_normals = mesh.vertex_normals
+    plotter.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True, opacity=opacity)
     return shape
 
 
@@ -77,16 +78,17 @@ def write_pictures(
     svg: Path,
     *,
     title: str,
-    entries: Sequence[Artist] = (),
+    colours: Mapping[str, str] | None = None,
     scale: tuple[str, ScalarMappable] | None = None,
 ) -> None:
     """Write windows beside each other, each under its heading, with one legend.
 
     Args:
+        colours: of the legend, by label.
         scale: label and colours of a scale at the right.
     """
     width = min(6.2, 18 / len(shown))
-    height = width * HEIGHT / WIDTH + (1.3 if entries else 0.8)
+    height = width * HEIGHT / WIDTH + (1.3 if colours else 0.8)
     figure = new_figure(title, width * len(shown) + (0.9 if scale else 0), height)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
     for axes, (heading, plotter) in zip(panels, shown.items()):
@@ -96,6 +98,7 @@ def write_pictures(
         axes.set_axis_off()
     if scale:
         figure.colorbar(scale[1], ax=panels, label=scale[0], shrink=0.7)
-    if entries:
-        figure.legend(handles=entries, loc="outside lower center", ncols=4)
+    if colours:
+        entries = [Patch(color=colour, label=label) for label, colour in colours.items()]
+        figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
     write_figure(figure, png, svg)
