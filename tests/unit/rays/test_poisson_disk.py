@@ -43,8 +43,8 @@ def test_no_gap_is_left():
     sphere = cKDTree(poisson_disk_sphere(0.05, np.random.default_rng(2)))  # about 3,100
     torus = cKDTree(poisson_disk_torus(0.02, np.random.default_rng(2)), boxsize=1)  # about 1,500
     places = np.random.default_rng(3).random((300_000, 2))
-    for tree, probes, radius in ((sphere, probes, 0.05), (torus, places, 0.02)):
-        distances = tree.query(probes)[0]
+    for tree, asked, radius in ((sphere, probes, 0.05), (torus, places, 0.02)):
+        distances = tree.query(asked)[0]
         assert distances.max() < 1.3 * radius
         assert np.mean(distances > radius) < 0.005
 

@@ -14,15 +14,6 @@ GAMMA = 0x9E3779B97F4A7C15 - 2**64
 _MIX = ((30, 0xBF58476D1CE4E5B9 - 2**64), (27, 0x94D049BB133111EB - 2**64), (31, 1))
 
 
-class LabelledRays(Protocol):
-    """What training needs of rays in the computer's own memory, or on its disk."""
-
-    count: int
-
-    def gather(self, indices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Origins (n, 3), directions (n, 3), t_lb (n,) and t_ub (n,), all float32."""
-
-
 class BatchSource(Protocol):
     """Labelled rays by their indices, on the device that the network is on."""
 
@@ -31,9 +22,9 @@ class BatchSource(Protocol):
 
 
 class HostRays:
-    """Rays that stay where they are; each batch is copied to the device."""
+    """Rays that stay on the disk, or in its cache; each batch is copied to the device."""
 
-    def __init__(self, rays: LabelledRays, device: torch.device):
+    def __init__(self, rays: RaySet, device: torch.device):
         self._rays, self._device = rays, device
 
     def gather(self, indices: Tensor) -> LabelledBatch:
@@ -70,9 +61,9 @@ class DeviceRays:
         )
 
 
-def batch_source(rays: LabelledRays, device: torch.device) -> BatchSource:
+def batch_source(rays: RaySet, device: torch.device) -> BatchSource:
     """The rays laid out on a GPU if they take less than half of what is free there."""
-    if device.type == "cuda" and isinstance(rays, RaySet):
+    if device.type == "cuda":
         free, _ = torch.cuda.mem_get_info(device)
         if 20 * rays.count < free / 2:
             return DeviceRays(rays, device)

@@ -1,19 +1,11 @@
 """A training step as a CUDA graph: hundreds of small kernels started by one call."""
 
 from collections.abc import Callable
-from typing import Protocol
 
 import torch
 
 # Steps before the recording, in which libraries choose their kernels and reserve their memory.
 WARM_UP = 3
-
-
-class Recording(Protocol):
-    """What `capture` gives."""
-
-    def replay(self) -> None:
-        """Do once more what was recorded."""
 
 
 def recorded(step: Callable[[], None]) -> Callable[[], None]:
@@ -24,7 +16,7 @@ def recorded(step: Callable[[], None]) -> Callable[[], None]:
             of them back.
     """
     calls = 0
-    recording: Recording | None = None
+    recording: torch.cuda.CUDAGraph | None = None
 
     def advance() -> None:
         nonlocal calls, recording
@@ -48,7 +40,7 @@ def aside(step: Callable[[], None]) -> None:
     torch.cuda.current_stream().wait_stream(stream)
 
 
-def capture(step: Callable[[], None]) -> Recording:
+def capture(step: Callable[[], None]) -> torch.cuda.CUDAGraph:
     """Record a step without doing it."""
     graph = torch.cuda.CUDAGraph()
     with torch.cuda.graph(graph):

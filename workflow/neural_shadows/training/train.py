@@ -26,7 +26,6 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.training.batches import (
     BatchSource,
     DeviceRays,
-    LabelledRays,
     batch_indices,
     batch_source,
 )
@@ -120,7 +119,7 @@ def start_or_resume(
 
 def train_to_end(
     run: TrainingRun,
-    rays: LabelledRays,
+    rays: RaySet,
     name: str,
     checkpoint: Path,
     threads: int,

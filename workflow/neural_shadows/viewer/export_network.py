@@ -48,7 +48,7 @@ def export_onnx(network: ShadowNetwork, path: Path) -> None:
     origins, directions = map(torch.from_numpy, random_rays(64, seed=0))
     network.eval()
     with warnings.catch_warnings():
-        # The exporter tells of its own workings, nothing of the network.
+        # They are about the exporter itself, not the network.
         warnings.simplefilter("ignore")
         program = torch.onnx.export(
             _InFloat32(network),

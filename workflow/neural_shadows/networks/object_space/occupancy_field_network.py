@@ -81,7 +81,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
     Args:
         resolution: cells along an axis, a multiple of 4.
         surface: `solid`, an object with an inside; or `sheet`, an open surface, on which the
-            sign tells the side that its faces turn to.
+            sign says which side its faces turn to.
         stored: how values are written: `float32`, `float16` or `int8`.
     """
 
