@@ -18,20 +18,14 @@ from neural_shadows.networks.object_space.frequency_network import FrequencyNetw
 from neural_shadows.networks.object_space.shadow_network import QUERY_CHUNKS, ShadowNetwork
 from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
 from neural_shadows.networks.weight_file import load_network
-from neural_shadows.rendering.gbuffer import ShadingPoints
-from neural_shadows.rendering.scene_frames import SceneFrames, open_scene
-from neural_shadows.rendering.shading import reference_visibility
-from neural_shadows.scenes.cameras import Viewpoint
+from neural_shadows.rendering.exact_shadow import exact_visibility
+from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.scenes.scene import Scene, open_scene
 
 WIDTHS = (256, 128, 64)
-FRAME = {
-    "up": "y",
-    "ground": True,
-    "light": {"domain": "sphere", "min_elevation_deg": 20},
-    "width": 1200,
-    "height": 800,
-    "seed": 2026,
-}
+SCENE = {"up": "y", "ground": True, "light": {"domain": "sphere", "min_elevation_deg": 20}}
+WIDTH, HEIGHT, SEED = 1200, 800, 2026
 
 
 def rows(mesh_ply: Path, weights: Sequence[Path], quick: bool) -> list[Row]:
@@ -41,17 +35,17 @@ def rows(mesh_ply: Path, weights: Sequence[Path], quick: bool) -> list[Row]:
         weights: of trained networks, beside which the 256-wide one stands as a peer.
     """
     torch.set_num_threads(1)
-    scene = open_scene(mesh_ply, **FRAME)
-    (view,) = scene.viewpoints(["surface"], [0])
-    points = scene.points(view)
+    scene = open_scene(mesh_ply, **SCENE)
+    (view,) = draw_viewpoints(scene, ["surface"], [0], WIDTH / HEIGHT, SEED)
+    frame = render_gbuffer(scene, view, WIDTH, HEIGHT)
     cpu = choose_device("cpu")
-    p, light = on_device(points.p, points.light, cpu)
+    p, light = on_device(frame.p, view.light, cpu)
     origins, d = sphere_rays(p, light).origins, -light
     dtype = choose_dtype("auto", cpu)
-    found = _width_rows(scene, points, origins, d, dtype, 2 if quick else 5)
+    found = _width_rows(scene, frame, origins, d, dtype, 2 if quick else 5)
     found += _trained_rows(weights, origins, d, dtype, 2 if quick else 5)
     if torch.cuda.is_available():
-        found += _cuda_rows(scene, view, points, 5 if quick else 50)
+        found += _cuda_rows(frame, 5 if quick else 50)
     return found
 
 
@@ -85,7 +79,7 @@ def _products(network: FrequencyNetwork, dtype, rays: int) -> Callable[[], objec
 
 
 def _width_rows(
-    scene: SceneFrames, points: ShadingPoints, origins: Tensor, d: Tensor, dtype, rounds: int
+    scene: Scene, frame: GBuffer, origins: Tensor, d: Tensor, dtype, rounds: int
 ) -> list[Row]:
     found, count = [], len(origins)
     for width in WIDTHS:
@@ -99,12 +93,12 @@ def _width_rows(
             "ours": lambda network=network: network.depths(origins, d, dtype),
             "halves": _two_halves(network, origins, d, dtype),
             "eager float32, whole frame": eager,
-            "Embree's occlusion rays": lambda: reference_visibility(scene.tracer, points),
+            "Embree's occlusion rays": lambda: exact_visibility(scene.tracer, frame),
             "products": _products(network, dtype, count),
         }
         seconds = median_seconds(works, rounds)
         stage = f"query, width {width}, {str(dtype).removeprefix('torch.')}"
-        asked = {name: count for name in works} | {"Embree's occlusion rays": len(points.p)}
+        asked = {name: count for name in works} | {"Embree's occlusion rays": len(frame.p)}
         rate = {name: asked[name] / seconds[name] for name in works}
         found += [
             Row(stage, "cpu x1", rate["ours"], "rays/s", rate["products"], peer, rate[peer])
@@ -131,11 +125,11 @@ def _trained_rows(weights, origins: Tensor, d: Tensor, dtype, rounds: int) -> li
     ]
 
 
-def _cuda_rows(scene: SceneFrames, view: Viewpoint, points: ShadingPoints, rounds: int):
+def _cuda_rows(gbuffer: GBuffer, rounds: int):
     """Whole frames from a depth buffer to a mask, all on the GPU."""
     cuda = choose_device("cuda")
     dtype = choose_dtype("auto", cuda)
-    query = FrameQuery(scene, view, points, cuda)
+    query = FrameQuery(gbuffer, cuda)
 
     def frame(network: ShadowNetwork) -> Callable[[], object]:
         def whole() -> None:

@@ -12,17 +12,19 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from bench_queries import FRAME, thesis_network
+from bench_queries import HEIGHT, SCENE, SEED, WIDTH, thesis_network
 from measurement import Row
 
-from neural_shadows.metrics.flip import Flip
-from neural_shadows.metrics.lpips_distance import Lpips
+from neural_shadows.evaluation.shadow_methods import network_method, traced_method
+from neural_shadows.metrics.flip import flip
+from neural_shadows.metrics.lpips_distance import make_lpips
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
 from neural_shadows.networks.compute import choose_device, choose_dtype
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
-from neural_shadows.rendering.scene_frames import open_scene
-from neural_shadows.rendering.shading import reference_visibility, shade
-from neural_shadows.shadow_maps.shadow_map import receivers_of, shadow_map_frame, shadow_map_lit
+from neural_shadows.rendering.exact_shadow import exact_visibility
+from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.rendering.shading import shade
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.scenes.scene import open_scene
 
 MAPS = (2048, 1024, 512, 256, 128)
 JOBS = 2  # at once
@@ -38,7 +40,7 @@ def rows(mesh_ply: Path, trunk: Path | None, quick: bool) -> list[Row]:
     alone = seconds_of_parts(*inputs)
     with ProcessPoolExecutor(JOBS, multiprocessing.get_context("spawn")) as pool:
         beside = list(pool.map(seconds_of_parts, *zip(*[inputs] * JOBS)))
-    unit = f"s a viewpoint of {FRAME['width']} x {FRAME['height']}"
+    unit = f"s a viewpoint of {WIDTH} x {HEIGHT}"
     return [
         Row("viewpoint", "cpu x1", _total(alone), unit),
         Row("viewpoint", f"cpu x{JOBS}", np.mean([_total(job) for job in beside]) / JOBS, unit),
@@ -64,14 +66,11 @@ def seconds_of_parts(mesh_ply: Path, trunk: Path | None, views: int) -> dict[str
         spent[part][-1] += time.perf_counter() - started
         return result
 
-    scene = open_scene(mesh_ply, **FRAME)
-    network, cpu = thesis_network(256), choose_device("cpu")
-    dtype = choose_dtype("auto", cpu)
-    lpips = Lpips("squeeze", trunk, device="cpu") if trunk else None
-
-    def query(points) -> np.ndarray:
-        p, light = on_device(points.p, points.light, cpu)
-        return network_lit(network, p, light, dtype=dtype).numpy()
+    scene = open_scene(mesh_ply, **SCENE)
+    dtype = choose_dtype("auto", choose_device("cpu"))
+    maps = [traced_method(f"shadow_map_{resolution}", scene) for resolution in MAPS]
+    network = network_method(thesis_network(256), dtype)
+    lpips = make_lpips("squeeze", trunk) if trunk else None
 
     parts = ["viewpoint drawn", "primary rays", "reference", "5 shadow maps", "network", "shading"]
     parts += ["PSNR", "SSIM", "FLIP"] + ["LPIPS"] * bool(lpips)
@@ -79,25 +78,19 @@ def seconds_of_parts(mesh_ply: Path, trunk: Path | None, views: int) -> dict[str
         for index in range(-1, views):
             for part in parts:
                 spent[part].append(0.0)
-            (view,) = timed("viewpoint drawn", scene.viewpoints, [view_set], [max(index, 0)])
-            points = timed("primary rays", scene.points, view)
-            lit = [timed("reference", reference_visibility, scene.tracer, points)]
-            frame = timed("5 shadow maps", shadow_map_frame, scene.mesh.vertices, points.light)
-            receivers = timed("5 shadow maps", receivers_of, frame, points)
-            lit += [
-                timed("5 shadow maps", shadow_map_lit, scene.tracer, receivers, resolution)
-                for resolution in MAPS
-            ]
-            lit.append(timed("network", query, points))
-            truth, *images = [timed("shading", shade, points, answer) for answer in lit]
-            flip = timed("FLIP", Flip, truth)
-            features = timed("LPIPS", lpips.features, truth) if lpips else None
+            which = (scene, [view_set], [max(index, 0)], WIDTH / HEIGHT, SEED)
+            (view,) = timed("viewpoint drawn", draw_viewpoints, *which)
+            frame = timed("primary rays", render_gbuffer, scene, view, WIDTH, HEIGHT)
+            answers = [timed("reference", exact_visibility, scene.tracer, frame)]
+            answers += [timed("5 shadow maps", method, frame) for method in maps]
+            answers.append(timed("network", network, frame))
+            truth, *images = [timed("shading", shade, frame, answer) for answer in answers]
             for image in images:
                 timed("PSNR", psnr, image, truth)
                 timed("SSIM", ssim, image, truth)
-                timed("FLIP", flip.mean, image)
+                timed("FLIP", flip, image, truth)
                 if lpips:
-                    timed("LPIPS", lpips.distance, image, features)
+                    timed("LPIPS", lpips, image, truth)
             if index < 0:
                 for values in spent.values():
                     values.pop()

@@ -12,15 +12,14 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from neural_shadows.evaluation.shadow_methods import REFERENCES, open_network, traced_method
+from neural_shadows.evaluation.shadow_methods import REFERENCES, traced_method
 from neural_shadows.metrics.psnr_ssim import psnr
 from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
+from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.scenes.scene import open_scene
-
-LIGHT = {"domain": "sphere", "min_elevation_deg": 20}
 
 
 def main() -> None:
@@ -30,17 +29,23 @@ def main() -> None:
     parser.add_argument("--width", type=int, default=600)
     parser.add_argument("--height", type=int, default=400)
     parser.add_argument("--seed", type=int, default=2026)
-    asked = parser.parse_args()
-    mesh_ply = asked.results / "scenes/dragon/mesh.ply"
-    scene = open_scene(mesh_ply, up="y", ground=True, light=LIGHT)
-    weights = asked.results / "networks/dragon/weights.safetensors"
-    network, dtype = open_network(weights, "cpu", "auto", 2)
-    exact, large_map = (traced_method(REFERENCES[kind], scene) for kind in ("exact", "shadow_map"))
+    arguments = parser.parse_args()
+    scene = open_scene(
+        arguments.results / "scenes/dragon/mesh.ply",
+        up="y",
+        ground=True,
+        light={"domain": "sphere", "min_elevation_deg": 20},
+    )
+    network, _ = load_network(arguments.results / "networks/dragon/weights.safetensors")
+    dtype = choose_dtype("auto", torch.device("cpu"))
+    exact, large_map = (traced_method(method, scene) for method in REFERENCES.values())
 
     values: dict[str, list[float]] = {"map": [], "clamped": [], "not clamped": []}
-    sets, aspect = ["shadow", "surface"], asked.width / asked.height
-    for view in draw_viewpoints(scene, sets, range(asked.views), aspect, asked.seed):
-        frame = render_gbuffer(scene, view, asked.width, asked.height)
+    width, height = arguments.width, arguments.height
+    for view in draw_viewpoints(
+        scene, ["shadow", "surface"], range(arguments.views), width / height, arguments.seed
+    ):
+        frame = render_gbuffer(scene, view, width, height)
         reference = shade(frame, exact(frame))
         values["map"].append(psnr(shade(frame, large_map(frame)), reference))
         p, light = on_device(frame.p, view.light, network.device)
@@ -50,7 +55,7 @@ def main() -> None:
             lit = torch.ones(len(p), dtype=torch.bool)
             lit[rays.index] = s <= t_pred
             values[name].append(psnr(shade(frame, frame.visibility(lit.numpy())), reference))
-    print(f"mean PSNR in dB over {2 * asked.views} views:")
+    print(f"mean PSNR in dB over {2 * arguments.views} views:")
     print(f"32768² map against exact rays: {np.mean(values['map']):.1f}")
     print(f"  lowest of a view: {np.min(values['map']):.1f}")
     print(f"network, s clamped to the chord: {np.mean(values['clamped']):.2f}")

@@ -6,9 +6,8 @@ from torch import Tensor
 
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.shadow_query import network_lit
-from neural_shadows.rendering.gbuffer import ShadingPoints
-from neural_shadows.rendering.scene_frames import SceneFrames
-from neural_shadows.scenes.cameras import Viewpoint, camera_axes
+from neural_shadows.rendering.gbuffer import GBuffer
+from neural_shadows.scenes.cameras import camera_axes
 
 
 class FrameQuery:
@@ -19,20 +18,19 @@ class FrameQuery:
     surface before, so that the buffer needs no normals beside it.
     """
 
-    def __init__(
-        self, scene: SceneFrames, view: Viewpoint, points: ShadingPoints, device: torch.device
-    ):
+    def __init__(self, frame: GBuffer, device: torch.device):
         def there(values: np.ndarray) -> Tensor:
             return torch.from_numpy(np.asarray(values, np.float32)).to(device)
 
-        self.width, self.height = scene.width, scene.height
+        view = frame.view
+        self.width, self.height = frame.width, frame.height
         self.eye, self.light = there(view.eye), there(view.light)
         self.axes = there(camera_axes(view.eye, view.target, view.up))
         half = np.tan(np.radians(view.fov) / 2)
         self.half_width, self.half_height = float(half * self.width / self.height), float(half)
-        pixel = torch.from_numpy(points.pixel[points.facing]).to(device)
+        pixel = torch.from_numpy(frame.pixel[frame.lit_side]).to(device)
         self.depth = torch.zeros(self.height * self.width, device=device)
-        self.depth[pixel] = (there(points.p) - self.eye) @ self.axes[2]
+        self.depth[pixel] = (there(frame.p) - self.eye) @ self.axes[2]
 
     def points(self) -> tuple[Tensor, Tensor]:
         """The pixels that show something, (m,) int64, and what they show, (m, 3) float32."""
