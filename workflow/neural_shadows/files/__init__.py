@@ -1,1 +1,1 @@
-"""Files that are whole or not at all: written, read with a check, unpacked, downloaded."""
+"""Files that are written whole or not at all, and read with a clear error."""
