@@ -11,6 +11,7 @@ from corpus.damage import changed_bytes, changed_numbers, reads, strangers
 from hypothesis import given
 from snakemake.utils import update_config
 
+from neural_shadows.config import reading
 from neural_shadows.config.reading import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
 from neural_shadows.metrics.lpips_trunk import read_trunk
@@ -33,7 +34,8 @@ def read_overlay(path):
     """As Snakemake merges it. Messages on a value name its key and not the file."""
     check_duplicates([path])
     values = deepcopy(DEFAULT)
-    update_config(values, yaml.safe_load(path.read_text()))
+    # By the same loader: libyaml takes some tabs that Python's does not.
+    update_config(values, yaml.load(path.read_text(), reading._NoDuplicates))
     try:
         check_files(read_config(values))
     except InputError as error:
