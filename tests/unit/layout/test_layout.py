@@ -1,0 +1,185 @@
+"""Where files lie, which part a job does, what a table is made of, and what is there by default."""
+
+import pytest
+import yaml
+from checkout import ROOT
+from snakemake.utils import update_config
+
+from neural_shadows.config.reading import read_config
+from neural_shadows.config.resolved import resolved
+from neural_shadows.errors import InputError
+from neural_shadows.layout import claims, figures, tables, targets
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.parts import HELD_OUT, batches, part_names, part_range, view_range
+
+RENDERING = {"views_per_set": 25, "batch": 12, "held_out_views": 8}
+
+
+def layout_of(*overlays: str, **values) -> Layout:
+    """The layout of the shipped configuration with overlays."""
+    sections: dict = {}
+    for name in ("config", "reports", *overlays):
+        text = (ROOT / "config" / f"{name}.yaml").read_text(encoding="utf-8")
+        update_config(sections, yaml.safe_load(text))
+    update_config(sections, values)
+    return Layout(resolved(read_config(sections)))
+
+
+@pytest.fixture(scope="module")
+def desk() -> Layout:
+    return layout_of()
+
+
+@pytest.mark.parametrize(("total", "parts"), [(10, 1), (10, 3), (25_000, 7), (3, 5)])
+def test_parts_follow_each_other(total, parts):
+    ranges = [part_range(total, parts, part) for part in range(parts)]
+    assert [last for _, last in ranges[:-1]] == [first for first, _ in ranges[1:]]
+    assert (ranges[0][0], ranges[-1][1]) == (0, total)
+    sizes = [last - first for first, last in ranges]
+    assert max(sizes) - min(sizes) <= 1
+    assert part_names(12)[::11] == ["000", "011"]
+
+
+def test_batches_of_viewpoints():
+    assert batches(RENDERING) == ["000", "001", "002"]
+    ranges = [view_range(RENDERING, batch) for batch in [*batches(RENDERING), HELD_OUT]]
+    assert ranges == [(0, 12), (12, 24), (24, 25), (25, 33)]
+
+
+def test_files_lie_below_the_scale_s_name(desk):
+    smoke = layout_of("smoke")
+    assert desk.paths.report("table_4_3.csv") == "reports/table_4_3.csv"
+    assert smoke.paths.report("table_4_3.csv") == "reports/smoke/table_4_3.csv"
+    assert smoke.paths.log("label_rays", "scene", "shard") == (
+        "results/smoke/logs/label_rays/{scene}.{shard}.log"
+    )
+    assert desk.paths.log("find_lpips") == "results/logs/find_lpips/find_lpips.log"
+
+
+def test_source_of_a_mesh(tmp_path):
+    mesh = {"generate": None, "path": "meshes/mine.ply"}
+    layout = layout_of(scenes={"fence": {"mesh": mesh}}, dragon="stanford")
+    assert layout.mesh_source("dragon") == "results/scenes/dragon/downloaded.ply"
+    assert layout.mesh_source("fence") == "meshes/mine.ply"
+    assert layout.mesh_source("landscape") == "results/scenes/landscape/generated.ply"
+    about = layout.scenes(["fence", "landscape"])
+    assert [scene["procedural"] for scene in about.values()] == [False, True]
+    assert about["fence"]["mesh_name"] == "mine"
+
+
+def test_light_of_view_directions(desk):
+    light = desk.settings["scenes"]["landscape"]["light"]
+    assert desk.direction_light("landscape", "poisson_quadtree") is None
+    assert desk.direction_light("landscape", "single_axis") == light
+    hemisphere = {"domain": "sphere", "min_elevation_deg": 0}
+    assert desk.direction_light("landscape", "hemisphere") == hemisphere
+
+
+def test_files_of_a_training(desk):
+    thesis, field = map(desk.training_files, ("dragon", "dragon_field"))
+    # An edited mesh of a network that needs none reaches it through its rays.
+    assert thesis["mesh_ply"] == [] and field["mesh_ply"] == ["results/scenes/dragon/mesh.ply"]
+    shards = [f"results/rays/dragon/poisson_quadtree/bounds.{i:03d}.npy" for i in range(4)]
+    assert thesis["bounds"] == shards
+
+
+@pytest.mark.parametrize(
+    ("method", "bias", "weights", "files"),
+    [
+        ("shadow_map_512", None, 0, 0),
+        ("dragon", 0.0, 1, 0),
+        ("dragon_biased", HELD_OUT, 1, 1),
+        ("dragon_field", HELD_OUT, 1, 1),
+    ],
+)
+def test_files_of_a_method(desk, method, bias, weights, files):
+    assert desk.bias(method) == bias
+    name = method.removesuffix("_biased")
+    weight_files = [f"results/networks/{name}/weights.safetensors"]
+    assert desk.weights(method) == weight_files * weights
+    assert desk.bias_file(method) == [f"results/depth_biases/{name}.json"] * files
+    assert desk.method_encodings(method) == (desk.encodings([name]) if weights else set())
+
+
+def test_a_table_is_made_of_its_rows(desk):
+    made = tables.files(desk, "table_4_3")
+    assert made["mesh_json"] == ["results/scenes/dragon/mesh.json"]
+    assert made["published_csv"] == "config/published.csv"
+    assert "results/evaluations/dragon/shadow_map_512.001.csv" in made["metrics"]
+    networks = ["dragon", "dragon_field"]
+    assert made["trainings"] == [f"results/networks/{name}/training.json" for name in networks]
+    assert made["depth_biases"] == ["results/depth_biases/dragon_field.json"]
+    assert "reports/scenes/dragon.png" in made["beside"]
+    # An edited network's code leaves a table alone that reads none of its files.
+    assert tables.encodings(desk, "table_4_3") == set()
+    assert tables.encodings(desk, "table_4_7") == {"frequency"}
+
+
+def test_what_is_timed_is_of_one_scene(desk):
+    methods = tables.timed_methods(desk, "beyond", "fence")
+    assert methods and not any("dragon" in method for method in methods)
+    assert len(tables.timed_weights(desk, "beyond", "fence")) < len(methods)
+    assert not any("ray_traced" in path for path in tables.files(desk, "beyond")["metrics"])
+
+
+def test_claims_are_tested_on_the_methods_that_they_name(desk):
+    made, told = claims.files(desk), claims.arguments(desk)
+    assert "results/evaluations/dragon/dragon_uniform.000.csv" in made["metrics"]
+    assert "results/networks/dragon_high_rate/loss.csv" in made["losses"]
+    assert "results/frame_times/table_4_6/dragon.json" in made["times"]
+    assert told["samples"] == 20000 * 1024
+
+
+@pytest.mark.parametrize(
+    ("look_up", "message"),
+    [
+        (lambda layout: tables.files(layout, "table_4_33"), "tables: .*did you mean 'table_4_3'"),
+        (lambda layout: figures.files(layout, "figure_4_9"), "figures: .*did you mean"),
+        (lambda layout: layout.training_files("dragn"), "experiments: .*did you mean 'dragon'"),
+        (lambda layout: layout.mesh_source("teapot"), "scenes: .*dragon, fence, landscape"),
+    ],
+)
+def test_names_that_there_are_not(desk, look_up, message):
+    with pytest.raises(InputError, match=message):
+        look_up(desk)
+
+
+def test_what_is_made_by_default(desk, monkeypatch):
+    monkeypatch.setattr(targets.opengl, "available", lambda: False)
+    reports = targets.all_reports(desk)
+    assert {"reports/table_4_3.csv", "reports/index.html", "reports/claims.md"} <= {*reports}
+    assert not any("ablations" in path or "figure_3d" in path for path in reports)
+    assert "figure_beyond_slice" in targets.beyond(desk) and "table_4_3" not in targets.beyond(desk)
+    page = targets.page_files(desk)
+    assert "results/references/dragon/000.npz" in page["pictures"]
+    names = [(row["scene"], row["method"]) for row in targets.pictured(desk)]
+    assert len(names) == len(set(names)) and ("dragon", "ray_traced") not in names
+
+
+def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert targets.newest(desk) == 0
+    made = tmp_path / "reports" / "table_4_1.md"
+    made.parent.mkdir()
+    made.touch()
+    told = targets.available_arguments(desk)
+    assert told["tables"] == ["reports/table_4_1.md"]
+    assert told["figures"] == told["claims_md"] == told["lpips_json"] == []
+    assert targets.newest(desk) == made.stat().st_mtime
+
+
+def test_the_words_at_the_end(desk, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "20")
+    (tmp_path / "reports").mkdir()
+    (tmp_path / "reports" / "a.md").write_text("| a row that is too wide |\n| short |\n")
+    made = ["results/lpips.json", "reports/a.csv", "reports/a.md", "reports/figure_1.png"]
+    assert targets.closing_words(desk, made).splitlines() == [
+        "| a row that is too…",
+        "| short |",
+        "Open reports/a.md, reports/figure_1.png",
+    ]
+    assert targets.closing_words(desk, [*made, "reports/index.html"]).endswith(
+        "\nOpen reports/index.html"
+    )
+    assert targets.closing_words(desk, made[:1]) == ""
