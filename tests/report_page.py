@@ -63,7 +63,7 @@ def write_frames(folder: Path) -> list[Path]:
     for method, image in images.items():
         path = folder / "pictures" / "dragon" / f"{method}.000.npz"
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_first_frames(path, method, dict.fromkeys(("shadow", "surface"), image / 255))
+        write_first_frames(path, method, {"shadow": image[:, ::-1] / 255, "surface": image / 255})
         paths.append(path)
     return paths
 

@@ -119,7 +119,7 @@ def test_any_two_methods_of_any_view_can_be_compared(open_page):
         page.locator(selector).select_option(value)
         seen.add(tuple(sources(page)))
     assert len(seen) == 4
-    assert page.locator(".name-left").inner_text().startswith("128² shadow map: LPIPS 0.1000")
+    assert page.locator(".name-left").inner_text().startswith("128² shadow map: LPIPS 0.1100")
 
 
 def test_map_takes_the_place_of_the_frame(open_page):

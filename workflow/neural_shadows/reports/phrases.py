@@ -17,7 +17,7 @@ def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = N
         published: the thesis's number of the table, "4.3"; None for one that is not in it.
         mesh: what `prepare_mesh` wrote; None for a table of several meshes or of none.
     """
-    if mesh is not None:
+    if mesh is not None and mesh["name"] not in title:
         title += f", mesh {mesh['name']}"
     if published is None:
         return title
