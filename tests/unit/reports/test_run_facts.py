@@ -5,7 +5,7 @@ import pytest
 from report_samples import RUN
 from sample_records import LPIPS, MACHINE, TRAINING
 
-from neural_shadows.reports.run_facts import commit_of, durations, run_facts
+from neural_shadows.reports.run_facts import commit_of, run_facts
 
 
 def git(folder, *arguments):
@@ -32,10 +32,6 @@ def test_commit_is_named_and_changes_are_reported(tmp_path):
     assert commit_of(tmp_path) == head
     (tmp_path / "file").write_text("two")
     assert commit_of(tmp_path) == f"{head} with uncommitted changes"
-
-
-def test_durations_are_summed_by_rule(benchmarks):
-    assert durations(benchmarks) == {"train": (2, 180.5), "evaluate": (1, 2.25)}
 
 
 def test_facts(benchmarks, tmp_path):

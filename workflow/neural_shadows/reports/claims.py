@@ -74,7 +74,7 @@ def write_claims(
     times: list[Path],
     csv: Path,
     md: Path,
-    claims: Mapping[str, Mapping[str, Any]],
+    claims: Mapping[str, Claim],
     run: Mapping[str, Any],
     samples: int,
     scenes: Mapping[str, Mapping[str, Any]],

@@ -48,6 +48,11 @@ def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
     return f"{mesh['name']}{kind}, {mesh['faces']:,} triangles, {closed}"
 
 
+def describe_scene(name: str, mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
+    """One sentence on a scene's mesh and the seed of its viewpoints."""
+    return f"Mesh of {name}: {describe_mesh(mesh, scene)}; seed {scene['seed']}."
+
+
 def describe_training(record: Mapping[str, Any]) -> str:
     """One sentence on how a network was trained, and on what machine."""
     training, machine, threads = record["training"], record["machine"], record["threads"]

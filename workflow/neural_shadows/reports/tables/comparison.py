@@ -74,7 +74,7 @@ def write(
     biases = read_biases(rows, depth_biases)
     notes += [
         *phrases.describe_biases(rows, biases),
-        f"Mesh: {phrases.describe_mesh(mesh, scene)}; seed {scene['seed']}.",
+        phrases.describe_scene(rows[0]["scene"], mesh, scene),
         *(phrases.describe_training(read_json(path)) for path in trainings),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),

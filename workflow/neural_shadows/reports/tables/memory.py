@@ -8,7 +8,7 @@ import pandas as pd
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes, shadow_map_file_bytes
-from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
+from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import by_folder
 from neural_shadows.reports.published import add_printed, read_published
@@ -47,14 +47,18 @@ def write(
     """
     mesh = read_prepared(mesh_ply)
     tracer = Tracer(mesh.vertices, mesh.faces)
-    networks = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
-    sizes = [
-        networks[row["experiment"]]
-        if row["experiment"]
-        else _map_bytes(mesh, tracer, row["method"])
-        for row in rows
-    ]
-    table = pd.DataFrame({"method": [row["label"] for row in rows], "bytes": sizes})
+    sizes = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
+    for row in rows:
+        if not row["experiment"]:
+            size = sizes[row["method"]] = shadow_map_bytes(row["method"])
+            stored = shadow_map_file_bytes(mesh, tracer, row["method"])
+            if stored != size:
+                raise InputError(
+                    f"{row['method']}: its file holds {stored:,} bytes, the formula says {size:,}"
+                )
+    table = pd.DataFrame(
+        {"method": row["label"], "bytes": sizes[row["experiment"] or row["method"]]} for row in rows
+    )
     table.insert(1, "memory_mib", table["bytes"] / MIB)
     table = add_printed(table, rows, ["memory_mib"], published, read_published(published_csv))
     table = table.assign(scale=run["scale"])
@@ -71,14 +75,6 @@ def write(
         phrases.describe_run(run),
     ]
     write_twins(table, columns, csv, md, title=phrases.titled(title, published), notes=notes)
-
-
-def _map_bytes(mesh: PreparedMesh, tracer: Tracer, method: str) -> int:
-    size = shadow_map_bytes(method)
-    stored = shadow_map_file_bytes(mesh, tracer, method)
-    if stored != size:
-        raise InputError(f"{method}: its file holds {stored:,} bytes, the formula says {size:,}")
-    return size
 
 
 if "snakemake" in globals():

@@ -100,11 +100,7 @@ def write(
         "frames, primary visibility and shading included.",
         "bias: of the depth test, in sphere radii; each network's best on held-out views, unless it "
         "is 0. Shadow maps keep their slope-scaled bias, which is not tuned.",
-        *(
-            f"Mesh of {scene}: {phrases.describe_mesh(report, scenes[scene])}; "
-            f"seed {scenes[scene]['seed']}."
-            for scene, report in reports.items()
-        ),
+        *(phrases.describe_scene(name, mesh, scenes[name]) for name, mesh in reports.items()),
         *(phrases.describe_times(values) for values in timed.values()),
         *(phrases.describe_training(record) for record in records.values()),
         phrases.describe_frames(run),

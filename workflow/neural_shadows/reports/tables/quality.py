@@ -79,12 +79,7 @@ def _values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFra
 def context_columns(
     mesh: Mapping[str, Any], lpips: Mapping[str, Any], run: Mapping[str, Any], seed: int
 ) -> dict[str, Any]:
-    """What every row of a table of quality says of where it comes from.
-
-    Args:
-        mesh, lpips: what `prepare_mesh` and `find_lpips` wrote.
-        run: `scale`, `width`, `height` (pixels); seed: of the viewpoints.
-    """
+    """What every row of a table of quality says of where it comes from; seed: of the views."""
     return {
         "mesh": mesh["name"],
         "scale": run["scale"],
