@@ -52,7 +52,7 @@ def leavings_of(checkout: Checkout) -> list[str]:
         for path in folder.rglob("*")
         if path.name.startswith(".")
         or any(map(_is_unfinished, path.parts))
-        and path != checkout.results / "networks" / "unfinished"  # where states are
+        and path != checkout.results / "networks" / "checkpoints"
     )
 
 
@@ -78,7 +78,7 @@ def _files(folder: Path) -> Iterator[Path]:
 
 
 def _is_unfinished(part: str) -> bool:
-    return part == "unfinished" or part.endswith(".unfinished")
+    return part == "checkpoints" or part.endswith(".unfinished")
 
 
 def _keys(path: Path) -> set[str]:

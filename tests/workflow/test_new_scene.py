@@ -1,71 +1,47 @@
-"""A new scene is an edit of the config and nothing else."""
-
-import gzip
+"""A scene of one's own is an edit of the configuration and nothing else."""
 
 import pandas as pd
 import trimesh
 from checkout import write_overlay
 
-# One job a stage, and none with much to do.
-TINY = {
-    "scale": "tiny",
-    "samplings": {
-        "poisson_quadtree": {
-            "directions": 10,
-            "points_per_direction": 100,
-            "silhouette_resolution": 16,
-            "shards": 1,
-        }
-    },
-    "networks": {"field_256": {"resolution": 16}},
-    "trainings": {
-        "base": {"steps": 20, "batch_size": 256},
-        "field": {"steps": 20, "batch_size": 256},
-    },
-    "rendering": {
-        "width": 64,
-        "height": 64,
-        "views_per_set": 1,
-        "batch": 1,
-        "held_out_views": 1,
-    },
+FEW = {
+    "sampler": "poisson_quadtree",
+    "directions": 20,
+    "points_per_direction": 100,
+    "silhouette_resolution": 32,
+    "shards": 1,
 }
+SHORT = {"steps": 20, "batch_size": 256, "learning_rate": 0.001}
 
 
-def test_scene_of_an_overlay(second_scene):
-    # In a finished checkout only the scene's own jobs run, and the page that shows everything.
-    others = [path for path in second_scene.planned if "torus" not in path]
-    assert others == ["reports/smoke/index.html"]
-    assert "train" in second_scene.planned.values()
-    reports = second_scene.checkout.reports
-    table = pd.read_csv(reports / "table_torus.csv")
-    assert list(table.columns[:4]) == ["method", "lpips", "psnr", "ssim"]
-    assert list(table["method"]) == ["512² map", "128² map", "Our method"]
-    assert set(table["mesh"]) == {"ring_mm"}
-    assert "Mesh: ring_mm, 2,048 triangles, watertight" in (reports / "table_torus.md").read_text(
-        encoding="utf-8"
+def test_scene_of_an_overlay(finished, tmp_path):
+    """A torus in millimetres, off its origin."""
+    torus = trimesh.creation.torus(major_radius=300, minor_radius=90)
+    torus.apply_translation([1e4, -2e4, 500]).export(tmp_path / "ring_mm.stl")
+    network = {"scene": "torus", "sampling": "few", "network": "thesis", "training": SHORT}
+    overlay = write_overlay(
+        tmp_path / "torus.yaml",
+        scenes={"torus": {"mesh": {"path": str(tmp_path / "ring_mm.stl")}, "up": "z"}},
+        samplings={"few": FEW},
+        experiments={"torus": network | {"label": "{steps} steps"}},
+        tables={"table_torus": {"title": "A torus", "rows": ["shadow_map_512", "torus"]}},
     )
+    # Only its own jobs run, and the page that shows everything.
+    others = [path for path in finished.pending(overlays=[overlay]) if "torus" not in path]
+    assert others == ["reports/smoke/index.html"]
+    said = finished.run("reports/smoke/table_torus.csv", overlays=[overlay])
+    assert "| 512² shadow map" in said and "Open reports/smoke/table_torus.md" in said
+    reports = finished.reports
+    table = pd.read_csv(reports / "table_torus.csv")
+    assert sorted(table["method"]) == ["20 steps", "512² shadow map"]
+    text = (reports / "table_torus.md").read_text(encoding="utf-8")
+    assert "ring_mm" in text and "wyrm" not in text
     assert (reports / "scenes" / "torus.png").is_file()
     # The mesh was given by an absolute path.
-    folder = str(second_scene.overlay.parent).encode()
     files = [path for path in reports.rglob("*") if path.is_file()]
-    assert [path for path in files if folder in path.read_bytes()] == []
-    assert second_scene.checkout.pending(overlays=[second_scene.overlay]) == {}
-
-
-def test_mesh_file_of_the_command_line(finished, tmp_path):
-    mesh = tmp_path / "elsewhere" / "boulder.ply.gz"
-    mesh.parent.mkdir()
-    boulder = trimesh.creation.icosphere(subdivisions=2, radius=40)
-    mesh.write_bytes(gzip.compress(boulder.export(file_type="ply")))
-    finished.run(
-        "reports/tiny/table_4_3.csv",
-        "--config",
-        f"dragon={mesh}",
-        overlays=[write_overlay(tmp_path / "tiny.yaml", **TINY)],
-    )
-    reports = finished.folder / "reports" / "tiny"
-    assert set(pd.read_csv(reports / "table_4_3.csv")["mesh"]) == {"boulder"}
-    text = (reports / "table_4_3.md").read_text(encoding="utf-8")
-    assert "Mesh: boulder, 320 triangles, watertight" in text
-    assert "wyrm" not in text
+    assert [path for path in files if str(tmp_path).encode() in path.read_bytes()] == []
+    # Another seed draws its rays anew, and nothing else's.
+    seed = write_overlay(tmp_path / "seed.yaml", scenes={"torus": {"seed": 7}})
+    pending = finished.pending(overlays=[overlay, seed])
+    assert "train" in pending.values()
+    assert not any(name in path for path in pending for name in ("dragon", "fence", "table_4"))

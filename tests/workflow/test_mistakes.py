@@ -1,0 +1,66 @@
+"""What a user gets wrong ends before any job starts, or in one line that says what to do."""
+
+import pytest
+import trimesh
+from checkout import Checkout, write_overlay
+
+
+def refused(checkout: Checkout, *arguments: str, overlays=()) -> str:
+    """Run Snakemake, which must end before any job, and give what it says."""
+    done = checkout.snakemake(*arguments, overlays=overlays)
+    assert done.returncode != 0, done.stdout
+    assert "Execute" not in done.stdout
+    return done.stdout
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("sede=3", "config: sede: "),
+        ("seed=many", "config: seed = 'many': "),
+        ("dragon=stanfrod", "did you mean 'stanford'"),
+        ("dragon=nowhere/bunny.ply", "'nowhere/bunny.ply': no such file"),
+    ],
+)
+def test_on_the_command_line(fresh, setting, message):
+    said = refused(fresh, "--config", setting)
+    assert sum(message in row for row in said.splitlines()) == 1, said
+    assert "Traceback" not in said
+
+
+def test_in_an_overlay(fresh, tmp_path):
+    edit = {"experiments": {"dragon": {"scene": "dragno"}}}
+    said = refused(fresh, overlays=[write_overlay(tmp_path / "wrong.yaml", **edit)])
+    assert "config: experiments.dragon.scene: 'dragno' (did you mean 'dragon'?)" in said
+    twice = tmp_path / "twice.yaml"
+    twice.write_text("networks:\n  small: {frequencies: 1}\n  small: {frequencies: 2}\n")
+    said = refused(fresh, overlays=[twice])
+    assert "twice.yaml, line 3: 'small' is there twice; give each name once" in said
+
+
+@pytest.mark.parametrize(
+    ("target", "message"),
+    [
+        ("reports/smoke/table_4_33.csv", "tables: 'table_4_33' (did you mean 'table_4_3'?)"),
+        ("reports/smoke/scenes/dragn.png", "scenes: 'dragn' (did you mean 'dragon'?)"),
+    ],
+)
+def test_a_target_that_there_is_not(fresh, target, message):
+    assert f"InputError: {message} is not among " in refused(fresh, target)
+
+
+def test_a_mesh_that_cannot_be_read(fresh, tmp_path):
+    checkout = fresh.copy(tmp_path / "a checkout")
+    ply = trimesh.creation.icosphere(subdivisions=1).export(file_type="ply")
+    mesh = tmp_path / "cut.ply"
+    mesh.write_bytes(ply[: len(ply) // 2])
+    overlay = write_overlay(tmp_path / "cut.yaml", scenes={"cut": {"mesh": {"path": str(mesh)}}})
+    done = checkout.snakemake("results/smoke/scenes/cut/mesh.ply", overlays=[overlay])
+    assert done.returncode != 0
+    log = "results/smoke/logs/prepare_mesh/cut.log"
+    # By the job, and again at the end of its log, which is shown.
+    lines = [row for row in done.stdout.splitlines() if row.startswith("prepare_mesh: ")]
+    assert len(set(lines)) == 1 and len(lines) == 2, done.stdout
+    assert str(mesh) in lines[0] and lines[0].endswith(f"[log: {log}]")
+    assert (checkout.folder / log).read_text().endswith(lines[0] + "\n")
+    assert not (checkout.results / "scenes" / "cut" / "mesh.ply").exists()
