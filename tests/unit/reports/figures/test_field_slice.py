@@ -1,16 +1,14 @@
-import json
-
 import numpy as np
 import pytest
 import torch
 import trimesh
-from PIL import Image
-from shapes import prepared
+from matplotlib.image import imread
+from shapes import SPHERE_OF_LIGHTS, scene_of
 
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.field_marching import SOLID
 from neural_shadows.networks.weight_file import save_network
-from neural_shadows.reports.figures.field_slice import slice_logits, write_field_slice
+from neural_shadows.reports.figures.field_slice import draw, slice_logits
 from neural_shadows.reports.figures.mesh_slice import slice_mesh
 
 SETTINGS = {"encoding": "occupancy_field", "resolution": 32, "surface": "solid", "stored": "int8"}
@@ -26,8 +24,7 @@ def field(tmp_path):
 
 
 def test_what_is_held_is_at_the_surface_and_what_is_enclosed_is_inside(field):
-    mesh, tracer = prepared(trimesh.creation.icosphere(4, radius=0.7))
-    cut = slice_mesh(mesh, tracer, np.array([0.0, 1, 0]))
+    cut = slice_mesh(scene_of(trimesh.creation.icosphere(4, radius=0.7)))
     with torch.no_grad():
         field.values.fill_(3.0)
     logits, bricks = slice_logits(field, cut, np.zeros(2), 1.0)
@@ -41,15 +38,8 @@ def test_what_is_held_is_at_the_surface_and_what_is_enclosed_is_inside(field):
 
 def test_the_picture_is_written(tmp_path, field):
     save_network(tmp_path / "weights.safetensors", field, {"network": SETTINGS})
-    (tmp_path / "mesh.json").write_text(json.dumps({}))
-    write_field_slice(
-        tmp_path / "mesh.ply",
-        tmp_path / "weights.safetensors",
-        tmp_path / "a.png",
-        tmp_path / "a.svg",
-        title="Slice",
-        up="y",
-    )
-    with Image.open(tmp_path / "a.png") as image:
-        assert np.asarray(image.convert("L"), float).std() > 10
-    assert (tmp_path / "a.svg").stat().st_size < 1_000_000
+    files = [tmp_path / name for name in ("mesh.ply", "weights.safetensors", "a.png", "a.svg")]
+    scene = {"up": "y", "ground": True, "light": SPHERE_OF_LIGHTS}
+    draw(*files, title="Slice", scene=scene)
+    assert imread(files[2])[..., :3].std() > 0.04
+    assert files[3].stat().st_size < 1_000_000

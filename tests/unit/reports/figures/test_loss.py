@@ -1,10 +1,7 @@
 import numpy as np
 import pandas as pd
-import pytest
 
-from neural_shadows.errors import InputError
-from neural_shadows.reports.figures.loss import loss_figure, smoothed, write_loss_figure
-from neural_shadows.training.loss_curve import read_loss
+from neural_shadows.reports.figures.loss import draw, loss_figure, smoothed
 
 
 def curve(losses):
@@ -14,18 +11,9 @@ def curve(losses):
     )
 
 
-@pytest.fixture
-def loss_csv(tmp_path):
-    path = tmp_path / "loss.csv"
-    curve(np.linspace(1, 0.1, 50)).to_csv(path, index=False, lineterminator="\n")
-    return path
-
-
 def test_running_mean_keeps_a_line_and_length():
     line = np.linspace(5, 1, 500)
-    smooth = smoothed(line)
-    assert smooth.shape == line.shape
-    np.testing.assert_allclose(smooth, line)  # its ends too, where the loss falls fastest
+    np.testing.assert_allclose(smoothed(line), line)  # its ends too, where the loss falls fastest
     noisy = np.ones(500) + np.random.default_rng(1).normal(0, 0.1, 500)
     assert smoothed(noisy).std() < 0.5 * noisy.std()
 
@@ -39,28 +27,23 @@ def test_curves_are_drawn_over_their_samples_with_their_last_loss():
     assert labels == ["a (at the end 2)", "b (at the end 0.25)"]
 
 
-def test_figure_is_written_twice_alike(loss_csv, tmp_path):
-    for name in ("one", "two"):
-        write_loss_figure(
-            [loss_csv],
-            tmp_path / f"{name}.png",
-            tmp_path / f"{name}.svg",
-            title="Losses",
-            labels=["a"],
-            scale="test",
-        )
-    for ending in ("png", "svg"):
-        assert (tmp_path / f"one.{ending}").read_bytes() == (
-            tmp_path / f"two.{ending}"
-        ).read_bytes()
+def test_a_first_spike_does_not_squeeze_the_rest():
+    figure = loss_figure({"a": curve([900.0, *np.linspace(1, 0.1, 200)])}, title="Losses")
+    assert figure.axes[0].get_ylim()[1] < 10
 
 
-@pytest.mark.parametrize("damage", ["cut", "empty", "header", "missing"])
-def test_damaged_curve_is_named(loss_csv, damage):
-    text = loss_csv.read_text()
-    if damage == "missing":
-        loss_csv.unlink()
-    else:
-        loss_csv.write_text({"cut": text[:-3], "empty": "", "header": "a,b\n1,2\n"}[damage])
-    with pytest.raises(InputError, match=r"loss\.csv: (not a whole|no such)"):
-        read_loss(loss_csv)
+def draw_losses(folder):
+    files = [folder / name / "loss.csv" for name in ("one", "two")]
+    curves = [{"experiment": "two", "label": "second"}, {"experiment": "one", "label": "first"}]
+    paths = folder / "f.png", folder / "f.svg"
+    draw(files, *paths, title="Losses", curves=curves, run={"scale": "test"})
+    return [path.read_bytes() for path in paths]
+
+
+def test_figure_is_written_twice_alike(tmp_path):
+    for name, last in (("one", 0.1), ("two", 0.2)):
+        (tmp_path / name).mkdir()
+        curve(np.linspace(1, last, 50)).to_csv(tmp_path / name / "loss.csv", index=False)
+    png, svg = draw_losses(tmp_path)
+    assert [png, svg] == draw_losses(tmp_path)
+    assert b"second (at the end 0.2)" in svg and b"<dc:date>" not in svg

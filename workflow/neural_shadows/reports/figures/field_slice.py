@@ -77,19 +77,14 @@ def slice_logits(
     """
     at = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * half - half
     x, y = np.meshgrid(centre[0] + at, centre[1] + at)
-    logits, bricks = field_logits(field, cut.to_space(np.stack([x.ravel(), y.ravel()], axis=1)))
-    return logits.reshape(PIXELS, PIXELS), bricks.reshape(PIXELS, PIXELS)
-
-
-def field_logits(field: OccupancyFieldNetwork, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Logits (n,) at points (n, 3), NaN where no brick is, and `grid` there: below 0 where none."""
+    p = cut.to_space(np.stack([x.ravel(), y.ravel()], axis=1))
     p = torch.from_numpy(p.astype(np.float32))
     with torch.inference_mode():
         bricks = field.bricks_at(p)
         logits = torch.full((len(p),), torch.nan)
         held = bricks >= 0
         logits[held] = field.logits_at(p[held], bricks[held], field.logits())
-    return logits.numpy(), bricks.numpy()
+    return logits.view(PIXELS, PIXELS).numpy(), bricks.view(PIXELS, PIXELS).numpy()
 
 
 def _show(

@@ -92,15 +92,17 @@ def _add_rays(plotter: pyvista.Plotter, rays: RaySet) -> None:
     end = np.minimum(t_ub, chord)
     hit = t_lb < chord - 1e-6
 
-    def at(t: np.ndarray) -> np.ndarray:
-        return (o + t[:, None] * d)[hit]
-
-    style = {"lighting": False}
-    misses = space.lines(o[~hit], (o + chord[:, None] * d)[~hit])
-    plotter.add_mesh(misses, color=ORANGE, line_width=1, opacity=0.2, **style)
-    plotter.add_mesh(space.lines(at(0 * chord), at(t_lb)), color=ORANGE, line_width=2, **style)
-    plotter.add_mesh(space.lines(at(t_lb), at(end)), color=BLUE, line_width=6, **style)
-    plotter.add_mesh(space.lines(at(end), at(chord)), color=SHADE, line_width=2, **style)
+    parts = (
+        (~hit, 0 * chord, chord, {"color": ORANGE, "line_width": 1, "opacity": 0.2}),
+        (hit, 0 * chord, t_lb, {"color": ORANGE, "line_width": 2}),
+        (hit, t_lb, end, {"color": BLUE, "line_width": 6}),
+        (hit, end, chord, {"color": SHADE, "line_width": 2}),
+    )
+    for which, begin, stop, style in parts:
+        if which.any():
+            ends = np.stack([o + begin[:, None] * d, o + stop[:, None] * d], axis=1)[which]
+            segments = pyvista.line_segments_from_points(ends.reshape(-1, 3))
+            plotter.add_mesh(segments, lighting=False, **style)
 
 
 if "snakemake" in globals():

@@ -4,7 +4,6 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
 import pyvista
 from matplotlib.cm import ScalarMappable
 from matplotlib.patches import Patch
@@ -50,12 +49,6 @@ def add_object(plotter: pyvista.Plotter, scene: Scene, opacity: float = 1.0) -> 
     shape.point_data.active_normals = mesh.vertex_normals
     plotter.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True, opacity=opacity)
     return shape
-
-
-def lines(starts: np.ndarray, ends: np.ndarray) -> pyvista.PolyData:
-    """Lines from points (n, 3) to points (n, 3)."""
-    points = np.stack([starts, ends], axis=1).reshape(-1, 3).astype(np.float32)
-    return pyvista.line_segments_from_points(points)
 
 
 def add_sphere(plotter: pyvista.Plotter) -> None:

@@ -3,7 +3,7 @@ import pytest
 from scipy.special import sph_harm_y
 
 from neural_shadows.rays.poisson_disk import sphere_directions
-from neural_shadows.reports.figures.direction_spectrum import angular_power_spectrum
+from neural_shadows.reports.figures.view_directions import angular_power_spectrum, draw
 
 
 def uniform(count, seed):
@@ -20,20 +20,15 @@ def test_equals_the_sum_over_spherical_harmonics():
         assert power == pytest.approx(expected, rel=1e-9)
 
 
-def test_independent_directions_are_white():
+def test_independent_directions_are_white_and_poisson_disks_blue():
     # Each S_l is a chi-squared mean of 2l + 1 terms: over 30 degrees and 8 sets, 1 ± 0.02.
     mean = np.mean([angular_power_spectrum(uniform(300, seed), 30) for seed in range(8)])
     assert mean == pytest.approx(1, abs=0.1)
-
-
-def test_poisson_disk_directions_are_blue():
     power = angular_power_spectrum(sphere_directions(500, 1)[0], 50)
     assert power[:20].max() < 0.25
     assert power[-10:].mean() > 1
 
 
-def test_opposite_pairs_have_no_odd_degrees():
-    x = uniform(50, 3)
-    power = angular_power_spectrum(np.concatenate([x, -x]), 8)
-    np.testing.assert_allclose(power[::2], 0, atol=1e-9)
-    assert power[1::2].min() > 0
+def test_is_drawn(tmp_path):
+    draw(tmp_path / "f.png", tmp_path / "f.svg", title="Directions", seed=1)
+    assert (tmp_path / "f.svg").stat().st_size < 600_000

@@ -1,0 +1,141 @@
+"""The figures in three dimensions, each drawn by its kind's own `draw`."""
+
+import numpy as np
+import pytest
+import torch
+import trimesh
+from matplotlib.image import imread
+from shapes import SPHERE_OF_LIGHTS, Y_UP, box, scene_of
+
+from neural_shadows.evaluation.references import References, write_references
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.rays.labels import dual_bounds
+from neural_shadows.rendering.exact_shadow import exact_visibility
+from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.reports.figures import (
+    depth_sheets_3d,
+    errors_3d,
+    field_3d,
+    hero_view,
+    opengl,
+    scene_3d,
+)
+
+needs_opengl = pytest.mark.skipif(not opengl.available(), reason="no OpenGL")
+SCENE = {"up": "y", "ground": True, "light": SPHERE_OF_LIGHTS}
+FIELD = {"encoding": "occupancy_field", "resolution": 32, "surface": "solid", "stored": "float32"}
+RADIUS = 0.7
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """A ball, a field that holds it exactly, references of a view, and a few rays."""
+    folder = tmp_path_factory.mktemp("ball")
+    ball = trimesh.creation.icosphere(4, radius=RADIUS)
+    ball.export(folder / "mesh.ply")
+    write_json(folder / "mesh.json", {"name": "ball"})
+    field = make_network(FIELD)
+    field.prepare(folder / "mesh.ply")
+    corner = 4 * np.argwhere(field.grid.view(8, 8, 8).numpy() >= 0)
+    place = (corner[:, None] + np.indices((5, 5, 5)).reshape(3, -1).T) / 16 - 1
+    with torch.no_grad():
+        inside = torch.from_numpy(RADIUS - np.linalg.norm(place, axis=-1)).float()
+        field.values[field.table.long()] = 20 * inside.flatten()
+    (folder / "field").mkdir()
+    save_network(folder / "field" / "weights.safetensors", field, {"network": FIELD})
+    scene = scene_of(ball)
+    frame = render_gbuffer(scene, hero_view.hero_view(Y_UP), 60, 40)
+    references = [(frame, exact_visibility(scene.tracer, frame))] * 2
+    write_references(folder / "000.safetensors", references, scene.ground)
+    directions = np.float32([[0, -1, 0], [1, 0, 0]])
+    origins = np.float32([[[0, 1, 0], [0.6, 0.8, 0]], [[-1, 0, 0], [-0.8, 0, 0.6]]])
+    along = np.repeat(directions, 2, axis=0)
+    bounds = np.stack(dual_bounds(scene.tracer, origins.reshape(-1, 3), along), axis=1)
+    np.save(folder / "directions.npy", directions)
+    np.save(folder / "origins.000.npy", origins)
+    np.save(folder / "bounds.000.npy", bounds.reshape(2, 2, 2))
+    return folder
+
+
+def outputs(folder):
+    return {"png": folder / "f.png", "svg": folder / "f.svg", "title": "Title", "scene": SCENE}
+
+
+def check_drawn_twice_alike(draw, folder):
+    draw()
+    first = [path.read_bytes() for path in (folder / "f.png", folder / "f.svg")]
+    assert imread(folder / "f.png")[..., :3].std() > 0.05
+    draw()
+    assert first == [path.read_bytes() for path in (folder / "f.png", folder / "f.svg")]
+
+
+@needs_opengl
+@pytest.mark.parametrize("kind", [field_3d, depth_sheets_3d])
+def test_what_a_network_learned_is_drawn(files, tmp_path, kind):
+    inputs = {"mesh_ply": files / "mesh.ply", "weights": files / "field" / "weights.safetensors"}
+    check_drawn_twice_alike(lambda: kind.draw(**inputs, **outputs(tmp_path)), tmp_path)
+
+
+@needs_opengl
+def test_a_scene_is_drawn(files, tmp_path):
+    inputs = {f"mesh_{kind}": files / f"mesh.{kind}" for kind in ("ply", "json")}
+    inputs |= {"directions_npy": files / "directions.npy"}
+    inputs |= {key: [files / f"{key}.000.npy"] for key in ("origins", "bounds")}
+    check_drawn_twice_alike(lambda: scene_3d.draw(**inputs, **outputs(tmp_path)), tmp_path)
+
+
+@needs_opengl
+def test_errors_are_drawn(files, tmp_path):
+    (tmp_path / "biases").mkdir()
+    write_json(tmp_path / "biases" / "field.json", {"depth_bias": 0.01})
+    errors_3d.draw(
+        mesh_ply=files / "mesh.ply",
+        references=files / "000.safetensors",
+        weights=[files / "field" / "weights.safetensors"],
+        depth_biases=[tmp_path / "biases" / "field.json"],
+        rows=[
+            {"method": "shadow_map_16", "label": "a map", "experiment": None, "bias": None},
+            {"method": "field", "label": "a field", "experiment": "field", "bias": "held_out"},
+        ],
+        run={"scale": "test"},
+        **outputs(tmp_path),
+    )
+    assert "a field" in (tmp_path / "f.svg").read_text(encoding="utf-8")
+
+
+def test_wrong_points_are_where_the_visibility_differs(files):
+    batch = References(files / "000.safetensors")
+    frame, truth = next(iter(batch))
+    assert errors_3d.wrong_points(lambda frame: truth, batch)[2] == 0
+    p, sign, share = errors_3d.wrong_points(lambda frame: 0 * truth, batch)  # all dark
+    assert share == pytest.approx(truth.sum() / len(frame.lit_side))
+    np.testing.assert_array_equal(np.unique(sign), [-1])
+    near = np.linalg.norm(frame.p, axis=1) < 1.1 * 1.2
+    assert len(p) == 2 * np.count_nonzero(near & (truth[frame.lit_side] > 0))
+
+
+def test_the_learned_surface_of_a_ball_is_a_ball(files):
+    field, _ = load_network(files / "field" / "weights.safetensors")
+    points = field_3d.learned_surface(field).points
+    np.testing.assert_allclose(np.linalg.norm(points, axis=1), RADIUS, atol=2e-3)
+
+
+def test_a_sheet_is_torn_where_neighbours_are_far_apart():
+    n = depth_sheets_3d.RAYS
+    depths = np.full((n, n), np.nan)
+    depths[:3, :3], depths[:3, 3:6] = 1.0, 1.1 + depth_sheets_3d.STEP
+    sheet = depth_sheets_3d.sheet_of(depths.ravel(), np.zeros((n * n, 3)))
+    assert sheet.n_cells == 2 * 2 + 2 * 2
+    assert set(sheet["ray"] // n) == {0, 1, 2} and set(sheet["ray"] % n) == set(range(6))
+
+
+@pytest.mark.parametrize(
+    "light", [SPHERE_OF_LIGHTS, {"domain": "single_axis", "axis": "z", "min_elevation_deg": 20}]
+)
+def test_the_light_lies_above_its_lowest_elevation(light):
+    points = scene_3d.light_domain(scene_of(box(1, 1, 1), light=light)).points
+    height = points[:, 1] / np.linalg.norm(points, axis=1)
+    assert height.min() == pytest.approx(np.sin(np.radians(20)), abs=0.02)
+    assert height.max() == pytest.approx(1, abs=1e-3)
