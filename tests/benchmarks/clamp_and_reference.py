@@ -29,16 +29,12 @@ def main() -> None:
     parser.add_argument("--width", type=int, default=600)
     parser.add_argument("--height", type=int, default=400)
     parser.add_argument("--seed", type=int, default=2026)
-    arguments = parser.parse_args()
-    scene = open_scene(
-        arguments.results / "scenes/dragon/mesh.ply",
-        up="y",
-        ground=True,
-        light={"domain": "sphere", "min_elevation_deg": 20},
-    )
-    network, _ = load_network(arguments.results / "networks/dragon/weights.safetensors")
-    dtype = choose_dtype("auto", torch.device("cpu"))
-    exact, large_map = (traced_method(method, scene) for method in REFERENCES.values())
+    asked = parser.parse_args()
+    mesh_ply = asked.results / "scenes/dragon/mesh.ply"
+    scene = open_scene(mesh_ply, up="y", ground=True, light=LIGHT)
+    weights = asked.results / "networks/dragon/weights.safetensors"
+    network, dtype = open_network(weights, "cpu", 2)
+    exact, large_map = (traced_method(REFERENCES[kind], scene) for kind in ("exact", "shadow_map"))
 
     values: dict[str, list[float]] = {"map": [], "clamped": [], "not clamped": []}
     width, height = arguments.width, arguments.height

@@ -67,14 +67,12 @@ def test_metrics_are_those_of_each_view(files, tmp_path):
 
 def test_a_network_is_asked_with_its_bias(files, tmp_path):
     write_json(tmp_path / "net.json", {"depth_bias": 0.3})
-    network, dtype = open_network(files.weights, "cpu", "float32", 1)
+    network, dtype = open_network(files.weights, "cpu", 1)
     runs = {0.0: {"bias": 0.0}, 0.3: {"bias": 0.3}}
     runs[0.3, "found"] = {"bias": "held_out", "depth_bias_json": tmp_path / "net.json"}
     errors = {}
     for key, settings in runs.items():
-        values, _, _ = evaluated(
-            files, tmp_path, "net", files.weights, device="cpu", precision="float32", **settings
-        )
+        values, _, _ = evaluated(files, tmp_path, "net", files.weights, device="cpu", **settings)
         errors[key] = values["surface", 0, "shadow_error"]
     frame, truth = next(
         one for one in References(files.references) if one[0].view.view_set == "surface"

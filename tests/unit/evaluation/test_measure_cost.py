@@ -10,7 +10,7 @@ from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.measure_cost import BASE, _in_process, measure_cost, size_of
 from neural_shadows.files.whole_files import read_json
 
-SETTINGS = {"seed": 0, "device": "cpu", "precision": "auto", "threads": 1}
+SETTINGS = {"seed": 0, "device": "cpu", "threads": 1}
 
 
 def test_sizes_are_shown_as_what_they_make():
@@ -42,7 +42,7 @@ def test_what_a_killed_measurement_left_is_removed(tmp_path, monkeypatch):
     left = tmp_path / "samples.4.unfinished" / "origins.npy"
     left.parent.mkdir()
     left.write_bytes(b"gigabytes")
-    measure_cost(tmp_path / "samples.4.json", over="samples", value="4", **SETTINGS)
+    measure_cost(tmp_path / "samples.4.json", over="samples", value=4, **SETTINGS)
     assert [path.name for path in tmp_path.iterdir()] == ["samples.4.json"]
     cost = read_json(tmp_path / "samples.4.json")
     assert (cost["over"], cost["size"]) == ("samples", 4)

@@ -190,7 +190,6 @@ def _evaluation(folder: Path, sizes: Sizes, settings: Settings) -> Work:
                 method=method,
                 scene=SCENE,
                 device=settings["device"],
-                precision=settings["precision"],
             )
 
     return work
@@ -211,7 +210,7 @@ def run_alone(stage: str, folder: Path, sizes: Sizes, settings: Settings) -> dic
 
     Args:
         folder: with the files of the stages that it needs.
-        settings: `seed`, `device`, `precision` and `threads`.
+        settings: `seed`, `device` and `threads`.
     """
     with tempfile.TemporaryDirectory(dir=folder) as small:
         for needed in NEEDED[stage]:

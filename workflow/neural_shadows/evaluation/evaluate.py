@@ -40,7 +40,6 @@ def evaluate(
     scene: Mapping[str, Any],
     bias: float | str | None = None,
     device: str = "auto",
-    precision: str = "auto",
     threads: int = 1,
 ) -> None:
     """Shade the batch's frames by one method, and measure them.
@@ -63,7 +62,7 @@ def evaluate(
     if weights:
         if depth_bias_json:
             bias = read_json(depth_bias_json)["depth_bias"]
-        network, dtype = open_network(weights, device, precision, threads)
+        network, dtype = open_network(weights, device, threads)
         answer = network_method(network, dtype, bias or 0.0)
     else:
         answer = traced_method(method, open_scene(mesh_ply, **scene))

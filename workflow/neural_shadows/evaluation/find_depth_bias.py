@@ -26,7 +26,6 @@ def find_depth_bias(
     found_json: Path,
     *,
     device: str = "auto",
-    precision: str = "auto",
     threads: int = 1,
 ) -> None:
     """Write the bias of `BIASES` with the least shadow error over a batch, and all errors.
@@ -37,7 +36,7 @@ def find_depth_bias(
     Raises:
         InputError: an input file cannot be read.
     """
-    network, dtype = open_network(weights, device, precision, threads)
+    network, dtype = open_network(weights, device, threads)
     batch = References(references)
     # Sums over views of (false shadow, light leak) by bias.
     sums = np.zeros((len(BIASES), 2))

@@ -35,7 +35,7 @@ def size_of(over: str, value: int) -> tuple[str, int]:
 
 
 def measure_cost(
-    cost_json: Path, *, over: str, value: int, seed: int, device: str, precision: str, threads: int
+    cost_json: Path, *, over: str, value: int, seed: int, device: str, threads: int
 ) -> None:
     """Run each stage that `over` is a size of, at that size, in a process of its own.
 
@@ -48,8 +48,7 @@ def measure_cost(
     Raises:
         RuntimeError: a stage failed; its message is in the log.
     """
-    value = int(value)  # a wildcard's is text
-    settings = {"seed": seed, "device": device, "precision": precision, "threads": threads}
+    settings = {"seed": seed, "device": device, "threads": threads}
     measured = STAGES[over]
     needed = dict.fromkeys(stage for last in measured for stage in NEEDED[last])
     found = []

@@ -71,7 +71,6 @@ def measure_frame_times(
     frames: Mapping[str, Any],
     frame_times: Mapping[str, int],
     device: str = "auto",
-    precision: str = "auto",
 ) -> None:
     """Time frames of a scene by each method: rays, whole shadow maps, networks [4.4.1].
 
@@ -100,7 +99,7 @@ def measure_frame_times(
         if method == RAY_TRACED or is_shadow_map(method):
             timed[method] = traced_method(method, opened, whole_map=True)
         else:
-            network, dtype = open_network(files[experiment_of(method)], device, precision, 1)
+            network, dtype = open_network(files[experiment_of(method)], device, 1)
             rates[method] = []
             timed[method] = network_method(record_rates(network, rates[method]), dtype)
 
@@ -138,7 +137,7 @@ def measure_frame_times(
             "warm_up": WARM_UP,
             "seed": frames["seed"],
             "device": chosen.type,
-            "precision": str(choose_dtype(precision, chosen)).removeprefix("torch."),
+            "precision": str(choose_dtype("auto", chosen)).removeprefix("torch."),
             "cpu_threads": 1,
             "machine": describe_machine(),
             "sphere_rays": float(np.median(rays)),  # of a frame: those that a network answers

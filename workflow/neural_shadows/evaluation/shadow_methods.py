@@ -79,13 +79,11 @@ def network_method(
     return visibility
 
 
-def open_network(
-    weights: Path, device: str, precision: str, threads: int
-) -> tuple["ShadowNetwork", "torch.dtype"]:
+def open_network(weights: Path, device: str, threads: int) -> tuple["ShadowNetwork", "torch.dtype"]:
     """A trained network on its device, and the number format of its products there.
 
     Args:
-        device: `auto`, `cpu` or `cuda`; `precision`: `auto`, `float32` or `bfloat16`.
+        device: `auto`, `cpu` or `cuda`.
         threads: of PyTorch on the CPU, from now on.
 
     Raises:
@@ -98,4 +96,4 @@ def open_network(
 
     torch.set_num_threads(threads)
     chosen = choose_device(device)
-    return load_network(weights)[0].to(chosen), choose_dtype(precision, chosen)
+    return load_network(weights)[0].to(chosen), choose_dtype("auto", chosen)

@@ -55,7 +55,7 @@ def draw(
         if row["experiment"] is None:
             method = traced_method(row["method"], opened)
         else:
-            network, dtype = open_network(networks[row["experiment"]], "auto", "auto", threads)
+            network, dtype = open_network(networks[row["experiment"]], "auto", threads)
             bias = row["bias"]
             if bias == "held_out":
                 bias = read_json(biases[row["experiment"]])["depth_bias"]
