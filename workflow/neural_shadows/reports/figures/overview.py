@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
 from neural_shadows.rays.poisson_disk import sphere_directions
+from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
 from neural_shadows.reports.figures.style import BLUE, ORANGE, write_figure
@@ -30,7 +31,9 @@ def draw(
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title, 13.3, 4)
     directions, points, labels, query = figure.subplots(1, 4)
     drawing.draw_hemisphere(
-        directions, sphere_directions(drawing.SHOWN_DIRECTIONS, seed)[0], "a  view directions"
+        directions,
+        sphere_directions(drawing.SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0],
+        "a  view directions",
     )
     drawing.draw_disk(points, "b  rays through a silhouette's quadtree")
     shown = drawing.SilhouetteDrawing(cut, sampling, seed, drawing.SHOWN_POINTS // 3)

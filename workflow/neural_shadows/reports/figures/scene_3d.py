@@ -91,7 +91,6 @@ def _add_rays(plotter: pyvista.Plotter, rays: RaySet) -> None:
     chord = chord_lengths(o, d)
     end = np.minimum(t_ub, chord)
     hit = t_lb < chord - 1e-6
-
     parts = (
         (~hit, 0 * chord, chord, {"color": ORANGE, "line_width": 1, "opacity": 0.2}),
         (hit, 0 * chord, t_lb, {"color": ORANGE, "line_width": 2}),

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from neural_shadows.rays.poisson_disk import sphere_directions
+from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.reports.figures.drawing import SHOWN_DIRECTIONS, draw_hemisphere
 from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
@@ -16,9 +17,9 @@ DEGREES = 80  # of the spectra: 1000 Poisson-disk directions have their ring nea
 def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
     """Draw a hemisphere of directions of each sampler, and below them their spectra."""
     figure = new_figure(title, 11, 9.6)
-    uniform = np.random.default_rng(seed).normal(size=(SHOWN_DIRECTIONS, 3))
+    uniform = np.random.default_rng((seed, DIRECTIONS)).normal(size=(SHOWN_DIRECTIONS, 3))
     uniform /= np.linalg.norm(uniform, axis=1, keepdims=True)
-    poisson = sphere_directions(SHOWN_DIRECTIONS, seed)[0]
+    poisson = sphere_directions(SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0]
     grid = figure.add_gridspec(2, 2, height_ratios=(3, 2))
     spectrum = figure.add_subplot(grid[1, :])
     shown = (("Poisson-disk", poisson, BLUE), ("uniform", uniform, ORANGE))
