@@ -70,20 +70,16 @@ def width_figure(
         axes.grid(**GRID)
     quality.set_ylabel("LPIPS, mean [95 % interval]")
     quality.set_ylim(bottom=0)
-    quality.set_title(
-        "the thesis does not say which network its LPIPS is of: compare slopes", fontsize=9
-    )
+    entries = [Line2D([], [], color=c, marker="o", label=s) for c, s in zip(COLOURS, scenes)]
+    entries.append(Line2D([], [], color="grey", marker="o", label="this run"))
+    if shown["thesis_lpips"].notna().any():
+        note = "the thesis does not say which network its LPIPS is of: compare slopes"
+        quality.set_title(note, fontsize=9)
+        style = {"color": "grey", "marker": "s", "linestyle": "--"}
+        entries.append(Line2D([], [], label="thesis", **style))
     speed.set_ylabel("frame time, ms, median [quartiles]")
     speed.set_yscale("log")  # ours and the thesis's machine may be far apart
-    figure.legend(
-        handles=[
-            *(Line2D([], [], color=c, marker="o", label=s) for c, s in zip(COLOURS, scenes)),
-            Line2D([], [], color="grey", marker="o", label="this run"),
-            Line2D([], [], color="grey", marker="s", linestyle="--", label="thesis"),
-        ],
-        loc="outside lower center",
-        ncols=len(scenes) + 2,
-    )
+    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
     return figure
 
 
