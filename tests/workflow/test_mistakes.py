@@ -16,7 +16,7 @@ def refused(checkout: Checkout, *arguments: str, overlays=()) -> str:
 @pytest.mark.parametrize(
     ("setting", "message"),
     [
-        ("sede=3", "config: sede: "),
+        ("sede=3", "config: unknown key: 'sede' (did you mean 'seed'?)"),
         ("seed=many", "config: seed = 'many': "),
         ("dragon=stanfrod", "did you mean 'stanford'"),
         ("dragon=nowhere/bunny.ply", "'nowhere/bunny.ply': no such file"),
