@@ -3,10 +3,9 @@
 import json
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fnmatch import fnmatch
 from pathlib import Path
-from typing import Any
 
 from checkout import Checkout
 
@@ -19,12 +18,11 @@ MEASURED = {
     "cost/*.json": {"seconds", "bytes", "peak_bytes"},
 }
 
-# What Snakemake and the jobs say on the way, below results/<scale>.
-SAID = ("logs", "benchmarks")
+# Folders below results/<scale> of what jobs say on the way, and of what is not finished.
+NO_RESULTS = re.compile(r"(^|/)(logs|benchmarks|checkpoints|[^/]+\.unfinished)/")
 
 # A run may pass midnight, and the page says how long the jobs took.
-DATE = re.compile(rb"made on \d{4}-\d\d-\d\d")
-FACTS = re.compile(rb"<dt>(made on|durations)</dt><dd>[^<]*")
+CHANGING = re.compile(rb"made on \d{4}-\d\d-\d\d|<dt>(made on|durations)</dt><dd>[^<]*")
 
 
 def results_of(checkout: Checkout) -> dict[str, bytes]:
@@ -32,14 +30,14 @@ def results_of(checkout: Checkout) -> dict[str, bytes]:
     return {
         str(path): _unmeasured(path, (checkout.results / path).read_bytes())
         for path in _files(checkout.results)
-        if path.parts[0] not in SAID and not any(map(_is_unfinished, path.parts))
+        if not NO_RESULTS.search(str(path))
     }
 
 
 def reports_of(checkout: Checkout) -> dict[str, bytes]:
     """Content of each report by its path, without dates and durations."""
     return {
-        str(path): FACTS.sub(b"", DATE.sub(b"", (checkout.reports / path).read_bytes()))
+        str(path): CHANGING.sub(b"", (checkout.reports / path).read_bytes())
         for path in _files(checkout.reports)
     }
 
@@ -51,8 +49,8 @@ def leavings_of(checkout: Checkout) -> list[str]:
         for folder in (checkout.results, checkout.reports)
         for path in folder.rglob("*")
         if path.name.startswith(".")
-        or any(map(_is_unfinished, path.parts))
-        and path != checkout.results / "networks" / "checkpoints"
+        or path.suffix == ".unfinished"
+        or path.parent.name == "checkpoints"
     )
 
 
@@ -63,11 +61,20 @@ def differences(found: dict[str, bytes], wanted: dict[str, bytes]) -> list[str]:
     )
 
 
-def take_measured(source: Checkout, checkout: Checkout) -> None:
-    """Replace a run's measured values by those of another."""
-    for path in _files(source.results):
+def differing_reports(
+    checkout: Checkout, other: Checkout, folder: Path, *targets: str, overlays: Sequence[Path] = ()
+) -> list[str]:
+    """Reports in which a run differs from another with its own measured values put into it.
+
+    Args:
+        folder: for a copy of the other run, which makes its reports again there.
+    """
+    copy = other.copy(folder)
+    for path in _files(checkout.results):
         if _keys(path):
-            shutil.copy2(source.results / path, checkout.results / path)
+            shutil.copy2(checkout.results / path, copy.results / path)
+    copy.run(*targets, overlays=overlays)
+    return differences(reports_of(checkout), reports_of(copy))
 
 
 def _files(folder: Path) -> Iterator[Path]:
@@ -77,23 +84,16 @@ def _files(folder: Path) -> Iterator[Path]:
             yield path.relative_to(folder)
 
 
-def _is_unfinished(part: str) -> bool:
-    return part == "checkpoints" or part.endswith(".unfinished")
-
-
 def _keys(path: Path) -> set[str]:
     return next((keys for name, keys in MEASURED.items() if fnmatch(str(path), name)), set())
 
 
 def _unmeasured(path: Path, content: bytes) -> bytes:
     keys = _keys(path)
-    return json.dumps(_blanked(json.loads(content), keys)).encode() if keys else content
+    if not keys:
+        return content
 
+    def rest(value: dict) -> dict:
+        return {key: part for key, part in value.items() if key not in keys}
 
-def _blanked(value: Any, keys: set[str], measured: bool = False) -> Any:
-    """JSON with each number below one of the keys replaced, all else as it is."""
-    if isinstance(value, dict):
-        return {key: _blanked(part, keys, measured or key in keys) for key, part in value.items()}
-    if isinstance(value, list):
-        return [_blanked(part, keys, measured) for part in value]
-    return "measured" if measured and isinstance(value, int | float) else value
+    return json.dumps(json.loads(content, object_hook=rest)).encode()

@@ -2,11 +2,11 @@
 
 import os
 import shutil
-import signal
 import socket
 import subprocess
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
@@ -71,12 +71,12 @@ def missing() -> list[str]:
     return lacking if os.geteuid() == 0 else [*lacking, "root, which its daemons and jobs run as"]
 
 
-def wait_for(condition: Callable[[], object], what: str) -> None:
-    """Wait until `condition()` is true; fails after a minute."""
-    deadline = time.monotonic() + 60
+def wait_for(condition: Callable[[], object], what: str, seconds: float = 60) -> None:
+    """Wait until `condition()` is true; fails after so many seconds."""
+    deadline = time.monotonic() + seconds
     while not condition():
-        assert time.monotonic() < deadline, f"no {what} within a minute"
-        time.sleep(0.2)
+        assert time.monotonic() < deadline, f"no {what} within {seconds} s"
+        time.sleep(0.1)
 
 
 def _free_port() -> int:
@@ -86,49 +86,53 @@ def _free_port() -> int:
 
 
 class Slurm:
-    """One controller and one node, both on this machine.
+    """One controller and one node, both on this machine, while its `with` lasts.
 
     Args:
         folder: where all of its files go; its path must be short, since it holds a socket.
     """
 
     def __init__(self, folder: Path):
-        self.folder, self.config = folder, folder / "slurm.conf"
-        self._daemons: list[subprocess.Popen] = []
+        self.folder, self._daemons = folder, ExitStack()
         # What the programs of Slurm need to find this cluster, besides `os.environ`.
         path = os.pathsep.join([str(folder / "bin"), PATH])
-        self.environment = {"SLURM_CONF": str(self.config), "PATH": path}
+        self.environment = {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": path}
 
-    def start(self) -> None:
-        """Write the configuration and start munge, the controller and the node."""
+    def __enter__(self) -> "Slurm":
+        self._write_files()
+        munge = self.folder / "munge"
+        files = [f"--{name}-file={munge / name}" for name in ("key", "pid", "log", "seed")]
+        with self._daemons as daemons:
+            self._start("munged", f"--socket={munge}/socket", *files, "--foreground", "--force")
+            wait_for((munge / "socket").exists, "munge socket")
+            self._start("slurmctld", "-D")
+            wait_for(lambda: self._run("scontrol", "ping").returncode == 0, "controller")
+            self._start("slurmd", "-D")
+            wait_for(lambda: "idle" in self.ask("sinfo", "-h", "-o", "%T"), "idle node")
+            self._daemons = daemons.pop_all()
+        return self
+
+    def __exit__(self, *_) -> None:
+        with self._daemons:
+            self.cancel_all()
+
+    def _write_files(self) -> None:
         for name in ("bin", "munge", "state", "spool"):
             (self.folder / name).mkdir(mode=0o755)
+        conf = self.environment["SLURM_CONF"]
         # The executor starts srun without any variable of Slurm's, this cluster's name among them.
         srun = self.folder / "bin" / "srun"
         program = shutil.which("srun", path=PATH)
-        srun.write_text(f'#!/bin/sh\nSLURM_CONF={self.config} exec {program} "$@"\n')
+        srun.write_text(f'#!/bin/sh\nSLURM_CONF={conf} exec {program} "$@"\n')
         srun.chmod(0o755)
-        munge = self.folder / "munge"
-        (munge / "key").write_bytes(os.urandom(128))
-        (munge / "key").chmod(0o400)
+        key = self.folder / "munge" / "key"
+        key.write_bytes(os.urandom(128))
+        key.chmod(0o400)
         gpus = "Name=gpu File=/dev/null\nName=gpu File=/dev/zero\n"
         (self.folder / "gres.conf").write_text(gpus)
-        self.config.write_text(
-            CONFIG.format(
-                folder=self.folder,
-                host=socket.gethostname().split(".")[0],
-                cpus=os.cpu_count(),
-                controller_port=_free_port(),
-                node_port=_free_port(),
-            )
-        )
-        files = [f"--{name}-file={munge / name}" for name in ("key", "pid", "log", "seed")]
-        self._start("munged", f"--socket={munge}/socket", *files, "--foreground", "--force")
-        wait_for((munge / "socket").exists, "munge socket")
-        self._start("slurmctld", "-D")
-        wait_for(lambda: self._run("scontrol", "ping").returncode == 0, "controller")
-        self._start("slurmd", "-D")
-        wait_for(lambda: "idle" in self.ask("sinfo", "-h", "-o", "%T"), "idle node")
+        settings = {"host": socket.gethostname().split(".")[0], "cpus": os.cpu_count()}
+        ports = {"controller_port": _free_port(), "node_port": _free_port()}
+        Path(conf).write_text(CONFIG.format(folder=self.folder, **settings, **ports))
 
     def _start(self, *command: str) -> None:
         with (self.folder / f"{command[0]}.out").open("w") as output:
@@ -140,17 +144,8 @@ class Slurm:
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
             )
-        self._daemons.append(daemon)
-
-    def stop(self) -> None:
-        """End all jobs and daemons."""
-        try:
-            for pid in self.processes_of(*(job.id for job in self.queue())):
-                os.kill(pid, signal.SIGKILL)
-        finally:  # also where it was the controller that did not start
-            for daemon in reversed(self._daemons):
-                daemon.kill()
-                daemon.wait()
+        self._daemons.callback(daemon.wait)
+        self._daemons.callback(daemon.kill)
 
     def _run(self, *command: str) -> subprocess.CompletedProcess[str]:
         environment = os.environ | self.environment
@@ -167,18 +162,21 @@ class Slurm:
         lines = self.ask("squeue", "-h", "--states=all", "-o", "%i|%T|%k").splitlines()
         return sorted((Job(*line.split("|")) for line in lines), key=lambda job: int(job.id))
 
-    def processes_of(self, *jobs: str) -> list[int]:
-        """Processes of running jobs, their steps' keepers (slurmstepd) included."""
-        ours = f"SLURM_CONF={self.config}".encode()
-        names = {f"SLURM_JOB_ID={job}".encode() for job in jobs}
-        found = []
+    def cancel_all(self) -> None:
+        """End all jobs."""
+        self.ask("scancel", "--me")
+        wait_for(lambda: not self.ask("squeue", "-h"), "end of all jobs")
+
+    def script_of(self, job: Job) -> int | None:
+        """The process of a running job that runs a rule's script."""
+        variable = f"SLURM_JOB_ID={job.id}".encode()
         for entry in Path("/proc").glob("[0-9]*"):
             try:
-                variables = {*(entry / "environ").read_bytes().split(b"\0")}
-                title = (entry / "cmdline").read_bytes()
+                variables = (entry / "environ").read_bytes().split(b"\0")
+                arguments = [*(entry / "cmdline").read_bytes().split(b"\0"), b""]
             except OSError:  # ended meanwhile
                 continue
-            keeper = any(title.startswith(f"slurmstepd: [{job}.".encode()) for job in jobs)
-            if ours in variables and (keeper or names & variables):
-                found.append(int(entry.name))
-        return found
+            # Of bash, which starts it, the script is not an argument of its own.
+            if variable in variables and b"/.snakemake/scripts/" in arguments[1]:
+                return int(entry.name)
+        return None

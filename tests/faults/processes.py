@@ -17,14 +17,15 @@ POLL_S = 0.002
 # busy with other things lets a process of low priority wait for minutes.
 END_S = 600
 
-# Given the process group of a run: whether it is time to end it.
-Moment = Callable[[int], bool]
-
 
 def interrupt(
-    checkout: Checkout, targets: list[str], sign: signal.Signals, moment: Moment, **settings
+    checkout: Checkout,
+    targets: list[str],
+    sign: signal.Signals,
+    is_time: Callable[[], bool],
+    overlays: list[Path],
 ) -> bool:
-    """Start a run, send all its processes a signal at a moment, and wait for their end.
+    """Start a run, send all its processes a signal when it is time, and wait for their end.
 
     Then the folder must not be locked, except after SIGKILL, and is unlocked.
 
@@ -35,7 +36,7 @@ def interrupt(
     with (
         output.open("w") as file,
         subprocess.Popen(
-            checkout.command(*targets, **settings),
+            checkout.command(*targets, overlays=overlays),
             cwd=checkout.folder,
             env=checkout.environment(),
             stdout=file,
@@ -44,7 +45,7 @@ def interrupt(
         ) as run,
     ):
         try:
-            while run.poll() is None and not moment(run.pid):
+            while run.poll() is None and not is_time():
                 time.sleep(POLL_S)
             if run.poll() is None:
                 os.killpg(run.pid, sign)
@@ -60,7 +61,7 @@ def interrupt(
         return False
     if any(checkout.folder.glob(".snakemake/locks/*.lock")):
         assert sign == signal.SIGKILL, f"locked after {sign.name}:\n{output.read_text()}"
-        checkout.run("--unlock", **settings)
+        checkout.run("--unlock", overlays=overlays)
     return True
 
 
@@ -69,53 +70,18 @@ def members(group: int) -> list[int]:
     found = []
     for pid in map(int, filter(str.isdigit, os.listdir("/proc"))):
         try:
-            if os.getpgid(pid) != group:
-                continue
-            # The state comes after a name in brackets, which may hold anything.
-            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+            # State and group come after a name in brackets, which may hold anything.
+            stat = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
         except (FileNotFoundError, ProcessLookupError):
             continue  # it has just ended
-        if state != "Z":
+        if int(stat[2]) == group and stat[0] != "Z":
             found.append(pid)
     return found
-
-
-def works(group: int) -> bool:
-    """Whether one of the processes runs a job's script."""
-    for pid in members(group):
-        try:
-            arguments = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-        except (FileNotFoundError, ProcessLookupError):
-            continue
-        # Of bash, which starts it, the script is not an argument of its own.
-        if any(b"/.snakemake/scripts/" in argument for argument in arguments[1:2]):
-            return True
-    return False
-
-
-def after(seconds: float) -> Moment:
-    """When a job has worked for so long."""
-    begun: list[float] = []
-
-    def moment(group: int) -> bool:
-        if not begun and works(group):
-            begun.append(time.monotonic())
-        return bool(begun) and time.monotonic() >= begun[0] + seconds
-
-    return moment
-
-
-def writes(files: list[Path]) -> Moment:
-    """As soon as one of these files, none of which is there, or a part of it is written."""
-    return lambda group: any(
-        file.exists() or any(file.parent.glob(f".*{file.name}*")) for file in files
-    )
 
 
 @contextmanager
 def small_disk(folder: Path, size: int) -> Iterator[None]:
     """A file system in memory of so many bytes at a folder; `resize` makes it larger."""
-    folder.mkdir(exist_ok=True)
     mount = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder]
     done = subprocess.run(mount, capture_output=True, text=True)
     if done.returncode:

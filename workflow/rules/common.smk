@@ -67,7 +67,7 @@ wildcard_constraints:
     shard="[0-9]+",
     batch=f"[0-9]+|{parts.HELD_OUT}",
     # Names that no entry of the configuration has are refused by what looks them up.
-    table="(?!claims$)[a-z][a-z0-9_]*",
+    table=r"(?!claims\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",
 
 

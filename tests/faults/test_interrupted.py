@@ -1,0 +1,134 @@
+"""Killed in every stage, on one core, in another path or on a full disk: the same bytes.
+
+    pytest tests/faults
+
+Not part of `pytest` alone: ten minutes on two cores.
+"""
+
+import itertools
+import re
+import shutil
+import signal
+from collections import defaultdict
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from checkout import Checkout
+from few_jobs import NO_JOB, TARGETS, few_jobs
+from processes import interrupt, resize, small_disk
+from same_results import differences, differing_reports, leavings_of, reports_of, results_of
+
+SIGNALS = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT]
+TRAINING_LOG = "logs/train/dragon.log"
+
+
+@pytest.fixture(scope="session")
+def overlays(tmp_path_factory) -> list[Path]:
+    # Long enough for several checkpoints, one a second.
+    return [few_jobs(tmp_path_factory.mktemp("overlays") / "few.yaml", steps=4000)]
+
+
+@pytest.fixture(scope="session")
+def start(tmp_path_factory) -> Checkout:
+    """A checkout in which nothing has run."""
+    # Started in the background, pytest and all its children would ignore Ctrl-C.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    checkout = Checkout.fresh(tmp_path_factory.mktemp("start"))
+    train = checkout.module("training/train.py")
+    source = train.read_text(encoding="utf-8")
+    often = source.replace("CHECKPOINT_SECONDS = 30.0", "CHECKPOINT_SECONDS = 1.0")
+    assert often != source
+    train.write_text(often, encoding="utf-8")
+    return checkout
+
+
+@pytest.fixture(scope="session")
+def finished(start, overlays, tmp_path_factory) -> Checkout:
+    """A run without a disturbance, with which others are compared; it must be left as it is."""
+    checkout = start.copy(tmp_path_factory.mktemp("finished") / "a checkout")
+    checkout.run(*TARGETS, overlays=overlays)
+    assert leavings_of(checkout) == []
+    return checkout
+
+
+def files_of_rules(finished: Checkout, overlays: list[Path]) -> dict[str, list[str]]:
+    """Names of what each rule's jobs write."""
+    files = defaultdict(list)
+    for row in finished.summary(*TARGETS, overlays=overlays):
+        files[row["rule"]].append(row["output_file"])
+    graph = "".join(path.read_text() for path in finished.folder.glob("workflow/rules/*.smk"))
+    assert set(files) == set(re.findall(r"^rule (\w+):", graph, re.MULTILINE)) - NO_JOB
+    return files
+
+
+def wrong(checkout: Checkout, wanted: dict[str, bytes]) -> list[str]:
+    """Results of an unfinished run that have their name and are not as they should be."""
+    return [name for name, content in results_of(checkout).items() if content != wanted.get(name)]
+
+
+def writings_of(folder: Path, patterns: list[str]) -> set[tuple[Path, int]]:
+    """The files that are there, whole or in part, and when each was last written."""
+    found = set()
+    for pattern in patterns:
+        whole = folder / pattern
+        for path in whole.parent.parent.glob(f"{whole.parent.name}/*{whole.name}*"):
+            try:
+                found.add((path, path.stat().st_mtime_ns))
+            except FileNotFoundError:
+                pass  # a part that has just become whole
+    return found
+
+
+def test_killed_in_every_stage(start, finished, overlays, tmp_path):
+    """One run, on one core, that a signal ends once in each rule and thrice while it trains."""
+    checkout = replace(start.copy(tmp_path / "another"), cores=1)
+    watched = files_of_rules(finished, overlays)
+    checkpoint = "results/smoke/networks/checkpoints/dragon-*/state.safetensors"
+    watched |= {f"checkpoint {number}": [checkpoint] for number in (1, 2, 3)}
+    wanted = results_of(finished)
+    for sign in itertools.cycle(SIGNALS):
+        before = {rule: writings_of(checkout.folder, files) for rule, files in watched.items()}
+        seen: list[str] = []
+
+        def is_time(before=before, seen=seen) -> bool:
+            seen += [
+                rule
+                for rule, files in watched.items()
+                if writings_of(checkout.folder, files) - before[rule]
+            ]
+            return bool(seen)
+
+        if not interrupt(checkout, TARGETS, sign, is_time, overlays):
+            break
+        print(f"{sign.name}: {seen[0]}")
+        del watched[seen[0]]
+        assert wrong(checkout, wanted) == []
+    assert watched == {}
+    assert leavings_of(checkout) == []
+    assert differences(results_of(checkout), wanted) == []
+    log = (checkout.results / TRAINING_LOG).read_text(encoding="utf-8")
+    # Where the last of the jobs began.
+    assert int(re.search(r"train dragon: +(\d+) ?%", log)[1]) > 0
+    copy = tmp_path / "same measured values"
+    assert differing_reports(checkout, finished, copy, *TARGETS, overlays=overlays) == []
+
+
+def test_disk_that_fills(finished, overlays, tmp_path):
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    written = sum(path.lstat().st_size for path in finished.folder.rglob("*"))
+    with small_disk(disk, 4 * written):
+        checkout = finished.copy(disk)
+        shutil.rmtree(checkout.results / "evaluations")
+        shutil.rmtree(checkout.reports)
+        wanted = results_of(finished)
+        resize(disk, shutil.disk_usage(disk).used + 300_000)
+        failed = checkout.snakemake(*TARGETS, overlays=overlays)
+        assert failed.returncode != 0
+        assert "No space left on device" in failed.stdout, failed.stdout
+        assert wrong(checkout, wanted) == []
+        resize(disk, 4 * written)
+        checkout.run(*TARGETS, overlays=overlays)
+        assert differences(results_of(checkout), wanted) == []
+        assert differences(reports_of(checkout), reports_of(finished)) == []
