@@ -18,7 +18,7 @@ import pytest
 from checkout import Checkout
 from few_jobs import few_jobs
 from same_results import differences, differing_reports, results_of
-from slurm import Job, Slurm, missing, wait_for
+from slurm import Job, Slurm, missing, throw_away_slurm, wait_for
 
 WEIGHTS = "results/smoke/networks/dragon/weights.safetensors"
 DIRECTIONS = "results/smoke/rays/dragon/poisson_quadtree/directions.npy"
@@ -38,7 +38,7 @@ def slurm(tmp_path_factory) -> Iterator[Slurm]:
         pytest.skip(f"missing: {', '.join(lacking)}")
     # Started in the background, pytest and all its children would ignore Ctrl-C.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    with Slurm(tmp_path_factory.mktemp("slurm")) as cluster:
+    with throw_away_slurm(tmp_path_factory.mktemp("slurm")) as cluster:
         yield cluster
 
 
@@ -58,9 +58,16 @@ def local(slurm, overlays, tmp_path_factory) -> Checkout:
 @pytest.fixture
 def submit(slurm, overlays):
     """Starts Snakemake in a checkout through the profile, its jobs on the cluster."""
-    with ExitStack() as runs:
-        runs.callback(slurm.cancel_all)
-        yield lambda *arguments: runs.enter_context(Submitted(slurm, overlays, *arguments))
+    with ExitStack() as stack:
+        stack.callback(slurm.cancel_all)
+
+        def start(checkout: Checkout, *arguments: str) -> Submitted:
+            run = Submitted(slurm, overlays, checkout, *arguments)
+            stack.callback(run.process.wait)
+            stack.callback(run.process.kill)
+            return run
+
+        yield start
 
 
 class Submitted:
@@ -77,13 +84,6 @@ class Submitted:
                 stdout=file,
                 stderr=subprocess.STDOUT,
             )
-
-    def __enter__(self) -> "Submitted":
-        return self
-
-    def __exit__(self, *_) -> None:
-        self.process.kill()
-        self.process.wait()
 
     @property
     def output(self) -> str:
@@ -106,8 +106,8 @@ class Submitted:
             assert self.process.poll() is None, self.output
             for job in self.jobs():
                 if job.state == "RUNNING" and job.name.startswith(f"rule_{rule}"):
-                    script = self._slurm.script_of(job)
-                    found.extend([(job, script)] if script else [])
+                    if script := self._slurm.script_of(job):
+                        found.append((job, script))
             return bool(found)
 
         wait_for(works, f"job of {rule}", 1800)

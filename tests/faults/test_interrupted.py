@@ -19,8 +19,9 @@ from few_jobs import NO_JOB, TARGETS, few_jobs
 from processes import interrupt, resize, small_disk
 from same_results import differences, differing_reports, leavings_of, reports_of, results_of
 
+from neural_shadows.networks.weight_file import load_tensors
+
 SIGNALS = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT]
-TRAINING_LOG = "logs/train/dragon.log"
 
 
 @pytest.fixture(scope="session")
@@ -84,9 +85,10 @@ def test_killed_in_every_stage(start, finished, overlays, tmp_path):
     """One run, on one core, that a signal ends once in each rule and thrice while it trains."""
     checkout = replace(start.copy(tmp_path / "another"), cores=1)
     watched = files_of_rules(finished, overlays)
-    checkpoint = "results/smoke/networks/checkpoints/dragon-*/state.safetensors"
-    watched |= {f"checkpoint {number}": [checkpoint] for number in (1, 2, 3)}
-    wanted = results_of(finished)
+    # Written when the state beside it is whole.
+    curve = "results/smoke/networks/checkpoints/dragon-*/loss.csv"
+    watched |= {f"checkpoint {number}": [curve] for number in (1, 2, 3)}
+    wanted, trained = results_of(finished), []
     for sign in itertools.cycle(SIGNALS):
         before = {rule: writings_of(checkout.folder, files) for rule, files in watched.items()}
         seen: list[str] = []
@@ -104,12 +106,14 @@ def test_killed_in_every_stage(start, finished, overlays, tmp_path):
         print(f"{sign.name}: {seen[0]}")
         del watched[seen[0]]
         assert wrong(checkout, wanted) == []
+        if "checkpoint" in seen[0]:
+            (state,) = checkout.results.glob("networks/checkpoints/dragon-*/state.safetensors")
+            trained.append(load_tensors(state)[1]["seconds"])
     assert watched == {}
+    # Each went on where the one before was ended, for a second.
+    assert all(seconds > number for number, seconds in enumerate(trained, start=1)), trained
     assert leavings_of(checkout) == []
     assert differences(results_of(checkout), wanted) == []
-    log = (checkout.results / TRAINING_LOG).read_text(encoding="utf-8")
-    # Where the last of the jobs began.
-    assert int(re.search(r"train dragon: +(\d+) ?%", log)[1]) > 0
     copy = tmp_path / "same measured values"
     assert differing_reports(checkout, finished, copy, *TARGETS, overlays=overlays) == []
 
