@@ -29,7 +29,7 @@ rule all:
 
 onsuccess:
     # Snakemake has now taken note of all networks.
-    remove_finished(Path(PATHS.network("", "")))
+    remove_finished(Path(PATHS.results) / "networks")
     made = [path for job in workflow.dag.finished_jobs for path in job.output]
     if words := targets.closing_words(LAYOUT, made):
         print(words)

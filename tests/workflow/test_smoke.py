@@ -104,7 +104,7 @@ def test_claims_have_verdicts(smoke):
 
 def test_the_page_stands_alone(smoke):
     page = (smoke.reports / "index.html").read_text(encoding="utf-8")
-    for name in ("table_4_3", "beyond", "figure_4_4", "figure_beyond_slice"):
+    for name in ("table-table_4_3", "table-beyond", "figure-figure_4_4", "compare-fence"):
         assert f'id="{name}"' in page
     assert "<script src" not in page and "<link" not in page
 
@@ -113,7 +113,7 @@ def test_a_page_of_what_is_there(finished):
     (finished.reports / "table_4_1.md").unlink()
     finished.run("reports/smoke/available.html")
     page = (finished.reports / "available.html").read_text(encoding="utf-8")
-    assert 'id="table_4_3"' in page and 'id="table_4_1"' not in page
+    assert 'id="table-table_4_3"' in page and 'id="table-table_4_1"' not in page
     assert not (finished.reports / "table_4_1.md").exists()
 
 

@@ -5,7 +5,7 @@ rule table:
     input:
         unpack(of(tables.files)),
         code=lambda wildcards: code(
-            f"reports/tables/{tables.kind(LAYOUT, wildcards.table)}",
+            f"reports/tables/{SETTINGS['tables'][wildcards.table]['kind']}",
             tables.encodings(LAYOUT, wildcards.table),
         ),
     output:
@@ -23,7 +23,7 @@ rule table:
     resources:
         **usual(4000, minutes=10),
     params:
-        kind=of(tables.kind),
+        kind=setting("tables/{table}/kind"),
         settings=of(tables.arguments),
     message:
         "Writing {wildcards.table}"
@@ -35,7 +35,7 @@ rule figure:
     input:
         unpack(of(figures.files)),
         code=lambda wildcards: code(
-            f"reports/figures/{figures.kind(LAYOUT, wildcards.figure)}",
+            f"reports/figures/{SETTINGS['figures'][wildcards.figure]['kind']}",
             figures.encodings(LAYOUT, wildcards.figure),
         ),
     output:
@@ -53,7 +53,7 @@ rule figure:
     resources:
         **usual(4000, minutes=10),
     params:
-        kind=of(figures.kind),
+        kind=setting("figures/{figure}/kind"),
         settings=of(figures.arguments),
     message:
         "Drawing {wildcards.figure}"

@@ -85,11 +85,6 @@ def _scene(layout: Layout, figure: str) -> str | None:
     return settings.get("scene")
 
 
-def kind(layout: Layout, figure: str) -> str:
-    """A figure's kind."""
-    return layout.entry("figures", figure)["kind"]
-
-
 def labels(layout: Layout, figure: str) -> dict[str, str]:
     """What Snakemake's report lists of a figure."""
     number = figure.removeprefix("figure_").replace("_", ".")

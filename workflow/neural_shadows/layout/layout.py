@@ -98,7 +98,7 @@ class Layout:
         }
 
     def training_files(self, experiment: str) -> dict[str, Any]:
-        """What an experiment trains on: a ray set, and the mesh if its network is laid out by it."""
+        """What an experiment trains on: a ray set, and the mesh that its network is laid out by."""
         settings = self.entry("experiments", experiment)
         names = settings["scene"], settings["sampling"]
         needs_mesh = _NETWORK.validate_python(settings["network"]).needs_mesh

@@ -65,11 +65,6 @@ def arguments(layout: Layout, table: str) -> dict[str, Any]:
     return {key: values[key] for key in ("title", *TOLD[settings["kind"]])}
 
 
-def kind(layout: Layout, table: str) -> str:
-    """A table's kind."""
-    return layout.entry("tables", table)["kind"]
-
-
 def labels(layout: Layout, table: str) -> dict[str, str]:
     """What Snakemake's report lists of a table: the thesis's number and the title."""
     settings = layout.entry("tables", table)

@@ -1,1 +1,1 @@
-"""A job and a run, whatever they make: logs, records, progress, what must be run again."""
+"""A job, whatever it makes: the call of its stage, its log, progress, the modules it depends on."""

@@ -30,8 +30,8 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
     Args:
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
         function: takes keyword arguments named as in the rule: each named input (but `code`
-            and `beside`), output and param (but `kind`; those in `settings` one by one), and, if it has
-            arguments of these names, `threads` and wildcards.
+            and `beside`), output and param (but `kind`; those in `settings` one by one), and,
+            if it has arguments of these names, `threads` and wildcards.
     """
     path = Path(job.log[0])
     path.parent.mkdir(parents=True, exist_ok=True)
