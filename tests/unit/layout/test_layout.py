@@ -172,7 +172,9 @@ def test_the_words_at_the_end(desk, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "20")
     (tmp_path / "reports").mkdir()
-    (tmp_path / "reports" / "a.md").write_text("| a row that is too wide |\n| short |\n")
+    (tmp_path / "reports" / "a.md").write_text(
+        "| a row that is too wide |\n| short |\n\n- a note\n"
+    )
     made = ["results/lpips.json", "reports/a.csv", "reports/a.md", "reports/figure_1.png"]
     assert targets.closing_words(desk, made).splitlines() == [
         "| a row that is too…",

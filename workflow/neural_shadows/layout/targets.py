@@ -127,15 +127,13 @@ def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
         outputs: all files that it made; tables are read, and cut to the terminal's width.
     """
     reports = [path for path in outputs if path.startswith(f"{layout.paths.reports}/")]
-    written = [Path(path) for path in reports if path.endswith(".md")]
-    columns = shutil.get_terminal_size().columns
-    lines = []
-    if len(written) <= 2:
-        for path in written:
-            for line in path.read_text(encoding="utf-8").splitlines():
-                lines.append(line if len(line) <= columns else f"{line[: columns - 1]}…")
+    written = [path for path in reports if path.endswith(".md")]
+    width, lines = shutil.get_terminal_size().columns, []
+    for path in written if len(written) <= 2 else ():
+        for line in Path(path).read_text(encoding="utf-8").splitlines():
+            if line.startswith(("#", "|")):  # not the notes
+                lines.append(line if len(line) <= width else f"{line[: width - 1]}…")
     pages = [path for path in reports if path.endswith(".html")]
-    pictures = [path for path in reports if path.endswith((".png", ".md"))]
-    if opened := pages or pictures:
+    if opened := pages or [path for path in reports if path.endswith((".png", ".md"))]:
         lines.append(f"Open {', '.join(opened)}")
     return "\n".join(lines)
