@@ -2,7 +2,7 @@
 
     pytest tests/faults
 
-Not part of `pytest` alone: ten minutes on two cores.
+Not part of `pytest` alone: six minutes on two cores.
 """
 
 import itertools
