@@ -1,6 +1,7 @@
 """Stage: describe a whole ray set, for whoever trains on it."""
 
 from collections.abc import Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -59,16 +60,14 @@ def describe_rays(
 
 def _count(rays: RaySet) -> tuple[int, int]:
     """Rays that hit the object at no place, and at one."""
-    misses = one_hit = begin = 0
-    for origins, bounds in zip(rays.origins, rays.bounds, strict=True):
-        for i in range(len(origins)):
-            along = np.broadcast_to(rays.directions[begin + i], origins[i].shape)
-            open_end = np.isinf(bounds[i, :, 1])
-            missed = open_end & (bounds[i, :, 0] == chord_lengths(origins[i], along))
-            misses += int(missed.sum())
-            one_hit += int(open_end.sum() - missed.sum())
-        begin += len(origins)
-    return misses, one_hit
+    misses = open_ends = 0
+    parts = zip(rays.directions, chain(*rays.origins), chain(*rays.bounds))
+    for direction, origins, bounds in parts:
+        open_end = np.isinf(bounds[:, 1])
+        missed = open_end & (bounds[:, 0] == chord_lengths(origins, direction))
+        misses += int(missed.sum())
+        open_ends += int(open_end.sum())
+    return misses, open_ends - misses
 
 
 if "snakemake" in globals():

@@ -6,10 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_array
 from neural_shadows.rays.poisson_disk import sphere_directions
-from neural_shadows.rays.sampling import check_sampler
 from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.lights import arc_directions, axis_vector, draw_light, lowest_elevation
@@ -33,25 +31,21 @@ def draw_directions(
         up: the axis that `light` stands on.
 
     Raises:
-        InputError: an unknown sampler, or a wrong light domain.
+        InputError: a wrong light domain.
     """
-    check_sampler(sampling["sampler"])
     poisson, count = sampling["sampler"] == "poisson_quadtree", sampling["directions"]
     key = (seed, DIRECTIONS)
-    if light is not None:
-        draw = _poisson_lights if poisson else _uniform_lights
-        found = -draw(count, light, axis_vector(up, "up"), key)
+    rng, axis = np.random.default_rng(key), axis_vector(up, "up")
+    if light is not None and poisson:
+        found = -_poisson_lights(count, light, axis, key)
+    elif light is not None:
+        found = -np.stack([draw_light(light, axis, rng) for _ in range(count)])
     elif poisson:
         found = sphere_directions(count, key)[0]
     else:
-        found = np.random.default_rng(key).normal(size=(count, 3))
+        found = rng.normal(size=(count, 3))
         found /= np.linalg.norm(found, axis=1, keepdims=True)
     write_array(directions_npy, found.astype(np.float32))
-
-
-def _uniform_lights(count: int, light: dict, up: np.ndarray, key: tuple) -> np.ndarray:
-    rng = np.random.default_rng(key)
-    return np.stack([draw_light(light, up, rng) for _ in range(count)])
 
 
 def _poisson_lights(count: int, light: dict, up: np.ndarray, key: tuple) -> np.ndarray:
@@ -60,8 +54,6 @@ def _poisson_lights(count: int, light: dict, up: np.ndarray, key: tuple) -> np.n
     if light["domain"] == "single_axis":
         half = np.pi / 2 - lowest
         return arc_directions(light, up, half * _poisson_line(count, np.random.default_rng(key)))
-    if light["domain"] != "sphere":
-        raise InputError(f"light.domain: {light['domain']!r} is unknown; use sphere or single_axis")
     # A pattern on the whole sphere, as dense, of which the cap holds `count` or a few more; the
     # lowest of those are left out, which moves the cap's rim by about one distance of the pattern.
     total = round(count * 2 / (1 - np.sin(lowest)))

@@ -1,7 +1,6 @@
 """Labels of training rays: first and second intersection with the object [3.4.3]."""
 
 import numpy as np
-from numba import njit
 
 from neural_shadows.scenes.tracing import Tracer
 
@@ -50,8 +49,11 @@ def dual_bounds(
     for begin in range(0, len(origins), _BLOCK):
         block = slice(begin, begin + _BLOCK)
         t_lb[block], t_ub[block] = _two_hits(tracer, origins[block], directions[block])
-    _settle(origins, directions, t_lb)
-    return t_lb, t_ub
+    chord = chord_lengths(origins, directions)
+    # |o + t d|² = 1 + t (t − ℓ): hits stay behind the origin and before the chord's end.
+    inside = t_lb * (t_lb - chord) <= np.float64(2 * _SPHERE_SLACK)
+    t_lb = np.where(inside, np.minimum(np.maximum(t_lb, _LEAST), chord), t_lb)
+    return np.where(np.isinf(t_lb), chord, t_lb), t_ub
 
 
 def check_bounds(
@@ -72,16 +74,19 @@ def check_bounds(
         RuntimeError: bounds that break these rules, as of rays that do not start on the
             sphere, of an object that is not in it, or of a file that was not written whole.
     """
-    bad = _first_bad(directions, origins, bounds)
-    if bad >= 0:
-        i, j = divmod(bad, origins.shape[1])
-        o, d, (t_lb, t_ub) = origins[i, j].tolist(), directions[i].tolist(), bounds[i, j]
-        raise RuntimeError(
-            f"{name}: ray {j} of direction {first + i} from {o} along {d} has the bounds "
-            f"t_lb = {t_lb}, t_ub = {t_ub} on a chord of {_chord(origins[i, j], directions[i])}, "
-            "where 0 < t_lb <= min(chord, t_ub) must hold: it does not start on the unit sphere, "
-            "the mesh is not inside it, or the file is not whole"
-        )
+    for i, direction in enumerate(directions):
+        chord = chord_lengths(origins[i], direction)
+        t_lb, t_ub = bounds[i].T
+        # A NaN compares as false, so that it never passes.
+        good = (0 < t_lb) & (t_lb <= chord) & (t_lb <= t_ub)
+        if not good.all():
+            j = good.argmin()
+            raise RuntimeError(
+                f"{name}: ray {j} of direction {first + i} from {origins[i, j].tolist()} along "
+                f"{direction.tolist()} has the bounds t_lb = {t_lb[j]}, t_ub = {t_ub[j]} on a chord "
+                f"of {chord[j]}, where 0 < t_lb <= min(chord, t_ub) must hold: it does not start on "
+                "the unit sphere, the mesh is not inside it, or the file is not whole"
+            )
 
 
 def _two_hits(tracer, origins, directions):
@@ -92,7 +97,9 @@ def _two_hits(tracer, origins, directions):
     step = SECOND_HIT_STEP
     start = first[rays] + step
     for _ in range(_MOST_STEPS):
-        t, behind = tracer.first_hit(_moved(origins, directions, rays, start), directions[rays])
+        d = directions[rays]
+        moved = origins[rays] + start[:, None].astype(np.float64) * d
+        t, behind = tracer.first_hit(moved.astype(np.float32), d)
         second[rays] = start + t
         again = np.flatnonzero(behind == face[rays])
         if len(again) == 0:
@@ -103,53 +110,13 @@ def _two_hits(tracer, origins, directions):
     return first, second
 
 
-@njit(cache=True, nogil=True)
-def chord_lengths(origins, directions):
-    """ℓ = −2 o·d of each ray, the length of its chord of the unit sphere: (n,) float32."""
-    lengths = np.empty(len(origins), np.float32)
-    for i in range(len(origins)):
-        lengths[i] = _chord(origins[i], directions[i])
-    return lengths
+def chord_lengths(origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    """ℓ = −2 o·d, the length of a ray's chord of the unit sphere: (n,) float32.
 
-
-@njit(cache=True, nogil=True)
-def _chord(o, d):
+    Args:
+        origins: (n, 3) float32.
+        directions: (n, 3) or (3,) float32.
+    """
     # In float64: near the rim o·d is small beside its terms.
-    x, y, z = np.float64(o[0]), np.float64(o[1]), np.float64(o[2])
-    return np.float32(-2 * (x * d[0] + y * d[1] + z * d[2]))
-
-
-@njit(cache=True, nogil=True)
-def _moved(origins, directions, rays, distances):
-    """Points (n, 3) float32 at these distances along some of the rays."""
-    points = np.empty((len(rays), 3), np.float32)
-    for i in range(len(rays)):
-        for axis in range(3):
-            points[i, axis] = (
-                origins[rays[i], axis] + np.float64(distances[i]) * directions[rays[i], axis]
-            )
-    return points
-
-
-@njit(cache=True, nogil=True)
-def _settle(origins, directions, t_lb):
-    """Set t_lb of misses to the chord, and keep that of hits behind the origin and before it."""
-    for i in range(len(t_lb)):
-        chord = _chord(origins[i], directions[i])
-        if np.isinf(t_lb[i]):
-            t_lb[i] = chord
-        # |o + t d|² = 1 + t (t − ℓ)
-        elif t_lb[i] * (t_lb[i] - chord) <= 2 * _SPHERE_SLACK:
-            t_lb[i] = min(max(t_lb[i], _LEAST), chord)
-
-
-@njit(cache=True, nogil=True)
-def _first_bad(directions, origins, bounds):
-    """The first ray, numbered on through all directions, whose bounds break the rules, or −1."""
-    for i in range(len(origins)):
-        for j in range(origins.shape[1]):
-            t_lb, t_ub = bounds[i, j]
-            # A NaN compares as false, so that it never passes.
-            if not (0 < t_lb <= _chord(origins[i, j], directions[i]) and t_lb <= t_ub):
-                return i * origins.shape[1] + j
-    return -1
+    x, y, z = (origins.astype(np.float64) * directions).T
+    return (-2 * (x + y + z)).astype(np.float32)

@@ -25,87 +25,52 @@ _PATTERN_POINTS = 1024
 
 
 @njit(cache=True, nogil=True)
-def poisson_disk_sphere(radius, rng):
-    """Points on the unit sphere, none closer than `radius`, until no more are found [3.4.1].
+def poisson_disk(radius, rng, on_sphere):
+    """Points on the unit sphere or torus, none closer than `radius`, until no more are found [3.4.1].
+
+    Distances on the torus wrap around, so that the set, shifted uniformly (modulo 1), has the
+    same density everywhere. In a bounded square Bridson's points crowd at the edges.
 
     Args:
-        radius: smallest distance r, along the chord, in (0, 2].
+        radius: smallest distance r, on the sphere along the chord: in (0, 2], or in (0, 1].
         rng: numpy Generator.
 
     Returns:
-        (n, 3) float64 unit vectors, in the order in which they were found.
+        float64 unit vectors (n, 3), or points (n, 2) in [0, 1)², in the order in which they
+        were found.
     """
-    # Caps of chord radius r / 2 (area π r² / 4) do not overlap: fewer than this fit.
-    capacity = int(16 / radius**2)
-    points = np.empty((capacity, 3))
-    active = np.empty(capacity, np.int64)
-    # Bins are cubes of side r, hashed because the sphere meets few of those in its box: the
-    # latest point in each bucket, and for each point the one before it.
+    # Caps of chord radius r / 2, or disks of it, do not overlap: fewer than this fit.
+    capacity = int(16 / radius**2) if on_sphere else int(2 / radius**2)
+    # Bins are cubes or squares of side r at least, hashed because the sphere meets few of those in
+    # its box: the latest point in each bucket, and for each point the one before it.
     buckets = 1
     while buckets < 2 * capacity:
         buckets *= 2
     latest = np.full(buckets, -1)
     before = np.empty(capacity, np.int64)
+    side = math.ceil(2 / radius) + 2 if on_sphere else int(1 / radius)
+    scale = 1 / radius if on_sphere else float(side)
 
-    first = np.array([rng.normal(), rng.normal(), rng.normal()])
-    candidate = first / np.linalg.norm(first)
-    _insert_on_sphere(candidate, 0, radius, points, latest, before)
+    if on_sphere:
+        candidate = np.array([rng.normal(), rng.normal(), rng.normal()])
+        candidate /= np.linalg.norm(candidate)
+    else:
+        candidate = np.array([rng.random(), rng.random()])
+    points = np.empty((capacity, len(candidate)))
+    active = np.empty(capacity, np.int64)
+    _insert(candidate, 0, scale, points, latest, before)
     active[0] = 0
     count = active_count = 1
     while active_count > 0:
         chosen = int(rng.random() * active_count)
         parent = points[active[chosen]]
         for _ in range(CANDIDATES):
-            _draw_around(parent, radius, rng, candidate)
-            if _is_free_on_sphere(candidate, radius, points, latest, before):
-                _insert_on_sphere(candidate, count, radius, points, latest, before)
-                active[active_count] = count
-                count += 1
-                active_count += 1
-                break
-        else:
-            active_count -= 1
-            active[chosen] = active[active_count]
-    return points[:count].copy()
-
-
-@njit(cache=True, nogil=True)
-def poisson_disk_torus(radius, rng):
-    """Points on the unit torus, none closer than `radius`, until no more are found [3.4.1].
-
-    Distances wrap around, so that the set, shifted uniformly (modulo 1), has the same density
-    everywhere. In a bounded square Bridson's points crowd at the edges.
-
-    Args:
-        radius: smallest distance r, in (0, 1].
-        rng: numpy Generator.
-
-    Returns:
-        (n, 2) float64 in [0, 1)², in the order in which they were found.
-    """
-    # Bins whose diagonal is at most r hold one point at most.
-    side = math.ceil(math.sqrt(2) / radius)
-    reach = math.ceil(radius * side)
-    bins = np.full((side, side), -1)
-    points = np.empty((side * side, 2))
-    active = np.empty(side * side, np.int64)
-
-    x, y = rng.random(), rng.random()
-    points[0] = x, y
-    bins[int(x * side), int(y * side)] = 0
-    active[0] = 0
-    count = active_count = 1
-    while active_count > 0:
-        chosen = int(rng.random() * active_count)
-        parent = points[active[chosen]]
-        for _ in range(CANDIDATES):
-            distance = radius * math.sqrt(1 + 3 * rng.random())  # uniform in area
-            angle = 2 * math.pi * rng.random()
-            x = _wrap(parent[0] + distance * math.cos(angle))
-            y = _wrap(parent[1] + distance * math.sin(angle))
-            if _is_free_on_torus(x, y, radius, reach, points, bins):
-                points[count] = x, y
-                bins[int(x * side), int(y * side)] = count
+            if on_sphere:
+                _draw_on_sphere(parent, radius, rng, candidate)
+            else:
+                _draw_on_torus(parent, radius, rng, candidate)
+            if _is_free(candidate, radius, scale, side, points, latest, before):
+                _insert(candidate, count, scale, points, latest, before)
                 active[active_count] = count
                 count += 1
                 active_count += 1
@@ -192,10 +157,7 @@ def exactly(count, rng, on_sphere):
         radius = min(radius, 2.0)
     step = 1 - 0.5 * scatter
     while True:
-        if on_sphere:
-            points = poisson_disk_sphere(radius, rng)
-        else:
-            points = poisson_disk_torus(radius, rng)
+        points = poisson_disk(radius, rng, on_sphere)
         if len(points) >= count:
             break
         radius *= step
@@ -209,32 +171,10 @@ def exactly(count, rng, on_sphere):
 
 
 @njit(cache=True, nogil=True)
-def _wrap(x):
-    """x modulo 1, in [0, 1): a tiny negative x would round to 1."""
-    x -= math.floor(x)
-    return x if x < 1 else 0.0
-
-
-@njit(cache=True, nogil=True)
-def _is_free_on_torus(x, y, radius, reach, points, bins):
-    side = len(bins)
-    column, row = int(x * side), int(y * side)
-    for i in range(column - reach, column + reach + 1):
-        i += side if i < 0 else -side if i >= side else 0  # much faster than i % side
-        for j in range(row - reach, row + reach + 1):
-            j += side if j < 0 else -side if j >= side else 0
-            other = bins[i, j]
-            if other >= 0:
-                dx, dy = abs(points[other, 0] - x), abs(points[other, 1] - y)
-                dx, dy = min(dx, 1 - dx), min(dy, 1 - dy)
-                if dx * dx + dy * dy < radius * radius:
-                    return False
-    return True
-
-
-@njit(cache=True, nogil=True)
-def _bin(point, radius):
-    scale = 1 / radius
+def _bin(point, scale):
+    """Of the sphere's box [−1, 1]³, or of the torus."""
+    if len(point) == 2:
+        return int(point[0] * scale), int(point[1] * scale), 0
     return int((point[0] + 1) * scale), int((point[1] + 1) * scale), int((point[2] + 1) * scale)
 
 
@@ -245,32 +185,53 @@ def _bucket(i, j, k, buckets):
 
 
 @njit(cache=True, nogil=True)
-def _insert_on_sphere(point, index, radius, points, latest, before):
+def _insert(point, index, scale, points, latest, before):
     points[index] = point
-    i, j, k = _bin(point, radius)
+    i, j, k = _bin(point, scale)
     bucket = _bucket(i, j, k, len(latest))
     before[index] = latest[bucket]
     latest[bucket] = index
 
 
 @njit(cache=True, nogil=True)
-def _is_free_on_sphere(point, radius, points, latest, before):
-    column, row, layer = _bin(point, radius)
-    x, y, z = point
+def _is_free(point, radius, scale, side, points, latest, before):
+    on_sphere = len(point) == 3
+    column, row, layer = _bin(point, scale)
+    layers = 1 if on_sphere else 0
     for i in range(column - 1, column + 2):
+        i += side if i < 0 else -side if i >= side else 0  # much faster than i % side
         for j in range(row - 1, row + 2):
-            for k in range(layer - 1, layer + 2):
+            j += side if j < 0 else -side if j >= side else 0
+            for k in range(layer - layers, layer + layers + 1):
                 other = latest[_bucket(i, j, k, len(latest))]
                 while other >= 0:
-                    dx, dy, dz = points[other, 0] - x, points[other, 1] - y, points[other, 2] - z
-                    if dx * dx + dy * dy + dz * dz < radius * radius:
+                    squared = 0.0
+                    for axis in range(len(point)):
+                        apart = abs(points[other, axis] - point[axis])
+                        if not on_sphere:
+                            apart = min(apart, 1 - apart)
+                        squared += apart * apart
+                    if squared < radius * radius:
                         return False
                     other = before[other]
     return True
 
 
 @njit(cache=True, nogil=True)
-def _draw_around(centre, radius, rng, out):
+def _draw_on_torus(centre, radius, rng, out):
+    """A point of the torus at a distance of r to 2r from `centre`, uniform in area, into `out`."""
+    distance = radius * math.sqrt(1 + 3 * rng.random())
+    angle = 2 * math.pi * rng.random()
+    out[0] = centre[0] + distance * math.cos(angle)
+    out[1] = centre[1] + distance * math.sin(angle)
+    for axis in range(2):
+        out[axis] -= math.floor(out[axis])
+        if out[axis] >= 1:  # a tiny negative number, less its floor, is rounded to 1
+            out[axis] = 0.0
+
+
+@njit(cache=True, nogil=True)
+def _draw_on_sphere(centre, radius, rng, out):
     """A point of the sphere with its chord to `centre` in [r, 2r], uniform in area, into `out`."""
     # The cap within a chord c has the area π c², so c² is uniform; on the axis 1 − c² / 2.
     chord2 = radius**2 * (1 + rng.random() * (min(4.0, 4 / radius**2) - 1))

@@ -10,7 +10,8 @@ from numba import njit
 DISK_RADIUS = math.sqrt(1 - 1e-6)
 
 
-def build_quadtree(silhouette: np.ndarray, min_quad: int) -> np.ndarray:
+@njit(cache=True, nogil=True)
+def build_quadtree(silhouette, min_quad):
     """Leaves of the quadtree over a silhouette [3.4.2].
 
     The one square that covers the disk is split, and so is every quad of more than `min_quad`
@@ -19,63 +20,13 @@ def build_quadtree(silhouette: np.ndarray, min_quad: int) -> np.ndarray:
 
     Args:
         silhouette: (resolution, resolution) bool; the resolution is a power of two.
-        min_quad: side of the smallest quads in texels, a power of two.
+        min_quad: side of the smallest quads in texels, a power of two up to the resolution.
 
     Returns:
         (q, 3) int32, each (row, column, size) in texels, in the Z-order of the quads. It
         covers [2·column/resolution − 1, 2·(column + size)/resolution − 1] of a, and of b as
         much by its row.
-
-    Raises:
-        ValueError: the resolution or `min_quad` is not a power of two, or `min_quad` is the
-            larger one.
     """
-    rows, columns = silhouette.shape
-    if rows != columns or not _is_power_of_two(rows):
-        raise ValueError(f"a silhouette of {rows} x {columns} texels: the side is no power of two")
-    if not _is_power_of_two(min_quad) or min_quad > rows:
-        raise ValueError(f"min_quad {min_quad}: is no power of two up to the side of {rows} texels")
-    return _leaves(silhouette, min_quad)
-
-
-@njit(cache=True, nogil=True)
-def disk_area(left, bottom, right, top):
-    """Area that a rectangle of the plane shares with the disk of `DISK_RADIUS` at the origin."""
-    return (
-        _corner_area(right, top)
-        - _corner_area(left, top)
-        - _corner_area(right, bottom)
-        + _corner_area(left, bottom)
-    )
-
-
-@njit(cache=True, nogil=True)
-def _corner_area(x, y):
-    """Signed area of the disk between the axes and the lines through (x, y); odd in x and in y."""
-    radius = DISK_RADIUS
-    sign = 1.0 if (x < 0) == (y < 0) else -1.0
-    x, y = min(abs(x), radius), min(abs(y), radius)
-    if x * x + y * y <= radius * radius:
-        return sign * x * y
-    # Under the line up to where it leaves the disk, under the circle from there on.
-    leaves = math.sqrt(radius * radius - y * y)
-    return sign * (leaves * y + _under_circle(x) - _under_circle(leaves))
-
-
-@njit(cache=True, nogil=True)
-def _under_circle(x):
-    """Integral of √(radius² − s²) over s from 0 to x."""
-    radius = DISK_RADIUS
-    height = math.sqrt(max(0.0, radius * radius - x * x))
-    return (x * height + radius * radius * math.asin(min(1.0, x / radius))) / 2
-
-
-def _is_power_of_two(n: int) -> bool:
-    return n >= 1 and n & (n - 1) == 0
-
-
-@njit(cache=True, nogil=True)
-def _leaves(silhouette, min_quad):
     resolution = len(silhouette)
     # sums[i, j]: covered texels above row i and left of column j, for the count in any quad.
     sums = np.zeros((resolution + 1, resolution + 1), np.int32)
@@ -113,6 +64,38 @@ def _leaves(silhouette, min_quad):
         stack[waiting + 3] = row, column, half
         waiting += 4
     return leaves[:count].copy()
+
+
+@njit(cache=True, nogil=True)
+def disk_area(left, bottom, right, top):
+    """Area that a rectangle of the plane shares with the disk of `DISK_RADIUS` at the origin."""
+    return (
+        _corner_area(right, top)
+        - _corner_area(left, top)
+        - _corner_area(right, bottom)
+        + _corner_area(left, bottom)
+    )
+
+
+@njit(cache=True, nogil=True)
+def _corner_area(x, y):
+    """Signed area of the disk between the axes and the lines through (x, y); odd in x and in y."""
+    radius = DISK_RADIUS
+    sign = 1.0 if (x < 0) == (y < 0) else -1.0
+    x, y = min(abs(x), radius), min(abs(y), radius)
+    if x * x + y * y <= radius * radius:
+        return sign * x * y
+    # Under the line up to where it leaves the disk, under the circle from there on.
+    leaves = math.sqrt(radius * radius - y * y)
+    return sign * (leaves * y + _under_circle(x) - _under_circle(leaves))
+
+
+@njit(cache=True, nogil=True)
+def _under_circle(x):
+    """Integral of √(radius² − s²) over s from 0 to x."""
+    radius = DISK_RADIUS
+    height = math.sqrt(max(0.0, radius * radius - x * x))
+    return (x * height + radius * radius * math.asin(min(1.0, x / radius))) / 2
 
 
 @njit(cache=True, nogil=True)

@@ -70,22 +70,14 @@ class RaySet:
         Returns:
             origins (n, 3), directions (n, 3), t_lb (n,), t_ub (n,), all float32.
         """
-        directions, points = np.divmod(indices, self.points_per_direction)
-        if len(indices) and not 0 <= directions.min() <= directions.max() < len(self.directions):
-            raise IndexError(f"ray indices {indices.min()} to {indices.max()} of {self.count} rays")
+        directions = self.directions[indices // self.points_per_direction]
         origins = np.empty((len(indices), 3), np.float32)
-        t_lb = np.empty(len(indices), np.float32)
-        t_ub = np.empty(len(indices), np.float32)
-        # Shard by shard; 16 bits are enough for the shards, and sorted in linear time.
-        begins = np.cumsum([0] + [len(shard) for shard in self.origins])
-        shards = (np.searchsorted(begins, directions, side="right") - 1).astype(np.uint16)
-        order = np.argsort(shards, kind="stable")
-        cuts = np.searchsorted(shards[order], np.arange(len(self.origins) + 1))
-        for i in np.flatnonzero(np.diff(cuts)):
-            chosen = order[cuts[i] : cuts[i + 1]]
-            local = directions[chosen] - begins[i], points[chosen]
-            _gather(chosen, *local, self.origins[i], self.bounds[i], origins, t_lb, t_ub)
-        return origins, self.directions[directions], t_lb, t_ub
+        bounds = np.empty((len(indices), 2), np.float32)
+        for shard, labels in zip(self.origins, self.bounds):
+            shard, labels = shard.reshape(-1, 3), labels.reshape(-1, 2)
+            _gather(indices, shard, labels, origins, bounds)
+            indices = indices - len(shard)
+        return origins, directions, bounds[:, 0], bounds[:, 1]
 
 
 def read_directions(path: Path) -> np.ndarray:
@@ -116,10 +108,9 @@ def open_array(path: Path, shape: tuple[int | None, ...]) -> np.ndarray:
 
 
 @njit(cache=True, nogil=True)
-def _gather(places, directions, points, shard_origins, shard_bounds, origins, t_lb, t_ub):
-    for i in range(len(places)):
-        place, direction, point = places[i], directions[i], points[i]
-        for axis in range(3):
-            origins[place, axis] = shard_origins[direction, point, axis]
-        t_lb[place] = shard_bounds[direction, point, 0]
-        t_ub[place] = shard_bounds[direction, point, 1]
+def _gather(indices, shard, labels, origins, bounds):
+    """Take those of the rays that are in a shard, whose first one has the index 0."""
+    for i in range(len(indices)):
+        if 0 <= indices[i] < len(shard):
+            origins[i] = shard[indices[i]]
+            bounds[i] = labels[indices[i]]

@@ -38,8 +38,7 @@ def sample_rays(
         sampling: `sampler`, `points_per_direction` m, `silhouette_resolution` and `min_quad`.
 
     Raises:
-        InputError: an unknown sampler, or a file that cannot be used.
-        ValueError: `silhouette_resolution` or `min_quad` is no power of two.
+        InputError: a file that cannot be used.
     """
     directions = read_directions(directions_npy)
     points = sampling["points_per_direction"]

@@ -7,20 +7,10 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from neural_shadows.errors import InputError
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.quadtree import DISK_RADIUS, build_quadtree, disk_area
 from neural_shadows.rays.silhouette import entry_points, silhouette
 from neural_shadows.scenes.tracing import Tracer
-
-SAMPLERS = ("poisson_quadtree", "uniform_quadtree", "uniform")
-"""Directions and points in quads Poisson-disk; both uniform; uniform without quads."""
-
-
-def check_sampler(sampler: str) -> None:
-    """Raise InputError for a name that is none of `SAMPLERS`."""
-    if sampler not in SAMPLERS:
-        raise InputError(f"sampler: {sampler!r} is unknown; use one of {', '.join(SAMPLERS)}")
 
 
 def sample_direction(
@@ -36,29 +26,24 @@ def sample_direction(
     Args:
         tracer: the object, in normalised space.
         direction: (3,) unit vector d.
-        sampling: `sampler`, one of `SAMPLERS`; `points_per_direction` m; and, unless it is
-            `uniform`, `silhouette_resolution` and `min_quad` in texels.
+        sampling: `sampler`; `points_per_direction` m; and, unless the sampler is `uniform`,
+            `silhouette_resolution` and `min_quad` in texels, powers of two.
         rng: used for this direction alone, so that rays do not depend on the order or the
             thread in which directions are done.
         bank: used by `poisson_quadtree` alone.
 
     Returns:
         (m, 3) float32 on the unit sphere, o·d <= −1e-3. Rays of a quad follow each other.
-
-    Raises:
-        InputError: an unknown sampler.
-        ValueError: as `build_quadtree`.
     """
     sampler, m = sampling["sampler"], sampling["points_per_direction"]
-    check_sampler(sampler)
     direction = direction.astype(np.float64)
     direction /= np.linalg.norm(direction)
     if sampler == "uniform":
         return entry_points(direction, uniform_on_disk(m, rng))
     resolution = sampling["silhouette_resolution"]
     quads = build_quadtree(silhouette(tracer, direction, resolution), sampling["min_quad"])
-    poisson = bank if sampler == "poisson_quadtree" else None
-    return entry_points(direction, sample_quads(quads, resolution, m, rng, poisson))
+    patterns = {"poisson_quadtree": bank, "uniform_quadtree": None}[sampler]
+    return entry_points(direction, sample_quads(quads, resolution, m, rng, patterns))
 
 
 def sample_quads(
