@@ -27,7 +27,6 @@ if TYPE_CHECKING:  # torch takes seconds to import, which jobs without a network
     import torch
 
     from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
-    from neural_shadows.networks.object_space.shadow_query import DepthQuery
 
 ShadowMethod = Callable[[GBuffer], np.ndarray]
 
@@ -61,7 +60,7 @@ def traced_method(method: str, scene: Scene, *, whole_map: bool = False) -> Shad
 
 
 def network_method(
-    network: "DepthQuery", dtype: "torch.dtype", depth_bias: float = 0.0
+    network: "ShadowNetwork", dtype: "torch.dtype", depth_bias: float = 0.0
 ) -> ShadowMethod:
     """A trained network.
 

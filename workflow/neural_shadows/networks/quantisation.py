@@ -21,16 +21,10 @@ def quantise(tensors: dict[str, Tensor], storage: str) -> dict[str, Tensor]:
 
 
 def restore_values(stored: dict[str, Tensor], storage: str) -> dict[str, Tensor]:
-    """float32 tensors from what `quantise` gave.
-
-    Raises:
-        KeyError: there is no such storage, or an int8 tensor has no scale.
-    """
-    if storage not in (*_DTYPES, "int8"):
-        raise KeyError(f"stored {storage!r}")
-    names = [name for name in stored if not name.endswith(SCALE)]
+    """float32 tensors from what `quantise` gave."""
     if storage != "int8":
-        return {name: stored[name].float() for name in names}
+        return {name: value.float() for name, value in stored.items()}
+    names = [name for name in stored if not name.endswith(SCALE)]
     return {name: stored[name].float() * stored[name + SCALE] for name in names}
 
 
@@ -40,11 +34,7 @@ def pack_bits(values: Tensor) -> Tensor:
 
 
 def unpack_bits(packed: Tensor, count: int) -> Tensor:
-    """The `count` values that `pack_bits` packed, bool.
-
-    Raises:
-        ValueError: there are more or fewer.
-    """
+    """The `count` values that `pack_bits` packed, bool; ValueError if there are more or fewer."""
     if packed.dtype != torch.uint8 or packed.shape != (-(-count // 8),):
         raise ValueError(f"{tuple(packed.shape)} {packed.dtype} packed bits, not {count}")
     bits = np.unpackbits(packed.numpy(), count=count, bitorder="little")

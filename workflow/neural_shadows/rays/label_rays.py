@@ -4,10 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
-from neural_shadows.files.whole_files import whole_file
 from neural_shadows.rays.labels import check_bounds, dual_bounds
 from neural_shadows.rays.ray_set import open_array, read_directions
-from neural_shadows.rays.shards import new_array, open_tracer, run_tasks
+from neural_shadows.rays.shards import new_shard, open_tracer, run_tasks
 from neural_shadows.running.stage import run_stage
 
 
@@ -41,8 +40,7 @@ def label_rays(
     points = origins.shape[1]
     tracer = open_tracer(mesh_ply)
 
-    with whole_file(bounds_npy) as part:
-        bounds = new_array(part, (len(directions), points, 2))
+    with new_shard(bounds_npy, (len(directions), points, 2)) as bounds:
 
         def label(begin: int, end: int) -> None:
             t_lb, t_ub = dual_bounds(
@@ -54,11 +52,8 @@ def label_rays(
             bounds[begin:end, :, 1] = t_ub.reshape(-1, points)
 
         run_tasks(label, len(directions), points, threads, "labels")
-        bounds.flush()
-        # As they lie on disk, not as they were in memory.
-        written = open_array(part, bounds.shape)
         name = f"labels {bounds_npy} (seed {seed})"
-        check_bounds(directions, origins, written, name=name, first=first)
+        check_bounds(directions, origins, bounds, name=name, first=first)
 
 
 if "snakemake" in globals():

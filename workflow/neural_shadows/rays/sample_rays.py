@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.files.whole_files import whole_file
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.ray_set import read_directions
 from neural_shadows.rays.sampling import sample_direction
-from neural_shadows.rays.shards import new_array, open_tracer, run_tasks
+from neural_shadows.rays.shards import new_shard, open_tracer, run_tasks
 from neural_shadows.rays.streams import PATTERNS, POINTS
 from neural_shadows.running.stage import run_stage
 
@@ -45,8 +44,7 @@ def sample_rays(
     tracer = open_tracer(mesh_ply)
     bank = PatternBank((seed, PATTERNS))
 
-    with whole_file(origins_npy) as part:
-        origins = new_array(part, (last - first, points, 3))
+    with new_shard(origins_npy, (last - first, points, 3)) as origins:
 
         def sample(begin: int, end: int) -> None:
             for i in range(begin, end):
@@ -59,7 +57,6 @@ def sample_rays(
                 )
 
         run_tasks(sample, last - first, points, threads, "rays")
-        origins.flush()
 
 
 if "snakemake" in globals():

@@ -39,15 +39,13 @@ class DeviceRays:
     def __init__(self, rays: RaySet, device: torch.device):
         self._points = rays.points_per_direction
         self._directions = torch.from_numpy(rays.directions).to(device)
-        self._origins = torch.empty(rays.count, 3, device=device)
-        self._bounds = torch.empty(rays.count, 2, device=device)
-        for whole, shards in ((self._origins, rays.origins), (self._bounds, rays.bounds)):
-            first = 0
-            for shard in shards:
-                # Copied before it goes: torch takes no array that cannot be written to.
-                part = torch.from_numpy(np.array(shard).reshape(-1, whole.shape[1]))
-                whole[first : first + len(part)].copy_(part)
-                first += len(part)
+        # Copied before it goes: torch takes no array that cannot be written to.
+        self._origins, self._bounds = (
+            torch.cat(
+                [torch.from_numpy(np.array(shard)).to(device).flatten(0, 1) for shard in part]
+            )
+            for part in (rays.origins, rays.bounds)
+        )
 
     def gather(self, indices: Tensor) -> LabelledBatch:
         """See `BatchSource.gather`."""

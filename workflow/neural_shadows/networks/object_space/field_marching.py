@@ -22,29 +22,6 @@ def skips(surface: np.ndarray) -> np.ndarray:
     return np.maximum(distance, 1).astype(np.int32)
 
 
-def first_crossings(
-    origins: np.ndarray,
-    d: np.ndarray,
-    grid: np.ndarray,
-    bricks: np.ndarray,
-    steps: int,
-    sheet: bool,
-) -> np.ndarray:
-    """t_pred (k,) float32 of parallel rays; `LIT` where there is no crossing.
-
-    Args:
-        origins: (k, 3) float32, on the unit sphere.
-        d: (3,) float32 unit vector, pointing inward.
-        grid: (B, B, B) int32, see `occupancy_field_network.BrickLayout`.
-        bricks: (bricks, 125), values of each brick's vertices on any one scale.
-        steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
-        sheet: whether any change of sign counts, or a positive value.
-    """
-    t = np.empty(len(origins), np.float32)
-    _march(origins, d, grid, bricks, steps, sheet, t)
-    return t
-
-
 @njit(cache=True, nogil=True, inline="always")
 def _value(values, x, y, z):
     """A brick's value at x, y, z in [0, 4]."""
@@ -65,7 +42,18 @@ def _value(values, x, y, z):
 
 
 @njit(cache=True, nogil=True)
-def _march(origins, d, grid, bricks, steps, sheet, t_pred):
+def first_crossings(origins, d, grid, bricks, steps, sheet):
+    """t_pred (k,) float32 of parallel rays; `LIT` where there is no crossing.
+
+    Args:
+        origins: (k, 3) float32, on the unit sphere.
+        d: (3,) float32 unit vector, pointing inward.
+        grid: (B, B, B) int32, see `occupancy_field_network.BrickLayout`.
+        bricks: (bricks, 125), values of each brick's vertices on any one scale.
+        steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
+        sheet: whether any change of sign counts, or a positive value.
+    """
+    t_pred = np.empty(len(origins), np.float32)
     size = len(grid)
     scale = np.float32(size / 2)  # bricks a radius
     step = np.float32(2 / steps)
@@ -135,3 +123,4 @@ def _march(origins, d, grid, bricks, steps, sheet, t_pred):
             if found < lit:
                 break
         t_pred[ray] = found
+    return t_pred

@@ -92,8 +92,6 @@ class OccupancyFieldNetwork(ShadowNetwork):
 
     def __init__(self, *, resolution: int, surface: str, stored: str):
         super().__init__()
-        if surface not in ("solid", "sheet"):
-            raise ValueError(f"surface {surface!r}")
         self.resolution, self.surface, self.storage = resolution, surface, stored
         corners = torch.cartesian_prod(*[torch.arange(2)] * 3)
         offsets = torch.tensor([(BRICK + 1) ** 2, BRICK + 1, 1])
@@ -125,7 +123,11 @@ class OccupancyFieldNetwork(ShadowNetwork):
 
     def logits(self) -> Tensor:
         """The logits at all vertices, (count,) float32, in (−LIMIT, LIMIT)."""
-        return LIMIT * torch.tanh(self.values / LIMIT)
+        return LIMIT * self._shares()
+
+    def _shares(self) -> Tensor:
+        """Logits as shares of LIMIT, which is how they are stored."""
+        return torch.tanh(self.values / LIMIT)
 
     def bricks_at(self, p: Tensor) -> Tensor:
         """The `grid` entry (n,) int64 of the brick that each point (n, 3) is in."""
@@ -248,17 +250,13 @@ class OccupancyFieldNetwork(ShadowNetwork):
         """
         if self._bricks is None or self._bricks[0] != self.values._version:
             storage = "int8" if self.storage == "int8" else "float32"
-            values = quantise({"": self._shares()}, storage)[""][self.table.long()]
+            values = quantise({"": self._shares().detach()}, storage)[""][self.table.long()]
             self._bricks = self.values._version, values.view(-1, BRICK_VERTICES).numpy()
         return self._bricks[1]
 
-    def _shares(self) -> Tensor:
-        """Logits as shares of LIMIT, which is how they are stored."""
-        return (self.logits() / LIMIT).detach()
-
     def stored(self) -> dict[str, Tensor]:
-        """Values as they are stored, and a bit for each brick that has some."""
-        values = quantise({"values": self._shares()}, self.storage)
+        """See `ShadowNetwork.stored`; a bit for each brick that has values."""
+        values = quantise({"values": self._shares().detach()}, self.storage)
         return values | {"bricks": pack_bits(self.grid >= 0)}
 
     def restore(self, tensors: dict[str, Tensor]) -> None:

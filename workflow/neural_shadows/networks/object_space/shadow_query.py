@@ -1,22 +1,12 @@
 """Which points a shadow network calls lit [3.6]; all on the device that the network is on."""
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 import torch
 from torch import Tensor
 
-
-class DepthQuery(Protocol):
-    """What the depth test needs of a network."""
-
-    @property
-    def device(self) -> torch.device:
-        """Where it computes."""
-
-    def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
-        """t_pred of parallel rays, from entry points (k, 3) along d (3,): (k,) float32."""
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +47,7 @@ def sphere_rays(p: Tensor, light: Tensor) -> SphereRays:
 
 
 def network_lit(
-    network: DepthQuery,
+    network: ShadowNetwork,
     p: Tensor,
     light: Tensor,
     *,
