@@ -18,11 +18,7 @@ from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 def save_tensors(
     path: Path, tensors: Mapping[str, torch.Tensor], header: Mapping[str, Any]
 ) -> None:
-    """Write tensors and a JSON header as safetensors, whole or not at all.
-
-    Raises:
-        OSError: the folder cannot be written, or the disk is full.
-    """
+    """Write tensors and a JSON header as safetensors, whole or not at all."""
     with whole_file(path) as part:
         content = save(
             {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()},
@@ -36,8 +32,7 @@ def load_tensors(path: Path) -> tuple[dict[str, torch.Tensor], dict[str, Any]]:
     """Read what `save_tensors` wrote.
 
     Raises:
-        OSError: the file is missing or cannot be read.
-        InputError: it is damaged, or not of this pipeline.
+        InputError: the file is damaged, or not of this pipeline.
     """
     try:
         with safe_open(path, framework="pt") as file:
@@ -58,9 +53,7 @@ def load_network(path: Path) -> tuple[ShadowNetwork, dict[str, Any]]:
     """Read a network and the header it was saved with.
 
     Raises:
-        OSError: the file is missing or cannot be read.
-        InputError: it is damaged or not of this pipeline, or its weights do not fit the
-            configuration in its header.
+        InputError: as `load_tensors`; or its weights do not fit the configuration in its header.
     """
     tensors, header = load_tensors(path)
     try:

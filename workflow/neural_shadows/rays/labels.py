@@ -65,8 +65,7 @@ def check_bounds(
     tolerance: `dual_bounds` ends t_lb with it.
 
     Args:
-        directions: (D, 3), origins: (D, m, 3), bounds: (D, m, 2), all float32, as a ray set
-            has them.
+        directions: (D, 3), origins: (D, m, 3), bounds: (D, m, 2), all float32, as in a ray set.
         name: what the error calls them.
         first: index of their first direction in the ray set.
 
@@ -111,11 +110,9 @@ def _two_hits(tracer, origins, directions):
 
 
 def chord_lengths(origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
-    """ℓ = −2 o·d, the length of a ray's chord of the unit sphere: (n,) float32.
+    """ℓ = −2 o·d, the length of each ray's chord of the unit sphere: (n,) float32.
 
-    Args:
-        origins: (n, 3) float32.
-        directions: (n, 3) or (3,) float32.
+    Origins are (n, 3) and directions (n, 3) or (3,), float32.
     """
     # In float64: near the rim o·d is small beside its terms.
     x, y, z = (origins.astype(np.float64) * directions).T

@@ -32,12 +32,10 @@ def poisson_disk(radius, rng, on_sphere):
     same density everywhere. In a bounded square Bridson's points crowd at the edges.
 
     Args:
-        radius: smallest distance r, on the sphere along the chord: in (0, 2], or in (0, 1].
-        rng: numpy Generator.
+        radius: smallest distance r, on the sphere along the chord, in (0, 2]; or in (0, 1].
 
     Returns:
-        float64 unit vectors (n, 3), or points (n, 2) in [0, 1)², in the order in which they
-        were found.
+        float64 unit vectors (n, 3), or points (n, 2) in [0, 1)².
     """
     # Caps of chord radius r / 2, or disks of it, do not overlap: fewer than this fit.
     capacity = int(16 / radius**2) if on_sphere else int(2 / radius**2)
@@ -82,12 +80,7 @@ def poisson_disk(radius, rng, on_sphere):
 
 
 def sphere_directions(count, seed):
-    """Exactly `count` directions in a Poisson-disk pattern on the unit sphere [3.4.1].
-
-    Returns:
-        directions: (count, 3) float64 unit vectors.
-        radius: r, the chord that no two of them are closer than.
-    """
+    """A Poisson-disk pattern on the unit sphere: (count, 3) float64, and its radius [3.4.1]."""
     return exactly(count, np.random.default_rng(seed), True)
 
 

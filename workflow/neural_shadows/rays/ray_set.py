@@ -32,7 +32,6 @@ class RaySet:
 
     def __init__(self, directions_npy: Path, origins: Sequence[Path], bounds: Sequence[Path]):
         self.directions = read_directions(directions_npy)
-        """(D, 3) float32."""
         self.origins, self.bounds = [], []
         for origins_npy, bounds_npy in zip(origins, bounds, strict=True):
             points = self.origins[0].shape[1] if self.origins else None
@@ -46,14 +45,6 @@ class RaySet:
                 f"files are of {found}; delete the files of one of them and run again"
             )
         self.points_per_direction: int = self.origins[0].shape[1]
-        """m."""
-
-    @classmethod
-    def in_folder(cls, folder: Path) -> "RaySet":
-        """The ray set with the standard file names in a folder."""
-        origins = sorted(folder.glob("origins.*.npy"))
-        bounds = sorted(folder.glob("bounds.*.npy"))
-        return cls(folder / "directions.npy", origins, bounds)
 
     @property
     def count(self) -> int:
@@ -61,14 +52,9 @@ class RaySet:
         return len(self.directions) * self.points_per_direction
 
     def gather(self, indices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Some of the rays with their labels.
+        """Origins (n, 3), directions (n, 3), t_lb (n,) and t_ub (n,), all float32, of rays (n,).
 
-        Args:
-            indices: (n,) int64 in [0, count), in any order; ray i is point i mod m of
-                direction i div m.
-
-        Returns:
-            origins (n, 3), directions (n, 3), t_lb (n,), t_ub (n,), all float32.
+        Ray i is point i mod m of direction i div m, for i in [0, count).
         """
         directions = self.directions[indices // self.points_per_direction]
         origins = np.empty((len(indices), 3), np.float32)
@@ -89,7 +75,6 @@ def open_array(path: Path, shape: tuple[int | None, ...]) -> np.ndarray:
     """A float32 `.npy` file, memory-mapped; `None` in `shape` is any length.
 
     Raises:
-        OSError: it is missing or cannot be read.
         InputError: it is damaged, or of another type or shape.
     """
     try:

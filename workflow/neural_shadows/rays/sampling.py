@@ -21,11 +21,9 @@ def sample_direction(
     rng: np.random.Generator,
     bank: PatternBank,
 ) -> np.ndarray:
-    """Origins of the rays along one direction [3.4.2].
+    """Origins of the rays along one direction d (3,) [3.4.2].
 
     Args:
-        tracer: the object, in normalised space.
-        direction: (3,) unit vector d.
         sampling: `sampler`; `points_per_direction` m; and, unless the sampler is `uniform`,
             `silhouette_resolution` and `min_quad` in texels, powers of two.
         rng: used for this direction alone, so that rays do not depend on the order or the

@@ -20,13 +20,7 @@ def plane_basis(direction):
     """Unit vectors u, v across a unit direction d, with u × v = d.
 
     T. Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017: exact to
-    rounding for every d, and continuous but for d_z changing its sign.
-
-    Args:
-        direction: (3,) float64, of unit length.
-
-    Returns:
-        u, v: (3,) float64.
+    rounding for every d, and continuous but for d_z changing its sign. All (3,) float64.
     """
     x, y, z = direction
     sign = math.copysign(1.0, z)
@@ -39,14 +33,9 @@ def plane_basis(direction):
 
 @njit(cache=True, nogil=True)
 def entry_points(direction, offsets):
-    """Where rays along d enter the unit sphere: o = a·u + b·v − √(1 − a² − b²)·d [3.4.2].
+    """Where rays along d (3,) enter the unit sphere: (n, 3) float32 [3.4.2].
 
-    Args:
-        direction: (3,) float64 unit vector d.
-        offsets: (n, 2) float64, (a, b) within the unit disk.
-
-    Returns:
-        (n, 3) float32 origins on the unit sphere.
+    o = a·u + b·v − √(1 − a² − b²)·d, for offsets (a, b) within the unit disk, (n, 2) float64.
     """
     u, v = plane_basis(direction)
     origins = np.empty((len(offsets), 3), np.float32)
@@ -59,11 +48,7 @@ def entry_points(direction, offsets):
 
 
 def silhouette(tracer: Tracer, direction: np.ndarray, resolution: int) -> np.ndarray:
-    """The object's silhouette along a direction: an occlusion ray per texel centre [3.4.2].
-
-    Args:
-        direction: (3,) float64 unit vector.
-        resolution: texels along a side.
+    """The object's silhouette along a unit vector (3,): an occlusion ray per texel centre [3.4.2].
 
     Returns:
         (resolution, resolution) bool, row b and column a: whether the ray through the texel's

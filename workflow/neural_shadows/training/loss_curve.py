@@ -10,11 +10,7 @@ COLUMNS = {"step": "int64", "samples": "int64", "learning_rate": "float64", "los
 
 
 def read_loss(path: Path) -> pd.DataFrame:
-    """A training's loss curve: `step, samples, learning_rate, loss`, a row per point.
-
-    Raises:
-        InputError: it is no loss curve.
-    """
+    """A training's loss curve, a row per point; InputError if the file is damaged."""
     try:
         return pd.read_csv(path, usecols=list(COLUMNS), dtype=COLUMNS)
     except ValueError as error:

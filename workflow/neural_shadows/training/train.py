@@ -1,9 +1,4 @@
-"""Stage: train a shadow network on a ray set, resumable and reproducible from its seed [3.5, 4.1].
-
-`train` puts the settings together; the run begins or goes on from its checkpoint
-(`start_or_resume`), the loop takes it to its end (`train_to_end`), its files are written
-(`write_results`).
-"""
+"""Stage: train a shadow network on a ray set, resumable and reproducible from its seed [3.5, 4.1]."""
 
 import math
 import time
@@ -97,24 +92,32 @@ def train(
         "data": read_json(rays_json),
     }
     checkpoint = checkpoint_folder(weights, header)
-    run = start_or_resume(header, mesh_ply, checkpoint)
-    rays = RaySet(directions_npy, origins, bounds)
-    train_to_end(run, rays, header["name"], checkpoint, threads, started)
-    write_results(run, header, weights, loss_csv, training_json, threads)
-
-
-def start_or_resume(
-    header: Mapping[str, Any], mesh_ply: Path | None, checkpoint: Path
-) -> TrainingRun:
-    """A new run as the header says, or where its checkpoint left it."""
-    model = make_network(header["network"])
+    model = make_network(network)
     if mesh_ply is not None:
         model.prepare(mesh_ply)
-    model.initialise(header["training"]["seed"])
+    model.initialise(seed)
     run = TrainingRun(model, header["training"])
     if (checkpoint / STATE).exists():
         run.restore(checkpoint / STATE)
-    return run
+    rays = RaySet(directions_npy, origins, bounds)
+    train_to_end(run, rays, experiment, checkpoint, threads, started)
+
+    samples = training["steps"] * training["batch_size"]
+    save_network(weights, model, header)
+    write_text(loss_csv, run.curve_csv())
+    write_json(
+        training_json,
+        {
+            **header,
+            "parameters": model.parameter_count(),
+            "samples": samples,
+            "seconds": round(run.seconds, 1),
+            "samples_per_second": round(samples / run.seconds),
+            "final_loss": run.curve[-1][2],
+            "machine": describe_machine(),
+            "threads": threads,
+        },
+    )
 
 
 def train_to_end(
@@ -125,11 +128,7 @@ def train_to_end(
     threads: int,
     started: float,
 ) -> None:
-    """Do the steps that are left, with a bar, points of the loss curve and checkpoints.
-
-    Args:
-        started: on `time.monotonic`'s clock, from when the run's seconds count.
-    """
+    """Do the steps that are left; the run's seconds count from `started` on the monotonic clock."""
     steps, batch_size = run.settings["steps"], run.settings["batch_size"]
     source = batch_source(rays, run.device)
     point_interval = max(1, steps // CURVE_POINTS)
@@ -189,33 +188,6 @@ def check_learning(name: str, step: int, loss: float, spread: float) -> None:
     raise InputError(
         f"training {name}: {problem} at step {step}; lower its `learning_rate` in the "
         "config, or change the `seed`"
-    )
-
-
-def write_results(
-    run: TrainingRun,
-    header: Mapping[str, Any],
-    weights: Path,
-    loss_csv: Path,
-    training_json: Path,
-    threads: int,
-) -> None:
-    """Write the weights, the loss curve and the record of a finished run."""
-    samples = run.settings["steps"] * run.settings["batch_size"]
-    save_network(weights, run.network, header)
-    write_text(loss_csv, run.curve_csv())
-    write_json(
-        training_json,
-        {
-            **header,
-            "parameters": run.network.parameter_count(),
-            "samples": samples,
-            "seconds": round(run.seconds, 1),
-            "samples_per_second": round(samples / run.seconds),
-            "final_loss": run.curve[-1][2],
-            "machine": describe_machine(),
-            "threads": threads,
-        },
     )
 
 

@@ -24,12 +24,7 @@ ADAM_STATE = ("exp_avg", "exp_avg_sq")
 def learning_rate_at(step: Tensor, settings: Mapping[str, Any]) -> Tensor:
     """Learning rate of a step: `constant`, or `cosine` from `learning_rate` down to zero.
 
-    Args:
-        step: int64 without dimensions.
-        settings: `learning_rate`, `schedule` and `steps`.
-
-    Returns:
-        float64 without dimensions, on the step's device: a recorded step needs it there.
+    Without dimensions, in float64, on the step's device: a recorded step needs it there.
     """
     rate = torch.full_like(step, settings["learning_rate"], dtype=torch.float64)
     if settings["schedule"] == "cosine":
@@ -77,11 +72,7 @@ class TrainingRun:
         save_tensors(path, self._places(), header)
 
     def restore(self, path: Path) -> None:
-        """Continue from a state that `save` wrote.
-
-        Raises:
-            InputError: the file is damaged.
-        """
+        """Continue from a state that `save` wrote; InputError if the file is damaged."""
         tensors, header = load_tensors(path)
         for name, place in self._places().items():
             place.copy_(tensors[name])

@@ -40,11 +40,7 @@ def random_rays(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def export_onnx(network: ShadowNetwork, path: Path) -> None:
-    """Write a network as ONNX: `origins`, `directions` (rays, 3) float32 to `t_pred` (rays,).
-
-    Raises:
-        OSError: the folder cannot be written, or the disk is full.
-    """
+    """Write a network as ONNX: `origins`, `directions` (rays, 3) float32 to `t_pred` (rays,)."""
     origins, directions = map(torch.from_numpy, random_rays(64, seed=0))
     network.eval()
     with warnings.catch_warnings():
@@ -94,8 +90,6 @@ def export_network(
     Args:
         mesh_json: description of the mesh that it was trained on.
         depth_bias_json: the depth bias that was found for it, where `bias` is `held_out`.
-        network_json: gets the conventions.
-        bias: the depth bias, or `held_out`.
 
     Raises:
         InputError: an input file is damaged, or ONNX Runtime answers otherwise than PyTorch.

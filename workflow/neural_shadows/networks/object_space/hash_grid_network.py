@@ -12,11 +12,7 @@ PRIMES = (1, 2654435761, 805459861)
 
 
 class HashedGrid(FeatureGrid):
-    """A feature grid whose vertices share the entries of a table; dense if all fit into it.
-
-    Args:
-        table_size: entries, a power of two.
-    """
+    """A feature grid whose vertices share a table's entries, 2^n; dense if all fit into it."""
 
     def __init__(self, resolution: int, channels: int, table_size: int):
         self.table_size = table_size
@@ -39,7 +35,6 @@ class HashGridNetwork(OccupancyRayGridNetwork):
 
     Args:
         table_size: entries of each grid's hash table, a power of two.
-        settings: of the occupancy-clipped ray grid.
     """
 
     def __init__(self, *, table_size: int, **settings: Any):

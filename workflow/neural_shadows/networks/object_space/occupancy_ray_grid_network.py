@@ -22,7 +22,6 @@ class OccupancyRayGridNetwork(RayGridNetwork):
 
     Args:
         occupancy: cells along an axis of the occupancy.
-        settings: of the ray grid.
     """
 
     def __init__(self, *, occupancy: int, **settings: Any):

@@ -57,14 +57,7 @@ class ShadowNetwork(nn.Module, ABC):
     recordable: ClassVar[bool] = False
 
     def prepare(self, mesh_ply: Path) -> None:
-        """Lay out what depends on the object and is not trained; called before training.
-
-        Args:
-            mesh_ply: the prepared mesh.
-
-        Raises:
-            InputError: the file is not whole.
-        """
+        """Lay out what depends on the prepared mesh and is not trained; called before training."""
         raise NotImplementedError(f"{type(self).__name__} needs no mesh")
 
     @abstractmethod
@@ -91,12 +84,7 @@ class ShadowNetwork(nn.Module, ABC):
         """Losses whose sum is the batch's, and outputs that differ as long as the network lives.
 
         Here a loss for each ray (n,); a kind may leave out rays that need no network, or judge
-        points on them.
-
-        Args:
-            dead_zone: the loss of a depth.
-            generator: for a loss that draws points, on the batch's device; None for a
-                `recordable` network.
+        points on them, drawn by a generator on the batch's device (None if it is `recordable`).
         """
         t = self(batch.origins, batch.directions, dtype)
         return dead_zone(t, batch.t_lb, batch.t_ub), t
@@ -107,13 +95,7 @@ class ShadowNetwork(nn.Module, ABC):
         return next(self.parameters()).device
 
     def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
-        """t_pred of parallel rays: (k,) float32.
-
-        Args:
-            origins: (k, 3) float32 entry points on the unit sphere, on this device.
-            d: (3,) float32, unit, there too.
-            dtype: of the matrix products, float32 or bfloat16.
-        """
+        """t_pred (k,) float32 of rays from entry points (k, 3) along one d (3,); see `forward`."""
         with torch.inference_mode():
             chunks = origins.split(self.query_chunks[self.device.type])
             return torch.cat([self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks])
@@ -127,9 +109,5 @@ class ShadowNetwork(nn.Module, ABC):
         return dict(self.state_dict())
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
-        """Take the tensors that `stored` gave.
-
-        Raises:
-            RuntimeError, KeyError, ValueError: they are not of this network.
-        """
+        """Take the tensors that `stored` gave; RuntimeError, KeyError or ValueError at others."""
         self.load_state_dict(tensors)

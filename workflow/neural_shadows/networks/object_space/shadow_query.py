@@ -54,7 +54,7 @@ def network_lit(
     dtype: torch.dtype,
     depth_bias: float = 0.0,
 ) -> Tensor:
-    """What a network says of each point: lit, (m,) bool [3.6.2].
+    """Whether a network says of each point that it is lit, (m,) bool [3.6.2].
 
     shadowed ⟺ min(s, ℓ) > t_pred(o, d) + depth_bias. The clamp of s to the chord ℓ is
     essential: a ray that misses the object is only ever trained to t ≥ ℓ, so that without it
