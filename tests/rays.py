@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from neural_shadows.rays.ray_set import RaySet
+
 
 def ball_rays(count: int, seed: int = 0) -> tuple[np.ndarray, ...]:
     """Rays at a ball of radius 0.5 about the origin, half of them hits, with exact labels.
@@ -42,3 +44,9 @@ def write_ball_rays(folder: Path, count: int) -> dict:
         "bounds": [bounds],
         "rays_json": folder / "rays.json",
     }
+
+
+def open_rays(folder: Path) -> RaySet:
+    """The ray set whose files are in a folder."""
+    shards = (sorted(folder.glob(f"{part}.*.npy")) for part in ("origins", "bounds"))
+    return RaySet(folder / "directions.npy", *shards)

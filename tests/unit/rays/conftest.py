@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from rays import open_rays
 
 from neural_shadows.rays.draw_directions import draw_directions
 from neural_shadows.rays.label_rays import label_rays
@@ -65,24 +66,11 @@ def ray_set(make_set, tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def part_of_first(mesh_ply, ray_set):
-    """What the stages are given of the first shard."""
-    return {
-        "mesh_ply": mesh_ply,
-        "directions_npy": ray_set / "directions.npy",
-        "seed": SEED,
-        "first": 0,
-        "last": 11,
-    }
-
-
-@pytest.fixture(scope="session")
 def everything():
     """A function that gives all rays of a folder: origins, directions, t_lb, t_ub."""
-    from neural_shadows.rays.ray_set import RaySet
 
     def gather(folder):
-        rays = RaySet.in_folder(folder)
+        rays = open_rays(folder)
         return rays.gather(np.arange(rays.count))
 
     return gather

@@ -3,7 +3,7 @@ import pytest
 import trimesh
 from shapes import AXES, box, octahedron, prepared, sheet
 
-from neural_shadows.rays.labels import SECOND_HIT_STEP, check_bounds, chord_lengths, dual_bounds
+from neural_shadows.rays.labels import SECOND_HIT_STEP, check_bounds, dual_bounds
 
 
 def parallel_rays(direction, a, b):
@@ -52,63 +52,24 @@ def slab_method(origins, directions, low, high):
     return np.where([entry < leave] * 2, [entry, leave], np.nan)
 
 
-def expected_of_box(origins, directions, extents):
+@pytest.mark.parametrize("extents", [(0.8, 0.5, 0.6), (1.1, 1.1, 0.02), (0.01, 0.01, 0.01)])
+def test_box_gives_entry_and_exit(extents):
+    origins, directions = rays_through(20_000, 0)
+    t_lb, t_ub = checked_bounds(prepared(box(*extents))[1], origins, directions)
+    assert t_lb.dtype == t_ub.dtype == np.float32
     half = np.array(extents) / 2
     entry, leave = slab_method(origins, directions, -half, half)
-    chord = -2 * np.sum(origins.astype(float) * directions, axis=1)
     missed = np.isnan(entry)
-    return np.where(missed, chord, entry), np.where(missed, np.inf, leave), missed
-
-
-@pytest.mark.parametrize("extents", [(0.8, 0.5, 0.6), (1.1, 1.1, 0.02)])
-def test_box_gives_entry_and_exit(extents):
-    tracer = prepared(box(*extents))[1]
-    origins, directions = rays_through(20_000, 0)
-    t_lb, t_ub = dual_bounds(tracer, origins, directions)
-    assert t_lb.dtype == t_ub.dtype == np.float32
-    lower, upper, missed = expected_of_box(origins, directions, extents)
-    assert 0.2 < missed.mean() < 0.9
+    assert 0.2 < missed.mean()
     # Within float32 of an edge either answer is right: chords below 1e-4 are left out.
-    clear = ~(upper - lower < 1e-4)
-    assert clear.mean() > 0.999
-    assert np.abs(t_lb - lower)[clear].max() < 1e-5
-    hit = clear & ~missed
-    assert np.abs(t_ub[hit] - upper[hit]).max() < 1e-5
-    assert np.isinf(t_ub[missed]).all()
-
-
-def test_fine_sphere_gives_the_chord_of_the_analytic_one():
-    radius = 0.7
-    shape = trimesh.creation.icosphere(subdivisions=6, radius=radius)
-    tracer = prepared(shape)[1]
-    origins, directions = rays_through(20_000, 1)
-    t_lb, t_ub = dual_bounds(tracer, origins, directions)
-    o, d = origins.astype(float), directions.astype(float)
-    middle = -np.sum(o * d, axis=1)
-    distance = np.sqrt(1 - middle**2)  # of the ray from the centre
-    # The faces lie this far inside the sphere; flat hits amplify it by 1 / cos.
-    sag = radius - np.linalg.norm(shape.triangles_center, axis=1).min()
-    assert sag < 2e-4
-    hit = distance < 0.9 * radius
-    half = np.sqrt(radius**2 - distance[hit] ** 2)
-    tolerance = 1.2 * sag * radius / half + 1e-5
-    assert hit.mean() > 0.5
-    assert (np.abs(t_lb[hit] - (middle[hit] - half)) < tolerance).all()
-    assert (np.abs(t_ub[hit] - (middle[hit] + half)) < tolerance).all()
-    missed = distance > radius
-    assert t_lb[missed] == pytest.approx(2 * middle[missed], abs=1e-6)
-    assert np.isinf(t_ub[missed]).all()
-
-
-def test_misses_have_the_chord_exactly():
-    tracer = prepared(box(0.01, 0.01, 0.01))[1]
-    origins, directions = rays_through(5000, 2)
-    t_lb, t_ub = dual_bounds(tracer, origins, directions)
+    hit = leave - entry > 1e-4
+    assert (hit | missed).mean() > 0.999
+    assert np.abs(t_lb - entry)[hit].max() < 1e-5
+    assert np.abs(t_ub - leave)[hit].max() < 1e-5
+    # A miss has the chord, to the bit.
     chord = -2 * np.sum(origins.astype(float) * directions, axis=1)
-    assert np.array_equal(chord_lengths(origins, directions), chord.astype(np.float32))
-    missed = np.isinf(t_ub)
-    assert missed.mean() > 0.9
     assert np.array_equal(t_lb[missed], chord.astype(np.float32)[missed])
+    assert np.isinf(t_ub[missed]).all()
 
 
 def test_the_second_hit_of_nested_spheres_is_the_inner_front():
@@ -233,17 +194,6 @@ def test_coplanar_faces_count_as_one(cosine):
     assert np.isinf(t_ub).all()
 
 
-def test_rays_that_graze_the_sphere():
-    """Chords down to 2e-3, the shortest that are drawn, and a thousandth of it."""
-    tracer = prepared(box(0.1, 0.1, 0.1))[1]
-    inward = np.array([1e-3, 1e-4, 1e-5, 1e-6])
-    directions = np.stack([np.sqrt(1 - inward**2), -inward, 0 * inward], 1).astype(np.float32)
-    origins = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
-    t_lb, t_ub = checked_bounds(tracer, origins, directions)
-    assert t_lb == pytest.approx(2 * inward, rel=1e-6)
-    assert np.isinf(t_ub).all()
-
-
 def test_a_vertex_on_the_sphere():
     """Exactly on it, as two and more of every mesh are: hit at t = 0, or at the chord's end."""
     tracer = prepared(octahedron())[1]
@@ -252,47 +202,27 @@ def test_a_vertex_on_the_sphere():
     assert ((0 < t_lb) & (t_lb < 2e-7)).all()
     assert (t_ub == 2).all()
     checked_bounds(tracer, *rays_through(20_000, 9))
-
-
-def bounds_of(*values):
-    """One direction whose rays enter at (0, 1, 0) along −y, ℓ = 2, with these bounds."""
-    origins = np.tile(np.array([0, 1, 0], np.float32), (1, len(values), 1))
-    return np.array([[0, -1, 0]], np.float32), origins, np.array([values], np.float32)
-
-
-GOOD = [(0.5, 1.5), (2.0, np.inf), (0.5, np.inf), (1.0, 1.0), (1e-7, 2.0), (0.5, 2.00001)]
+    # Rays that graze the sphere: chords of 2e-3, the shortest that are drawn, and a thousandth.
+    inward = np.array([1e-3, 1e-4, 1e-5, 1e-6])
+    directions = np.stack([np.sqrt(1 - inward**2), -inward, 0 * inward], 1).astype(np.float32)
+    origins = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
+    t_lb, _ = checked_bounds(prepared(box(0.1, 0.1, 0.1))[1], origins, directions)
+    assert t_lb == pytest.approx(2 * inward, rel=1e-6)
 
 
 @pytest.mark.parametrize(
-    "bad",
-    [
-        (0.0, 0.0),  # what nothing was written to
-        (-1e-7, 1.0),
-        (1.0, 0.999),
-        (2.000001, np.inf),
-        (np.nan, 1.0),
-        (0.5, np.nan),
-    ],
+    "bad", [(0, 0), (-1e-7, 1), (1, 0.999), (2.000001, np.inf), (np.nan, 1), (0.5, np.nan)]
 )
 def test_broken_rules_of_bounds_are_an_error_that_names_the_ray(bad):
-    check_bounds(*bounds_of(*GOOD), name="good")
+    """Rays of one direction that enter at (0, 1, 0) along −y, ℓ = 2."""
+    good = [(0.5, 1.5), (2.0, np.inf), (0.5, np.inf), (1.0, 1.0), (1e-7, 2.0), (0.5, 2.00001)]
+    direction = np.array([[0, -1, 0]], np.float32)
+    origins = np.tile(np.array([0, 1, 0], np.float32), (1, 7, 1))
+    bounds = np.array([[*good, bad]], np.float32)
+    check_bounds(direction, origins[:, :6], bounds[:, :6], name="good")
     with pytest.raises(RuntimeError) as caught:
-        check_bounds(*bounds_of(*GOOD, bad), name="labels x.npy (seed 3)", first=17)
+        check_bounds(direction, origins, bounds, name="labels x.npy (seed 3)", first=17)
     message = str(caught.value)
     assert message.startswith("labels x.npy (seed 3): ray 6 of direction 17 from [0.0, 1.0, 0.0] ")
     assert f"t_lb = {np.float32(bad[0])}, t_ub = {np.float32(bad[1])} on a chord of 2.0" in message
     assert "\n" not in message
-
-
-def test_lower_bounds_of_hits_end_with_the_chord():
-    """A vertex on the far side of the sphere may be found a little behind the chord's end."""
-
-    class Behind:
-        def first_hit(self, origins, directions):
-            miss = origins[:, 0] > -1  # the trace from behind the hit
-            t = np.where(miss, np.inf, 2.0001).astype(np.float32)
-            return t, np.where(miss, -1, 0).astype(np.int32)
-
-    along = np.array([[1, 0, 0]], np.float32)
-    t_lb, t_ub = dual_bounds(Behind(), -along, along)
-    assert (t_lb[0], t_ub[0]) == (2, np.inf)

@@ -5,48 +5,33 @@ import pytest
 from scipy.spatial import cKDTree
 from scipy.stats import chisquare
 
-from neural_shadows.rays.poisson_disk import (
-    PatternBank,
-    exactly,
-    poisson_disk_sphere,
-    poisson_disk_torus,
-    sphere_directions,
-)
+from neural_shadows.rays.poisson_disk import PatternBank, exactly, poisson_disk, sphere_directions
+
+TORUS = {False: {"boxsize": 1}, True: {}}  # by `on_sphere`
 
 
-def torus_pattern(count, seed):
-    return exactly(count, np.random.default_rng(seed), False)
+def closest_pair(points, on_sphere):
+    return cKDTree(points, **TORUS[on_sphere]).query(points, k=2)[0][:, 1].min()
 
 
-def closest_pair(points, **torus):
-    return cKDTree(points, **torus).query(points, k=2)[0][:, 1].min()
-
-
-@pytest.mark.parametrize("radius", [1.2, 0.5, 0.1, 0.03])
-def test_no_pair_is_closer_than_r(radius):
-    """Not by a wide margin either: with so many points some pair is nearly at r."""
-    points = poisson_disk_sphere(radius, np.random.default_rng(1))
-    assert np.abs(np.linalg.norm(points, axis=1) - 1).max() < 1e-14
-    assert radius <= closest_pair(points) < 1.2 * radius
-    points = poisson_disk_torus(radius / 4, np.random.default_rng(1))
-    assert points.min() >= 0 and points.max() < 1
-    assert radius / 4 <= closest_pair(points, boxsize=1) < 1.2 * radius / 4
-
-
-def test_no_gap_is_left():
-    """Dense probes: a hole that takes another point is farther than r from all points.
-
-    Bridson's method leaves some, where 30 candidates missed it: small ones, and few.
-    """
-    probes = np.random.default_rng(3).normal(size=(300_000, 3))
+@pytest.mark.parametrize("on_sphere", [True, False])
+@pytest.mark.parametrize("radius", [0.9, 0.3, 0.1, 0.03])
+def test_no_pair_is_closer_than_r_and_no_gap_is_left(on_sphere, radius):
+    """Bridson's method leaves some gaps, where 30 candidates missed them: small ones, and few."""
+    points = poisson_disk(radius, np.random.default_rng(1), on_sphere)
+    probes = np.random.default_rng(3).normal(size=(100_000, 3))
     probes /= np.linalg.norm(probes, axis=1, keepdims=True)
-    sphere = cKDTree(poisson_disk_sphere(0.05, np.random.default_rng(2)))  # about 3,100
-    torus = cKDTree(poisson_disk_torus(0.02, np.random.default_rng(2)), boxsize=1)  # about 1,500
-    places = np.random.default_rng(3).random((300_000, 2))
-    for tree, asked, radius in ((sphere, probes, 0.05), (torus, places, 0.02)):
-        distances = tree.query(asked)[0]
-        assert distances.max() < 1.3 * radius
-        assert np.mean(distances > radius) < 0.005
+    if on_sphere:
+        assert np.abs(np.linalg.norm(points, axis=1) - 1).max() < 1e-14
+    else:
+        assert points.min() >= 0 and points.max() < 1
+        probes = np.random.default_rng(3).random((100_000, 2))
+    if len(points) > 1:
+        # Not by a wide margin either: with many points some pair is nearly at r.
+        assert radius <= closest_pair(points, on_sphere) < 1.2 * radius
+    distances = cKDTree(points, **TORUS[on_sphere]).query(probes)[0]
+    assert distances.max() < 1.3 * radius
+    assert np.mean(distances > radius) < 0.01
 
 
 def test_sphere_directions_are_blue_noise():
@@ -60,18 +45,15 @@ def test_sphere_directions_are_blue_noise():
     assert (pairs[3] - pairs[2]) / (expected[3] - expected[2]) == pytest.approx(1, abs=0.05)
 
 
+@pytest.mark.parametrize("on_sphere", [True, False])
 @pytest.mark.parametrize("count", [1, 2, 3, 7, 60, 2000])
-def test_counts_are_exact_and_distances_kept(count):
-    directions, r = sphere_directions(count, 6)
-    assert directions.shape == (count, 3)
-    pattern, r_torus = torus_pattern(count, 6)
-    assert pattern.shape == (count, 2)
+def test_counts_are_exact_and_distances_kept(count, on_sphere):
+    points, r = exactly(count, np.random.default_rng(6), on_sphere)
+    assert points.shape == (count, 3 if on_sphere else 2)
     if count > 1:
-        assert closest_pair(directions) >= r
-        assert closest_pair(pattern, boxsize=1) >= r_torus
+        assert closest_pair(points, on_sphere) >= r
         # r is the large one that belongs to the count: n r² / area is 0.615 of full sets.
-        assert count * r**2 / (4 * np.pi) > 0.5
-        assert count * r_torus**2 > 0.5
+        assert count * r**2 / (4 * np.pi if on_sphere else 1) > 0.5
 
 
 def test_directions_cover_the_sphere_evenly():
