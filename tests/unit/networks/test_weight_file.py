@@ -56,15 +56,6 @@ def test_tensors_keep_every_bit(tmp_path):
     assert tensors["s"].shape == ()
 
 
-@pytest.mark.parametrize("kept", [0, 100, -1])
-def test_a_truncated_file_is_named(tmp_path, network, kept):
-    path = tmp_path / "weights.safetensors"
-    save_network(path, network, HEADER)
-    path.write_bytes(path.read_bytes()[:kept])
-    with pytest.raises(InputError, match=r"weights.safetensors: damaged .*delete it and run again"):
-        load_network(path)
-
-
 class Bomb:
     """Unpickling this makes a file."""
 
@@ -75,12 +66,16 @@ class Bomb:
         return Path.touch, (self.path,)
 
 
-@pytest.mark.parametrize("dump", [pickle.dump, torch.save])
-def test_a_pickle_is_refused_and_not_run(tmp_path, dump):
+@pytest.mark.parametrize("kept", [0, 100, -1, pickle.dump, torch.save])
+def test_a_truncated_file_is_named_and_a_pickle_not_run(tmp_path, network, kept):
     path, exploded = tmp_path / "weights.safetensors", tmp_path / "exploded"
-    with path.open("wb") as file:
-        dump(Bomb(exploded), file)
-    with pytest.raises(InputError, match="weights.safetensors: damaged"):
+    if callable(kept):
+        with path.open("wb") as file:
+            kept(Bomb(exploded), file)
+    else:
+        save_network(path, network, HEADER)
+        path.write_bytes(path.read_bytes()[:kept])
+    with pytest.raises(InputError, match=r"weights.safetensors: damaged .*delete it and run again"):
         load_network(path)
     assert not exploded.exists()
 
