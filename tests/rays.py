@@ -5,7 +5,9 @@ import math
 from pathlib import Path
 
 import numpy as np
+import torch
 
+from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.rays.ray_set import RaySet
 
 
@@ -28,6 +30,11 @@ def ball_rays(count: int, seed: int = 0) -> tuple[np.ndarray, ...]:
     t_lb = np.where(hit, half_chord - inside, 2 * half_chord)
     t_ub = np.where(hit, half_chord + inside, math.inf)
     return tuple(array.astype(np.float32) for array in (o, d, t_lb, t_ub))
+
+
+def ball_batch(count: int, seed: int = 0) -> LabelledBatch:
+    """`ball_rays` as networks take them."""
+    return LabelledBatch(*map(torch.from_numpy, ball_rays(count, seed)))
 
 
 def write_ball_rays(folder: Path, count: int) -> dict:

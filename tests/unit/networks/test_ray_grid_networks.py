@@ -5,7 +5,7 @@ import math
 import pytest
 import torch
 import trimesh
-from rays import ball_rays
+from rays import ball_batch
 from shapes import bumpy_sphere, prepared
 
 from neural_shadows.networks.kinds import make_network
@@ -76,7 +76,7 @@ def test_points_lie_around_every_hit(tmp_path):
     shape.export(tmp_path / "mesh.ply")
     network = made("occupancy_ray_grid", tmp_path / "mesh.ply", occupancy=48)
     _, tracer = prepared(shape)
-    o, d = (torch.from_numpy(part) for part in ball_rays(20_000)[:2])
+    o, d, *_ = ball_batch(20_000)
     t_lb, t_ub = map(torch.from_numpy, dual_bounds(tracer, o.numpy(), d.numpy()))
     t_a, t_b, meets = network.span(o, d)
     hit = hits(LabelledBatch(o, d, t_lb, t_ub))
@@ -92,13 +92,16 @@ def test_points_lie_around_every_hit(tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["occupancy_ray_grid", "hash_grid"])
-def test_a_ray_past_all_occupied_cells_is_lit(ball_ply, kind):
+def test_rays_past_all_occupied_cells_are_lit_and_cost_nothing(ball_ply, kind):
     network = made(kind, ball_ply)
-    o = torch.tensor([[-math.sqrt(1 - 0.8**2), 0.8, 0], [-1, 0, 0]])
-    d = torch.tensor([[1.0, 0, 0], [1, 0, 0]])
+    batch = ball_batch(2000)
+    o, d, *_ = batch
+    past = (o - (o * d).sum(1, keepdim=True) * d).norm(dim=1) > 0.8
     t = network(o, d, torch.float32)
-    assert t[0].item() == LIT
-    assert t[1].item() != pytest.approx(LIT, abs=1e-3)
+    assert (t[past] == LIT).all() and not (t[hits(batch)] == LIT).any()
+    batch = LabelledBatch(*(part[past] for part in batch))
+    losses, outputs = network.losses(batch, DeadZone(), torch.float32, None)
+    assert len(losses) == len(outputs) == 0 < past.sum()
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -106,19 +109,18 @@ def test_a_ray_past_all_occupied_cells_is_lit(ball_ply, kind):
 def test_it_learns_a_ball(ball_ply, kind, head):
     """Half of the rays hit; a lit point in front and a shadowed one behind tell right from wrong."""
     network = made(kind, ball_ply, head=head)
-    batch = LabelledBatch(*map(torch.from_numpy, ball_rays(4096)))
-    generator = torch.Generator().manual_seed(0)
+    batch = ball_batch(4096)
     optimiser = torch.optim.Adam(network.parameters(), lr=5e-3)
     for _ in range(150):
-        losses, outputs = network.losses(batch, DeadZone(), torch.float32, generator)
-        assert len(outputs) <= 4096
+        losses, _ = network.losses(batch, DeadZone(), torch.float32, None)
         optimiser.zero_grad()
         (losses.sum() / 4096).backward()
         optimiser.step()
-    o, d, t_lb, t_ub = map(torch.from_numpy, ball_rays(4096, seed=5))
+    batch = ball_batch(4096, seed=5)
+    o, d, t_lb, _ = batch
     with torch.inference_mode():
         t = network(o, d, torch.float32)
-    hit = hits(LabelledBatch(o, d, t_lb, t_ub))
+    hit = hits(batch)
     lit_in_front = t_lb - 0.05 <= t
     lit_behind = chords(o, d) <= t + 0.02
     assert lit_in_front.float().mean() > 0.97
@@ -126,37 +128,19 @@ def test_it_learns_a_ball(ball_ply, kind, head):
     assert (~lit_behind[hit]).float().mean() > 0.9
 
 
-def test_confidence_decides_alone_between_hit_and_miss(ball_ply):
+def test_confidence_decides_alone_and_the_depth_is_trained_on_hits_alone(ball_ply):
     network = made("ray_grid", ball_ply, head="depth_confidence")
-    o, d = (torch.from_numpy(part) for part in ball_rays(64)[:2])
+    batch = ball_batch(256)
+    o, d, t_lb, _ = batch
     with torch.no_grad():
         network.output.weight.zero_()
-        network.output.bias.copy_(torch.tensor([0.3, 1e-6]))
-        assert torch.allclose(network(o, d, torch.float32), torch.tensor(0.3))
-        network.output.bias.copy_(torch.tensor([0.3, -1e-6]))
-        assert (network(o, d, torch.float32) == LIT).all()
-
-
-def test_the_depth_is_trained_on_hits_alone(ball_ply):
-    network = made("ray_grid", ball_ply, head="depth_confidence")
-    batch = LabelledBatch(*map(torch.from_numpy, ball_rays(256)))
-    with torch.no_grad():
-        network.output.weight.zero_()
+        for confidence, depth in ((1e-6, 0.3), (-1e-6, LIT)):
+            network.output.bias.copy_(torch.tensor([0.3, confidence]))
+            assert torch.allclose(network(o, d, torch.float32), torch.tensor(depth))
         network.output.bias.zero_()
-    losses, _ = network.losses(batch, DeadZone(), torch.float32, torch.Generator())
-    entropy = 0.1 * math.log(2)
-    assert torch.allclose(losses[~hits(batch)], torch.tensor(entropy))
-    expected = batch.t_lb[hits(batch)] + entropy
-    assert torch.allclose(losses[hits(batch)], expected, atol=1e-6)
-
-
-def test_a_batch_that_meets_nothing_costs_nothing(ball_ply):
-    network = made("occupancy_ray_grid", ball_ply)
-    o, d, t_lb, t_ub = map(torch.from_numpy, ball_rays(2000))
-    past = (o - (o * d).sum(1, keepdim=True) * d).norm(dim=1) > 0.8
-    batch = LabelledBatch(o[past], d[past], t_lb[past], t_ub[past])
-    losses, outputs = network.losses(batch, DeadZone(), torch.float32, torch.Generator())
-    assert len(losses) == len(outputs) == 0 < past.sum()
+    losses, _ = network.losses(batch, DeadZone(), torch.float32, None)
+    expected = torch.where(hits(batch), t_lb, 0) + 0.1 * math.log(2)
+    assert torch.allclose(losses, expected, atol=1e-6)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -166,7 +150,7 @@ def test_what_a_file_keeps(tmp_path, ball_ply, kind, stored, error):
     network = made(kind, ball_ply, stored=stored)
     save_network(tmp_path / "weights.safetensors", network, {"network": settings})
     loaded, _ = load_network(tmp_path / "weights.safetensors")
-    o, d = (torch.from_numpy(part) for part in ball_rays(500)[:2])
+    o, d, *_ = ball_batch(500)
     with torch.inference_mode():
         expected, found = (net(o, d, torch.float32) for net in (network, loaded))
     assert (found - expected).abs().max() <= error
