@@ -10,10 +10,11 @@ import pandas as pd
 import pytest
 import torch
 import trimesh
-from rays import ball_rays, write_ball_rays
+from rays import ball_batch, write_ball_rays
 
 from neural_shadows.errors import InputError
 from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.weight_file import load_network, load_tensors
 from neural_shadows.rays.ray_set import RaySet
@@ -102,12 +103,10 @@ def test_learns_the_ball(tmp_path, precision):
     loss = read_loss(tmp_path / "ball" / "loss.csv")["loss"]
     assert loss.iloc[0] > 0.1
     assert loss.iloc[-20:].mean() < 0.03  # seeds 1 to 3 gave 0.018 to 0.021
+    # The file holds the weights that the curve describes.
     network, _ = load_network(tmp_path / "ball" / "weights.safetensors")
-    o, d, t_lb, t_ub = map(torch.from_numpy, ball_rays(RAYS))
-    with torch.inference_mode():
-        t = network(o, d, torch.float32)
-    error = torch.relu(t_lb - t) + torch.relu(t - t_ub)
-    assert error.mean() < 0.03  # the file holds the weights that the curve describes
+    losses, _ = network.losses(ball_batch(RAYS), DeadZone(), torch.float32, None)
+    assert losses.mean() < 0.03
 
 
 def test_files_of_a_run(tmp_path):
@@ -126,9 +125,8 @@ def test_files_of_a_run(tmp_path):
     assert record["samples_per_second"] > 0 and record["machine"]["cpu"]
     curve = read_loss(tmp_path / "ball" / "loss.csv")
     assert list(curve) == ["step", "samples", "learning_rate", "loss"]
-    assert (
-        list(curve["step"]) == list(range(1, 21)) and (curve["samples"] == 32 * curve["step"]).all()
-    )
+    assert list(curve["step"]) == list(range(1, 21))
+    assert (curve["samples"] == 32 * curve["step"]).all()
     assert record["final_loss"] == curve["loss"].iloc[-1]
     assert curve["learning_rate"].iloc[0] == 5e-3
     assert states(tmp_path) == []  # a short run needs none
@@ -158,14 +156,6 @@ def test_a_run_whose_files_were_lost_is_not_trained_again(tmp_path):
         path.unlink()
     assert run_training(tmp_path, **TINY) == 0
     assert contents(tmp_path) == before
-
-
-def test_a_damaged_checkpoint_is_named(tmp_path):
-    interrupt(tmp_path, **TINY)
-    (state,) = states(tmp_path)
-    state.write_bytes(state.read_bytes()[:-10])
-    with pytest.raises(InputError, match="state.safetensors: damaged .* delete it and run again"):
-        run_training(tmp_path, **TINY)
 
 
 KINDS = [
@@ -209,8 +199,7 @@ def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network):
 @pytest.mark.parametrize(
     ("value", "layer", "reason"),
     [
-        (0, "output", "the network answers the same for every ray (its output died)"),
-        (math.nan, "layers.0", "the loss is nan"),
+        (0, "output", r"the network answers the same for every ray \(its output died\)"),
         (math.inf, "layers.0", "the loss is nan"),
     ],
 )
@@ -222,9 +211,8 @@ def test_a_run_that_can_learn_nothing_stops(tmp_path, monkeypatch, value, layer,
         dict(self.named_parameters())[layer].data.fill_(value)
 
     monkeypatch.setattr(FrequencyNetwork, "initialise", changed)
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match=f"^training ball: {reason} at step 1; lower its `learn"):
         run_training(tmp_path, **TINY)
-    assert str(caught.value).startswith(f"training ball: {reason} at step 1; lower its `learning_")
     assert not (tmp_path / "ball" / "weights.safetensors").exists()
 
 
