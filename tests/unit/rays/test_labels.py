@@ -6,16 +6,6 @@ from shapes import AXES, box, octahedron, prepared, sheet
 from neural_shadows.rays.labels import SECOND_HIT_STEP, check_bounds, dual_bounds
 
 
-def parallel_rays(direction, a, b):
-    """Rays along an axis through the points (a, b) of the two others; float32, (n, 3) and (3,)."""
-    along = np.flatnonzero(direction)[0]
-    origins = np.empty((len(a), 3), np.float32)
-    origins[:, along - 2], origins[:, along - 1] = a, b
-    a, b = origins[:, along - 2].astype(float), origins[:, along - 1].astype(float)
-    origins[:, along] = -direction[along] * np.sqrt(1 - a**2 - b**2)
-    return origins, direction.astype(np.float32)
-
-
 def checked_bounds(tracer, origins, directions):
     """`dual_bounds` of rays (n, 3), which keep the rules of bounds."""
     t_lb, t_ub = dual_bounds(tracer, origins, directions)
@@ -52,7 +42,11 @@ def slab_method(origins, directions, low, high):
     return np.where([entry < leave] * 2, [entry, leave], np.nan)
 
 
-@pytest.mark.parametrize("extents", [(0.8, 0.5, 0.6), (1.1, 1.1, 0.02), (0.01, 0.01, 0.01)])
+# The thinnest features are 1e-3; a tenth of that, and one that most rays miss.
+BOXES = [(0.8, 0.5, 0.6), (1.2, 1e-3, 1.2), (1.2, 1e-4, 1.2), (0.01, 0.01, 0.01)]
+
+
+@pytest.mark.parametrize("extents", BOXES)
 def test_box_gives_entry_and_exit(extents):
     origins, directions = rays_through(20_000, 0)
     t_lb, t_ub = checked_bounds(prepared(box(*extents))[1], origins, directions)
@@ -62,7 +56,7 @@ def test_box_gives_entry_and_exit(extents):
     missed = np.isnan(entry)
     assert 0.2 < missed.mean()
     # Within float32 of an edge either answer is right: chords below 1e-4 are left out.
-    hit = leave - entry > 1e-4
+    hit = leave - entry > 0.9e-4
     assert (hit | missed).mean() > 0.999
     assert np.abs(t_lb - entry)[hit].max() < 1e-5
     assert np.abs(t_ub - leave)[hit].max() < 1e-5
@@ -87,47 +81,27 @@ def test_the_second_hit_of_nested_spheres_is_the_inner_front():
         assert bound[aimed] == pytest.approx(analytic[aimed], abs=5e-3)
 
 
-@pytest.mark.parametrize("thickness", [1e-3, 1e-4])
-def test_thin_slabs_are_resolved(thickness):
-    """Walls of the thinnest features, and a tenth of that, from flat and steep sides."""
-    extents = (1.2, thickness, 1.2)
-    tracer = prepared(box(*extents))[1]
-    rng = np.random.default_rng(4)
-    targets = rng.uniform(-0.3, 0.3, (5000, 3)) * [1, 0, 1]
-    directions = rng.normal(size=(5000, 3))
-    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    directions = directions[np.abs(directions[:, 1]) > 0.1]
-    origins, directions, _ = rays_to(targets[: len(directions)], directions)
-    t_lb, t_ub = dual_bounds(tracer, origins, directions)
-    depth = thickness / np.abs(directions[:, 1])
-    assert np.abs((t_ub - t_lb) - depth).max() < 5e-6
-
-
 def test_rays_through_edges_and_vertices_of_a_box_reach_the_other_side():
     """Faces that meet under a ray are hit together; the hit behind them is the second one.
 
     The box's corners are no float32 numbers, so that rays meet edges by rounding, not exactly.
     """
     extents = np.array([0.7, 0.9, 0.5])
-    tracer = prepared(box(*extents))[1]
-    corners = np.array(box(*extents).vertices)
+    shape = box(*extents)
+    tracer = prepared(shape)[1]
     rng = np.random.default_rng(5)
-    # On the twelve edges, the face diagonals, and at the corners themselves.
-    edges = np.array(box(*extents).edges_unique)
-    chosen = corners[edges[rng.integers(len(edges), size=20_000)]]
-    at = rng.choice([0.0, 1.0, np.nan], size=20_000, p=[0.1, 0.1, 0.8])
-    at = np.where(np.isnan(at), rng.random(20_000), at)[:, None]
-    targets = (1 - at) * chosen[:, 0] + at * chosen[:, 1]
+    # On the twelve edges and the face diagonals, a fifth of them at the corners themselves.
+    ends = shape.vertices[shape.edges_unique[rng.integers(len(shape.edges_unique), size=20_000)]]
+    at = np.clip(rng.uniform(-0.125, 1.125, (20_000, 1)), 0, 1)
+    targets = (1 - at) * ends[:, 0] + at * ends[:, 1]
     # Through the target and a point well inside the box.
-    inner = rng.uniform(-0.3, 0.3, (20_000, 3)) * extents
-    directions = inner - targets
+    directions = rng.uniform(-0.3, 0.3, (20_000, 3)) * extents - targets
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     origins, directions, t = rays_to(targets, directions)
     t_lb, t_ub = dual_bounds(tracer, origins, directions)
     _, leave = slab_method(origins, directions, -extents / 2, extents / 2)
     assert not np.isnan(leave).any()
-    artefacts = t_ub - t_lb < 10 * SECOND_HIT_STEP
-    assert artefacts.mean() == 0
+    assert not (t_ub - t_lb < 10 * SECOND_HIT_STEP).any()
     # Embree's test lets some rays slip between two faces: they see the far side alone.
     leaked = np.isinf(t_ub)
     assert leaked.mean() < 1e-3
@@ -135,36 +109,15 @@ def test_rays_through_edges_and_vertices_of_a_box_reach_the_other_side():
     assert np.abs(t_ub - leave)[~leaked].max() < 1e-5
 
 
-def test_a_triangle_found_again_behind_the_step_is_no_second_hit():
-    """Nearly along a triangle, the origin moved past its hit can still be before it."""
-
-    class Again:
-        """Reports the triangle 7 at t = 0.5, once more 1e-5 behind the step, then 9 at 1.5."""
-
-        calls = 0
-
-        def first_hit(self, origins, directions):
-            passed = origins @ directions[0] + 1  # distance already gone from (-1, 0, 0)
-            self.calls += 1
-            t, face = [(0.5, 7), (0.50003, 7), (1.5, 9)][self.calls - 1]
-            return (t - passed).astype(np.float32), np.full(len(origins), face, np.int32)
-
-    tracer = Again()
-    along = np.array([[1, 0, 0]], np.float32)
-    t_lb, t_ub = dual_bounds(tracer, -along, along)
-    assert tracer.calls == 3
-    assert (t_lb[0], t_ub[0]) == (0.5, pytest.approx(1.5, abs=1e-6))
-
-
 @pytest.mark.parametrize("direction", AXES)
 def test_light_along_an_axis(direction):
     """Two components of the direction are 0: no slab or edge test may divide by them."""
     half = np.array([0.25, 0.375, 0.5])
-    grid = np.linspace(-0.625, 0.625, 41)  # steps of 1/32: rays meet edges and diagonals exactly
-    a, b = (values.ravel() for values in np.meshgrid(grid, grid))
-    origins, direction = parallel_rays(direction, a, b)
-    t_lb, t_ub = checked_bounds(prepared(box(*2 * half))[1], origins, direction)
     along = np.flatnonzero(direction)[0]
+    grid = np.linspace(-0.625, 0.625, 41)  # steps of 1/32: rays meet edges and diagonals exactly
+    targets = np.insert(np.stack(np.meshgrid(grid, grid), -1).reshape(-1, 2), along, 0, axis=1)
+    origins, directions, _ = rays_to(targets, np.tile(direction, (len(targets), 1)))
+    t_lb, t_ub = checked_bounds(prepared(box(*2 * half))[1], origins, directions)
     beyond = np.delete(np.abs(origins) - half, along, axis=1).max(axis=1)
     middle = np.abs(origins[:, along].astype(float))
     inside, outside = beyond < 0, beyond > 0
@@ -175,12 +128,17 @@ def test_light_along_an_axis(direction):
     assert np.isinf(t_ub[outside]).all()
 
 
-@pytest.mark.parametrize("cosine", [1.0, 0.1, 0.03])
-def test_coplanar_faces_count_as_one(cosine):
-    """A sheet cut along both diagonals: each point is covered twice, by different triangles."""
+@pytest.mark.parametrize(
+    ("cosine", "layers"), [(1.0, 2), (0.1, 2), (0.03, 2), (3e-3, 1), (1e-3, 1)]
+)
+def test_coplanar_faces_count_as_one(cosine, layers):
+    """A sheet cut along both diagonals: each point is covered twice, by different triangles.
+
+    Nearly along a single layer, the origin moved past its hit can still be before it.
+    """
     turned = trimesh.transformations.rotation_matrix(1, [1, 2, 3])[:3, :3].T
     corners = sheet(0.0, 0.5).vertices @ turned
-    faces = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]]
+    faces = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]][: 2 * layers]
     tracer = prepared(trimesh.Trimesh(corners, faces, process=False))[1]
     rng = np.random.default_rng(8)
     angle = rng.uniform(0, 2 * np.pi, 20_000)
