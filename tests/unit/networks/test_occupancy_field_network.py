@@ -127,22 +127,14 @@ def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored):
         assert (found < -2 * o @ d - 1e-3).float().mean() > 0.3
 
 
-def test_new_weights_are_seen_by_the_next_query(tmp_path):
-    network = made(trimesh.creation.icosphere(3, radius=0.5), tmp_path, SOLID_32)
-    o, d = torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0])
-    set_logits(network, ball)
-    assert network.depths(o, d, torch.float32).item() == pytest.approx(0.5, abs=0.01)
-    set_logits(network, lambda p: -ball(p) - 100)
-    assert network.depths(o, d, torch.float32).item() > 0.5
-
-
-def test_a_ray_into_an_enclosed_brick_ends_there(tmp_path):
+def test_new_weights_are_seen_and_enclosed_bricks_are_solid(tmp_path):
     network = made(trimesh.creation.icosphere(4, radius=0.9), tmp_path, SOLID_32)
+    o, d = torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0])
+    set_logits(network, lambda p: 40 * (0.9 - p.norm(dim=1)))
+    assert network.depths(o, d, torch.float32).item() == pytest.approx(0.1, abs=0.01)
     with torch.no_grad():
         network.values.fill_(-10.0)  # all that is held says outside
-    t = network.depths(torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0]), None)
-    size = 2 / 8
-    assert 0.1 < t[0] < 0.1 + 2 * size
+    assert 0.1 < network.depths(o, d, torch.float32).item() < 0.1 + 2 * (2 / 8)
 
 
 def learn(network, batch: LabelledBatch, steps: int) -> None:

@@ -3,6 +3,7 @@
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
@@ -218,14 +219,9 @@ def test_a_run_that_can_learn_nothing_stops(tmp_path, monkeypatch, value, layer,
 
 def test_a_recorded_step_gives_the_same_bytes(tmp_path, monkeypatch):
     """The loop that a GPU runs, with a recording that does the step instead of replaying it."""
-
-    class Replaying:
-        def __init__(self, step):
-            self.replay = step
-
     aside = []
     monkeypatch.setattr(cuda_graph, "aside", lambda step: (aside.append(1), step()))
-    monkeypatch.setattr(cuda_graph, "capture", Replaying)
+    monkeypatch.setattr(cuda_graph, "capture", lambda step: SimpleNamespace(replay=step))
     run_training(tmp_path / "plain", **TINY)
     monkeypatch.setattr(stage, "may_be_recorded", lambda *_: True)
     run_training(tmp_path / "recorded", **TINY)
@@ -238,6 +234,5 @@ def test_only_steps_of_fixed_shape_on_a_gpu_are_recorded():
     network, other = make_network(KINDS[0]), make_network(KINDS[1])
     on_device, on_host = DeviceRays.__new__(DeviceRays), HostRays.__new__(HostRays)
     assert stage.may_be_recorded(network, cuda, on_device)
-    assert not stage.may_be_recorded(network, cpu, on_device)
-    assert not stage.may_be_recorded(network, cuda, on_host)
-    assert not stage.may_be_recorded(other, cuda, on_device)
+    for without in ((network, cpu, on_device), (network, cuda, on_host), (other, cuda, on_device)):
+        assert not stage.may_be_recorded(*without)
