@@ -30,7 +30,6 @@ def describe_rays(
         rays_json: gets the counts, the settings it was made with, the units, the mesh's
             sha256 and that of each file, the step behind the first hit, and the shares of rays
             that hit the object at no place (`misses`) and at one (`one_hit`).
-        mesh_ply, sampling, seed: as given to `sample_rays`.
 
     Raises:
         InputError: as `RaySet`.

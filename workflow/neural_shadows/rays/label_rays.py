@@ -24,16 +24,13 @@ def label_rays(
     """Trace the rays of the directions first to last − 1, write their bounds and check them.
 
     Args:
-        mesh_ply: the prepared mesh, in normalised space.
-        directions_npy, origins_npy: from `draw_directions`, and from `sample_rays` for the same
-            first and last.
+        origins_npy: from `sample_rays` for the same first and last.
         bounds_npy: gets (last − first, m, 2) float32, [t_lb, t_ub] of each ray.
         seed: what the rays were drawn with, for whoever must find a ray again.
 
     Raises:
         InputError: a file that cannot be used, or that is of another range of directions.
-        RuntimeError: a ray with impossible bounds, named by shard, seed and index; the shard
-            is not left behind then.
+        RuntimeError: a ray with impossible bounds, named by shard, seed and index.
     """
     directions = read_directions(directions_npy)[first:last]
     origins = open_array(origins_npy, (len(directions), None, 3))

@@ -97,29 +97,23 @@ class PatternBank:
         self._seed = seed
         self._lock = threading.Lock()
         # Of 0 points there is one pattern, the empty one.
+        self._made = {0}
         self._table = (np.zeros(1, np.int64), np.ones(1, np.int64), np.empty((0, 2)))
 
     def table(self, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """All patterns made so far, with those of `counts` points among them.
-
-        Args:
-            counts: int64, any shape.
+        """All patterns made so far, with those of `counts` points (int64) among them.
 
         Returns:
             start, patterns: (N,) int64; points: (P, 2) float64 in [0, 1)². Pattern
             j < patterns[n] of n points is the n rows of `points` from start[n] + j·n.
         """
-        table = self._table
-        if not _holds(table, counts):
-            with self._lock:
-                for count in np.unique(counts):
-                    if not _holds(self._table, count):
-                        self._table = self._extended(int(count))
-                table = self._table
-        return table
+        with self._lock:
+            for count in set(counts.tolist()) - self._made:
+                self._add(count)
+            return self._table
 
-    def _extended(self, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """A copy of the table with the patterns of `count` points added."""
+    def _add(self, count: int) -> None:
+        """Put a copy of the table, with patterns of `count` points, in the table's place."""
         start, patterns, points = self._table
         grown = np.zeros((2, max(len(start), count + 1)), np.int64)
         grown[:, : len(start)] = start, patterns
@@ -127,13 +121,8 @@ class PatternBank:
         grown[:, count] = len(points), number
         rng = np.random.default_rng(np.random.SeedSequence(self._seed, spawn_key=(count,)))
         new = [exactly(count, rng, False)[0] for _ in range(number)]
-        return grown[0], grown[1], np.concatenate([points, *new])
-
-
-def _holds(table, counts) -> bool:
-    """Whether the table has patterns of all these counts."""
-    patterns = table[1]
-    return np.max(counts) < len(patterns) and bool(np.all(patterns[counts]))
+        self._table = (grown[0], grown[1], np.concatenate([points, *new]))
+        self._made.add(count)
 
 
 @njit(cache=True, nogil=True)

@@ -31,8 +31,6 @@ def sample_rays(
     shards or threads.
 
     Args:
-        mesh_ply: the prepared mesh, in normalised space.
-        directions_npy: from `draw_directions`.
         origins_npy: gets (last − first, m, 3) float32 points on the unit sphere.
         sampling: `sampler`, `points_per_direction` m, `silhouette_resolution` and `min_quad`.
 
