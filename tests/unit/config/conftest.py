@@ -1,42 +1,16 @@
 """The shipped configuration, changed in one place, and what is said about that."""
 
-import copy
 import functools
-from pathlib import Path
 
 import pytest
-import yaml
+from shipped import shipped
 
 from neural_shadows.config.reading import read_config
 from neural_shadows.errors import InputError
 
 
-@functools.cache
-def shipped_file(name):
-    path = Path(__file__).parents[3] / "config" / f"{name}.yaml"
-    return yaml.load(path.read_text(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-
-
-def merge(base, overlay):
-    """As Snakemake merges files: sections are merged, all else is replaced."""
-    for key, value in overlay.items():
-        if isinstance(value, dict) and isinstance(base.get(key), dict):
-            merge(base[key], value)
-        else:
-            base[key] = copy.deepcopy(value)
-    return base
-
-
-@pytest.fixture(scope="session")
-def shipped():
-    """A function: the default's values with those of an overlay."""
-    return lambda name="config": functools.reduce(
-        merge, map(shipped_file, ("config", "reports", name)), {}
-    )
-
-
 @pytest.fixture
-def values(shipped):
+def values():
     return shipped()
 
 

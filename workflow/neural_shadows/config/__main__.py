@@ -20,28 +20,15 @@ def _part(node: Any) -> Any:
         return [_part(one) for one in node]
     if not isinstance(node, dict):
         return node
-    part = {}
-    for key, value in node.items():
-        match key:
-            case "required" | "title" | "default":
-                pass
-            case "properties" | "patternProperties":
-                part[key] = {name: _or_null(_part(one)) for name, one in value.items()}
-            case "$defs":
-                part[key] = {name: _part(one) for name, one in value.items()}
-            case "oneOf":  # without its kind a section may be of several
-                part["anyOf"] = _part(value)
-            case _:
-                part[key] = _part(value)
+    dropped = [("required", list), ("title", str)]  # `title` may also be a property, a dict
+    part = {key: _part(value) for key, value in node.items() if (key, type(value)) not in dropped}
+    if "oneOf" in part:  # without its kind a section may be of several
+        part["anyOf"] = part.pop("oneOf")
+    for key in ("properties", "patternProperties"):
+        for name, value in part.get(key, {}).items():
+            about = {"description": value.pop("description")} if "description" in value else {}
+            part[key][name] = about | {"anyOf": [value, {"type": "null"}]}
     return part
-
-
-def _or_null(schema: dict[str, Any]) -> dict[str, Any]:
-    description = {key: schema.pop(key) for key in ("description",) if key in schema}
-    null = {"type": "null"}
-    if null in schema.get("anyOf", []):
-        return description | schema
-    return description | {"anyOf": [schema, null]}
 
 
 if __name__ == "__main__":

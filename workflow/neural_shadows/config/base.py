@@ -1,24 +1,23 @@
 """What all sections of the configuration share."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from difflib import get_close_matches
 from functools import reduce
 from operator import or_
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any
 
 from pydantic import (
+    AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
     Discriminator,
     Field,
     Tag,
+    ValidationInfo,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
-
-Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
-Seed = Annotated[int, Field(ge=0, lt=2**32)]
 
 
 class Model(BaseModel):
@@ -52,44 +51,44 @@ def check_among(key: str, value: str, allowed: Iterable[str]) -> None:
         raise ValueError(f"{key}: {not_among(value, allowed)}")
 
 
-def check_power_of_two(value: int, key: str) -> None:
-    """Check that the value of a key is a power of two."""
+def _power_of_two(value: int) -> int:
     if value & (value - 1):
-        raise ValueError(f"{key} = {value}: must be a power of two")
+        raise ValueError(f"{value} is not a power of two")
+    return value
 
 
-def one_of(models: Iterable[type[Model]], tag: Callable[[dict], str | None], message: str) -> Any:
-    """The union of models, of which a function tells the one that a section is of.
+Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
+Seed = Annotated[int, Field(ge=0, lt=2**32)]
+PowerOfTwo = Annotated[int, AfterValidator(_power_of_two)]
 
-    Tags are the classes' names, which no key of the configuration can be: messages leave out
-    what is no key from the place of an error.
-    """
-    return Annotated[
-        reduce(or_, (Annotated[model, Tag(model.__name__)] for model in models)),
-        Discriminator(
-            lambda value: tag(value) if isinstance(value, dict) else type(value).__name__,
-            custom_error_type="one_of",
-            custom_error_message=message,
-        ),
-    ]
+
+def name_in(section: str) -> Any:
+    """The name of an entry of a section; the configuration is the validation's context."""
+
+    def check(name: str, info: ValidationInfo) -> str:
+        entries = info.context.get(section)
+        if isinstance(entries, dict) and name not in entries:
+            raise ValueError(not_among(name, map(str, entries)))
+        return name
+
+    return Annotated[Name, AfterValidator(check)]
 
 
 def by_kind(key: str, *models: type[Model], default: str | None = None) -> Any:
     """The union of models that the value of one key tells apart."""
-    tags = {
-        kind: model.__name__
-        for model in models
-        for kind in get_args(model.model_fields[key].annotation)
-    }
-    message = f"`{key}` should be one of {', '.join(tags)}"
-    return one_of(models, lambda section: tags.get(str(section.get(key, default))), message)
-
-
-def name_or(section: Any) -> Any:
-    """A name that refers to a section, or the section itself."""
+    union = Annotated[reduce(or_, models), Discriminator(key)]
+    if default is None:
+        return union
     return Annotated[
-        Annotated[Name, Tag("Name")] | Annotated[section, Tag("Section")],
-        Discriminator(lambda value: "Name" if isinstance(value, str) else "Section"),
+        union, BeforeValidator(lambda v: {key: default} | v if isinstance(v, dict) else v)
+    ]
+
+
+def text_or(text: Any, section: Any) -> Any:
+    """What is text, such as a name, or else a section or a number."""
+    return Annotated[
+        Annotated[text, Tag("Text")] | Annotated[section, Tag("Section")],
+        Discriminator(lambda value: "Text" if isinstance(value, str) else "Section"),
     ]
 
 

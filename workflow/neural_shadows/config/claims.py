@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from neural_shadows.config.base import Model, Name, by_kind, check_among
-from neural_shadows.config.tables import method_key
+from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in
+from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
 from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
 
 if TYPE_CHECKING:
@@ -52,7 +52,9 @@ class LowerLossClaim(AnyClaim):
     """Networks compared by the end of their training loss."""
 
     kind: Literal["lower_loss"] = Field(description="`lower_loss`")
-    pairs: Pairs = Field(description="experiments, the claimed winner first")
+    pairs: list[Annotated[list[name_in("experiments")], Field(min_length=2, max_length=2)]] = Field(
+        min_length=1, description="experiments, the claimed winner first"
+    )
 
 
 class FrameTimeClaim(AnyClaim):
@@ -79,35 +81,41 @@ def compared(claim: AnyClaim) -> list[list[str]]:
     return getattr(claim, "pairs", None) or [[method] for method in claim.methods]
 
 
-def scenes_of(config: "Config", methods: list[str]) -> dict[str, str]:
-    """The scene of each of the methods compared: a network's own, a shadow map's the network's."""
-    networks = {
+def rows_of_claim(config: "Config", methods: list[str]) -> list[Row]:
+    """Methods that a claim compares as rows: a shadow map's scene is the network's beside it."""
+    scenes = {
         method: config.experiments[name].scene
         for method in methods
         if (name := experiment_of(method)) in config.experiments
     }
-    return {method: networks.get(method, next(iter(networks.values()))) for method in methods}
+    other = next(iter(scenes.values()))
+    rows = {
+        method: RowSettings(
+            method=experiment_of(method),
+            bias="held_out" if experiment_of(method) != method else None,
+        )
+        for method in methods
+    }
+    return [row_of(config, scenes.get(method, other), row) for method, row in rows.items()]
 
 
 def check(config: "Config") -> None:
     """Check names in claims: methods are networks, or shadow maps compared with one."""
+    timed = [name for name, table in config.tables.items() if table.kind == "frame_times"]
     for name, claim in config.claims.items():
+        if isinstance(claim, FrameTimeClaim):
+            check_among(f"claims.{name}.table", claim.table, timed)
         key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
             for method in methods:
-                known = method if isinstance(claim, LowerLossClaim) else experiment_of(method)
-                if isinstance(claim, LowerLossClaim) or not is_shadow_map(method):
-                    check_among(key, known, config.experiments)
+                if not is_shadow_map(method):
+                    check_among(key, experiment_of(method), config.experiments)
             if all(map(is_shadow_map, methods)):
                 raise ValueError(f"{key}: {methods}: one of them should be an experiment")
             if len(set(methods)) < len(methods):
                 raise ValueError(f"{key}: {methods[0]!r} is compared with itself")
             if isinstance(claim, FrameTimeClaim):
-                timed = [
-                    name for name, table in config.tables.items() if table.kind == "frame_times"
-                ]
-                check_among(f"claims.{name}.table", claim.table, timed)
-                scene = scenes_of(config, methods)[methods[0]]
-                rows = config.tables[claim.table].rows.get(scene, [])
+                scene = rows_of_claim(config, methods)[0]["scene"]
+                rows = [row for row in rows_of(config, claim.table) if row["scene"] == scene]
                 for method in methods:
-                    check_among(key, method, [method_key(config, row) for row in rows])
+                    check_among(key, method, [row["method"] for row in rows])

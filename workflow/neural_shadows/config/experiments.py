@@ -2,9 +2,9 @@
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, Seed, check_among, name_or
+from neural_shadows.config.base import Model, Seed, name_in, text_or
 from neural_shadows.config.networks import Network
 from neural_shadows.config.trainings import Training
 from neural_shadows.evaluation.method_names import BIASED_SUFFIX, RAY_TRACED, SHADOW_MAP_PREFIX
@@ -12,24 +12,20 @@ from neural_shadows.evaluation.method_names import BIASED_SUFFIX, RAY_TRACED, SH
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
 
-DepthBias = Annotated[
-    Annotated[float, Field(ge=0, le=1), Tag("Number")]
-    | Annotated[Literal["held_out"], Tag("Word")],
-    Discriminator(lambda value: "Word" if isinstance(value, str) else "Number"),
-]
-
 
 class Experiment(Model):
     """One trained network: scene + sampling + network + training."""
 
-    scene: Name = Field(description="a name in `scenes`")
-    sampling: Name = Field(description="a name in `samplings`")
-    network: name_or(Network) = Field(description="a name in `networks`, or a section of its own")
-    training: name_or(Training) = Field(
+    scene: name_in("scenes") = Field(description="a name in `scenes`")
+    sampling: name_in("samplings") = Field(description="a name in `samplings`")
+    network: text_or(name_in("networks"), Network) = Field(
+        description="a name in `networks`, or a section of its own"
+    )
+    training: text_or(name_in("trainings"), Training) = Field(
         description="a name in `trainings`, or a section of its own"
     )
     seed: Seed | None = Field(None, description="seed of this training; without it the scene's")
-    bias: DepthBias = Field(
+    bias: text_or(Literal["held_out"], Annotated[float, Field(ge=0, le=1)]) = Field(
         0.0,
         description="added to t_pred, in sphere radii; `held_out`: the best on views in no table",
     )
@@ -89,9 +85,6 @@ def check(config: "Config") -> None:
                 f"{key}: tables and pictures have a method of this name; allowed: any other than "
                 f"'reference', '{RAY_TRACED}', '{SHADOW_MAP_PREFIX}…' and '…{BIASED_SUFFIX}'"
             )
-        for part in ("scene", "sampling", "network", "training"):
-            if isinstance(value := getattr(experiment, part), str):
-                check_among(f"{key}.{part}", value, getattr(config, f"{part}s"))
         same = trained.setdefault(experiment.model_dump_json(exclude={"label", "bias"}), name)
         if same != name:
             raise ValueError(

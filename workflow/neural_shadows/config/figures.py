@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, by_kind, check_among, section_or
+from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in, section_or
 from neural_shadows.config.experiments import formatted, network_of
 from neural_shadows.config.scenes import ViewSet
-from neural_shadows.config.tables import method_key, rows_by_scene
+from neural_shadows.config.tables import Row, rows_of
 from neural_shadows.evaluation.method_names import RAY_TRACED
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class ErrorsFigure(MethodsFigure):
 class CurveSettings(Model):
     """A curve of a figure of training losses that is more than a name."""
 
-    experiment: Name = Field(description="a name in `experiments`")
+    experiment: name_in("experiments") = Field(description="a name in `experiments`")
     label: str | None = Field(
         None, min_length=1, description="its name in the figure; without it the experiment's label"
     )
@@ -67,11 +67,11 @@ class LossFigure(AnyFigure):
     )
 
 
-class WidthsFigure(AnyFigure):
-    """LPIPS and frame time over layer width [figure 4.8]."""
+class TableFigure(AnyFigure):
+    """A table drawn: LPIPS and frame time over layer width [figure 4.8], or costs over sizes."""
 
-    kind: Literal["widths"] = Field(description="`widths`")
-    table: Name = Field(description="a table of `frame_times` in `tables`")
+    kind: Literal["widths", "cost"] = Field(description="what is drawn")
+    table: Name = Field(description="a table of `frame_times` in `tables`, or of `cost`")
 
 
 class DirectionsFigure(AnyFigure):
@@ -86,15 +86,15 @@ class SceneFigure(AnyFigure):
     kind: Literal["shadow_boundary", "dual_bounds", "dead_zone_loss"] = Field(
         description="what is drawn"
     )
-    scene: Name = Field(description="a name in `scenes`")
+    scene: name_in("scenes") = Field(description="a name in `scenes`")
 
 
 class SamplingFigure(AnyFigure):
     """How a scene's rays are drawn [figures 3.1, 3.4], and all of it in three dimensions."""
 
     kind: Literal["overview", "quadtree", "scene_3d"] = Field(description="what is drawn")
-    scene: Name = Field(description="a name in `scenes`")
-    sampling: Name = Field(description="a name in `samplings`")
+    scene: name_in("scenes") = Field(description="a name in `scenes`")
+    sampling: name_in("samplings") = Field(description="a name in `samplings`")
 
 
 class ParetoFigure(AnyFigure):
@@ -103,13 +103,6 @@ class ParetoFigure(AnyFigure):
     kind: Literal["pareto"] = Field(description="`pareto`")
     table: Name = Field(description="a table of `networks` in `tables`")
     scene: Name = Field(description="a scene of that table")
-
-
-class CostFigure(AnyFigure):
-    """Time and memory of each stage over each size."""
-
-    kind: Literal["cost"] = Field(description="`cost`")
-    table: Name = Field(description="a table of `cost` in `tables`")
 
 
 class FieldFigure(AnyFigure):
@@ -123,16 +116,15 @@ class DepthsFigure(AnyFigure):
     """A network's depth for one light between its bounds, as sheets in three dimensions."""
 
     kind: Literal["depth_sheets_3d"] = Field(description="`depth_sheets_3d`")
-    experiment: Name = Field(description="a name in `experiments`")
+    experiment: name_in("experiments") = Field(description="a name in `experiments`")
 
 
 Figure = by_kind(
     "kind",
     PicturesFigure,
     LossFigure,
-    WidthsFigure,
+    TableFigure,
     ParetoFigure,
-    CostFigure,
     FieldFigure,
     DepthsFigure,
     ErrorsFigure,
@@ -149,13 +141,29 @@ KINDS_OF_TABLE = {
 }
 
 
-def figure_scene(config: "Config", figure: MethodsFigure | ParetoFigure) -> str:
-    """The scene of a figure of a table: the one that it names, or the table's only one."""
-    return figure.scene or next(iter(rows_by_scene(config, figure.table)))
+def scene_of(config: "Config", figure: MethodsFigure | ParetoFigure) -> str:
+    """The scene of a figure of a table: the one that it names, or the table's first."""
+    return figure.scene or rows_of(config, figure.table)[0]["scene"]
+
+
+def rows_of_figure(config: "Config", figure: AnyFigure) -> list[Row]:
+    """The rows of a figure of a table: those of its scene, or of `widths` those with a `width`."""
+    rows = rows_of(config, figure.table)
+    if isinstance(figure, TableFigure):
+        networks = [row for row in rows if row["experiment"]]
+        widths = [getattr(network_of(config, row["experiment"]), "width", None) for row in networks]
+        return [row | {"width": width} for row, width in zip(networks, widths) if width]
+    rows = [row for row in rows if row["scene"] == scene_of(config, figure)]
+    if isinstance(figure, MethodsFigure):
+        # Ray tracing's pictures are the reference, which is shown anyway.
+        rows = [row for row in rows if row["method"] != RAY_TRACED]
+        if figure.methods is not None:
+            rows = [row for row in rows if row["method"] in figure.methods]
+    return rows
 
 
 def check(config: "Config") -> None:
-    """Check names in figures, and that each is of a table or network that it can show."""
+    """Check that each figure is of a table or network that it can show."""
     for name, figure in config.figures.items():
         key = f"figures.{name}"
         if hasattr(figure, "table"):
@@ -163,14 +171,8 @@ def check(config: "Config") -> None:
             tables = [name for name, table in config.tables.items() if table.kind in kinds]
             check_among(f"{key}.table", figure.table, tables)
         match figure:
-            case SceneFigure():
-                check_among(f"{key}.scene", figure.scene, config.scenes)
-            case SamplingFigure():
-                check_among(f"{key}.scene", figure.scene, config.scenes)
-                check_among(f"{key}.sampling", figure.sampling, config.samplings)
             case LossFigure():
                 for curve in figure.curves:
-                    check_among(f"{key}.curves", curve.experiment, config.experiments)
                     formatted(config, curve.experiment, curve.label)
             case FieldFigure():
                 fields = [
@@ -179,21 +181,15 @@ def check(config: "Config") -> None:
                     if network_of(config, name).encoding == "occupancy_field"
                 ]
                 check_among(f"{key}.experiment", figure.experiment, fields)
-            case DepthsFigure():
-                check_among(f"{key}.experiment", figure.experiment, config.experiments)
             case ParetoFigure() | MethodsFigure():
-                scenes = rows_by_scene(config, figure.table)
+                rows = rows_of(config, figure.table)
+                scenes = list(dict.fromkeys(row["scene"] for row in rows))
                 if figure.scene is not None or len(scenes) > 1:
                     check_among(f"{key}.scene", figure.scene or "", scenes)
-                if isinstance(figure, MethodsFigure):
-                    _check_methods(config, key, figure)
-
-
-def _check_methods(config: "Config", key: str, figure: MethodsFigure) -> None:
-    scene = figure_scene(config, figure)
-    rows = rows_by_scene(config, figure.table)[scene]
-    drawn = [method_key(config, row) for row in rows if row.method != RAY_TRACED]
-    for method in figure.methods or []:
-        check_among(f"{key}.methods", method, drawn)
-    for view_set in getattr(figure, "view_sets", []):
-        check_among(f"{key}.view_sets", view_set, config.scenes[scene].view_sets)
+                everything = figure.model_copy(update={"methods": None})
+                drawn = [row["method"] for row in rows_of_figure(config, everything)]
+                for method in getattr(figure, "methods", None) or []:
+                    check_among(f"{key}.methods", method, drawn)
+                seen = config.scenes[scene_of(config, figure)].view_sets
+                for view_set in getattr(figure, "view_sets", []):
+                    check_among(f"{key}.view_sets", view_set, seen)

@@ -25,6 +25,12 @@ def describe(error: ValidationError, values: Any) -> str:
         case "float_type" if _is_number(problem["input"]):
             key = f"{key} = {_shown(problem['input'])}"
             message = "is text to YAML; write a number with a point, as 0.001 or 1.0e-3"
+        case "union_tag_not_found":
+            message = f"the key {problem['ctx']['discriminator']} is missing"
+        case "union_tag_invalid":
+            kind = problem["ctx"]["discriminator"].strip("'")
+            key = f"{key}.{kind} = {_shown(problem['input'][kind])}"
+            message = f"should be one of {problem['ctx']['expected_tags']}"
         case "value_error" | "unknown_key":  # these name key and value themselves
             pass
         case _:

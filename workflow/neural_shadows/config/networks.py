@@ -2,9 +2,9 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from neural_shadows.config.base import Model, by_kind, check_power_of_two
+from neural_shadows.config.base import Model, PowerOfTwo, by_kind
 
 
 class FrequencyNetwork(Model):
@@ -52,14 +52,9 @@ class HashGrid(OccupancyRayGrid):
     """An occupancy-clipped ray grid whose large grids are hash tables (Instant-NGP)."""
 
     encoding: Literal["hash_grid"] = Field(description="`hash_grid`: multiresolution hash tables")
-    table_size: int = Field(
+    table_size: PowerOfTwo = Field(
         65536, ge=16, le=1 << 24, description="entries of a grid's hash table, a power of two"
     )
-
-    @model_validator(mode="after")
-    def _check(self):
-        check_power_of_two(self.table_size, "table_size")
-        return self
 
 
 class OccupancyField(Model):
@@ -69,17 +64,13 @@ class OccupancyField(Model):
     encoding: Literal["occupancy_field"] = Field(
         description="`occupancy_field`: inside or outside, without a direction"
     )
-    resolution: int = Field(256, ge=8, le=1024, description="cells along an axis, a multiple of 4")
+    resolution: int = Field(
+        256, ge=8, le=1024, multiple_of=4, description="cells along an axis, a multiple of 4"
+    )
     surface: Literal["solid", "sheet"] = Field(
         "solid", description="`solid`: the object has an inside; `sheet`: one open surface"
     )
     stored: Stored = Field("int8", description="how the weight file holds the logits")
-
-    @model_validator(mode="after")
-    def _check(self):
-        if self.resolution % 4:
-            raise ValueError(f"resolution = {self.resolution}: must be a multiple of 4")
-        return self
 
 
 Network = by_kind(

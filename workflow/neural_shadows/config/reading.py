@@ -7,7 +7,6 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
-from neural_shadows.config.base import not_among
 from neural_shadows.config.messages import describe
 from neural_shadows.config.scenes import MeshFile
 from neural_shadows.config.whole import Config
@@ -81,7 +80,7 @@ def read_config(values: dict[str, Any]) -> Config:
         if not (isinstance(old, dict) and mesh.items() <= old.items()):
             scenes["dragon"]["mesh"] = mesh
     try:
-        return Config.model_validate(values)
+        return Config.model_validate(values, context=values)
     except ValidationError as error:
         raise InputError(f"config: {describe(error, values)}") from error
 
@@ -97,11 +96,9 @@ def check_files(config: Config) -> None:
     """
     for name, scene in config.scenes.items():
         if isinstance(scene.mesh, MeshFile):
-            path = scene.mesh.path
-            short = name == "dragon" and config.dragon == path
-            key = "dragon" if short else f"scenes.{name}.mesh.path"
-            if short and "." not in path and not Path(path).exists():
-                raise InputError(f"config: dragon: {not_among(path, MESHES_BY_NAME)}, and no file")
+            path, key = scene.mesh.path, f"scenes.{name}.mesh.path"
+            if name == "dragon" and config.dragon == path:
+                key = "dragon (wyrm, stanford or a mesh file)"
             _check_file(key, path)
             try:
                 format_of(path)

@@ -2,10 +2,11 @@
 
 from typing import TYPE_CHECKING, Any
 
+from neural_shadows.config.claims import compared, rows_of_claim
 from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
-from neural_shadows.config.figures import figure_scene
-from neural_shadows.config.rows import curves_of, rows_of, rows_of_claim, rows_of_figure
+from neural_shadows.config.figures import LossFigure, TableFigure, rows_of_figure, scene_of
 from neural_shadows.config.scenes import mesh_name
+from neural_shadows.config.tables import rows_of
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -64,18 +65,19 @@ def _experiment(config: "Config", name: str) -> Section:
 def _figure(config: "Config", name: str) -> Section:
     figure = config.figures[name]
     section = figure.model_dump()
-    if figure.kind == "loss":
-        section["curves"] = curves_of(config, figure)
-    if figure.kind in ("pictures", "errors_3d", "pareto", "widths"):
-        section["rows"] = rows_of_figure(config, name)
-    if figure.kind in ("pictures", "errors_3d", "pareto"):
-        section["scene"] = figure_scene(config, figure)
+    if isinstance(figure, LossFigure):
+        for curve in section["curves"]:
+            curve["label"] = formatted(config, curve["experiment"], curve["label"])
+    elif hasattr(figure, "table") and figure.kind != "cost":
+        section["rows"] = rows_of_figure(config, figure)
+        if not isinstance(figure, TableFigure):
+            section["scene"] = scene_of(config, figure)
     return section
 
 
 def _claim(config: "Config", name: str) -> Section:
     claim = config.claims[name]
-    rows = rows_of_claim(config, name)
+    rows = [rows_of_claim(config, methods) for methods in compared(claim)]
     if claim.kind == "larger_error":
         return claim.model_dump() | {"methods": [row for (row,) in rows]}
     return claim.model_dump() | {"pairs": rows}

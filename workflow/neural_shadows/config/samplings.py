@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from neural_shadows.config.base import Model, check_power_of_two
+from neural_shadows.config.base import Model, PowerOfTwo
 
 
 class Sampling(Model):
@@ -24,18 +24,16 @@ class Sampling(Model):
     points_per_direction: int = Field(
         ge=1, le=10_000_000, description="m, rays per view direction [3.4.2]"
     )
-    silhouette_resolution: int = Field(
+    silhouette_resolution: PowerOfTwo = Field(
         128, ge=8, le=4096, description="texels along a silhouette's side, a power of two"
     )
-    min_quad: int = Field(
+    min_quad: PowerOfTwo = Field(
         1, ge=1, le=4096, description="side of the smallest quad in texels, a power of two"
     )
     shards: int = Field(2, ge=1, le=10_000, description="files (and jobs) the rays are split into")
 
     @model_validator(mode="after")
     def _check(self):
-        check_power_of_two(self.silhouette_resolution, "silhouette_resolution")
-        check_power_of_two(self.min_quad, "min_quad")
         if self.min_quad > self.silhouette_resolution:
             raise ValueError(
                 f"min_quad = {self.min_quad}: must not exceed silhouette_resolution "

@@ -3,21 +3,15 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
-from neural_shadows.config.base import Model, Seed, by_kind, one_of
+from neural_shadows.config.base import Model, Seed, by_kind
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
 
 
-class GeneratedMesh(Model):
-    """A mesh that the pipeline makes."""
-
-    generate: str = Field(description="which mesh")
-
-
-class Wyrm(GeneratedMesh):
+class Wyrm(Model):
     """The procedural stand-in dragon."""
 
     generate: Literal["wyrm"] = Field(description="`wyrm`: a creature, the stand-in dragon")
@@ -26,7 +20,7 @@ class Wyrm(GeneratedMesh):
     )
 
 
-class Fence(GeneratedMesh):
+class Fence(Model):
     """A panel of woven wire in a frame, standing on the ground [4.1.1]."""
 
     generate: Literal["fence"] = Field(description="`fence`: diagonally crossing round wires")
@@ -36,7 +30,7 @@ class Fence(GeneratedMesh):
     )
 
 
-class Landscape(GeneratedMesh):
+class Landscape(Model):
     """A height field with extrusions, one open sheet [4.1.1]."""
 
     generate: Literal["landscape"] = Field(description="`landscape`: one sheet of low frequency")
@@ -60,28 +54,31 @@ class MeshFile(Model):
     )
 
 
-MESHES = {"wyrm": Wyrm, "fence": Fence, "landscape": Landscape}
+# Tags that no key is called: messages leave out what is no key from the place of an error.
+_TAGS = {"generate": "Generated", "download": "Downloaded", "path": "File"}
 
 
-def _mesh_class(section: dict[str, Any]) -> str | None:
-    match [key for key in ("generate", "download", "path") if key in section]:
-        case ["generate"] if section["generate"] in MESHES:
-            return MESHES[section["generate"]].__name__
-        case ["download"]:
-            return "DownloadedMesh"
-        case ["path"]:
-            return "MeshFile"
-    return None
+def _tag(mesh: Any) -> str | None:
+    has = mesh.__contains__ if isinstance(mesh, dict) else lambda key: hasattr(mesh, key)
+    tags = [tag for key, tag in _TAGS.items() if has(key)]
+    return tags[0] if len(tags) == 1 else None
 
 
 WHERE_FROM = (
     "one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, {path: FILE}"
 )
-Mesh = one_of(
-    [*MESHES.values(), DownloadedMesh, MeshFile],
-    _mesh_class,
-    f"should be {WHERE_FROM} (an overlay drops a key of the default by setting it to null)",
-)
+Mesh = Annotated[
+    Annotated[by_kind("generate", Wyrm, Fence, Landscape), Tag("Generated")]
+    | Annotated[DownloadedMesh, Tag("Downloaded")]
+    | Annotated[MeshFile, Tag("File")],
+    Discriminator(
+        _tag,
+        custom_error_type="mesh",
+        custom_error_message=(
+            f"should be {WHERE_FROM} (an overlay drops a key of the default by setting it to null)"
+        ),
+    ),
+]
 
 
 Elevation = Annotated[
@@ -128,11 +125,9 @@ class Scene(Model):
 
 def mesh_name(scene: Scene) -> str:
     """What a scene's mesh is called in tables: what it is, not what it stands for."""
-    match scene.mesh:
-        case MeshFile(path=path):
-            return Path(Path(path).name.removesuffix(".gz")).stem
-        case DownloadedMesh(download=name) | GeneratedMesh(generate=name):
-            return name
+    if isinstance(scene.mesh, MeshFile):
+        return Path(Path(scene.mesh.path).name.removesuffix(".gz")).stem
+    return getattr(scene.mesh, "generate", None) or scene.mesh.download
 
 
 def check(config: "Config") -> None:

@@ -1,13 +1,19 @@
 """`tables`: the tables of a run, by kind."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from collections import Counter
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, by_kind, check_among, section_or
+from neural_shadows.config.base import Model, by_kind, check_among, name_in, section_or
 from neural_shadows.config.experiments import formatted
 from neural_shadows.evaluation.costs import STAGES
-from neural_shadows.evaluation.method_names import RAY_TRACED, biased_key, is_shadow_map
+from neural_shadows.evaluation.method_names import (
+    RAY_TRACED,
+    biased_key,
+    is_shadow_map,
+    resolution_of,
+)
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -38,7 +44,7 @@ class AnyTable(Model):
     published: str | None = Field(
         None, pattern=r"^4\.[1-7]$", description="the thesis's number of this table"
     )
-    figures: list[Name] = Field(
+    figures: list[name_in("figures")] = Field(
         [], description="names in `figures` that are made and shown beside the table"
     )
     on_request: bool = Field(
@@ -47,42 +53,24 @@ class AnyTable(Model):
 
 
 class TableOfOneScene(AnyTable):
-    """A table of methods on one scene."""
+    """A table of methods on one scene: their quality, or the memory that they take [4.4.2]."""
 
     rows: Rows = Field(description="methods, in the table's order")
-    scene: Name | None = Field(
+    scene: name_in("scenes") | None = Field(
         None, description="a name in `scenes`; without it that of the rows' experiments"
+    )
+    kind: Literal["comparison", "memory"] = Field(
+        "comparison", description="`comparison`, the default, on the same viewpoints; or `memory`"
     )
 
 
 class TableByScene(AnyTable):
     """A table of methods on several scenes."""
 
-    rows: dict[Name, Rows] = Field(min_length=1, description="methods, by scene")
-
-
-class ComparisonTable(TableOfOneScene):
-    """A table of methods on the same viewpoints, beside the values that the thesis prints."""
-
-    kind: Literal["comparison"] = Field("comparison", description="`comparison`, the default")
-
-
-class MemoryTable(TableOfOneScene):
-    """A table of the memory that methods take [4.4.2]."""
-
-    kind: Literal["memory"] = Field(description="`memory`")
-
-
-class FrameTimesTable(TableByScene):
-    """A table of frame time, LPIPS and size [4.4.1]."""
-
-    kind: Literal["frame_times"] = Field(description="`frame_times`")
-
-
-class NetworksTable(TableByScene):
-    """A table of networks beside shadow maps: quality, bytes, training, speed; by scene."""
-
-    kind: Literal["networks"] = Field(description="`networks`")
+    rows: dict[name_in("scenes"), Rows] = Field(min_length=1, description="methods, by scene")
+    kind: Literal["frame_times", "networks"] = Field(
+        description="`frame_times` [4.4.1]; `networks`: quality, bytes, training and speed"
+    )
 
 
 class CostTable(AnyTable):
@@ -104,20 +92,14 @@ class CostTable(AnyTable):
     )
 
 
-Table = by_kind(
-    "kind",
-    ComparisonTable,
-    FrameTimesTable,
-    NetworksTable,
-    MemoryTable,
-    CostTable,
-    default="comparison",
-)
+Table = by_kind("kind", TableOfOneScene, TableByScene, CostTable, default="comparison")
 
 
-def rows_by_scene(config: "Config", name: str) -> dict[str, list[RowSettings]]:
-    """The rows of a table, by scene."""
-    table = config.tables[name]
+Row = dict[str, Any]  # method, label, published, scene, experiment, bias
+
+
+def settings_by_scene(config: "Config", table: AnyTable) -> dict[str, list[RowSettings]]:
+    """The rows of a table as they are given, by scene; none of a table of costs."""
     if isinstance(table, CostTable):
         return {}
     if isinstance(table, TableByScene):
@@ -127,51 +109,70 @@ def rows_by_scene(config: "Config", name: str) -> dict[str, list[RowSettings]]:
     return {table.scene or min(scenes, default=""): table.rows}
 
 
-def method_key(config: "Config", row: RowSettings) -> str:
-    """The key of a row's method: of a network whose own depth bias the row changes, another."""
-    experiment = config.experiments.get(row.method)
-    changed = experiment and row.bias is not None and row.bias != experiment.bias
-    return biased_key(row.method) if changed else row.method
+def rows_of(config: "Config", name: str) -> list[Row]:
+    """The rows of a table; none of a table of costs.
+
+    Returns: of each row `method`, the method's key; `label`; `published`, its key in
+        published.csv or None if the table is not the thesis's; `scene`; `experiment`, or None
+        if it is no network; `bias`, a number, `held_out`, or None if it is no network.
+    """
+    table = config.tables[name]
+    rows = [
+        (row_of(config, scene, settings), settings.published or settings.method)
+        for scene, given in settings_by_scene(config, table).items()
+        for settings in given
+    ]
+    return [row | {"published": key if table.published else None} for row, key in rows]
 
 
-def row_label(config: "Config", row: RowSettings) -> str:
-    """What a row is called, in its own words or made from its method."""
-    if row.method in config.experiments:
+def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
+    """A row of `rows_of` that is not the thesis's."""
+    method, bias, label = row.method, None, row.label
+    if experiment := config.experiments.get(row.method):
         label = formatted(config, row.method, row.label)
-        changed = method_key(config, row) != row.method and row.label is None
-        return f"{label}, with bias" if changed else label
-    if row.method == RAY_TRACED:
-        return row.label or "Ray traced"
-    return row.label or f"{row.method.removeprefix('shadow_map_')}² shadow map"
+        bias = row.bias or experiment.bias
+        if bias != experiment.bias:  # of a network whose own depth bias the row changes
+            method = biased_key(row.method)
+            label = label if row.label else f"{label}, with bias"
+    elif label is None and method == RAY_TRACED:
+        label = "Ray traced"
+    elif label is None:
+        label = f"{resolution_of(method)}² shadow map"
+    return {
+        "method": method,
+        "label": label,
+        "published": None,
+        "scene": scene,
+        "experiment": row.method if experiment else None,
+        "bias": bias,
+    }
 
 
 def check(config: "Config") -> None:
-    """Check names in tables, and that each row of a scene has a method and label of its own."""
+    """Check that each row of a scene has a method and label of its own."""
     for name, table in config.tables.items():
         key = f"tables.{name}"
         if name in ("claims", "index"):
             raise ValueError(f"{key}: a report has this name; choose another")
-        for figure in table.figures:
-            check_among(f"{key}.figures", figure, config.figures)
         if isinstance(table, CostTable):
             for size in STAGES:
                 if (values := getattr(table, size)) != sorted(set(values)):
                     raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
         timed = [RAY_TRACED] if isinstance(table, TableByScene) else []
-        for scene, rows in rows_by_scene(config, name).items():
-            check_among(f"{key}.scene", scene, config.scenes)
+        for scene, rows in settings_by_scene(config, table).items():
+            if not scene:
+                raise ValueError(f"{key}: has shadow maps alone and needs a `scene`")
             here = [name for name, other in config.experiments.items() if other.scene == scene]
             for row in rows:
-                if not is_shadow_map(row.method):
-                    allowed = ["shadow_map_N", *timed, *here]
-                    check_among(f"{key}.rows of {scene}", row.method, allowed)
                 if row.bias is not None:
                     check_among(f"{key}.rows with a bias", row.method, here)
-            _check_once(f"{key}.rows of {scene}", [method_key(config, row) for row in rows])
-            _check_once(f"{key}.rows of {scene}", [row_label(config, row) for row in rows])
-
-
-def _check_once(key: str, values: list[str]) -> None:
-    for value in values:
-        if values.count(value) > 1:
-            raise ValueError(f"{key}: {value!r} is there twice; should be there once")
+                elif not is_shadow_map(row.method):
+                    allowed = ["shadow_map_N", *timed, *here]
+                    check_among(f"{key}.rows of {scene}", row.method, allowed)
+            made = [row_of(config, scene, row) for row in rows]
+            for part in ("method", "label"):
+                for value, count in Counter(row[part] for row in made).items():
+                    if count > 1:
+                        raise ValueError(
+                            f"{key}.rows of {scene}: {value!r} is there twice; should be there once"
+                        )

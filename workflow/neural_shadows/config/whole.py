@@ -62,8 +62,7 @@ class Config(Model):
     def _check(self):
         if self.scale in RESERVED_SCALES:
             raise ValueError(
-                f"scale = {self.scale!r}: is the name of a folder of results or reports; "
-                f"allowed: any other than {', '.join(sorted(RESERVED_SCALES))}"
+                f"scale = {self.scale!r}: is the name of a folder of results; choose another"
             )
         for section in (scenes, experiments, tables, figures, claims):
             section.check(self)
