@@ -54,7 +54,7 @@ def test_null_drops_a_key(message, values):
 @pytest.mark.parametrize(
     ("path", "words"),
     [
-        ("stanfrod", "dragon (wyrm, stanford or a mesh file) = 'stanfrod': no such file"),
+        ("stanfrod", "'stanfrod' (did you mean 'stanford'?) is not among wyrm, stanford, and"),
         ("folder.ply", "= 'folder.ply': no such file"),
         ("there.fbx", "mesh there.fbx: the format is not known by this suffix; give one of"),
     ],

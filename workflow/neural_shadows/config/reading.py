@@ -7,6 +7,7 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
+from neural_shadows.config.base import not_among
 from neural_shadows.config.messages import describe
 from neural_shadows.config.scenes import MeshFile
 from neural_shadows.config.whole import Config
@@ -98,7 +99,10 @@ def check_files(config: Config) -> None:
         if isinstance(scene.mesh, MeshFile):
             path, key = scene.mesh.path, f"scenes.{name}.mesh.path"
             if name == "dragon" and config.dragon == path:
-                key = "dragon (wyrm, stanford or a mesh file)"
+                key = "dragon"
+                if "." not in path and not Path(path).exists():
+                    told = not_among(path, MESHES_BY_NAME)
+                    raise InputError(f"config: dragon: {told}, and no file")
             _check_file(key, path)
             try:
                 format_of(path)

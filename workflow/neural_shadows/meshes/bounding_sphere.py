@@ -19,21 +19,13 @@ def minimal_bounding_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
     where that is larger. Coplanar, collinear and repeated points are legal.
 
     Args:
-        points: (n, 3) coordinates in any unit, n >= 1.
+        points: (n, 3) finite coordinates in any unit, n >= 1.
 
     Returns:
         Centre (3,) and radius in the unit of `points`. No point is further from the centre
         than the radius, as computed in float64 from the returned centre.
-
-    Raises:
-        ValueError: not (n, 3), no points, or a coordinate that is not finite.
     """
     points = np.asarray(points, dtype=np.float64)
-    if points.ndim != 2 or points.shape[1] != 3 or len(points) == 0:
-        raise ValueError(f"points must be (n >= 1, 3), not {points.shape}")
-    if not np.isfinite(points).all():
-        raise ValueError("points must be finite")
-
     # About the origin and of size 1: an offset of 1e6 would cost six digits of every
     # squared distance, and the squares of very large or small units leave float64's range.
     low, high = points.min(axis=0), points.max(axis=0)

@@ -25,14 +25,12 @@ def make_fence(*, wires: int, wire_radius: float) -> tuple[np.ndarray, np.ndarra
     """Vertices (V, 3) float64 and faces (F, 3) int64 of the fence, all parts closed.
 
     Args:
-        wires: diamonds along the panel's width.
+        wires: diamonds along the panel's width, 2 or more.
         wire_radius: of a wire, in widths of the panel.
 
     Raises:
-        InputError: fewer than 2 diamonds, or wires that leave no hole between them.
+        InputError: wires that leave no hole between them.
     """
-    if wires < 2:
-        raise InputError(f"fence: wires = {wires}: give 2 or more")
     pitch = 1 / wires  # width and height of a diamond
     apart = pitch / np.sqrt(2)
     if not 0 < 2 * wire_radius <= MOST_COVERED * apart:

@@ -23,7 +23,7 @@ def generate_mesh(generated_ply: Path, mesh: Mapping[str, Any]) -> None:
         mesh: the scene's section: `generate`, a key of `MAKERS`, and what its maker takes.
 
     Raises:
-        InputError: a parameter out of its range.
+        InputError: parameters that do not go together.
     """
     parameters = dict(mesh)
     vertices, faces = MAKERS[parameters.pop("generate")](**parameters)

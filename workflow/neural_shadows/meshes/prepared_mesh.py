@@ -6,11 +6,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from neural_shadows.errors import InputError
 from neural_shadows.meshes.reading import read_mesh
-
-# How far outside the unit sphere rounding may put a vertex of a prepared mesh.
-_SPHERE_SLACK = 1e-4
 
 
 @dataclass(frozen=True)
@@ -34,24 +30,12 @@ def read_prepared(mesh_ply: str | Path) -> PreparedMesh:
     """Read a mesh that `prepare_mesh` wrote, and compute its normals.
 
     Raises:
-        InputError: as `read_mesh`; or the mesh is not in normalised space, or not clean.
+        InputError: as `read_mesh`.
     """
     vertices, faces = read_mesh(mesh_ply)
-    reach = np.linalg.norm(vertices, axis=1).max()
-    if not reach <= 1 + _SPHERE_SLACK:
-        raise InputError(
-            f"mesh {mesh_ply}: a vertex is {reach:g} from the origin, outside the unit sphere; "
-            "it was not prepared by this pipeline; delete it and run again"
-        )
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    if not lengths.all():
-        raise InputError(
-            f"mesh {mesh_ply}: face {lengths.argmin()} has no area; "
-            "it was not prepared by this pipeline; delete it and run again"
-        )
-    normals /= lengths
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     # Not all of trimesh's: it takes faces whose doubled area is below 2e-14 for degenerate, and
     # such faces do occur in normalised space. Weighted by angle and not by area or count, normals
     # do not depend on the triangulation (Thürmer and Wüthrich 1998).

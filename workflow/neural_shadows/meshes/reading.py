@@ -63,12 +63,9 @@ def mesh_bytes(path: str | Path) -> bytes:
         data = path.read_bytes()
         if path.name.lower().endswith(".gz") and data:
             data = gzip.decompress(data)
-    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        raise InputError(
-            f"mesh {path}: the compressed data is damaged or truncated ({error}); copy it again"
-        ) from error
-    except OSError as error:
-        raise InputError(f"mesh {path}: cannot be read ({error.strerror or error})") from error
+    except (OSError, EOFError, zlib.error) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"mesh {path}: cannot be read ({reason})") from error
     if not data:
         raise InputError(f"mesh {path}: is empty; copy or export it again")
     return data

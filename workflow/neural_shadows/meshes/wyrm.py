@@ -13,14 +13,11 @@ from scipy.spatial.transform import Rotation
 from skimage.measure import marching_cubes
 from trimesh.graph import connected_component_labels
 
-from neural_shadows.errors import InputError
 from neural_shadows.meshes.signed_distances import Part, distance_grid
 
 # Samples nearer to the surface than this (in cells) count as just outside: no vertex falls on a
 # grid point, where marching cubes would emit triangles without area.
 MIN_VALUE_CELLS = 0.01
-# Here the least radius has swollen the volume by 40 % already, and the jaws have grown together.
-MIN_CELLS = 48
 
 # Rows (x, y, z, radius) from the nape over neck, withers, back and hips to the tail's tip.
 SPINE = [
@@ -280,19 +277,13 @@ def make_wyrm(cells: int = 220) -> tuple[np.ndarray, np.ndarray]:
     """Mesh of the dragon: watertight, one piece, wound outward, lowest point on y = 0.
 
     Args:
-        cells: cells along the creature's longest side (x). The triangles grow with its square:
-            22,000 at 64, 240,000 at 220, 510,000 at 320.
+        cells: cells along the creature's longest side (x), 48 or more, where the least radius
+            has swollen the volume by 40 % and the jaws have grown together. The triangles grow
+            with its square: 22,000 at 64, 240,000 at 220, 510,000 at 320.
 
     Returns:
         Vertices (V, 3) float64 and faces (F, 3) int64. The same bytes each time.
-
-    Raises:
-        InputError: too few cells.
     """
-    if cells < MIN_CELLS:
-        raise InputError(
-            f"wyrm: cells is {cells}, too coarse for its parts; give {MIN_CELLS} or more"
-        )
     grid, origin, cell = distance_grid(creature(), cells)
     grid[np.abs(grid) < MIN_VALUE_CELLS * cell] = MIN_VALUE_CELLS * cell
     vertices, faces, _, _ = marching_cubes(grid, 0.0)
