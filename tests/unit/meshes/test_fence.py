@@ -70,9 +70,6 @@ def test_the_open_share_is_the_pattern_s(tracer):
     assert covered == pytest.approx(1 - (1 - one) ** 2, abs=0.02)
 
 
-def test_wrong_parameters_are_named():
-    with pytest.raises(InputError, match="wires = 1: give 2"):
-        make_fence(wires=1, wire_radius=0.01)
-    for radius in (0, -1, 0.03):
-        with pytest.raises(InputError, match=f"wire_radius = {radius}"):
-            make_fence(wires=16, wire_radius=radius)
+def test_wires_that_leave_no_hole_are_refused():
+    with pytest.raises(InputError, match="wire_radius = 0.03"):
+        make_fence(wires=16, wire_radius=0.03)

@@ -13,26 +13,20 @@ def sampled(parts, cells=60):
     return grid, origin + cell * np.stack(np.indices(grid.shape), axis=-1), cell
 
 
-def assert_near_surface(grid, exact, cell):
-    near = np.abs(exact) < 2 * cell
-    assert near.sum() > 1000
-    np.testing.assert_allclose(grid[near], exact[near], atol=1e-5)
-
-
-def test_cone_of_constant_radius_is_a_capsule():
-    grid, points, cell = sampled([cones(np.array([[0, 0, 0, 0.3], [2, 0, 0, 0.3]]), 0.01)])
-    nearest = np.clip(points[..., 0], 0, 2)[..., None] * [1, 0, 0]
-    assert_near_surface(grid, np.linalg.norm(points - nearest, axis=-1) - 0.3, cell)
-
-
-def test_wedge_is_the_distance_to_its_triangle_less_the_half_thickness():
+def test_capsules_and_wedges_near_their_surface():
     corners = np.array([[0.0, 0, 0], [2, 0.3, 0], [0.5, 1, 0.7]])
-    grid, points, cell = sampled([Part(np.c_[corners, [0.2, 0.2, 0.2]][None], 0.01)])
-    flat = points.reshape(-1, 3)
-    triangles = np.broadcast_to(corners, (len(flat), 3, 3))
-    nearest = trimesh.triangles.closest_point(triangles, flat)
-    exact = np.linalg.norm(flat - nearest, axis=1).reshape(grid.shape) - 0.2
-    assert_near_surface(grid, exact, cell)
+    for part, flat, radius in [
+        (cones(np.array([[0, 0, 0, 0.3], [2, 0, 0, 0.3]]), 0.01), [[0, 0, 0], [2, 0, 0]] * 2, 0.3),
+        (Part(np.c_[corners, [0.2, 0.2, 0.2]][None], 0.01), corners, 0.2),
+    ]:
+        grid, points, cell = sampled([part])
+        points = points.reshape(-1, 3)
+        triangles = np.broadcast_to(flat[:3], (len(points), 3, 3))
+        nearest = trimesh.triangles.closest_point(triangles, points)
+        exact = np.linalg.norm(points - nearest, axis=1).reshape(grid.shape) - radius
+        near = np.abs(exact) < 2 * cell
+        assert near.sum() > 1000
+        np.testing.assert_allclose(grid[near], exact[near], atol=1e-5)
 
 
 def test_ellipsoid_is_negative_just_inside():
