@@ -11,7 +11,7 @@ import pytest
 from corpus.damage import changed_bytes, changed_numbers, reads, strangers
 from corpus.odd_meshes import BALL, drawn, right, sheet, wrong
 from hypothesis import given
-from mesh_files import TETRAHEDRON, TETRAHEDRON_FACES, WRITERS, binary_ply, glb_tree, pack_glb
+from mesh_files import TETRAHEDRON, TETRAHEDRON_FACES, WRITERS, binary_ply, pack_glb
 
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.meshes.prepared_mesh import read_prepared
@@ -65,38 +65,22 @@ REPLACED = {
         (b"face 4", b"face 1" + b"0" * 100),
         (b"vertex 4", b"vertex -4"),
         (b"vertex 4", b"vertex 3"),
-        (b"face 4", b"face 5"),
         (b"end_header\n", b""),
         (b"ascii 1.0", b"utf_16 1.0"),
         (b"double x", b"quad x"),
         (b"property double z\n", b""),
-        (b"3 1 2 3", b"3 1 2 4"),
         (b"3 1 2 3", b"3 one two three"),
         (b"0.0 1.0 0.0", b"0,0 1,0 0,0"),
         (b"0.0 1.0 0.0", b"0.0 1e999 0.0"),
     ],
     "source.ply": [(b"vertex 4", b"vertex 9223372036854775808"), (b"list uchar", b"list uint")],
     "source.obj": [
-        *(
-            (b"f 1 2 4", b"f " + face)
-            for face in (b"1 2 9", b"0 1 2", b"-1 -2 -9", b"1 2", b"/ / /")
-        ),
-        *((b"f 1 2 4", b"f 1 2 " + index) for index in (b"2.5", b"1" + b"0" * 5000)),
-        *(
-            (b"v 1.0 0.0 0.0", b"v " + row)
-            for row in (b"1", b"a b c", b"1,5 2,5 3,5", b"1e999 0 0")
-        ),
+        *((b"f 1 2 4", b"f " + face) for face in (b"-1 -2 -9", b"/ / /", b"1 2 1" + b"0" * 5000)),
+        *((b"v 1.0 0.0 0.0", b"v " + row) for row in (b"a b c", b"1,5 2,5 3,5", b"1e999 0 0")),
     ],
-    "ascii.stl": [
-        (b"vertex 0.0 0.0 0.0", b"vertex 0.0 x 0.0"),
-        (b"vertex 0.0 0.0 0.0", b"vertex 0.0 0.0"),
-        (b"vertex 0.0 0.0 0.0", b"vertex 1e999 0.0 0.0"),
-    ],
+    "ascii.stl": [(b"0.0 0.0 0.0", row) for row in (b"0.0 x 0.0", b"0.0 0.0", b"1e999 0.0 0.0")],
     "source.glb": [
-        *(
-            (b'"count": 4', b'"count": ' + count)
-            for count in (b"2147483648", b"-4", b"3.5", b'"4"')
-        ),
+        *((b'"count": 4', b'"count": ' + n) for n in (b"2147483648", b"-4", b"3.5", b'"4"')),
         (b'"type": "VEC3"', b'"type": "VEC2"'),
         (b'"bufferView": 0', b'"bufferView": 7'),
         (b'"byteOffset": 48', b'"byteOffset": 1000000000'),
@@ -121,31 +105,19 @@ def test_something_else_in_a_header_or_a_row(tmp_path, file):
         assert not reads_as(tmp_path, file, changed), (old, new)
 
 
-def test_glb_compressed_by_meshopt(tmp_path):
-    tree = glb_tree(4, 12) | {"extensionsRequired": ["EXT_meshopt_compression"]}
-    assert not reads_as(tmp_path, "source.glb", pack_glb(tree, bytes(96)))
-
-
 @pytest.mark.parametrize("file", WRITERS)
 def test_drawn_damage(tmp_path, file):
     whole = WRITERS[file](BALL.vertices, BALL.faces)
 
-    @given(changed_bytes(whole))
-    def bytes_changed(content):
-        reads_as(tmp_path, file, content)
-
-    @given(changed_numbers(whole))
-    def numbers_changed(content):
-        reads_as(tmp_path, file, content)
-
-    @given(drawn())
-    def mesh_drawn(mesh):
-        reads_as(tmp_path, file, WRITERS[file](*mesh))
-
-    bytes_changed()
+    damaged = changed_bytes(whole) | drawn().map(lambda mesh: WRITERS[file](*mesh))
     if file in ("ascii.ply", "source.obj", "ascii.stl"):
-        numbers_changed()
-    mesh_drawn()
+        damaged |= changed_numbers(whole)
+
+    @given(damaged)
+    def check(content):
+        reads_as(tmp_path, file, content)
+
+    check()
 
 
 PREPARE = """
