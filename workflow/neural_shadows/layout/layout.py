@@ -12,7 +12,7 @@ from neural_shadows.config.base import not_among
 from neural_shadows.config.networks import Network
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
-from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
+from neural_shadows.layout.parts import HELD_OUT, part_range, view_range
 from neural_shadows.layout.paths import Paths
 
 _NETWORK = TypeAdapter(Network)
@@ -150,8 +150,3 @@ class Layout:
     def method_encodings(self, method: str) -> set[str]:
         """The kind of network of a method that is one."""
         return self.encodings([experiment_of(method)] * (not is_shadow_map(method)))
-
-    def metrics(self, scene: str, method: str) -> list[str]:
-        """A method's metrics of all batches."""
-        parts = batches(self.settings["rendering"])
-        return [self.paths.evaluation("csv", scene, method, part) for part in parts]

@@ -6,7 +6,7 @@ from typing import Any
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.parts import HELD_OUT
+from neural_shadows.layout.parts import HELD_OUT, batches
 
 Row = Mapping[str, Any]
 
@@ -100,8 +100,13 @@ def timed_encodings(layout: Layout, table: str, scene: str) -> set[str]:
 
 def metrics(layout: Layout, rows: Sequence[Row]) -> list[str]:
     """The metrics of all batches of the rows' methods, each once; a ray-traced one has none."""
-    named = [(row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED]
-    return unique(path for names in named for path in layout.metrics(*names))
+    parts = batches(layout.settings["rendering"])
+    return unique(
+        layout.paths.evaluation("csv", row["scene"], row["method"], part)
+        for row in rows
+        if row["method"] != RAY_TRACED
+        for part in parts
+    )
 
 
 def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:
