@@ -57,14 +57,6 @@ def test_source_of_a_mesh():
     assert about["fence"]["mesh_name"] == "mine"
 
 
-def test_light_of_view_directions(desk):
-    light = desk.settings["scenes"]["landscape"]["light"]
-    assert desk.direction_light("landscape", "poisson_quadtree") is None
-    assert desk.direction_light("landscape", "single_axis") == light
-    hemisphere = {"domain": "sphere", "min_elevation_deg": 0}
-    assert desk.direction_light("landscape", "hemisphere") == hemisphere
-
-
 def test_files_of_a_training(desk):
     thesis, field = map(desk.training_files, ("dragon", "dragon_field"))
     # An edited mesh of a network that needs none reaches it through its rays.
@@ -103,13 +95,6 @@ def test_a_table_is_made_of_its_rows(desk):
     # An edited network's code leaves a table alone that reads none of its files.
     assert tables.encodings(desk, "table_4_3") == set()
     assert tables.encodings(desk, "table_4_7") == {"frequency"}
-
-
-def test_what_is_timed_is_of_one_scene(desk):
-    methods = tables.timed_methods(desk, "beyond", "fence")
-    assert methods and not any("dragon" in method for method in methods)
-    assert len(tables.timed_weights(desk, "beyond", "fence")) < len(methods)
-    assert not any("ray_traced" in path for path in tables.files(desk, "beyond")["metrics"])
 
 
 def test_claims_are_tested_on_the_methods_that_they_name(desk):

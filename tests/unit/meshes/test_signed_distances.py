@@ -44,19 +44,3 @@ def test_smooth_union_adds_a_quarter_of_the_blend_where_two_parts_are_equally_fa
     apart = np.linalg.norm(points[middle] - [0.48, 0, 0], axis=-1) - 0.5
     near = np.abs(apart) < 2 * cell
     np.testing.assert_allclose(grid[middle][near], apart[near] - 0.05, atol=1e-5)
-
-
-def test_carved_part_is_taken_away():
-    ball = ellipsoid((0, 0, 0), (1, 1, 1), 0.01)
-    grid, points, _ = sampled([ball, ellipsoid((1, 0, 0), (0.4, 0.4, 0.4), 0.01, carve=True)])
-    hole = np.linalg.norm(points - [1, 0, 0], axis=-1)
-    inside = np.linalg.norm(points, axis=-1) < 0.9
-    assert (grid[hole < 0.35] > 0).all()
-    assert (grid[inside & (hole > 0.45)] < 0).all()
-
-
-def test_part_thinner_than_a_cell_is_thickened_to_stay_whole():
-    grid, points, cell = sampled([cones(np.array([[0, 0, 0, 1e-4], [2, 1, 0.7, 1e-4]]), 0.01)])
-    inside = points[grid < 0]
-    along = np.sort(inside @ np.array([2, 1, 0.7])) / np.linalg.norm([2, 1, 0.7])
-    assert np.diff(along).max() < cell

@@ -21,7 +21,7 @@ class AnyFigure(Model):
 
 
 class MethodsFigure(AnyFigure):
-    """Methods of a table side by side."""
+    """Methods of a table side by side: their errors on the mesh, in three dimensions."""
 
     table: Name = Field(
         description="a table of `comparison` or `networks` in `tables`; its rows are drawn"
@@ -32,6 +32,7 @@ class MethodsFigure(AnyFigure):
         min_length=1,
         description="which of its methods; a row with a `bias` of its own is called NAME_biased",
     )
+    kind: Literal["errors_3d"] = Field(description="`errors_3d`")
 
 
 class PicturesFigure(MethodsFigure):
@@ -41,12 +42,6 @@ class PicturesFigure(MethodsFigure):
     view_sets: list[ViewSet] = Field(
         min_length=1, description="view sets of the scene; the first view of each"
     )
-
-
-class ErrorsFigure(MethodsFigure):
-    """False shadow and light leak where they are on the mesh, in three dimensions."""
-
-    kind: Literal["errors_3d"] = Field(description="`errors_3d`")
 
 
 class CurveSettings(Model):
@@ -89,11 +84,10 @@ class SceneFigure(AnyFigure):
     scene: name_in("scenes") = Field(description="a name in `scenes`")
 
 
-class SamplingFigure(AnyFigure):
+class SamplingFigure(SceneFigure):
     """How a scene's rays are drawn [figures 3.1, 3.4], and all of it in three dimensions."""
 
     kind: Literal["overview", "quadtree", "scene_3d"] = Field(description="what is drawn")
-    scene: name_in("scenes") = Field(description="a name in `scenes`")
     sampling: name_in("samplings") = Field(description="a name in `samplings`")
 
 
@@ -105,18 +99,13 @@ class ParetoFigure(AnyFigure):
     scene: Name = Field(description="a scene of that table")
 
 
-class FieldFigure(AnyFigure):
-    """What an occupancy field holds: a slice of its logits, or its surface."""
+class NetworkFigure(AnyFigure):
+    """What a network holds: a slice or the surface of a field, or any one's depths for a light."""
 
-    kind: Literal["field_slice", "field_3d"] = Field(description="`field_slice` or `field_3d`")
-    experiment: Name = Field(description="an experiment whose network is an `occupancy_field`")
-
-
-class DepthsFigure(AnyFigure):
-    """A network's depth for one light between its bounds, as sheets in three dimensions."""
-
-    kind: Literal["depth_sheets_3d"] = Field(description="`depth_sheets_3d`")
-    experiment: name_in("experiments") = Field(description="a name in `experiments`")
+    kind: Literal["field_slice", "field_3d", "depth_sheets_3d"] = Field(description="what is drawn")
+    experiment: name_in("experiments") = Field(
+        description="a name in `experiments`; of a field, whose network is an `occupancy_field`"
+    )
 
 
 Figure = by_kind(
@@ -125,9 +114,8 @@ Figure = by_kind(
     LossFigure,
     TableFigure,
     ParetoFigure,
-    FieldFigure,
-    DepthsFigure,
-    ErrorsFigure,
+    NetworkFigure,
+    MethodsFigure,
     DirectionsFigure,
     SceneFigure,
     SamplingFigure,
@@ -174,7 +162,7 @@ def check(config: "Config") -> None:
             case LossFigure():
                 for curve in figure.curves:
                     formatted(config, curve.experiment, curve.label)
-            case FieldFigure():
+            case NetworkFigure(kind="field_slice" | "field_3d"):
                 fields = [
                     name
                     for name in config.experiments

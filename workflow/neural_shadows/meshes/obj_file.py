@@ -23,10 +23,7 @@ def parse_obj(data: bytes) -> tuple[np.ndarray, np.ndarray]:
     Raises:
         ValueError: a line is not understood, or a face names no vertex.
     """
-    if b"\r" in data:
-        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    if b"\\\n" in data:
-        data = data.replace(b"\\\n", b" ")
+    data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").replace(b"\\\n", b" ")
     coordinates, corners = array("d"), array("q")
     for line in _LINE.finditer(data):
         key, text, underscore = line.groups()
