@@ -9,7 +9,6 @@ import pytest
 import trimesh
 from mesh_files import TETRAHEDRON, TETRAHEDRON_FACES, WRITERS, ascii_ply, obj
 
-from neural_shadows.errors import InputError
 from neural_shadows.meshes import thesis_meshes
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.meshes.prepared_mesh import read_prepared
@@ -111,10 +110,3 @@ def test_vertices_that_float32_brings_together_are_merged(tmp_path):
     assert (report["source_vertices"], report["source_faces"]) == (5, 2)
     assert (report["merged_vertices"], report["unreferenced_vertices"]) == (1, 1)
     assert (report["degenerate_faces"], report["duplicate_faces"]) == (1, 0)
-
-
-@pytest.mark.parametrize("content", [PLY.replace(b"0.0 1.0", b"nan 1.0"), PLY[:-12]])
-def test_a_failing_run_leaves_nothing_new(tmp_path, content):
-    with pytest.raises(InputError, match="source.ply"):
-        prepare(tmp_path, content)
-    assert not (tmp_path / "out").exists()

@@ -22,7 +22,7 @@ def resolved(config: "Config") -> Section:
     are drawn and rendered); an experiment's `network` and `training` are the sections
     themselves, `seed` and `label` what holds; a table has its `rows`, a figure of a table its
     `rows` and `scene`, a figure of losses its `curves` and a claim its `pairs` or `methods` as
-    `config.rows` gives them.
+    `rows_of` and `row_of` give them.
     """
     return config.model_dump() | {
         "scenes": {name: _scene(config, name) for name in config.scenes},
