@@ -4,8 +4,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
@@ -17,7 +15,7 @@ from neural_shadows.reports.tables.quality import (
     quality_cells,
     quality_table,
 )
-from neural_shadows.reports.tables.writing import number_texts, write_twins
+from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 PRINTED = ("lpips", "psnr", "ssim")  # what the thesis's tables give, in its order
@@ -64,37 +62,29 @@ def write(
     order = "lpips" if table["lpips"].notna().any() else "flip"
     table = table.sort_values(order, kind="stable", ignore_index=True)
 
+    columns = {"method": table["method"]}
+    for metric, (heading, _, decimals) in READING.items():
+        if table[metric].isna().all():  # LPIPS without its trunk
+            continue
+        columns[heading] = quality_cells(table, metric)
+        if published and metric in PRINTED:
+            cells = number_cells(table[f"thesis_{metric}"], f"{{:.{decimals}f}}")
+            columns[f"thesis {metric.upper()}"] = cells
+
     notes = [f"Mean over {table['views'].iloc[0]} views [95 % bootstrap interval]."]
-    if published:
-        notes.append(
-            "*thesis*: the number that it prints."
-            if mesh["thesis_mesh"]
-            else f"*thesis*: empty, since it did not measure the mesh {mesh['name']}."
-        )
-    biases = read_biases(rows, depth_biases)
+    if published and mesh["thesis_mesh"]:
+        notes.append("*thesis*: the number that it prints.")
+    elif published:
+        notes.append(f"*thesis*: empty, since it did not measure the mesh {mesh['name']}.")
     notes += [
-        *phrases.describe_biases(rows, biases),
+        *phrases.describe_biases(rows, read_biases(rows, depth_biases)),
         phrases.describe_scene(rows[0]["scene"], mesh, scene),
         *(phrases.describe_training(read_json(path)) for path in trainings),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
-    columns = reading_columns(table, published is not None)
     write_twins(table, columns, csv, md, title=phrases.titled(title, published, mesh), notes=notes)
-
-
-def reading_columns(table: pd.DataFrame, with_thesis: bool) -> dict[str, list[str]]:
-    """The Markdown's cells by heading: rounded, shares in per cent, the thesis's beside ours."""
-    columns = {"method": table["method"].tolist()}
-    for metric, (heading, _, decimals) in READING.items():
-        if table[metric].isna().all():  # LPIPS without its trunk
-            continue
-        columns[heading] = quality_cells(table, metric)
-        if with_thesis and metric in PRINTED:
-            printed = table[f"thesis_{metric}"]
-            columns[f"thesis {metric.upper()}"] = number_texts(printed, f"{{:.{decimals}f}}")
-    return columns
 
 
 if "snakemake" in globals():

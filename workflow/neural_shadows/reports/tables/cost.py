@@ -9,7 +9,7 @@ import pandas as pd
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.writing import number_texts, write_twins
+from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 MIB = 2**20
@@ -25,24 +25,24 @@ def write(*, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[st
     measured = [read_json(path) for path in costs]
     table = cost_table(measured)
     columns = {
-        "stage": table["stage"].tolist(),
-        "over": table["over"].tolist(),
+        "stage": table["stage"],
+        "over": table["over"],
         "size": [f"{size:,}" for size in table["size"]],
-        "seconds": number_texts(table["seconds"], "{:.3g}"),
-        "memory MiB": number_texts(table["memory_mib"], "{:,.0f}"),
-        "exponent of seconds": number_texts(table["seconds_exponent"], "{:.2f}"),
-        "exponent of memory": number_texts(table["memory_mib_exponent"], "{:.2f}"),
+        "seconds": number_cells(table["seconds"], "{:.3g}"),
+        "memory MiB": number_cells(table["memory_mib"], "{:,.0f}"),
+        "exponent of seconds": number_cells(table["seconds_exponent"], "{:.2f}"),
+        "exponent of memory": number_cells(table["memory_mib_exponent"], "{:.2f}"),
     }
     machine, threads = measured[0]["machine"], measured[0]["threads"]
     notes = [
-        "A waved sphere; other sizes 81,920 triangles, 1,000,000 samples, width 256, 4 viewpoints "
-        "of 600 × 400. Training takes 200 steps of 1,024 whatever the samples it draws from; an "
-        "evaluation has one 512² map and one network, without LPIPS.",
-        "Memory: the peak of what was resident, above what the process held with its libraries "
-        "loaded. Rays are files mapped into memory (20 bytes a sample): their pages count here, "
-        "but are the first that a full machine takes back. Exponents: of the "
-        f"{SLOPE_POINTS} largest sizes, 1 is linear.",
-        f"Measured once each on {machine['cpu']}, {threads} threads, an evaluation on one.",
+        "Measured on a waved sphere. Where another size varies: 81,920 triangles, 1,000,000 "
+        "samples, width 256, 4 viewpoints of 600 × 400. Training takes 200 steps of 1,024 samples, "
+        "however many there are; an evaluation has one 512² map and one network, without LPIPS.",
+        "Memory: peak resident memory above what the process held once its libraries were loaded. "
+        "Rays are files mapped into memory (20 bytes a sample): their pages count here, but are "
+        f"the first that a full machine frees. Exponents: of the {SLOPE_POINTS} largest sizes, 1 "
+        "is linear.",
+        f"Each measured once on {machine['cpu']}, {threads} threads, an evaluation on one.",
         phrases.describe_run(run),
     ]
     write_twins(table, columns, csv, md, title=title, notes=notes)

@@ -12,7 +12,7 @@ from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import by_folder
 from neural_shadows.reports.published import add_printed, read_published
-from neural_shadows.reports.tables.writing import number_texts, write_twins
+from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.tracing import Tracer
 
@@ -64,10 +64,10 @@ def write(
     table = table.assign(scale=run["scale"])
     table = table.sort_values("bytes", ascending=False, kind="stable")
     columns = {
-        "method": table["method"].tolist(),
-        "memory MiB": number_texts(table["memory_mib"], "{:.4g}"),
-        "thesis MiB": number_texts(table["thesis_memory_mib"], "{:.4g}"),
-        "bytes": number_texts(table["bytes"], "{:,}"),
+        "method": table["method"],
+        "memory MiB": number_cells(table["memory_mib"], "{:.4g}"),
+        "thesis MiB": number_cells(table["thesis_memory_mib"], "{:.4g}"),
+        "bytes": number_cells(table["bytes"], "{:,}"),
     }
     notes = [
         "By formula: 4 bytes for each weight of a network, 4 N² for a shadow map of N² texels. "

@@ -8,7 +8,7 @@ import pandas as pd
 
 from neural_shadows.errors import InputError
 from neural_shadows.metrics.intervals import mean_interval
-from neural_shadows.reports.tables.writing import interval_text
+from neural_shadows.reports.tables.writing import interval_cells
 
 METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
 
@@ -22,6 +22,11 @@ READING = {
     "false_shadow": ("false shadow % ↓", 100, 2),
     "light_leak": ("light leak % ↓", 100, 2),
 }
+
+
+def with_ends(metric: str) -> list[str]:
+    """The columns of a metric: its mean and the ends of its interval."""
+    return [metric, f"{metric}_low", f"{metric}_high"]
 
 
 def quality_table(
@@ -45,18 +50,15 @@ def quality_table(
     wide = _values_by_view(metrics, [row["method"] for row in rows])
     records = []
     for row in rows:
-        intervals = {
-            metric: mean_interval(wide[row["method"], metric].to_numpy(), seed)
-            if (row["method"], metric) in wide
-            else (np.nan, np.nan, np.nan)
-            for metric in METRICS
-        }
         record = {"method": row["label"]}
-        record |= {metric: mean for metric, (mean, _, _) in intervals.items()}
-        for metric, (_, low, high) in intervals.items():
-            record |= {f"{metric}_low": low, f"{metric}_high": high}
+        for metric in METRICS:
+            known = (row["method"], metric) in wide
+            values = wide[row["method"], metric].to_numpy() if known else None
+            interval = mean_interval(values, seed) if known else (np.nan,) * 3
+            record |= dict(zip(with_ends(metric), interval))
         records.append(record | {"views": len(wide)})
-    return pd.DataFrame(records)
+    ends = [end for metric in METRICS for end in with_ends(metric)[1:]]
+    return pd.DataFrame(records, columns=["method", *METRICS, *ends, "views"])
 
 
 def _values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFrame:
@@ -93,5 +95,4 @@ def context_columns(
 def quality_cells(table: pd.DataFrame, metric: str) -> list[str]:
     """The Markdown's cells of a metric: mean [low, high]."""
     _, factor, decimals = READING[metric]
-    triples = table[[metric, f"{metric}_low", f"{metric}_high"]].to_numpy(float) * factor
-    return [interval_text(*triple, decimals) for triple in triples]
+    return interval_cells(table, with_ends(metric), decimals, factor)

@@ -26,7 +26,7 @@ def read_table(path: Path, texts: Sequence[str], numbers: Sequence[str]) -> pd.D
 
 def write_twins(
     frame: pd.DataFrame,
-    columns: Mapping[str, Sequence[str]],
+    columns: Mapping[str, Iterable[str]],
     csv: Path,
     md: Path,
     *,
@@ -43,7 +43,7 @@ def write_twins(
     """
     write_text(csv, frame.to_csv(index=False, float_format="%.6g"))
     table = tabulate(
-        columns,
+        {heading: list(cells) for heading, cells in columns.items()},
         headers="keys",
         tablefmt="pipe",
         disable_numparse=True,
@@ -53,13 +53,15 @@ def write_twins(
     write_text(md, f"# {title}\n\n{table}\n\n{items}\n")
 
 
-def number_texts(values: Iterable[float], form: str, factor: float = 1) -> list[str]:
+def number_cells(values: Iterable[float], form: str, factor: float = 1) -> list[str]:
     """Cells of numbers in a format, `{:.2f}`; empty for NaN."""
     return ["" if np.isnan(value) else form.format(value * factor) for value in values]
 
 
-def interval_text(value: float, low: float, high: float, decimals: int) -> str:
-    """A cell: value [low, high]; empty for NaN."""
-    if np.isnan(value):
-        return ""
-    return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
+def interval_cells(
+    table: pd.DataFrame, columns: Sequence[str], decimals: int, factor: float = 1
+) -> list[str]:
+    """Cells of a value and the ends of its interval, three columns; empty for NaN."""
+    form = "{:.%df} [{:.%df}, {:.%df}]" % ((decimals,) * 3)
+    triples = table[list(columns)].to_numpy(float) * factor
+    return ["" if np.isnan(triple[0]) else form.format(*triple) for triple in triples]
