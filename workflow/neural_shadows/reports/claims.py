@@ -1,6 +1,6 @@
 """What the thesis concludes from its data, tested on ours [4, 5.1]."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.errors import InputError
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.intervals import (
@@ -18,6 +17,7 @@ from neural_shadows.metrics.intervals import (
 )
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import by_folder
+from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.reports.tables.writing import write_twins
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
@@ -36,8 +36,9 @@ Method = Mapping[str, Any]  # `method`, `scene`, `experiment`
 class Data:
     """What claims are tested on.
 
-    `metrics`: by scene, as `read_metrics` gives it; `losses`: by experiment, as `read_loss` gives
-    it; `times`: by table and scene, what `measure_frame_times` wrote; `seed`: of the bootstrap.
+    `metrics`: by scene, as `values_by_view` gives it; `losses`: by experiment, as `read_loss`
+    gives it; `times`: by table and scene, what `measure_frame_times` wrote; `seed`: of the
+    bootstrap.
     """
 
     metrics: Mapping[str, pd.DataFrame]
@@ -87,20 +88,22 @@ def write_claims(
         claims: see `judge`; run: `scale`, `seed` (of the bootstrap).
         samples: that a network of this run was trained on, at most.
         scenes: `mesh_name` of each scene.
+
+    Raises:
+        InputError: a file is missing, or a method lacks a value of a view that others have.
     """
+    measured = {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()}
     data = Data(
-        {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()},
+        {name: values_by_view(part, part["method"].unique()) for name, part in measured.items()},
         {name: read_loss(path) for name, [path] in by_folder(losses).items()},
         {(path.parent.name, path.stem): read_json(path) for path in times},
         run["seed"],
     )
     found = judge(claims, data)
     columns = {
-        "claim": found["statement"].tolist(),
+        "claim": found["statement"],
         "verdict": [f"**{verdict}**" for verdict in found["verdict"]],
-        "section": found["section"].tolist(),
-        "metric": found["metric"].tolist(),
-        "evidence": found["evidence"].tolist(),
+        **{name: found[name] for name in ("section", "metric", "evidence")},
     }
     counts = found["verdict"].value_counts()
     meshes = ", ".join(f"{scene} {settings['mesh_name']}" for scene, settings in scenes.items())
@@ -128,28 +131,22 @@ def write_claims(
 def judge(claims: Mapping[str, Claim], data: Data) -> pd.DataFrame:
     """Test claims: a row each with `claim, section, statement, verdict, metric, evidence`.
 
+    One comparison against a claim contradicts it, all are needed to support it.
+
     Args:
         claims: by name: `kind`, `section`, `statement`, and what the kind needs: `pairs` of
             methods, the claimed winner first, or `methods`; a method is a row as `config.rows`
             gives it.
-
-    Raises:
-        InputError: data that a claim needs are missing, or not of the same views.
     """
     rows = []
     for name, claim in claims.items():
         metric, comparisons = KINDS[claim["kind"]](claim, data)
         verdicts, evidence = zip(*(comparison.judged(data.seed) for comparison in comparisons))
-        rows.append(
-            {
-                "claim": name,
-                "section": claim["section"],
-                "statement": claim["statement"],
-                "verdict": verdict_of_all(verdicts),
-                "metric": metric,
-                "evidence": "; ".join(evidence),
-            }
-        )
+        verdict = SUPPORTED if set(verdicts) == {SUPPORTED} else UNDECIDED
+        if CONTRADICTED in verdicts:
+            verdict = CONTRADICTED
+        row = {"claim": name, "section": claim["section"], "statement": claim["statement"]}
+        rows.append(row | {"verdict": verdict, "metric": metric, "evidence": "; ".join(evidence)})
     return pd.DataFrame(rows)
 
 
@@ -160,17 +157,7 @@ def verdict_of(low: float, high: float, least: float, most: float) -> str:
     """
     if low > least and high < most:
         return SUPPORTED
-    if high < least or low > most:
-        return CONTRADICTED
-    return UNDECIDED
-
-
-def verdict_of_all(verdicts: Iterable[str]) -> str:
-    """A claim's verdict: one comparison against it contradicts it, all are needed to support it."""
-    verdicts = set(verdicts)
-    if CONTRADICTED in verdicts:
-        return CONTRADICTED
-    return SUPPORTED if verdicts == {SUPPORTED} else UNDECIDED
+    return CONTRADICTED if high < least or low > most else UNDECIDED
 
 
 def better(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
@@ -178,18 +165,19 @@ def better(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
 
     Methods of one scene are seen from the same views, and compared view by view.
     """
-    metric = _available(claim, data)
-    text = "" if metric == claim["metric"] else f"{metric.upper()} for want of LPIPS: "
+    metric, text = claim["metric"], ""
+    methods = [(method["scene"], method["method"]) for pair in claim["pairs"] for method in pair]
+    if not any((name, metric) in data.metrics[scene] for scene, name in methods):
+        metric, text = "flip", "FLIP, as LPIPS is not available: "
     sign = 1 if metric in HIGHER_IS_BETTER else -1
     comparisons = []
     for first, second in claim["pairs"]:
-        a, b = _values(data, first, metric), _values(data, second, metric)
+        a, b = (data.metrics[row["scene"]][row["method"], metric] for row in (first, second))
         text += f"{_mean(first, a)}, {_mean(second, b)}, advantage"
+        interval, values = difference_interval, [sign * a.to_numpy(), sign * b.to_numpy()]
         if first["scene"] == second["scene"]:
-            comparisons.append(Comparison(text, mean_interval, [sign * _gains(a, b)]))
-        else:
-            values = [sign * a.to_numpy(), sign * b.to_numpy()]
-            comparisons.append(Comparison(text, difference_interval, values))
+            interval, values = mean_interval, [sign * (a - b).to_numpy()]
+        comparisons.append(Comparison(text, interval, values))
         text = ""  # said once a claim
     return metric, comparisons
 
@@ -199,9 +187,10 @@ def larger_error(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     larger, smaller = claim["more"], claim["less"]
     comparisons = []
     for method in claim["methods"]:
-        a, b = _values(data, method, larger), _values(data, method, smaller)
+        values = data.metrics[method["scene"]][method["method"]]
+        a, b = values[larger], values[smaller]
         text = f"{method['method']}: {larger} {a.mean():.4g}, {smaller} {b.mean():.4g}, excess"
-        comparisons.append(Comparison(text, mean_interval, [_gains(a, b)]))
+        comparisons.append(Comparison(text, mean_interval, [(a - b).to_numpy()]))
     return f"{larger} − {smaller}", comparisons
 
 
@@ -209,7 +198,8 @@ def lower_loss(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     """Pairs (lower, higher) by the mean of the last tenth of the training loss."""
     comparisons = []
     for first, second in claim["pairs"]:
-        a, b = (_end_of(data.losses[method["experiment"]]) for method in (first, second))
+        curves = [data.losses[method["experiment"]]["loss"] for method in (first, second)]
+        a, b = (curve.to_numpy()[-max(1, round(LOSS_SHARE * len(curve))) :] for curve in curves)
         text = f"{_mean(first, a)}, {_mean(second, b)}, advantage"
         comparisons.append(Comparison(text, difference_interval, [b, a]))
     return "loss", comparisons
@@ -217,19 +207,16 @@ def lower_loss(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
 
 def frame_time(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     """Pairs (slower, faster) of a scene by the ratio of their median frame times, within bounds."""
-    limits = {"at_least": -np.inf, "at_most": np.inf}
-    limits |= (given := {key: claim[key] for key in limits if claim[key] is not None})
-    asked = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in given.items())
+    asked = {key: claim[key] for key in ("at_least", "at_most") if claim[key] is not None}
+    bounds = asked.get("at_least", -np.inf), asked.get("at_most", np.inf)
+    limits = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in asked.items())
     comparisons = []
-    for first, second in claim["pairs"]:
-        methods = data.times[claim["table"], first["scene"]]["methods"]
-        a, b = (np.array(methods[method["method"]]["ms"]) for method in (first, second))
-        medians = (
-            f"{first['method']} {np.median(a):.4g} ms, {second['method']} {np.median(b):.4g} ms"
-        )
-        text = f"{medians}, ratio ({asked})"
-        bounds = (limits["at_least"], limits["at_most"])
-        comparisons.append(Comparison(text, median_ratio_interval, [a, b], bounds, "#.3g"))
+    for pair in claim["pairs"]:
+        methods = data.times[claim["table"], pair[0]["scene"]]["methods"]
+        series = [np.array(methods[method["method"]]["ms"]) for method in pair]
+        medians = [f"{m['method']} {np.median(ms):.4g} ms" for m, ms in zip(pair, series)]
+        text = f"{', '.join(medians)}, ratio ({limits})"
+        comparisons.append(Comparison(text, median_ratio_interval, series, bounds, "#.3g"))
     return "frame time", comparisons
 
 
@@ -241,43 +228,8 @@ KINDS = {
 }
 
 
-def _available(claim: Claim, data: Data) -> str:
-    """The claim's metric, or FLIP in the place of LPIPS where its trunk is not available."""
-    scenes = {method["scene"] for pair in claim["pairs"] for method in pair}
-    given = {name for scene in scenes for name in data.metrics[scene]["metric"].unique()}
-    metric = claim["metric"]
-    return "flip" if metric == "lpips" and "lpips" not in given else metric
-
-
 def _mean(method: Method, values: np.ndarray | pd.Series) -> str:
     return f"{method['method']} {values.mean():.4g}"
-
-
-def _values(data: Data, method: Method, metric: str) -> pd.Series:
-    """Values of a method by view set and view."""
-    metrics = data.metrics[method["scene"]]
-    rows = metrics[metrics["method"].eq(method["method"]) & metrics["metric"].eq(metric)]
-    if rows.empty:
-        raise InputError(
-            f"claims: there are no values of {metric} of {method['method']}: delete its metrics "
-            "and run again"
-        )
-    return rows.set_index(["view_set", "view"])["value"].sort_index()
-
-
-def _gains(a: pd.Series, b: pd.Series) -> np.ndarray:
-    """Differences a − b of values of the same views, (views,)."""
-    if not a.index.equals(b.index):
-        view_set, view = a.index.symmetric_difference(b.index)[0]
-        raise InputError(
-            f"claims: two methods differ in their views ({view_set} view {view} is missing in one): "
-            "delete their metrics and run again"
-        )
-    return (a - b).to_numpy()
-
-
-def _end_of(curve: pd.DataFrame) -> np.ndarray:
-    return curve["loss"].to_numpy()[-max(1, round(LOSS_SHARE * len(curve))) :]
 
 
 if "snakemake" in globals():

@@ -24,7 +24,9 @@ def frame_comparisons(
     rows: Sequence[Mapping[str, Any]],
     meshes: Mapping[str, str],
 ) -> list[dict[str, Any]]:
-    """The frames of each scene that has some, as `frame_comparison` gives them.
+    """The frames and FLIP maps of each scene that has some, as plain data for the page's script.
+
+    The maps show each method against the reference. Two methods of one label bear their keys.
 
     Args:
         pictures, metrics: the first batches, in folders of scenes.
@@ -35,34 +37,27 @@ def frame_comparisons(
     comparisons = []
     for scene, paths in by_folder(pictures).items():
         frames = read_first_frames(paths, scores[scene]) if scene in scores else []
-        if frames and REFERENCE in frames[0].images:
-            labels = {row["method"]: row["label"] for row in rows if row["scene"] == scene}
-            title = f"{scene}: {meshes.get(scene, '')}"
-            comparisons.append(frame_comparison(scene, title, frames, labels))
+        if not frames or REFERENCE not in frames[0].images:
+            continue
+        methods = sorted(frames[0].images, key=lambda method: method != REFERENCE)
+        networks = [name for name in methods[1:] if not is_shadow_map(name)]
+        labels = {row["method"]: row["label"] for row in rows if row["scene"] == scene}
+        given = list(labels.values())
+        names = {REFERENCE: "Reference"} | {
+            method: f"{label} ({method})" if given.count(label) > 1 else label
+            for method, label in labels.items()
+        }
+        comparisons.append(
+            {
+                "scene": scene,
+                "title": f"{scene}: {meshes.get(scene, '')}",
+                "methods": [{"key": key, "name": names.get(key, key)} for key in methods],
+                "left": (networks or methods[1:] or methods)[0],
+                "right": REFERENCE,
+                "views": [_view(frame) for frame in frames],
+            }
+        )
     return comparisons
-
-
-def frame_comparison(
-    scene: str, title: str, frames: Sequence[FirstFrame], labels: Mapping[str, str]
-) -> dict[str, Any]:
-    """A scene's frames and FLIP maps as plain data for the page's script.
-
-    The maps show each method against the reference. Two methods of one label bear their keys.
-    """
-    methods = sorted(frames[0].images, key=lambda method: method != REFERENCE)
-    networks = [name for name in methods if name != REFERENCE and not is_shadow_map(name)]
-    names = {REFERENCE: "Reference"} | {
-        method: f"{label} ({method})" if list(labels.values()).count(label) > 1 else label
-        for method, label in labels.items()
-    }
-    return {
-        "scene": scene,
-        "title": title,
-        "methods": [{"key": method, "name": names.get(method, method)} for method in methods],
-        "left": (networks or methods[1:] or methods)[0],
-        "right": REFERENCE,
-        "views": [_view(frame) for frame in frames],
-    }
 
 
 def _view(frame: FirstFrame) -> dict[str, Any]:
@@ -70,12 +65,11 @@ def _view(frame: FirstFrame) -> dict[str, Any]:
     pictures = {}
     for method, image in frame.images.items():
         scores = frame.scores.get(method, {})
+        texts = [text.format(scores[name]) for name, text in SCORES.items() if name in scores]
         pictures[method] = {
             "frame": webp_uri(Image.fromarray(image)),
             "map": webp_uri(map_picture(flip_map(image.astype(np.float32) / 255, reference))),
-            "scores": ", ".join(
-                text.format(scores[name]) for name, text in SCORES.items() if name in scores
-            ),
+            "scores": ", ".join(texts),
         }
     height, width = reference.shape
     return {"caption": frame.caption, "width": width, "height": height, "pictures": pictures}

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from neural_shadows.files.whole_files import read_json, write_text
 from neural_shadows.reports.frame_comparison import frame_comparisons
 from neural_shadows.reports.inputs import read_meshes
-from neural_shadows.reports.page_blocks import Block, figure_blocks, table_block
+from neural_shadows.reports.page_blocks import figure_blocks, table_block
 from neural_shadows.reports.phrases import describe_mesh
 from neural_shadows.reports.run_facts import run_facts
 from neural_shadows.running.stage import run_stage
@@ -36,7 +36,9 @@ def write_page(
     scenes: Mapping[str, Mapping[str, Any]],
     benchmarks: Path,
 ) -> None:
-    """Write the page of what is there: any of the lists may be empty.
+    """Write the page of what is there, any of the lists may be empty, as one self-contained file.
+
+    Notes that several tables have are shown once, before all tables.
 
     Args:
         template: `template.html`, `style.css` and `script.js` of one folder.
@@ -57,50 +59,18 @@ def write_page(
         scene: describe_mesh(mesh, scenes[scene]) for scene, mesh in read_meshes(meshes).items()
     }
     claims = table_block(claims_md) if claims_md else None
-    table_blocks = [table_block(path) for path in tables]
+    blocks = [table_block(path) for path in tables]
+    counts = Counter(note for block in [claims, *blocks] if block for note in block.notes)
     drawings = figure_blocks(figures, titles)
-    page = render_page(
-        template[0].parent,
-        title=f"Neural Shadow Ray Queries: {run['scale']} scale",
-        facts=run_facts(
-            run=run,
-            meshes=described,
-            records=[read_json(path) for path in trainings],
-            lpips=read_json(lpips_json) if lpips_json else None,
-            benchmarks=benchmarks,
-            folder=Path.cwd(),
-        ),
-        claims=claims,
-        comparisons=frame_comparisons(pictures, metrics, rows, described),
-        tables=[block for block in table_blocks if block.name not in beyond],
-        figures=[block for block in drawings if block.name not in beyond],
-        beyond=[block for block in table_blocks + drawings if block.name in beyond],
+    facts = run_facts(
+        run=run,
+        meshes=described,
+        records=[read_json(path) for path in trainings],
+        lpips=read_json(lpips_json) if lpips_json else None,
+        benchmarks=benchmarks,
+        folder=Path.cwd(),
     )
-    write_text(html, page)
-
-
-def render_page(
-    folder: Path,
-    *,
-    title: str,
-    facts: Mapping[str, str],
-    claims: Block | None,
-    comparisons: Sequence[Mapping[str, Any]],
-    tables: Sequence[Block],
-    figures: Sequence[Block],
-    beyond: Sequence[Block],
-) -> str:
-    """The page as one self-contained HTML text: no other file and no network is asked for.
-
-    Notes that several tables have are shown once, before all tables.
-
-    Args:
-        folder: of `template.html`, `style.css` and `script.js`.
-        comparisons: see `frame_comparisons`.
-        beyond: tables and figures of what is not the thesis's.
-    """
-    blocks = [*([claims] if claims else []), *tables, *beyond]
-    counts = Counter(note for block in blocks for note in block.notes)
+    folder = template[0].parent
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
         autoescape=True,
@@ -108,18 +78,19 @@ def render_page(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template("template.html").render(
-        title=title,
+    page = environment.get_template("template.html").render(
+        title=f"Neural Shadow Ray Queries: {run['scale']} scale",
         style=Markup((folder / "style.css").read_text(encoding="utf-8")),
         script=Markup((folder / "script.js").read_text(encoding="utf-8")),
         facts=facts,
         claims=claims,
-        comparisons=comparisons,
-        tables=tables,
-        figures=figures,
-        beyond=beyond,
+        comparisons=frame_comparisons(pictures, metrics, rows, described),
+        tables=[block for block in blocks if block.name not in beyond],
+        figures=[block for block in drawings if block.name not in beyond],
+        beyond=[block for block in blocks + drawings if block.name in beyond],
         shared_notes=[note for note, count in counts.items() if count > 1],
     )
+    write_text(html, page)
 
 
 if "snakemake" in globals():

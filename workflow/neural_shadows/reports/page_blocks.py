@@ -100,11 +100,11 @@ def figure_blocks(paths: Sequence[Path], titles: Mapping[str, str]) -> list[Bloc
         else:
             with Image.open(svg.with_suffix(".png")) as image:
                 source = webp_uri(image)
-        title = titles.get(name, name)
+        title, caption = titles.get(name, name), ""
         html = Markup('<img alt="{}" src="{}">').format(title, source)
-        number = re.fullmatch(r"figure_(\d)_(\d+)", name)
-        caption = f"Figure {number[1]}.{number[2]}" if number else ""
-        title = f"{caption}: {title}" if number else title
+        if number := re.fullmatch(r"figure_(\d)_(\d+)", name):
+            caption = f"Figure {number[1]}.{number[2]}"
+            title = f"{caption}: {title}"
         blocks.append(Block("figure", name, title, html, caption))
     return blocks
 

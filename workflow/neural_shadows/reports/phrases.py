@@ -92,9 +92,9 @@ def describe_lpips(lpips: Mapping[str, Any]) -> str:
     if lpips["available"]:
         return (
             f"LPIPS's network is `{lpips['net']}`; the thesis does not name its own, and values of "
-            "different networks do not compare."
+            "different networks cannot be compared."
         )
     return (
-        "LPIPS is missing (`lpips.json` among the results says why), FLIP stands in for it. Once "
-        "cured, add `--forcerun find_lpips`."
+        "LPIPS is missing (`lpips.json` among the results says why), FLIP takes its place. Once "
+        "solved, add `--forcerun find_lpips`."
     )

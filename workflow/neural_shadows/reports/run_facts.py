@@ -27,7 +27,7 @@ def run_facts(
     Args:
         run: `scale`, `seed`, `width`, `height` (pixels); meshes: a phrase on that of each scene.
         records, lpips: what the trainings and `find_lpips` wrote.
-        benchmarks: see `durations`; folder: the checkout.
+        benchmarks: Snakemake's, a folder for each rule; folder: the checkout.
     """
     facts = {"scale": run["scale"]}
     facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
@@ -36,51 +36,41 @@ def run_facts(
         samples = sorted({record["samples"] for record in records})
         counts = " or ".join(f"{count:,}" for count in samples)
         facts["training"] = f"{_counted(len(records), 'network')}, {counts} samples each"
-        machines = dict.fromkeys(_machine(record["machine"]) for record in records)
-        facts["hardware"] = "; ".join(machines)
+        facts["hardware"] = "; ".join(dict.fromkeys(_machine(one["machine"]) for one in records))
     if lpips:
         facts["LPIPS"] = f"network {lpips['net']}" if lpips["available"] else "not available"
+    facts["seed"] = str(run["seed"])
     packages = ", ".join(f"{package} {version(package)}" for package in PACKAGES)
-    facts |= {
-        "seed": str(run["seed"]),
-        "versions": f"Python {python_version()}, {packages}",
-        "commit": commit_of(folder),
-        "durations": "; ".join(
-            f"{rule.replace('_', ' ')} {_span(seconds)} ({_counted(count, 'job')})"
-            for rule, (count, seconds) in durations(benchmarks).items()
-        ),
-        "made on": datetime.date.today().isoformat(),
-    }
-    return {name: value for name, value in facts.items() if value}
+    facts["versions"] = f"Python {python_version()}, {packages}"
+    facts["commit"] = commit_of(folder)
+    if spent := "; ".join(filter(None, map(_duration, sorted(benchmarks.glob("*"))))):
+        facts["durations"] = spent
+    return facts | {"made on": datetime.date.today().isoformat()}
 
 
 def commit_of(folder: Path) -> str:
     """The git commit that a folder is checked out at, and whether files differ from it."""
+    git = ["git", "-C", str(folder)]
+    style = {"check": True, "capture_output": True, "text": True}
     try:
-        commit = _git(folder, "rev-parse", "HEAD")
-        changed = _git(folder, "status", "--porcelain", "--untracked-files=no")
+        commit = subprocess.run([*git, "rev-parse", "HEAD"], **style).stdout.strip()
+        status = [*git, "status", "--porcelain", "--untracked-files=no"]
+        changed = subprocess.run(status, **style).stdout
     except (OSError, subprocess.CalledProcessError):
         return "not a git checkout"
     return f"{commit} with uncommitted changes" if changed else commit
 
 
-def _git(folder: Path, *arguments: str) -> str:
-    command = ["git", "-C", str(folder), *arguments]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
-
-
-def durations(benchmarks: Path) -> dict[str, tuple[int, float]]:
-    """Number of jobs and their seconds in all, by rule, from Snakemake's benchmark files.
-
-    Args:
-        benchmarks: the folder that has a folder for each rule.
-    """
-    found = {}
-    for folder in sorted(path for path in benchmarks.glob("*") if path.is_dir()):
-        seconds = [pd.read_csv(path, sep="\t")["s"].sum() for path in sorted(folder.glob("*.tsv"))]
-        if seconds:
-            found[folder.name] = len(seconds), float(sum(seconds))
-    return found
+def _duration(folder: Path) -> str:
+    """How long a rule's jobs took in all, and how many they were, from its benchmark files."""
+    spent = [pd.read_csv(path, sep="\t")["s"].sum() for path in sorted(folder.glob("*.tsv"))]
+    seconds = sum(spent)
+    if seconds < 120:
+        time = f"{seconds:.0f} s"
+    else:
+        time = f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+    rule = folder.name.replace("_", " ")
+    return f"{rule} {time} ({_counted(len(spent), 'job')})" if spent else ""
 
 
 def _machine(machine: Mapping[str, Any]) -> str:
@@ -90,9 +80,3 @@ def _machine(machine: Mapping[str, Any]) -> str:
 
 def _counted(count: int, what: str) -> str:
     return f"{count} {what}{'s' if count != 1 else ''}"
-
-
-def _span(seconds: float) -> str:
-    if seconds < 120:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"

@@ -47,7 +47,7 @@ def quality_table(
     Raises:
         InputError: a method lacks a finite value of a view that others have.
     """
-    wide = _values_by_view(metrics, [row["method"] for row in rows])
+    wide = values_by_view(metrics, [row["method"] for row in rows])
     records = []
     for row in rows:
         record = {"method": row["label"]}
@@ -61,8 +61,15 @@ def quality_table(
     return pd.DataFrame(records, columns=["method", *METRICS, *ends, "views"])
 
 
-def _values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFrame:
-    """Values with a row per view and a column per (method, metric), none of them missing."""
+def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFrame:
+    """Values with a row per view and a column per (method, metric), none of them missing.
+
+    Args:
+        metrics: as `read_metrics` gives it; without LPIPS there are no columns of it.
+
+    Raises:
+        InputError: a method lacks a finite value of a view that others have.
+    """
     metrics = metrics[metrics["method"].isin(methods)]
     names = [name for name in METRICS if name != "lpips" or metrics["metric"].eq(name).any()]
     wide = metrics.pivot(index=["view_set", "view"], columns=["method", "metric"], values="value")

@@ -62,6 +62,7 @@ def interval_cells(
     table: pd.DataFrame, columns: Sequence[str], decimals: int, factor: float = 1
 ) -> list[str]:
     """Cells of a value and the ends of its interval, three columns; empty for NaN."""
-    form = "{:.%df} [{:.%df}, {:.%df}]" % ((decimals,) * 3)
+    ends = f"{{:.{decimals}f}}"
     triples = table[list(columns)].to_numpy(float) * factor
+    form = f"{ends} [{ends}, {ends}]"
     return ["" if np.isnan(triple[0]) else form.format(*triple) for triple in triples]
