@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import EngFormatter, NullLocator
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.figures.style import COLOURS, GRID, new_figure, write_figure
@@ -36,11 +36,9 @@ def cost_figure(table: pd.DataFrame, *, title: str) -> Figure:
                 label = f"{stage} ({part[f'{value}_exponent'].iloc[0]:.2f})"
                 axes.plot(part["size"], part[value], color=colours[stage], marker="o", label=label)
             axes.set(xscale="log", yscale="log", xlabel=over.replace("_", " "))
-            # Less than two decades have too few powers of ten to read sizes from.
-            narrow = shown["size"].max() < 100 * shown["size"].min()
-            axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if narrow else (1,)))
-            axes.xaxis.set_major_formatter(EngFormatter(sep=""))
-            axes.xaxis.set_minor_formatter(NullFormatter())
+            axes.set_xticks(shown["size"].unique())
+            axes.xaxis.set(major_formatter=EngFormatter(sep=""), minor_locator=NullLocator())
+            axes.tick_params(axis="x", labelsize="x-small")
             axes.grid(which="both", **GRID)
             # Above the panel, where it covers no line.
             axes.legend(fontsize="small", loc="lower left", bbox_to_anchor=(0, 1), frameon=False)

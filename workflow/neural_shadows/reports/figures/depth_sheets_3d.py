@@ -62,12 +62,14 @@ def draw(
             clim=(0, 2),
             interpolate_before_map=False,
             smooth_shading=True,
+            ambient=0.3,  # so that the colour is seen of facets turned from the light
+            diffuse=0.7,
             show_scalar_bar=False,
         )
     right = 1 - np.mean((early | late)[hit])
     headings = (
         "t$_{lb}$: what the light meets",
-        f"t$_{{pred}}$: {right:.0%} right",
+        f"t$_{{pred}}$: what the network answers, {right:.0%} right",
         "t$_{ub}$: where it would leave",
     )
     space.write_pictures(

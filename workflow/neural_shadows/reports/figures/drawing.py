@@ -20,6 +20,7 @@ from neural_shadows.rays.silhouette import plane_basis, silhouette
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, SliceRays, slice_mesh
 from neural_shadows.reports.figures.style import BLUE, ORANGE, new_figure
 from neural_shadows.scenes.scene import open_scene
+from neural_shadows.scenes.tracing import Tracer
 
 SHADE = "#b9c2cc"
 OUTLINE = "#222222"
@@ -80,59 +81,64 @@ def draw_bounded_rays(axes: Axes, rays: SliceRays, width: float) -> None:
 
 
 class SilhouetteDrawing:
-    """The silhouette along a slice's normal, its quads, and points on these, drawn upright.
+    """The silhouette along a direction, its quads, and points on these.
 
     Args:
-        sampling: settings of a sampling; its `silhouette_resolution` and `min_quad` are shown,
-            also of a sampler that does without.
-        count: of the points.
+        right, up: unit vectors across the direction that are drawn so, (3,).
+        resolution: of the silhouette; min_quad: of the quadtree, texels.
     """
 
-    def __init__(self, cut: MeshSlice, sampling: Mapping[str, Any], seed: int, count: int):
-        self.resolution = sampling["silhouette_resolution"]
-        direction = np.cross(cut.up, cut.across)  # away from who sees `across` to the right
-        self.covered = silhouette(cut.tracer, direction, self.resolution)
-        self.quads = build_quadtree(self.covered, sampling["min_quad"])
-        rng = np.random.default_rng(seed)
-        self.points = sample_quads(self.quads, self.resolution, count, rng, PatternBank(seed))
-        u, v = plane_basis(direction)
+    def __init__(
+        self,
+        tracer: Tracer,
+        direction: np.ndarray,
+        right: np.ndarray,
+        up: np.ndarray,
+        resolution: int,
+        min_quad: int,
+    ):
+        self.resolution = resolution
+        self.covered = silhouette(tracer, direction, resolution)
+        self.quads = build_quadtree(self.covered, min_quad)
         self._turn = np.eye(3)
-        self._turn[:2, :2] = [[u @ cut.across, v @ cut.across], [u @ cut.up, v @ cut.up]]
+        self._turn[:2, :2] = np.stack([right, up]) @ np.stack(plane_basis(direction), axis=1)
 
     def _upright(self, axes: Axes) -> Transform:
-        """Shows offsets (a, b) with `across` to the right and `up` upwards."""
         return Affine2D(self._turn) + axes.transData
 
     def draw(self, axes: Axes) -> None:
         """Draw what the object covers, in grey."""
-        draw_silhouette(axes, self.covered, 0.72, self._upright(axes))
+        style = {"cmap": "gray", "vmin": 0, "vmax": 1, "interpolation": "nearest"}
+        image = np.where(self.covered, 0.72, 1.0)  # row 0 is the lowest
+        extent = (-1, 1, -1, 1)
+        axes.imshow(image, extent=extent, origin="lower", transform=self._upright(axes), **style)
 
     def draw_quads(self, axes: Axes) -> None:
         """Draw the quadtree."""
-        draw_quads(axes, self.quads, self.resolution, self._upright(axes))
+        texel = 2 / self.resolution
+        squares = [
+            Rectangle((column * texel - 1, row * texel - 1), size * texel, size * texel)
+            for row, column, size in self.quads
+        ]
+        style = {"facecolor": "none", "edgecolor": BLUE, "linewidth": 0.4, "rasterized": True}
+        axes.add_collection(PatchCollection(squares, transform=self._upright(axes), **style))
 
-    def draw_points(self, axes: Axes, size: float) -> None:
-        """Draw the points."""
+    def draw_points(self, axes: Axes, count: int, seed: int, size: float) -> None:
+        """Draw so many points, divided over the quads."""
+        rng, bank = np.random.default_rng(seed), PatternBank(seed)
+        points = sample_quads(self.quads, self.resolution, count, rng, bank)
         style = {"s": size, "color": OUTLINE, "linewidths": 0, "rasterized": True}
-        axes.scatter(*self.points.T, transform=self._upright(axes), **style)
+        axes.scatter(*points.T, transform=self._upright(axes), **style)
 
 
-def draw_silhouette(axes: Axes, covered: np.ndarray, grey: float, upright: Transform) -> None:
-    """Draw covered texels (n, n) bool; row 0 is the lowest b."""
-    style = {"cmap": "gray", "vmin": 0, "vmax": 1, "interpolation": "nearest", "origin": "lower"}
-    image = np.where(covered, grey, 1.0)
-    axes.imshow(image, extent=(-1, 1, -1, 1), transform=upright, **style)
+def slice_silhouette(cut: MeshSlice, sampling: Mapping[str, Any]) -> SilhouetteDrawing:
+    """The silhouette along a slice's normal, in a sampling's resolution.
 
-
-def draw_quads(axes: Axes, quads: np.ndarray, resolution: int, upright: Transform) -> None:
-    """Draw the quads of `build_quadtree`."""
-    texel = 2 / resolution
-    squares = [
-        Rectangle((column * texel - 1, row * texel - 1), size * texel, size * texel)
-        for row, column, size in quads
-    ]
-    style = {"facecolor": "none", "edgecolor": BLUE, "linewidth": 0.4, "rasterized": True}
-    axes.add_collection(PatchCollection(squares, transform=upright, **style))
+    A sampling has `silhouette_resolution` and `min_quad` also if its sampler does without.
+    """
+    away = np.cross(cut.up, cut.across)  # from who sees `across` to the right
+    settings = sampling["silhouette_resolution"], sampling["min_quad"]
+    return SilhouetteDrawing(cut.tracer, away, cut.across, cut.up, *settings)
 
 
 def draw_hemisphere(axes: Axes, directions: np.ndarray, title: str) -> None:

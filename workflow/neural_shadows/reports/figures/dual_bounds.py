@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 
 from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import slice_rays
-from neural_shadows.reports.figures.style import BLUE, ORANGE, write_figure
+from neural_shadows.reports.figures.style import BLUE, ORANGE, legend_below, write_figure
 from neural_shadows.running.stage import run_stage
 
 
@@ -24,14 +24,13 @@ def draw(
     for axes, count in ((whole, drawing.FEW_RAYS), (part, 8 * drawing.FEW_RAYS)):
         drawing.draw_bounded_rays(axes, slice_rays(cut, count), 1.2)
         drawing.draw_outline(axes, cut)
-    figure.legend(
-        handles=[
+    legend_below(
+        figure,
+        [
             Line2D([], [], color=ORANGE, label="lit: up to t$_{lb}$, the first hit or the sphere"),
             Line2D([], [], color=BLUE, linewidth=4, label="t$_{lb}$ to t$_{ub}$, the second hit"),
             Line2D([], [], color=drawing.SHADE, label="in shadow"),
         ],
-        loc="outside lower center",
-        ncols=3,
     )
     write_figure(figure, png, svg)
 

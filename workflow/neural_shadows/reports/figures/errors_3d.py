@@ -61,12 +61,12 @@ def draw(
                 bias = read_json(biases[row["experiment"]])["depth_bias"]
             method = network_method(network, dtype, bias or 0.0)
         p, error, share = wrong_points(method, References(references))
-        plotter = space.new_plotter(hero_view(opened.up, 3.7))
+        plotter = space.new_plotter(hero_view(opened.up, 4.1))
         space.add_object(plotter, opened)
         space.add_ground(plotter, opened)
         for sign, colour in ((-1, space.FALSE_SHADOW), (1, space.LIGHT_LEAK)):
             if np.any(error == sign):
-                plotter.add_points(p[error == sign], color=colour, point_size=4, lighting=False)
+                plotter.add_points(p[error == sign], color=colour, point_size=5, lighting=False)
         shown[f"{row['label']}\n{share:.2%} of the points wrong"] = plotter
     space.write_pictures(
         shown,

@@ -62,7 +62,7 @@ def draw(
         svg,
         title=title,
         scale=(
-            "outside the mesh > 0 > inside it, cells",
+            "distance from the mesh, cells: outside > 0 > inside",
             ScalarMappable(Normalize(-0.5, 0.5), COLOURS),
         ),
     )
@@ -80,6 +80,9 @@ def learned_surface(field: OccupancyFieldNetwork) -> pyvista.PolyData:
     logits[tuple(np.moveaxis(places, -1, 0))] = (
         field.logits().detach()[field.table.long()].view(places.shape[:2])
     )
+    # Rays are never followed, and nothing is learned, beyond the bounding sphere.
+    place = np.ogrid[-1 : 1 : (size + 1) * 1j, -1 : 1 : (size + 1) * 1j, -1 : 1 : (size + 1) * 1j]
+    logits[sum(x**2 for x in place) > 1] = -LIMIT
     step = -(-size // MOST_CELLS)
     shown = logits[::step, ::step, ::step]
     grid = pyvista.ImageData(

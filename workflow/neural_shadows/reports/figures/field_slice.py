@@ -19,7 +19,7 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.reports.figures.drawing import OUTLINE, draw_outline
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_mesh
-from neural_shadows.reports.figures.style import new_figure, write_figure
+from neural_shadows.reports.figures.style import legend_below, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -55,14 +55,13 @@ def draw(
     image = _show(detail, field, cut, centre, DETAIL)
     detail.set_title("the square: shadow begins where the logit turns positive", fontsize=11)
     figure.colorbar(image, ax=detail, label="logit: outside < 0 < inside", shrink=0.8)
-    figure.legend(
-        handles=[
+    legend_below(
+        figure,
+        [
             Patch(color=OUTLINE, label="the mesh's section"),
             Patch(facecolor=EMPTY_COLOUR, edgecolor="#cccccc", label="empty: nothing stored"),
             Patch(color=ENCLOSED_COLOUR, label="enclosed: in shadow, nothing stored"),
         ],
-        loc="outside lower center",
-        ncols=3,
     )
     write_figure(figure, png, svg)
 

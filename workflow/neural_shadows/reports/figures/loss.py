@@ -8,7 +8,13 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from neural_shadows.reports.figures.style import COLOURS, GRID, new_figure, write_figure
+from neural_shadows.reports.figures.style import (
+    COLOURS,
+    GRID,
+    new_figure,
+    plain_numbers,
+    write_figure,
+)
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
@@ -66,6 +72,7 @@ def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
     # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
     settled = max(curve["loss"].iloc[len(curve) // 100 :].max() for curve in curves.values())
     axes.set_ylim(top=min(axes.get_ylim()[1], 3 * settled))
+    plain_numbers(axes.yaxis)
     axes.grid(which="both", **GRID)
     axes.legend()
     return figure

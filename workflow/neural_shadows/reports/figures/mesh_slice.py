@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import trimesh
 
-from neural_shadows.rays.labels import check_bounds, dual_bounds
+from neural_shadows.rays.labels import dual_bounds
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.scenes.tracing import Tracer
 
@@ -80,5 +80,4 @@ def slice_rays(cut: MeshSlice, count: int) -> SliceRays:
     origins = offset[:, None] * np.array([-d[1], d[0]]) - np.sqrt(1 - offset**2)[:, None] * d
     o, along = cut.to_space(origins).astype(np.float32), cut.direction.astype(np.float32)
     t_lb, t_ub = dual_bounds(cut.tracer, o, along)
-    check_bounds(along[None], o[None], np.stack([t_lb, t_ub], axis=1)[None], name="slice")
     return SliceRays(offset, origins, d, 2 * np.sqrt(1 - offset**2), t_lb, t_ub)

@@ -36,10 +36,10 @@ def draw(
         "a  view directions",
     )
     drawing.draw_disk(points, "b  rays through a silhouette's quadtree")
-    shown = drawing.SilhouetteDrawing(cut, sampling, seed, drawing.SHOWN_POINTS // 3)
+    shown = drawing.slice_silhouette(cut, sampling)
     shown.draw(points)
     shown.draw_quads(points)
-    shown.draw_points(points, 2)
+    shown.draw_points(points, drawing.SHOWN_POINTS // 3, seed, 2)
     drawing.draw_disk(labels, "c  labels: bounds along the rays")
     drawing.draw_bounded_rays(labels, slice_rays(cut, drawing.FEW_RAYS), 1.0)
     drawing.draw_outline(labels, cut)

@@ -9,11 +9,17 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, NullFormatter
 
-from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import RAY_TRACED, is_shadow_map
-from neural_shadows.reports.figures.style import COLOURS, GRID, new_figure, write_figure
+from neural_shadows.reports.figures.style import (
+    COLOURS,
+    GRID,
+    legend_below,
+    new_figure,
+    plain_numbers,
+    write_figure,
+)
+from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
@@ -54,13 +60,15 @@ def draw(
         rows: the table's rows of that scene.
 
     Raises:
-        InputError: the table is missing, not whole, or without one of the rows.
+        InputError: the table is missing or not whole.
     """
-    networks = read_networks(table, scene, [row["label"] for row in rows])
-    encodings = networks["encoding"]
-    kinds = [kind_of(row["method"], encodings[row["label"]]) for row in rows]
-    quality = "lpips" if networks["lpips"].notna().any() else "flip"
-    figure = pareto_figure(networks, kinds, quality, title=f"{title} ({run['scale']} scale)")
+    numbers = (*with_ends("lpips"), *with_ends("flip"), *COSTS)
+    networks = read_table(table, ("scene", "method", "encoding"), numbers)
+    networks = networks[networks["scene"] == scene].set_index("method", drop=False)
+    networks = networks.loc[[row["label"] for row in rows]]
+    keys = [row["method"] for row in rows]
+    kinds = [kind_of(key, encoding) for key, encoding in zip(keys, networks["encoding"])]
+    figure = pareto_figure(networks.assign(kind=kinds), title=f"{title} ({run['scale']} scale)")
     write_figure(figure, png, svg)
 
 
@@ -71,20 +79,6 @@ def kind_of(method: str, encoding: str) -> str:
     return "shadow map" if is_shadow_map(method) else encoding
 
 
-def read_networks(table_csv: Path, scene: str, labels: Sequence[str]) -> pd.DataFrame:
-    """The rows with these labels, of a scene of a table of networks, indexed by label.
-
-    Raises:
-        InputError: the table is missing, not whole, or without one of the rows.
-    """
-    qualities = [metric + end for metric in ("lpips", "flip") for end in ("", "_low", "_high")]
-    table = read_table(table_csv, ("scene", "method", "encoding"), (*qualities, *COSTS))
-    table = table[table["scene"] == scene].set_index("method", drop=False)
-    if missing := [label for label in labels if label not in table.index]:
-        raise InputError(f"{table_csv}: has no row {missing[0]!r} of {scene}")
-    return table.loc[labels]
-
-
 def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
     """Indices of the points that no other undercuts in both, by rising cost."""
     order = np.lexsort((error, cost))
@@ -92,75 +86,78 @@ def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
     return order[np.r_[True, best[1:] < best[:-1]]]
 
 
-def pareto_figure(table: pd.DataFrame, kinds: Sequence[str], quality: str, *, title: str) -> Figure:
-    """Draw a scene's methods, a panel for each cost.
+def pareto_figure(table: pd.DataFrame, *, title: str) -> Figure:
+    """Draw a scene's methods, a panel for each cost; FLIP where there is no LPIPS.
 
     Args:
-        table: rows of a table of networks of one scene.
-        kinds: of each row, as `kind_of` gives them.
-        quality: `lpips`, or `flip` where there is no LPIPS.
+        table: rows of a table of networks of one scene, with their `kind` as of `kind_of`.
     """
+    quality = "lpips" if table["lpips"].notna().any() else "flip"
+    points = table.rename(columns=dict(zip(with_ends(quality), ("error", "low", "high"))))
     figure = new_figure(title, 14, 5.2)
     panels = figure.subplots(1, 3, sharey=True)
-    points = table.assign(
-        error=table[quality], low=table[f"{quality}_low"], high=table[f"{quality}_high"], kind=kinds
-    )
     for axes, (column, (label, factor)) in zip(panels, COSTS.items()):
         shown = points.assign(cost=points[column] * factor)
         axes.set(xscale="log", yscale="log", xlabel=label)
+        measured = shown.dropna(subset=["cost", "error"])
+        for row in measured.itertuples():
+            colour, marker = STYLES.get(row.kind, OTHER)
+            spread = [[row.error - row.low], [row.high - row.error]]
+            axes.errorbar(row.cost, row.error, spread, color=colour, marker=marker, capsize=2)
         if column == "training_seconds":
+            axes.set_xlim(left=axes.get_xlim()[0] / 2.5)  # room for the maps' names
             _draw_untrained(axes, shown[shown["kind"] == "shadow map"])
         _draw_exact(axes, shown)
-        _draw_methods(axes, shown.dropna(subset=["cost", "error"]))
+        _draw_front(axes, measured)
         axes.grid(**GRID)
-        # Less than a decade has no power of ten to label.
-        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.xaxis.set_major_formatter("{x:g}")
-        axes.xaxis.set_minor_formatter(NullFormatter())
+        plain_numbers(axes.xaxis)
         axes.tick_params(axis="x", labelsize="small")
-    panels[-1].set_xlim(left=panels[-1].get_xlim()[0] / 2.5)  # room for the maps' names
     panels[0].set_ylabel(f"{quality.upper()}, mean [95 % interval]")
+    plain_numbers(panels[0].yaxis)
     entries = []
-    for kind in sorted(set(kinds), key=[*STYLES, *kinds].index):
+    for kind in sorted(set(table["kind"]), key=[*STYLES, *table["kind"]].index):
         colour, marker = STYLES.get(kind, OTHER)
         text = UNNAMED.get(kind, kind.replace("_", " "))
         entries.append(Line2D([], [], color=colour, marker=marker, linestyle="", label=text))
-    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
+    legend_below(figure, entries)
     return figure
 
 
-def _draw_methods(axes: Axes, points: pd.DataFrame) -> None:
-    """Draw methods with cost and error, and join and name those that no other undercuts."""
-    for _, row in points.iterrows():
-        colour, marker = STYLES.get(row["kind"], OTHER)
-        spread = [[row["error"] - row["low"]], [row["high"] - row["error"]]]
-        axes.errorbar(row["cost"], row["error"], spread, color=colour, marker=marker, capsize=2)
+def _draw_front(axes: Axes, points: pd.DataFrame) -> None:
+    """Join and name the methods that no other undercuts, the names within the panel."""
     best = points.iloc[front(points["cost"].to_numpy(), points["error"].to_numpy())]
     axes.plot(best["cost"], best["error"], color=FRONT_COLOUR, linewidth=1, zorder=0)
-    for _, row in best.iterrows():
-        _name(axes, row["method"], (row["cost"], row["error"]), (6, 6))
+    axes.autoscale_view()
+    places = axes.transData.transform(best[["cost", "error"]])
+    places = axes.transAxes.inverted().transform(places)
+    for i, row in enumerate(best.itertuples()):
+        # Below and to the left in the right half; below also where the last name is too near.
+        left = places[i, 0] > 0.5
+        below = left or (i > 0 and places[i - 1, 1] - places[i, 1] < 0.04)
+        style = {"ha": "right" if left else "left", "va": "top" if below else "bottom"}
+        offset = (-6 if left else 6, -5 if below else 5)
+        _name(axes, row.method, (row.cost, row.error), offset, **style)
 
 
 def _draw_untrained(axes: Axes, maps: pd.DataFrame) -> None:
     """Draw maps, which train nothing, as lines that a network must come below."""
-    for _, row in maps.dropna(subset="error").iterrows():
-        axes.axhline(row["error"], color=MAP_COLOUR, linewidth=0.7, linestyle=":")
-        at = {"xycoords": ("axes fraction", "data"), "fontsize": 7}
-        axes.annotate(row["method"], (0.01, row["error"]), **at)
+    for row in maps.dropna(subset="error").itertuples():
+        axes.axhline(row.error, color=MAP_COLOUR, linewidth=0.7, linestyle=":")
+        _name(axes, row.method, (0.01, row.error), (0, 0), xycoords=("axes fraction", "data"))
 
 
 def _draw_exact(axes: Axes, points: pd.DataFrame) -> None:
     """Draw ray tracing, the reference, whose error 0 is below any height of the axis."""
     floor = points["low"].min() / 2  # of the whole table, so that all panels share their heights
-    for _, row in points[points["error"].isna()].dropna(subset="cost").iterrows():
-        colour, marker = STYLES.get(row["kind"], OTHER)
+    for row in points[points["error"].isna()].dropna(subset="cost").itertuples():
+        colour, marker = STYLES.get(row.kind, OTHER)
         style = {"color": colour, "marker": marker, "markersize": 11, "clip_on": False}
-        axes.plot(row["cost"], floor, **style)
-        _name(axes, "ray traced: 0", (row["cost"], floor), (8, -2))
+        axes.plot(row.cost, floor, **style)
+        _name(axes, "ray traced: 0", (row.cost, floor), (8, -2))
 
 
-def _name(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float]) -> None:
-    axes.annotate(text, at, fontsize=7, xytext=offset, textcoords="offset points")
+def _name(axes: Axes, text: str, at: tuple[float, float], offset: tuple[int, int], **style) -> None:
+    axes.annotate(text, at, fontsize=7, xytext=offset, textcoords="offset points", **style)
 
 
 if "snakemake" in globals():

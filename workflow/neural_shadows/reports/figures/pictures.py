@@ -2,7 +2,6 @@
 
 import textwrap
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
 from typing import Any
@@ -11,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter, minimum_filter
-from skimage.transform import integral_image
 
 from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.meshes.mesh_report import read_mesh_report
@@ -79,16 +78,11 @@ def choose_crop(frames: Mapping[str, np.ndarray]) -> tuple[int, int, int, int]:
     step = maximum_filter(reference, 3) - minimum_filter(reference, 3)
     others = [frame for method, frame in frames.items() if method != "reference"]
     wrong = sum(np.abs(frame - reference) > VISIBLE_DIFFERENCE for frame in others)
-    interest = np.where(step > BORDER_STEP, wrong, 0).astype(np.int64)
+    interest = np.where(step > BORDER_STEP, wrong, 0)
 
     height, width = (max(1, round(CROP_SHARE * size)) for size in reference.shape)
-    total = np.pad(integral_image(interest), ((1, 0), (1, 0)))
-    inside = (
-        total[height:, width:]
-        - total[:-height, width:]
-        - total[height:, :-width]
-        + total[:-height, :-width]
-    )
+    inside = sliding_window_view(interest, height, axis=0).sum(axis=-1)
+    inside = sliding_window_view(inside, width, axis=1).sum(axis=-1)
     best = np.argwhere(inside == inside.max())
     row, column = best[np.argmin(((best - best.mean(axis=0)) ** 2).sum(axis=1))]
     return int(row), int(column), height, width
@@ -104,96 +98,57 @@ def picture_strip(frames: Sequence[FirstFrame], labels: Mapping[str, str], title
     """
     methods = [*(method for method in labels if method != "reference"), "reference"]
     columns = ceil(len(methods) / ceil(len(methods) / MOST_COLUMNS))
-    lines = [methods[i : i + columns] for i in range(0, len(methods), columns)]
-    rows_, columns_ = frames[0].images["reference"].shape
+    rows, across = frames[0].images["reference"].shape
     width = (WIDTH - GAP * (columns + 1)) / columns
+    height = width * rows / across
     # A letter of the bold default font is about 0.6 of its size wide: names must not run together.
     letters = int(72 * width / (0.6 * FONT_SIZE))
     names = {method: textwrap.fill(labels[method], letters) for method in methods}
-    sheet = _Sheet(
-        width=width,
-        height=width * rows_ / columns_,
-        name_lines=1 + max(name.count("\n") for name in names.values()),
-        scores=[key for key in SCORES if any(key in s for s in frames[0].scores.values())],
-    )
-    block = 1.4 * LINE + len(lines) * sheet.line_height
-    footer = LINE if sheet.scores else 0
-    sheet.open(2 * LINE + len(frames) * block + footer)
-    sheet.write(GAP, LINE, title, fontsize=FONT_SIZE + 3, weight="bold")
-    for i, frame in enumerate(frames):
-        top = 2 * LINE + i * block
-        sheet.write(GAP, top + 0.6 * LINE, frame.caption, fontsize=FONT_SIZE + 1)
-        images = {m: frame.images[m].astype(np.float32) / 255 for m in methods}
-        crop = choose_crop(images)
-        for j, line in enumerate(lines):
-            sheet.draw_line(
-                top + 1.4 * LINE + j * sheet.line_height,
-                [(names[m], images[m], frame.scores.get(m, {})) for m in line],
-                crop,
-            )
-    if footer:
-        note = "Scores are of the whole frames."
-        sheet.write(GAP, sheet.total_height - 0.7 * LINE, note)
-    return sheet.figure
+    name_height = LINE * (1 + max(name.count("\n") for name in names.values()))
+    scores = [key for key in SCORES if any(key in s for s in frames[0].scores.values())]
+    # Of a line of methods: names, frames, crops, scores and a free line.
+    line_height = name_height + 2 * height + GAP + LINE * (len(scores) + 1)
+    block = 1.4 * LINE + ceil(len(methods) / columns) * line_height
+    total = 2 * LINE + len(frames) * block + (LINE if scores else 0)
+    figure = Figure(figsize=(WIDTH, total), dpi=DPI)
 
+    def write(left: float, top: float, text: str, **style) -> None:
+        figure.text(left / WIDTH, 1 - top / total, text, **{"va": "center"} | style)
 
-@dataclass
-class _Sheet:
-    """A figure laid out in inches from its upper left corner."""
-
-    width: float  # of a picture
-    height: float
-    name_lines: int
-    scores: list[str]
-
-    @property
-    def line_height(self) -> float:
-        """Of a line of methods: names, frames, crops, scores and a free line."""
-        return LINE * (self.name_lines + len(self.scores) + 1) + 2 * self.height + GAP
-
-    def open(self, total_height: float) -> None:
-        """Begin a figure of that height."""
-        self.total_height = total_height
-        self.figure = Figure(figsize=(WIDTH, total_height), dpi=DPI)
-
-    def write(self, left: float, top: float, text: str, **style) -> None:
-        """Write text at half its height."""
-        style = {"fontsize": FONT_SIZE, "va": "center"} | style
-        self.figure.text(left / WIDTH, 1 - top / self.total_height, text, **style)
-
-    def show(self, left: float, top: float, image: np.ndarray, interpolation: str) -> Axes:
-        """Show a grey image (h, w)."""
-        box = np.array((left, self.total_height - top - self.height, self.width, self.height))
-        box /= (WIDTH, self.total_height, WIDTH, self.total_height)
-        axes = self.figure.add_axes(box, xticks=[], yticks=[])
+    def show(left: float, top: float, image: np.ndarray, interpolation: str) -> Axes:
+        box = left / WIDTH, 1 - (top + height) / total, width / WIDTH, height / total
+        axes = figure.add_axes(box, xticks=[], yticks=[])
         axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation=interpolation, aspect="auto")
         return axes
 
-    def draw_line(
-        self,
-        top: float,
-        shown: Sequence[tuple[str, np.ndarray, Mapping[str, float]]],
-        crop: tuple[int, int, int, int],
-    ) -> None:
-        """Draw methods beside each other: name, frame, crop and scores of each."""
-        row, column, rows, columns = crop
-        frame_top = top + self.name_lines * LINE
-        crop_top = frame_top + self.height + GAP
-        for i, (name, frame, scores) in enumerate(shown):
-            left = GAP + i * (self.width + GAP)
-            middle = left + self.width / 2
-            style = {"weight": "bold", "ha": "center", "va": "bottom", "linespacing": 1.0}
-            self.write(middle, frame_top - 0.2 * LINE, name, **style)
-            axes = self.show(left, frame_top, frame, "auto")
+    write(GAP, LINE, title, fontsize=FONT_SIZE + 3, weight="bold")
+    for i, frame in enumerate(frames):
+        start = 2 * LINE + i * block
+        write(GAP, start + 0.6 * LINE, frame.caption, fontsize=FONT_SIZE + 1)
+        images = {m: frame.images[m].astype(np.float32) / 255 for m in methods}
+        row, column, crop_rows, crop_columns = choose_crop(images)
+        for j, method in enumerate(methods):
+            left = GAP + j % columns * (width + GAP)
+            top = start + 1.4 * LINE + j // columns * line_height + name_height
+            middle = {"ha": "center", "fontsize": FONT_SIZE}
+            style = {"weight": "bold", "va": "bottom", "linespacing": 1.0} | middle
+            write(left + width / 2, top - 0.2 * LINE, names[method], **style)
+            axes = show(left, top, images[method], "auto")
             axes.spines[:].set_visible(False)
             style = {"fill": False, "edgecolor": ORANGE, "linewidth": 1.2}
-            axes.add_patch(Rectangle((column - 0.5, row - 0.5), columns, rows, **style))
-            part = frame[row : row + rows, column : column + columns]
-            axes = self.show(left, crop_top, part, "nearest")
+            corner = column - 0.5, row - 0.5
+            axes.add_patch(Rectangle(corner, crop_columns, crop_rows, **style))
+            part = images[method][row : row + crop_rows, column : column + crop_columns]
+            axes = show(left, top + height + GAP, part, "nearest")
             axes.spines[:].set(edgecolor=ORANGE, linewidth=1.2)
-            for j, key in enumerate(key for key in self.scores if key in scores):
-                below = crop_top + self.height + (j + 0.7) * LINE
-                self.write(middle, below, SCORES[key].format(scores[key]), ha="center")
+            below = top + 2 * height + GAP + 0.7 * LINE
+            found = frame.scores.get(method, {})
+            for k, key in enumerate(key for key in scores if key in found):
+                text = SCORES[key].format(found[key])
+                write(left + width / 2, below + k * LINE, text, **middle)
+    if scores:
+        write(GAP, total - 0.7 * LINE, "Scores are of the whole frames.", fontsize=FONT_SIZE)
+    return figure
 
 
 if "snakemake" in globals():

@@ -8,16 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from matplotlib.transforms import Affine2D
 
 from neural_shadows.files.whole_files import whole_file
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.rays.quadtree import build_quadtree
-from neural_shadows.rays.silhouette import plane_basis, silhouette
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
-from neural_shadows.reports.figures.drawing import draw_quads, draw_silhouette
+from neural_shadows.reports.figures.drawing import SilhouetteDrawing, draw_disk
 from neural_shadows.reports.figures.hero_view import DISTANCE, FOV, hero_view
 from neural_shadows.reports.figures.style import COLOURS, ORANGE
 from neural_shadows.running.stage import run_stage
@@ -41,11 +38,15 @@ def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Mapping[str, Any]
     # A square either side, and room for one line above and two below.
     figure = Figure(figsize=(12.8, 7.2), dpi=110)
     left = figure.add_axes((0.005, 0.08, 0.49, 0.871), xticks=[], yticks=[])
-    right = figure.add_axes((0.505, 0.08, 0.49, 0.871), xticks=[], yticks=[])
+    right = figure.add_axes((0.505, 0.08, 0.49, 0.871))
     left.set_title(f"{report['name']}: {report['faces']:,} triangles; up: {scene['up']}")
     _draw_object(left, opened, view)
-    quads = _draw_silhouette(right, opened, view)
-    right.set_title(f"silhouette of {RESOLUTION}² texels, quadtree of {quads:,} quads")
+    across, upward, away = camera_axes(view.eye, view.target, view.up)
+    shown = SilhouetteDrawing(opened.tracer, away, across, upward, RESOLUTION, 1)
+    quads = f"quadtree of {len(shown.quads):,} quads"
+    draw_disk(right, f"the same view's silhouette of {RESOLUTION}² texels, {quads}")
+    shown.draw(right)
+    shown.draw_quads(right)
     notes = describe(report, scene["up"])
     figure.text(0.01, 0.065, "\n".join(notes), va="top", fontsize=10, linespacing=1.5)
     print(*notes, sep="\n")
@@ -64,7 +65,7 @@ def describe(report: Mapping[str, Any], up: str) -> list[str]:
         closed += " It is a sheet: give an occupancy field of it `surface: sheet`."
     return [
         f"Up is {up}: if the object does not stand as it should, change the scene's `up`.",
-        f"{closed} Orange: its bounding sphere, in which all lengths are measured.",
+        f"{closed} Orange: its bounding sphere, whose radius is the unit of all lengths.",
     ]
 
 
@@ -87,21 +88,6 @@ def _draw_object(axes: Axes, scene: Scene, view: Viewpoint) -> None:
         at = corner + 1.3 * (end - corner)
         axes.annotate(text, at, color=colour, weight="bold", ha="center", va="center")
     axes.set(xlim=(0, PIXELS), ylim=(PIXELS, 0))
-
-
-def _draw_silhouette(axes: Axes, scene: Scene, view: Viewpoint) -> int:
-    """Draw the silhouette from the view's eye; its number of quads."""
-    direction = -view.eye / np.linalg.norm(view.eye)
-    covered = silhouette(scene.tracer, direction, RESOLUTION)
-    quads = build_quadtree(covered, 1)
-    # The plane's basis has any turn: turned here to have `up` upwards.
-    u, v = plane_basis(direction)
-    turn = Affine2D().rotate(np.arctan2(u @ view.up, v @ view.up))
-    draw_silhouette(axes, covered, 0.55, turn + axes.transData)
-    draw_quads(axes, quads, RESOLUTION, turn + axes.transData)
-    axes.add_patch(Circle((0, 0), 1, fill=False, color=ORANGE, linewidth=1.2))
-    axes.set(xlim=(1.02, -1.02), ylim=(-1.02, 1.02))  # seen along d: u × v = d points away
-    return len(quads)
 
 
 if "snakemake" in globals():

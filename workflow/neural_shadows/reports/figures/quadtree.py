@@ -22,7 +22,7 @@ def draw(
 ) -> None:
     """Draw a silhouette's quadtree, and points divided over its quads."""
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title)
-    shown = drawing.SilhouetteDrawing(cut, sampling, seed, drawing.SHOWN_POINTS)
+    shown = drawing.slice_silhouette(cut, sampling)
     left, right = figure.subplots(1, 2)
     quads = f"quadtree of {len(shown.quads):,} quads"
     drawing.draw_disk(left, f"silhouette of {shown.resolution}² texels, {quads}")
@@ -30,7 +30,7 @@ def draw(
     shown.draw_quads(left)
     drawing.draw_disk(right, f"{drawing.SHOWN_POINTS:,} points, divided evenly over the quads")
     shown.draw(right)
-    shown.draw_points(right, 3)
+    shown.draw_points(right, drawing.SHOWN_POINTS, seed, 3)
     write_figure(figure, png, svg)
 
 

@@ -49,19 +49,19 @@ def draw(
     left.add_mesh(light_domain(opened), color=LIGHT_COLOUR, opacity=0.2, lighting=False)
     style = {"render_points_as_spheres": True, "lighting": False}
     towards = -rays.directions.astype(np.float32)
-    left.add_points(towards, color=DIRECTION_COLOUR, point_size=5, **style)
+    left.add_points(towards, color=DIRECTION_COLOUR, point_size=9, **style)
     _add_rays(right, rays)
     name = read_mesh_report(mesh_json)["name"]
     space.write_pictures(
         {
-            f"{len(towards):,} directions to shine from; up: {scene['up']}": left,
+            f"{len(towards):,} view directions; up: {scene['up']}": left,
             f"{RAYS} of {rays.count:,} training rays": right,
         },
         png,
         svg,
         title=f"{title} ({name})",
         colours={
-            "where the scene's light is": LIGHT_COLOUR,
+            "where the light comes from": LIGHT_COLOUR,
             "view directions": DIRECTION_COLOUR,
             "ray: lit": ORANGE,
             "ray: between its bounds": BLUE,

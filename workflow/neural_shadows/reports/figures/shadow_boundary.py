@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import slice_rays
-from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, write_figure
+from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, legend_below, write_figure
 from neural_shadows.running.stage import run_stage
 
 
@@ -37,14 +37,13 @@ def draw(
     graph.set_ylabel("depth t along the ray, from the sphere")
     graph.set_title("the same by depth: a boundary t$_s$ within the blue is right", fontsize=11)
     graph.grid(**GRID)
-    figure.legend(
-        handles=[
+    legend_below(
+        figure,
+        [
             Patch(color=BLUE, label="between first and second hit: t$_s$ may lie anywhere"),
             Patch(color=drawing.SHADE, label="in shadow"),
             Patch(color=ORANGE, label="bounding sphere and light"),
         ],
-        loc="outside lower center",
-        ncols=3,
     )
     write_figure(figure, png, svg)
 

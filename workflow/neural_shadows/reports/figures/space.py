@@ -10,7 +10,13 @@ from matplotlib.patches import Patch
 
 from neural_shadows.errors import InputError
 from neural_shadows.reports.figures import opengl
-from neural_shadows.reports.figures.style import BLUE, ORANGE, new_figure, write_figure
+from neural_shadows.reports.figures.style import (
+    BLUE,
+    ORANGE,
+    legend_below,
+    new_figure,
+    write_figure,
+)
 from neural_shadows.scenes.cameras import Viewpoint
 from neural_shadows.scenes.scene import Scene
 
@@ -92,6 +98,5 @@ def write_pictures(
     if scale:
         figure.colorbar(scale[1], ax=panels, label=scale[0], shrink=0.7)
     if colours:
-        entries = [Patch(color=colour, label=label) for label, colour in colours.items()]
-        figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
+        legend_below(figure, [Patch(color=c, label=label) for label, c in colours.items()])
     write_figure(figure, png, svg)

@@ -1,9 +1,13 @@
-"""What all figures share: colours, resolution, title, writing."""
+"""What all figures share: colours, resolution, title, legend, writing."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from matplotlib import rc_context
+from matplotlib.artist import Artist
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from neural_shadows.files.whole_files import whole_file
 
@@ -17,8 +21,21 @@ GRID = {"linewidth": 0.4, "alpha": 0.4}
 def new_figure(title: str, width: float, height: float) -> Figure:
     """An empty figure of so many inches under its title."""
     figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+    figure.get_layout_engine().set(h_pad=0.08)  # keeps panels' titles off the figure's
     figure.suptitle(title, x=0.01, ha="left", weight="bold")
     return figure
+
+
+def plain_numbers(axis: Axis) -> None:
+    """Label a logarithmic axis with 0.5 and 20: less than a decade has no power of ten."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def legend_below(figure: Figure, entries: Sequence[Artist]) -> None:
+    """One legend for all panels, in a line below them."""
+    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
 
 
 def write_figure(figure: Figure, png: Path, svg: Path) -> None:

@@ -8,7 +8,14 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from neural_shadows.reports.figures.style import COLOURS, GRID, new_figure, write_figure
+from neural_shadows.reports.figures.style import (
+    COLOURS,
+    GRID,
+    legend_below,
+    new_figure,
+    plain_numbers,
+    write_figure,
+)
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
@@ -71,15 +78,16 @@ def width_figure(
     quality.set_ylabel("LPIPS, mean [95 % interval]")
     quality.set_ylim(bottom=0)
     entries = [Line2D([], [], color=c, marker="o", label=s) for c, s in zip(COLOURS, scenes)]
-    entries.append(Line2D([], [], color="grey", marker="o", label="this run"))
     if shown["thesis_lpips"].notna().any():
         note = "the thesis does not say which network its LPIPS is of: compare slopes"
         quality.set_title(note, fontsize=9)
+        entries.append(Line2D([], [], color="grey", marker="o", label="this run"))
         style = {"color": "grey", "marker": "s", "linestyle": "--"}
         entries.append(Line2D([], [], label="thesis", **style))
     speed.set_ylabel("frame time, ms, median [quartiles]")
     speed.set_yscale("log")  # ours and the thesis's machine may be far apart
-    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
+    plain_numbers(speed.yaxis)
+    legend_below(figure, entries)
     return figure
 
 
