@@ -40,32 +40,23 @@ def test_text_from_the_config_is_shown_not_run(text):
     assert len([tag for tag, _ in Page(text).elements if tag == "script"]) == 2
     data = json.loads(re.search(r'<script type="application/json">(.+?)</script>', text)[1])
     assert data["title"].startswith(f"dragon: {HOSTILE}")
+    assert [method["name"] for method in data["methods"]] == ["Reference", *LABELS]
 
 
 def test_every_link_leads_to_one_place(text):
     page = Page(text)
     ids = Counter(page.values("id"))
     assert ids.most_common(1)[0][1] == 1
-    links = [address.removeprefix("#") for address in page.values("href")]
-    assert set(links) <= set(ids)
-    assert {"claims", "tables", "beyond", "table-tables", "table-beyond"} <= set(links)
+    links = {address.removeprefix("#") for address in page.values("href")}
+    assert links <= set(ids)
+    assert {"claims", "tables", "beyond", "table-tables", "table-beyond"} <= links
 
 
-def test_a_note_and_a_title_are_shown_once(text):
-    assert text.count(SHARED) == 1
-    # In the contents and as what stands for the picture; the picture itself has it.
-    assert "<figcaption>Figure 4.1</figcaption>" in text
-    assert text.count("Mean over 24 views") == 1
-
-
-def test_what_is_past_the_thesis_has_a_heading_of_its_own(text):
+def test_notes_are_shown_once_and_what_is_past_the_thesis_apart(text):
+    assert text.count(SHARED) == text.count("Mean over 24 views") == 1
+    assert "<figcaption>Figure 4.1</figcaption>" in text  # its title is in the picture
     section = text[text.index('<section id="beyond">') :]
     assert "<h2>Past the thesis</h2>" in section and '<article id="table-beyond">' in section
-
-
-def test_frames_are_compared_by_the_labels_of_tables(text):
-    data = json.loads(re.search(r'<script type="application/json">(.+?)</script>', text)[1])
-    assert [method["name"] for method in data["methods"]] == ["Reference", *LABELS]
 
 
 @pytest.mark.parametrize("there", ["tables", "figures", "claims_md", "pictures"])

@@ -9,36 +9,32 @@ from neural_shadows.errors import InputError
 from neural_shadows.reports.page_blocks import LARGEST_SVG, figure_blocks, table_block
 
 
+def block_of(folder, text):
+    path = folder / "table_4_3.md"
+    path.write_text(text)
+    return table_block(path)
+
+
 def test_cells_tell_the_thesis_from_ours_and_verdicts_apart(tmp_path):
-    path = tmp_path / "table_4_3.md"
-    path.write_text(TABLE)
-    html = table_block(path).html
-    assert '<th style="text-align:right" class="thesis">thesis PSNR</th>' in html
-    assert '<td style="text-align:right" class="thesis">0.0379</td>' in html
-    assert '<td style="text-align:right">0.07 <small>[0.065, 0.08]</small></td>' in html
-    assert "A &lt;b&gt;network&lt;/b&gt;" in html
-    path.write_text(CLAIMS)
-    html = table_block(path).html
+    block = block_of(tmp_path, TABLE)
+    assert '<th style="text-align:right" class="thesis">thesis PSNR</th>' in block.html
+    assert '<td style="text-align:right" class="thesis">0.0379</td>' in block.html
+    assert '<td style="text-align:right">0.07 <small>[0.065, 0.08]</small></td>' in block.html
+    assert "A &lt;b&gt;network&lt;/b&gt;" in block.html
+    # The keyboard reaches a table that scrolls.
+    assert f'role="region" tabindex="0" aria-label="{block.title}"' in block.html
+    assert block.notes == ("Mean over 24 views; <em>thesis</em>: printed.", SHARED)
+    assert "<ul>" not in block.html
+    html = block_of(tmp_path, CLAIMS).html
     for verdict in ("supported", "contradicted"):
         assert f'class="{verdict}"><strong>{verdict}</strong>' in html
     assert ">supported by nobody</td>" in html
 
 
-def test_keyboard_reaches_a_table_that_scrolls(tmp_path):
-    path = tmp_path / "table_4_3.md"
-    path.write_text(TABLE)
-    block = table_block(path)
-    assert f'role="region" tabindex="0" aria-label="{block.title}"' in block.html
-    assert block.notes == ("Mean over 24 views; <em>thesis</em>: printed.", SHARED)
-    assert "<ul>" not in block.html
-
-
 @pytest.mark.parametrize("text", ["", "# Only a heading\n", "| a |\n|---|\n| 1 |\n"])
 def test_what_is_no_table_is_named(tmp_path, text):
-    path = tmp_path / "table_4_1.md"
-    path.write_text(text)
-    with pytest.raises(InputError, match=r"table_4_1\.md: holds no table"):
-        table_block(path)
+    with pytest.raises(InputError, match=r"table_4_3\.md: holds no table"):
+        block_of(tmp_path, text)
 
 
 def test_large_drawings_are_shown_as_pixels(tmp_path):
@@ -50,10 +46,6 @@ def test_large_drawings_are_shown_as_pixels(tmp_path):
         uri = re.search(r'src="data:image/([a-z+]+);base64,([^"]+)"', block.html)
         assert uri[1] == kind and base64.b64decode(uri[2])
         assert (block.anchor, block.title) == ("figure-figure_3_1", "Figure 3.1: How")
-
-
-def test_only_figures_of_the_thesis_have_numbers(tmp_path):
-    png = tmp_path / "figure_cost.png"
-    Image.new("RGB", (9, 9)).save(png)
-    (block,) = figure_blocks([png], {"figure_cost": "Cost"})
+    # Only figures of the thesis have numbers.
+    (block,) = figure_blocks([png.rename(tmp_path / "figure_cost.png")], {"figure_cost": "Cost"})
     assert (block.title, block.caption) == ("Cost", "")

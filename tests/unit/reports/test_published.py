@@ -3,7 +3,6 @@ import pandas as pd
 import pytest
 from report_samples import PUBLISHED, row
 
-from neural_shadows.errors import InputError
 from neural_shadows.reports.published import add_printed, read_published
 
 # rows x columns of each table in the thesis
@@ -16,23 +15,6 @@ SIZES = {
     "4.6": (6, 3),
     "4.7": (6, 1),
 }
-
-
-@pytest.fixture(scope="module")
-def published():
-    return read_published(PUBLISHED)
-
-
-def test_all_tables_are_complete(published):
-    frame = published.reset_index()
-    assert set(frame["table"]) == set(SIZES)
-    assert len(frame) == 102
-    for table, size in SIZES.items():
-        part = frame[frame["table"] == table]
-        assert (part["row"].nunique(), part["column"].nunique()) == size, table
-        assert len(part) == np.prod(size), table
-
-
 # table, row, column: value
 SPOTS = {
     "4.1 poisson_quadtree lpips": 0.0392,
@@ -51,20 +33,27 @@ SPOTS = {
 }
 
 
+@pytest.fixture(scope="module")
+def published():
+    return read_published(PUBLISHED)
+
+
+def test_all_tables_are_complete(published):
+    frame = published.reset_index()
+    assert len(frame) == 102 and np.isfinite(published).all() and published.index.is_unique
+    for table, part in frame.groupby("table"):
+        size = part["row"].nunique(), part["column"].nunique()
+        assert (size, len(part)) == (SIZES[table], np.prod(size)), table
+
+
 def test_spot_values(published):
     assert {spot: published[tuple(spot.split())] for spot in SPOTS} == SPOTS
-    # Some are printed twice.
-    axis = published["4.5", "network_single_axis", "lpips"]
-    assert published["4.6", "landscape_256", "lpips"] == axis
-    assert published["4.6", "dragon_256", "lpips"] == published["4.3", "network", "lpips"]
 
 
 def test_sizes_follow_from_the_parameter_counts(published):
     for width, parameters in {64: 40_896, 128: 147_328, 256: 556_800}.items():
         size = published["4.6", f"dragon_{width}", "size_kib"]
         assert size == pytest.approx(parameters * 4 / 1024, abs=0.51)
-    memory = published["4.7", "network", "memory_mib"]
-    assert memory == pytest.approx(556_800 * 4 / 2**20, abs=0.005)
     for resolution in (128, 256, 512, 1024, 2048):
         memory = published["4.7", f"shadow_map_{resolution}", "memory_mib"]
         assert memory == resolution**2 * 4 / 2**20
@@ -79,11 +68,3 @@ def test_printed_numbers_stand_beside_ours(published):
     assert beside.loc[1, ["thesis_psnr", "psnr_minus_thesis"]].isna().all()
     for number, values in ((None, published), ("4.3", None)):
         assert add_printed(frame, rows, ["psnr"], number, values)["thesis_psnr"].isna().all()
-
-
-@pytest.mark.parametrize("value", ["25", "high", ""])
-def test_bad_file_is_named(tmp_path, value):
-    path = tmp_path / "printed.csv"
-    path.write_text(f"table,row,column,value\n4.1,a,psnr,25\n4.1,a,psnr,{value}\n")
-    with pytest.raises(InputError, match=r"printed\.csv: "):
-        read_published(path)

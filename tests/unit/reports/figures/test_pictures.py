@@ -1,5 +1,3 @@
-import xml.etree.ElementTree
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -22,41 +20,33 @@ def discs(*discs_drawn):
     return np.where(dark, 0.25, 0.9).astype(np.float32)
 
 
-def blocks(image, size):
-    return np.kron(image[::size, ::size], np.ones((size, size), np.float32))
-
-
 def test_crop_lies_where_a_border_is_wrong():
     # Two discs; only the second is rendered otherwise. It fits the crop, which centres on it.
     reference = discs((25, 30, 8), (70, 110, 8))
-    shrunk = discs((25, 30, 8), (70, 110, 6))
-    row, column, height, width = choose_crop({"network": shrunk, "reference": reference})
+    second = discs((25, 30, 8), (70, 110, 6))
+    row, column, height, width = choose_crop({"network": second, "reference": reference})
     assert (height, width) == (20, 30)
     assert (row + height / 2, column + width / 2) == pytest.approx((70, 110), abs=1)
-
-
-def test_each_method_counts():
-    first, second = discs((25, 30, 6), (70, 110, 8)), discs((25, 30, 8), (70, 110, 6))
-    frames = {"a": first, "b": second, "c": second, "reference": discs((25, 30, 8), (70, 110, 8))}
-    assert choose_crop(frames)[0] > 50
-    assert choose_crop(frames | {"c": first})[0] < 50
+    # Each method counts.
+    frames = {"a": discs((25, 30, 6), (70, 110, 8)), "b": second, "reference": reference}
+    assert choose_crop(frames | {"c": second})[0] > 50
+    assert choose_crop(frames | {"c": frames["a"]})[0] < 50
+    # Equal frames give the middle.
+    assert choose_crop({"network": second, "reference": second}) == (40, 60, 20, 30)
 
 
 def test_crop_has_the_most_wrong_border_pixels():
     rng = np.random.default_rng(3)
-    reference = blocks(rng.choice([0.25, 0.9], (48, 64)).astype(np.float32), 4)
-    network = blocks(rng.choice([0.25, 0.9], (48, 64)).astype(np.float32), 2)
+    reference, network = (
+        np.kron(rng.choice(np.float32([0.25, 0.9]), (48 // n, 64 // n)), np.ones((n, n)))
+        for n in (4, 2)
+    )
     row, column, height, width = choose_crop({"network": network, "reference": reference})
     near = np.pad(reference, 1, mode="edge")
     around = np.stack([near[i : i + 48, j : j + 64] for i in range(3) for j in range(3)])
     wrong = (np.abs(network - reference) > 0.05) & (np.ptp(around, axis=0) > 0.1)
     counts = np.lib.stride_tricks.sliding_window_view(wrong, (height, width)).sum(axis=(2, 3))
     assert counts[row, column] == counts.max() > counts.min()
-
-
-def test_equal_frames_give_the_middle():
-    reference = discs((25, 30, 8))
-    assert choose_crop({"network": reference, "reference": reference}) == (40, 60, 20, 30)
 
 
 def frame_of(labels):
@@ -96,27 +86,19 @@ def test_long_names_break_and_do_not_overlap():
 
 
 def test_the_figure_is_drawn_of_files(tmp_path):
-    write_json(tmp_path / "mesh.json", {"name": "wyrm"})
-    for name in LABELS:
-        image = frame_of(LABELS).images[name] / 255
-        write_first_frames(tmp_path / f"{name}.npz", name, {"shadow": image, "surface": image})
-    rows = [{"method": "map", "label": "a map"}, {"method": "network", "label": "a network"}]
-    for row in rows:
-        values = {"view_set": ["shadow", "surface"], "method": row["method"], "metric": "psnr"}
-        table = pd.DataFrame({"view": 0, **values, "value": 30.0})
-        table.to_csv(tmp_path / f"{row['method']}.csv", index=False)
-    draw(
-        [tmp_path / "map.csv", tmp_path / "network.csv"],
-        [tmp_path / f"{name}.npz" for name in LABELS],
-        tmp_path / "mesh.json",
-        tmp_path / "a.png",
-        tmp_path / "a.svg",
-        title="Pictures",
-        rows=rows,
-        view_sets=["surface"],
-        run={"scale": "test"},
+    mesh_json, csv, png, svg = (
+        tmp_path / f"a.{ending}" for ending in ("json", "csv", "png", "svg")
     )
-    with Image.open(tmp_path / "a.png") as picture:
+    write_json(mesh_json, {"name": "wyrm"})
+    for name, image in frame_of(LABELS).images.items():
+        views = dict.fromkeys(("shadow", "surface"), image / 255)
+        write_first_frames(tmp_path / f"{name}.npz", name, views)
+    values = {"view_set": ["shadow", "surface"], "method": "map", "metric": "psnr", "value": 30.0}
+    pd.DataFrame({"view": 0, **values}).to_csv(csv, index=False)
+    pictures = [tmp_path / f"{name}.npz" for name in LABELS]
+    rows = [{"method": "map", "label": "a map"}, {"method": "network", "label": "a network"}]
+    told = {"rows": rows, "view_sets": ["surface"], "run": {"scale": "test"}}
+    draw([csv], pictures, mesh_json, png, svg, title="Pictures", **told)
+    with Image.open(png) as picture:
         assert picture.width == pytest.approx(2040, abs=1)
-    root = xml.etree.ElementTree.parse(tmp_path / "a.svg").getroot()
-    assert len(list(root.iter("{http://www.w3.org/2000/svg}image"))) == 6
+    assert svg.read_text(encoding="utf-8").count("<image") == 6

@@ -59,50 +59,30 @@ def files(tmp_path_factory):
     return folder
 
 
-def outputs(folder):
-    return {"png": folder / "f.png", "svg": folder / "f.svg", "title": "Title", "scene": SCENE}
-
-
-def check_drawn_twice_alike(draw, folder):
-    draw()
-    first = [path.read_bytes() for path in (folder / "f.png", folder / "f.svg")]
-    assert imread(folder / "f.png")[..., :3].std() > 0.05
-    draw()
-    assert first == [path.read_bytes() for path in (folder / "f.png", folder / "f.svg")]
-
-
 @needs_opengl
-@pytest.mark.parametrize("kind", [field_3d, depth_sheets_3d])
-def test_what_a_network_learned_is_drawn(files, tmp_path, kind):
-    inputs = {"mesh_ply": files / "mesh.ply", "weights": files / "field" / "weights.safetensors"}
-    check_drawn_twice_alike(lambda: kind.draw(**inputs, **outputs(tmp_path)), tmp_path)
-
-
-@needs_opengl
-def test_a_scene_is_drawn(files, tmp_path):
-    inputs = {f"mesh_{kind}": files / f"mesh.{kind}" for kind in ("ply", "json")}
-    inputs |= {"directions_npy": files / "directions.npy"}
-    inputs |= {key: [files / f"{key}.000.npy"] for key in ("origins", "bounds")}
-    check_drawn_twice_alike(lambda: scene_3d.draw(**inputs, **outputs(tmp_path)), tmp_path)
-
-
-@needs_opengl
-def test_errors_are_drawn(files, tmp_path):
-    (tmp_path / "biases").mkdir()
-    write_json(tmp_path / "biases" / "field.json", {"depth_bias": 0.01})
-    errors_3d.draw(
-        mesh_ply=files / "mesh.ply",
-        references=files / "000.safetensors",
-        weights=[files / "field" / "weights.safetensors"],
-        depth_biases=[tmp_path / "biases" / "field.json"],
-        rows=[
-            {"method": "shadow_map_16", "label": "a map", "experiment": None, "bias": None},
-            {"method": "field", "label": "a field", "experiment": "field", "bias": "held_out"},
-        ],
-        run={"scale": "test"},
-        **outputs(tmp_path),
-    )
-    assert "a field" in (tmp_path / "f.svg").read_text(encoding="utf-8")
+@pytest.mark.parametrize("kind", [field_3d, depth_sheets_3d, scene_3d, errors_3d])
+def test_each_kind_is_drawn_twice_alike(files, tmp_path, kind):
+    weights, bias_json = files / "field" / "weights.safetensors", tmp_path / "field.json"
+    write_json(bias_json, {"depth_bias": 0.01})
+    given = {"mesh_ply": files / "mesh.ply", "png": tmp_path / "f.png", "svg": tmp_path / "f.svg"}
+    given |= {"title": "Title", "scene": SCENE}
+    if kind is scene_3d:
+        given |= {"mesh_json": files / "mesh.json", "directions_npy": files / "directions.npy"}
+        given |= {key: [files / f"{key}.000.npy"] for key in ("origins", "bounds")}
+    elif kind is errors_3d:
+        given |= {"references": files / "000.safetensors", "run": {"scale": "test"}}
+        given |= {"weights": [weights], "depth_biases": [bias_json]}
+        map_ = {"method": "shadow_map_16", "label": "a map", "experiment": None, "bias": None}
+        field = {"method": "field", "label": "a field", "experiment": "field", "bias": "held_out"}
+        given["rows"] = [map_, field]
+    else:
+        given["weights"] = weights
+    drawn = []
+    for _ in range(2):
+        kind.draw(**given)
+        drawn.append([path.read_bytes() for path in (given["png"], given["svg"])])
+    assert imread(given["png"])[..., :3].std() > 0.05
+    assert drawn[0] == drawn[1]
 
 
 def test_wrong_points_are_where_the_visibility_differs(files):

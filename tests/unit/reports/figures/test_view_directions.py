@@ -20,15 +20,12 @@ def test_equals_the_sum_over_spherical_harmonics():
         assert power == pytest.approx(expected, rel=1e-9)
 
 
-def test_independent_directions_are_white_and_poisson_disks_blue():
+def test_independent_directions_are_white_and_poisson_disks_blue(tmp_path):
     # Each S_l is a chi-squared mean of 2l + 1 terms: over 30 degrees and 8 sets, 1 ± 0.02.
     mean = np.mean([angular_power_spectrum(uniform(300, seed), 30) for seed in range(8)])
     assert mean == pytest.approx(1, abs=0.1)
     power = angular_power_spectrum(sphere_directions(500, 1)[0], 50)
     assert power[:20].max() < 0.25
     assert power[-10:].mean() > 1
-
-
-def test_is_drawn(tmp_path):
     draw(tmp_path / "f.png", tmp_path / "f.svg", title="Directions", seed=1)
     assert (tmp_path / "f.svg").stat().st_size < 600_000

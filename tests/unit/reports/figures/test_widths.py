@@ -20,7 +20,7 @@ TABLE = pd.DataFrame(
 WIDTHS = {(scene, str(w)): w for scene in ("dragon", "landscape") for w in (256, 64)}
 
 
-def test_lines_of_each_scene_over_width():
+def test_lines_of_each_scene_over_width(tmp_path):
     quality, speed = width_figure(TABLE, WIDTHS, title="Widths").axes
     ours = [line.lines[0] for line in quality.containers]
     assert [line.get_xdata().tolist() for line in ours] == [[64, 256], [64, 256]]
@@ -28,12 +28,9 @@ def test_lines_of_each_scene_over_width():
     dashed = [line for line in speed.lines if line.get_linestyle() == "--"]
     assert [line.get_ydata().tolist() for line in dashed] == [[11.5, 29.1], [13.2, 32.8]]
 
-
-def test_rows_with_a_width_are_drawn(tmp_path):
-    paths = tmp_path / "t.csv", tmp_path / "a.png", tmp_path / "a.svg"
+    paths = [tmp_path / name for name in ("t.csv", "a.png", "a.svg")]
     rows = [{"scene": s, "label": label, "width": w} for (s, label), w in WIDTHS.items()]
     rows.append({"scene": "dragon", "label": "ray traced", "width": None})
-    settings = {"title": "Widths", "rows": rows, "run": {"scale": "test"}}
     TABLE.to_csv(paths[0], index=False)
-    draw(*paths, **settings)
+    draw(*paths, title="Widths", rows=rows, run={"scale": "test"})
     assert paths[1].stat().st_size > 10_000

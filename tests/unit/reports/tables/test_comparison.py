@@ -77,9 +77,7 @@ def test_the_thesis_says_nothing_of_another_mesh(written):
     text = md.read_text()
     assert text.startswith("# Networks and maps, mesh wyrm (after table 4.3 of the thesis)\n")
     assert "*thesis*: empty, since it did not measure the mesh wyrm." in text
-
-
-def test_a_table_of_ones_own_does_not_mention_the_thesis(written):
+    # A table of one's own does not mention the thesis.
     _, md = written(published=None)
     assert not any(heading.startswith("thesis") for heading in cells_of(md, 0))
     assert "*thesis*" not in md.read_text()

@@ -1,5 +1,6 @@
 import pytest
 from report_samples import (
+    all_metrics,
     cells_of,
     metrics_of,
     row,
@@ -10,7 +11,7 @@ from report_samples import (
 )
 from sample_records import FRAME_TIMES
 
-from neural_shadows.reports.tables import frame_times
+from neural_shadows.reports.tables import frame_times, timed_quality
 
 ROWS = [
     row("dragon", "256 wide", published="dragon_256"),
@@ -22,22 +23,22 @@ METHODS = {
     "ray_traced": {"ms": [1.0, 2.0]},
     "shadow_map_512": {"ms": [3.0, 3.0]},
 }
-LPIPS = metrics_of({"dragon": {"lpips": 0.1}, "shadow_map_512": {"lpips": 0.3}})
 
 
 @pytest.fixture
 def write(tmp_path, monkeypatch):
-    monkeypatch.setattr(frame_times, "network_bytes", lambda path: 2_227_200)
+    monkeypatch.setattr(timed_quality, "network_bytes", lambda path: 2_227_200)
     times = {**FRAME_TIMES, "methods": METHODS}
+    metrics = metrics_of({"dragon": all_metrics(0.1), "shadow_map_512": all_metrics(0.3)})
 
-    def write(thesis_mesh):
+    def write(thesis_mesh, published="4.6"):
         table, md = written_table(
             frame_times.write,
             tmp_path,
             times=[write_record(tmp_path / "frame_times/t/dragon.json", times)],
-            metrics=write_metrics(tmp_path, "dragon", LPIPS),
+            metrics=write_metrics(tmp_path, "dragon", metrics),
             meshes=[write_mesh(tmp_path, thesis_mesh=thesis_mesh)],
-            published="4.6",
+            published=published,
             rows=ROWS,
         )
         return table.set_index("method"), md
@@ -56,10 +57,7 @@ def test_median_quartiles_lpips_and_size_beside_the_thesis(write):
     assert ours["frame_ms_minus_thesis"] == pytest.approx(30 - 29.1)
     assert ours["size_kib_minus_thesis"] == 0
     assert cells_of(md, 0)["frame ms ↓"] == "30.0 [20.0, 40.0]"
-
-
-def test_baselines_have_what_applies_to_them(write):
-    table, md = write(thesis_mesh=True)
+    # Baselines have what applies to them.
     assert table.loc["Ray traced", ["lpips", "size_kib"]].isna().all()
     assert table.loc["512²", ["lpips", "size_kib"]].tolist() == pytest.approx([0.3, 1024])
     assert cells_of(md, 1)["LPIPS ↓"] == ""
@@ -70,6 +68,7 @@ def test_of_another_mesh_the_thesis_says_sizes_alone(write):
     ours = table.loc["256 wide"]
     assert ours[["thesis_frame_ms", "thesis_lpips", "frame_ms_minus_thesis"]].isna().all()
     assert ours["thesis_size_kib"] == 2175
-    assert (
-        "*thesis* has sizes alone for dragon: it did not measure the mesh wyrm." in md.read_text()
-    )
+    note = "*thesis*: sizes only for dragon; it did not measure the mesh wyrm."
+    assert note in md.read_text()
+    _, md = write(thesis_mesh=False, published=None)
+    assert "thesis" not in md.read_text().replace("the thesis does not name", "")

@@ -11,7 +11,7 @@ from report_samples import (
 )
 from sample_records import FRAME_TIMES
 
-from neural_shadows.reports.tables import networks
+from neural_shadows.reports.tables import networks, timed_quality
 
 ROWS = [
     row("ray_traced", "Ray traced"),
@@ -34,7 +34,7 @@ MEANS = {
 
 @pytest.fixture
 def written(tmp_path, monkeypatch):
-    monkeypatch.setattr(networks, "network_bytes", lambda path: 2048)
+    monkeypatch.setattr(timed_quality, "network_bytes", lambda path: 2048)
     times = {
         **FRAME_TIMES,
         "methods": {method: {"ms": ms} for method, ms in MS.items()},
@@ -58,16 +58,12 @@ def written(tmp_path, monkeypatch):
     )
 
 
-def test_rows_keep_their_order_and_scenes_their_own_values(written):
-    table, _ = written
+def test_rows_keep_their_order_and_have_the_facts_of_their_kind(written):
+    table, md = written
     assert list(zip(table["scene"], table["method"])) == [(r["scene"], r["label"]) for r in ROWS]
     assert table["lpips"].tolist()[1:] == pytest.approx([0.3, 0.1, 0.2, 0.5])
     assert table["seed"].tolist()[1:] == [11, 11, 11, 12]
     assert not [name for name in table if "thesis" in name]
-
-
-def test_facts_of_networks(written):
-    table, _ = written
     assert table.loc[2, list(networks.FACTS)].to_dict() == {
         "encoding": "frequency",
         "bytes": 2048,
@@ -81,18 +77,12 @@ def test_facts_of_networks(written):
         "frame_ms_q3": 8,
     }
     assert (table["depth_bias"][3], table["rays_per_second"][3]) == (0, 1e6)
-
-
-def test_maps_and_ray_tracing_have_what_applies_to_them(written):
-    table, _ = written
+    # Maps and ray tracing have what applies to them.
     assert table["bytes"].tolist()[1:] == pytest.approx([2**20, 2048, 2048, 2**20], rel=1e-5)
     assert table.loc[[0, 1, 4], ["encoding", "parameters", "depth_bias"]].isna().all(axis=None)
     assert table.loc[0, ["psnr", "bytes"]].isna().all()  # it is the reference
     assert table["frame_ms"][0] == 2
 
-
-def test_cells_for_reading(written):
-    _, md = written
     ray_traced, _, network = (cells_of(md, line) for line in (0, 1, 2))
     assert (ray_traced["LPIPS ↓"], ray_traced["size KiB ↓"]) == ("", "")
     assert network["LPIPS ↓"].startswith("0.1000 [0.")
