@@ -8,13 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from neural_shadows.reports.figures.style import (
-    COLOURS,
-    GRID,
-    new_figure,
-    plain_numbers,
-    write_figure,
-)
+from neural_shadows.reports.figures import style
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
@@ -41,7 +35,7 @@ def draw(
     """
     files = {path.parent.name: path for path in losses}
     frames = {curve["label"]: read_loss(files[curve["experiment"]]) for curve in curves}
-    write_figure(loss_figure(frames, title=f"{title} ({run['scale']} scale)"), png, svg)
+    style.write_figure(loss_figure(frames, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
 def smoothed(values: np.ndarray) -> np.ndarray:
@@ -61,10 +55,14 @@ def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
     Args:
         curves: as `read_loss` gives them, by label in the legend's order.
     """
-    figure = new_figure(title, 9, 5.4)
+    figure = style.new_figure(title, 9, 5.4)
     axes = figure.subplots()
     for i, (label, curve) in enumerate(curves.items()):
-        samples, loss, colour = curve["samples"], curve["loss"], COLOURS[i % len(COLOURS)]
+        samples, loss, colour = (
+            curve["samples"],
+            curve["loss"],
+            style.COLOURS[i % len(style.COLOURS)],
+        )
         axes.plot(samples, loss, color=colour, alpha=0.25, linewidth=0.8)
         text = f"{label} (at the end {loss.iloc[-1]:.3g})"
         axes.plot(samples, smoothed(loss.to_numpy()), color=colour, linewidth=1.8, label=text)
@@ -72,8 +70,8 @@ def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
     # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
     settled = max(curve["loss"].iloc[len(curve) // 100 :].max() for curve in curves.values())
     axes.set_ylim(top=min(axes.get_ylim()[1], 3 * settled))
-    plain_numbers(axes.yaxis)
-    axes.grid(which="both", **GRID)
+    style.plain_numbers(axes.yaxis)
+    axes.grid(which="both", **style.GRID)
     axes.legend()
     return figure
 

@@ -26,10 +26,6 @@ class MeshSlice:
         """Points of the plane (n, 2) in normalised space: (n, 3)."""
         return points @ np.stack([self.across, self.up])
 
-    def to_plane(self, points: np.ndarray) -> np.ndarray:
-        """Coordinates (n, 2) of points (n, 3) of the plane."""
-        return points @ np.stack([self.across, self.up], axis=1)
-
 
 @dataclass(frozen=True, eq=False)
 class SliceRays:
@@ -76,7 +72,7 @@ def slice_rays(cut: MeshSlice, count: int) -> SliceRays:
     offset = (2 * np.arange(count) + 1) / count - 1
     # A little inside the circle, as training rays are: no tangents.
     offset *= 0.995
-    d = cut.to_plane(cut.direction[None])[0]
+    d = np.stack([cut.across, cut.up]) @ cut.direction
     origins = offset[:, None] * np.array([-d[1], d[0]]) - np.sqrt(1 - offset**2)[:, None] * d
     o, along = cut.to_space(origins).astype(np.float32), cut.direction.astype(np.float32)
     t_lb, t_ub = dual_bounds(cut.tracer, o, along)

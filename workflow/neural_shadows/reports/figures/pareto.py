@@ -11,14 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from neural_shadows.evaluation.method_names import RAY_TRACED, is_shadow_map
-from neural_shadows.reports.figures.style import (
-    COLOURS,
-    GRID,
-    legend_below,
-    new_figure,
-    plain_numbers,
-    write_figure,
-)
+from neural_shadows.reports.figures import style
 from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
@@ -33,13 +26,13 @@ MAP_COLOUR, FRONT_COLOUR = "#777777", "#bbbbbb"
 STYLES = {
     "shadow map": (MAP_COLOUR, "s"),
     "ray traced": ("#000000", "*"),
-    "frequency": (COLOURS[1], "o"),
-    "ray_grid": (COLOURS[3], "v"),
-    "occupancy_ray_grid": (COLOURS[2], "^"),
-    "hash_grid": (COLOURS[4], "D"),
-    "occupancy_field": (COLOURS[0], "P"),
+    "frequency": (style.COLOURS[1], "o"),
+    "ray_grid": (style.COLOURS[3], "v"),
+    "occupancy_ray_grid": (style.COLOURS[2], "^"),
+    "hash_grid": (style.COLOURS[4], "D"),
+    "occupancy_field": (style.COLOURS[0], "P"),
 }
-OTHER = (COLOURS[5], "X")
+OTHER = (style.COLOURS[5], "X")
 UNNAMED = {"frequency": "thesis's network"}
 
 
@@ -69,7 +62,7 @@ def draw(
     keys = [row["method"] for row in rows]
     kinds = [kind_of(key, encoding) for key, encoding in zip(keys, networks["encoding"])]
     figure = pareto_figure(networks.assign(kind=kinds), title=f"{title} ({run['scale']} scale)")
-    write_figure(figure, png, svg)
+    style.write_figure(figure, png, svg)
 
 
 def kind_of(method: str, encoding: str) -> str:
@@ -94,7 +87,7 @@ def pareto_figure(table: pd.DataFrame, *, title: str) -> Figure:
     """
     quality = "lpips" if table["lpips"].notna().any() else "flip"
     points = table.rename(columns=dict(zip(with_ends(quality), ("error", "low", "high"))))
-    figure = new_figure(title, 14, 5.2)
+    figure = style.new_figure(title, 14, 5.2)
     panels = figure.subplots(1, 3, sharey=True)
     for axes, (column, (label, factor)) in zip(panels, COSTS.items()):
         shown = points.assign(cost=points[column] * factor)
@@ -109,17 +102,17 @@ def pareto_figure(table: pd.DataFrame, *, title: str) -> Figure:
             _draw_untrained(axes, shown[shown["kind"] == "shadow map"])
         _draw_exact(axes, shown)
         _draw_front(axes, measured)
-        axes.grid(**GRID)
-        plain_numbers(axes.xaxis)
+        axes.grid(**style.GRID)
+        style.plain_numbers(axes.xaxis)
         axes.tick_params(axis="x", labelsize="small")
     panels[0].set_ylabel(f"{quality.upper()}, mean [95 % interval]")
-    plain_numbers(panels[0].yaxis)
+    style.plain_numbers(panels[0].yaxis)
     entries = []
     for kind in sorted(set(table["kind"]), key=[*STYLES, *table["kind"]].index):
         colour, marker = STYLES.get(kind, OTHER)
         text = UNNAMED.get(kind, kind.replace("_", " "))
         entries.append(Line2D([], [], color=colour, marker=marker, linestyle="", label=text))
-    legend_below(figure, entries)
+    style.legend_below(figure, entries)
     return figure
 
 
@@ -134,9 +127,9 @@ def _draw_front(axes: Axes, points: pd.DataFrame) -> None:
         # Below and to the left in the right half; below also where the last name is too near.
         left = places[i, 0] > 0.5
         below = left or (i > 0 and places[i - 1, 1] - places[i, 1] < 0.04)
-        style = {"ha": "right" if left else "left", "va": "top" if below else "bottom"}
+        look = {"ha": "right" if left else "left", "va": "top" if below else "bottom"}
         offset = (-6 if left else 6, -5 if below else 5)
-        _name(axes, row.method, (row.cost, row.error), offset, **style)
+        _name(axes, row.method, (row.cost, row.error), offset, **look)
 
 
 def _draw_untrained(axes: Axes, maps: pd.DataFrame) -> None:
@@ -151,13 +144,12 @@ def _draw_exact(axes: Axes, points: pd.DataFrame) -> None:
     floor = points["low"].min() / 2  # of the whole table, so that all panels share their heights
     for row in points[points["error"].isna()].dropna(subset="cost").itertuples():
         colour, marker = STYLES.get(row.kind, OTHER)
-        style = {"color": colour, "marker": marker, "markersize": 11, "clip_on": False}
-        axes.plot(row.cost, floor, **style)
+        axes.plot(row.cost, floor, color=colour, marker=marker, markersize=11, clip_on=False)
         _name(axes, "ray traced: 0", (row.cost, floor), (8, -2))
 
 
-def _name(axes: Axes, text: str, at: tuple[float, float], offset: tuple[int, int], **style) -> None:
-    axes.annotate(text, at, fontsize=7, xytext=offset, textcoords="offset points", **style)
+def _name(axes: Axes, text: str, at: tuple[float, float], offset: tuple[int, int], **look) -> None:
+    axes.annotate(text, at, fontsize=7, xytext=offset, textcoords="offset points", **look)
 
 
 if "snakemake" in globals():

@@ -14,7 +14,7 @@ from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
 from neural_shadows.reports.figures.style import BLUE, COLOURS, ORANGE
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.lights import arc_directions, light_basis, lowest_elevation
+from neural_shadows.scenes.lights import arc_directions, lowest_elevation
 from neural_shadows.scenes.scene import Scene, open_scene
 
 RAYS = 300
@@ -42,9 +42,10 @@ def draw(
     opened = open_scene(mesh_ply, **scene)
     view = hero_view(opened.up, 3.9)
     left, right = space.new_plotter(view), space.new_plotter(view)
+    sphere = pyvista.Sphere(radius=1, theta_resolution=36, phi_resolution=18)
     for plotter, opacity in ((left, 1.0), (right, 0.35)):  # rays go on inside the object
         space.add_object(plotter, opened, opacity)
-        space.add_sphere(plotter)
+        plotter.add_mesh(sphere, style="wireframe", color=ORANGE, opacity=0.2, lighting=False)
     space.add_ground(left, opened)
     left.add_mesh(light_domain(opened), color=LIGHT_COLOUR, opacity=0.2, lighting=False)
     style = {"render_points_as_spheres": True, "lighting": False}
@@ -78,10 +79,9 @@ def light_domain(scene: Scene) -> pyvista.DataSet:
         angle = np.linspace(-1, 1, 90) * (np.pi / 2 - lowest)
         arc = 1.01 * arc_directions(domain, scene.up, angle)
         return pyvista.lines_from_points(arc).tube(radius=0.02)
-    elevation, turn = np.meshgrid(np.linspace(lowest, np.pi / 2, 40), np.linspace(0, 2 * np.pi, 91))
-    local = [np.cos(elevation) * np.cos(turn), np.cos(elevation) * np.sin(turn), np.sin(elevation)]
-    cap = 1.01 * np.stack(local, axis=-1) @ light_basis(scene.up)
-    return pyvista.StructuredGrid(*np.moveaxis(cap, -1, 0))
+    # With no elevation below the lowest; a sphere's angles are counted from its direction.
+    angles = {"end_phi": 90 - np.degrees(lowest), "theta_resolution": 90, "phi_resolution": 40}
+    return pyvista.Sphere(radius=1.01, direction=scene.up, **angles)
 
 
 def _add_rays(plotter: pyvista.Plotter, rays: RaySet) -> None:

@@ -57,12 +57,6 @@ def add_object(plotter: pyvista.Plotter, scene: Scene, opacity: float = 1.0) -> 
     return shape
 
 
-def add_sphere(plotter: pyvista.Plotter) -> None:
-    """Add the bounding sphere as a net."""
-    sphere = pyvista.Sphere(radius=1, theta_resolution=36, phi_resolution=18)
-    plotter.add_mesh(sphere, style="wireframe", color=ORANGE, opacity=0.2, lighting=False)
-
-
 def add_ground(plotter: pyvista.Plotter, scene: Scene) -> None:
     """Add a disk of the ground, if the scene has one."""
     if scene.ground is not None:

@@ -8,14 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from neural_shadows.reports.figures.style import (
-    COLOURS,
-    GRID,
-    legend_below,
-    new_figure,
-    plain_numbers,
-    write_figure,
-)
+from neural_shadows.reports.figures import style
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
@@ -46,7 +39,7 @@ def draw(
     times = read_table(table, ("method", "scene"), (*SPREADS, *spreads, *theirs))
     widths = {(row["scene"], row["label"]): row["width"] for row in rows if row["width"]}
     figure = width_figure(times, widths, title=f"{title} ({run['scale']} scale)")
-    write_figure(figure, png, svg)
+    style.write_figure(figure, png, svg)
 
 
 def width_figure(
@@ -60,11 +53,11 @@ def width_figure(
     """
     width = [widths.get(key) for key in zip(table["scene"], table["method"])]
     shown = table.assign(width=width).dropna(subset="width").sort_values("width")
-    figure = new_figure(title, 11, 4.8)
+    figure = style.new_figure(title, 11, 4.8)
     quality, speed = figure.subplots(1, 2)
     scenes = list(dict.fromkeys(shown["scene"]))
     for axes, (column, (low, high)) in zip((quality, speed), SPREADS.items()):
-        for colour, scene in zip(COLOURS, scenes):
+        for colour, scene in zip(style.COLOURS, scenes):
             rows = shown[shown["scene"] == scene]
             spread = [rows[column] - rows[low], rows[high] - rows[column]]
             axes.errorbar(rows["width"], rows[column], spread, color=colour, marker="o", capsize=3)
@@ -74,20 +67,20 @@ def width_figure(
         ticks = sorted(set(shown["width"].astype(int)))
         axes.set_xticks(ticks, ticks)
         axes.set_xlabel("neurons per layer")
-        axes.grid(**GRID)
+        axes.grid(**style.GRID)
     quality.set_ylabel("LPIPS, mean [95 % interval]")
     quality.set_ylim(bottom=0)
-    entries = [Line2D([], [], color=c, marker="o", label=s) for c, s in zip(COLOURS, scenes)]
+    entries = [Line2D([], [], color=c, marker="o", label=s) for c, s in zip(style.COLOURS, scenes)]
     if shown["thesis_lpips"].notna().any():
         note = "the thesis does not say which network its LPIPS is of: compare slopes"
         quality.set_title(note, fontsize=9)
         entries.append(Line2D([], [], color="grey", marker="o", label="this run"))
-        style = {"color": "grey", "marker": "s", "linestyle": "--"}
-        entries.append(Line2D([], [], label="thesis", **style))
+        look = {"color": "grey", "marker": "s", "linestyle": "--"}
+        entries.append(Line2D([], [], label="thesis", **look))
     speed.set_ylabel("frame time, ms, median [quartiles]")
     speed.set_yscale("log")  # ours and the thesis's machine may be far apart
-    plain_numbers(speed.yaxis)
-    legend_below(figure, entries)
+    style.plain_numbers(speed.yaxis)
+    style.legend_below(figure, entries)
     return figure
 
 
