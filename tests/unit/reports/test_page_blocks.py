@@ -1,11 +1,9 @@
 import base64
 import re
 
-import pytest
 from PIL import Image
 from report_page import CLAIMS, SHARED, TABLE
 
-from neural_shadows.errors import InputError
 from neural_shadows.reports.page_blocks import LARGEST_SVG, figure_blocks, table_block
 
 
@@ -29,12 +27,6 @@ def test_cells_tell_the_thesis_from_ours_and_verdicts_apart(tmp_path):
     for verdict in ("supported", "contradicted"):
         assert f'class="{verdict}"><strong>{verdict}</strong>' in html
     assert ">supported by nobody</td>" in html
-
-
-@pytest.mark.parametrize("text", ["", "# Only a heading\n", "| a |\n|---|\n| 1 |\n"])
-def test_what_is_no_table_is_named(tmp_path, text):
-    with pytest.raises(InputError, match=r"table_4_3\.md: holds no table"):
-        block_of(tmp_path, text)
 
 
 def test_large_drawings_are_shown_as_pixels(tmp_path):

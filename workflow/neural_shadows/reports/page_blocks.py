@@ -12,7 +12,6 @@ from markdown_it.token import Token
 from markupsafe import Markup
 from PIL import Image
 
-from neural_shadows.errors import InputError
 from neural_shadows.reports.claims import VERDICTS
 
 LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
@@ -40,17 +39,10 @@ class Block:
 
 
 def table_block(path: Path) -> Block:
-    """A Markdown twin as HTML; the thesis's columns and verdicts get classes of their own.
-
-    Raises:
-        InputError: the file holds no table under a heading.
-    """
+    """A Markdown twin as HTML; the thesis's columns and verdicts get classes of their own."""
     markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
     tokens = markdown.parse(path.read_text(encoding="utf-8"))
-    kinds = [token.type for token in tokens]
-    if kinds[:1] != ["heading_open"] or "table_close" not in kinds:
-        raise InputError(f"{path}: holds no table under a heading: delete it and run again")
-    title, end = tokens[1].content, kinds.index("table_close") + 1
+    title, end = tokens[1].content, [token.type for token in tokens].index("table_close") + 1
     _mark_cells(tokens[:end])
     html = markdown.renderer.render(tokens[3:end], markdown.options, {})
     # An interval stands below its value, so that twelve columns fit on a screen.
