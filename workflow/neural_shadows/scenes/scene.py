@@ -4,20 +4,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
 from neural_shadows.scenes.lights import axis_vector
 from neural_shadows.scenes.tracing import Tracer
+
+if TYPE_CHECKING:
+    from neural_shadows.meshes.prepared_mesh import PreparedMesh
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Objects and lights in normalised space, and the tracer over all objects."""
 
-    objects: tuple[PreparedMesh, ...]  # so far one
+    objects: tuple["PreparedMesh", ...]  # so far one
     lights: tuple[Mapping[str, Any], ...]  # so far one: the domain that a frame's light is from
     up: np.ndarray  # (3,) float64, unit vector
     ground: float | None  # height of the ground plane along `up`; None for a scene without one
@@ -32,7 +34,7 @@ class Scene:
 
 
 def make_scene(
-    mesh: PreparedMesh, *, up: np.ndarray, ground: bool, light: Mapping[str, Any]
+    mesh: "PreparedMesh", *, up: np.ndarray, ground: bool, light: Mapping[str, Any]
 ) -> Scene:
     """A scene of one object, under which a ground plane may lie.
 
@@ -56,5 +58,8 @@ def open_scene(mesh_ply: Path, *, up: str, ground: bool, light: Mapping[str, Any
     Raises:
         InputError: the file cannot be read as a prepared mesh, or the axis is unknown.
     """
+    # trimesh takes 0.4 s to import, which jobs that read a scene's references need not wait for.
+    from neural_shadows.meshes.prepared_mesh import read_prepared
+
     mesh = read_prepared(mesh_ply)
     return make_scene(mesh, up=axis_vector(up, "up"), ground=ground, light=light)
