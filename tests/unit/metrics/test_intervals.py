@@ -9,20 +9,12 @@ from neural_shadows.metrics.intervals import (
 )
 
 
-def test_width_is_that_of_normal_theory():
-    values = np.random.default_rng(1).normal(5.0, 2.0, 2000)
-    mean, low, high = mean_interval(values, seed=2, resamples=8000)
-    half = stats.norm.ppf(0.975) * values.std() / np.sqrt(values.size)
-    assert mean == pytest.approx(values.mean())
-    assert low == pytest.approx(mean - half, abs=0.06 * half)
-    assert high == pytest.approx(mean + half, abs=0.06 * half)
-
-
 def test_a_share_gives_the_binomial_percentiles():
     # The resampled mean of k ones among n is exactly Binomial(n, k/n)/n. So few are skew:
     # percentiles 0 and 5 of 40 about a mean of 2, where other bootstraps give -1 and 4.
-    _, low, high = mean_interval(np.repeat([1.0, 0.0], [2, 38]), seed=3, resamples=20_000)
+    mean, low, high = mean_interval(np.repeat([1.0, 0.0], [2, 38]), seed=3, resamples=20_000)
     exact = stats.binom(40, 2 / 40)
+    assert mean == 2 / 40
     assert low == pytest.approx(exact.ppf(0.025) / 40, abs=1e-12)
     assert high == pytest.approx(exact.ppf(0.975) / 40, abs=1e-12)
 
@@ -42,10 +34,6 @@ def test_a_single_value_has_no_width():
     assert mean_interval(np.array([0.25]), seed=0) == (0.25, 0.25, 0.25)
 
 
-def test_equal_values_have_no_width():
-    assert mean_interval(np.full(8, 0.5), seed=0) == (0.5, 0.5, 0.5)
-
-
 def test_the_seed_decides():
     values = np.random.default_rng(5).exponential(size=50)
     assert mean_interval(values, seed=7) == mean_interval(values, seed=7)
@@ -62,17 +50,13 @@ def test_difference_has_the_width_of_both_samples():
     assert high == pytest.approx(difference + half, abs=0.06 * half)
 
 
-def test_ratio_of_medians_in_the_same_rounds():
+def test_ratio_of_medians():
     # What a round has in common cancels: a is 1.5 b in each, so in each resampling too.
     b = np.random.default_rng(7).lognormal(0.0, 1.0, 15)
     assert median_ratio_interval(1.5 * b, b, seed=1) == pytest.approx((1.5, 1.5, 1.5))
-
-
-def test_ratio_of_medians_has_the_order_statistics_width():
     # With b fixed at 1 the ratio is a's median, whose 95 % order-statistic interval of 101
     # values is from the 41st to the 61st (binomial: 50.5 +- 1.96 * 5.02).
     a = np.sort(np.random.default_rng(8).uniform(1.0, 2.0, 101))
     ratio, low, high = median_ratio_interval(a, np.ones(101), seed=3, resamples=8000)
     assert ratio == np.median(a)
-    assert a[38] <= low <= a[42]
-    assert a[58] <= high <= a[62]
+    assert a[38] <= low <= a[42] and a[58] <= high <= a[62]

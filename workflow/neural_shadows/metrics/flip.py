@@ -1,13 +1,15 @@
 """LDR-FLIP of grey images (Andersson et al. 2020), by NVIDIA's `flip-evaluator`.
 
 For images that are shown to people at 67 pixels a degree: a 3840-pixel, 0.7 m wide display seen
-from 0.7 m, the paper's and the package's default.
+from 0.7 m, the paper's and the package's default. A frame of 600 x 400 takes 0.28 CPU s.
+Tiles of it that differ from the reference would give the same mean but no sooner: shadows differ
+all along their outlines.
 """
 
 import flip_evaluator
 import numpy as np
 
-from neural_shadows.metrics.grey_images import check_grey
+from neural_shadows.metrics.grey_images import check_pair
 
 
 def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
@@ -16,8 +18,7 @@ def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
     Raises:
         ValueError: the images are no pair of grey images in [0, 1].
     """
-    check_grey(reference)
-    check_grey(image, reference.shape)
+    check_pair(image, reference)
     pair = (np.repeat(np.float32(grey)[..., None], 3, axis=2) for grey in (reference, image))
     error, _, _ = flip_evaluator.evaluate(*pair, "LDR", applyMagma=False, computeMeanError=False)
     return error[..., 0]

@@ -1,17 +1,18 @@
-"""What the metrics take for an image."""
+"""What the metrics take for images."""
 
 import numpy as np
 
 
-def check_grey(image: np.ndarray, shape: tuple[int, ...] | None = None) -> None:
+def check_pair(image: np.ndarray, reference: np.ndarray) -> None:
     """Refuse what would give a plausible number: NaN, 0 to 255, shapes that broadcast.
 
     Raises:
-        ValueError: `image` is no grey image (H, W) in [0, 1], or not of `shape`.
+        ValueError: the two are not grey images (H, W) in [0, 1] of one shape.
     """
-    if image.ndim != 2 or shape not in (None, image.shape):
-        raise ValueError(f"not a grey image of the reference's shape: {image.shape}, {shape}")
-    low, high = image.min(), image.max()
-    # Shading in float32 may pass 1 by its rounding.
-    if not (low >= -1e-5 and high <= 1 + 1e-5):
-        raise ValueError(f"image values must lie in [0, 1]; they span [{low}, {high}]")
+    if not image.ndim == reference.ndim == 2 or image.shape != reference.shape:
+        raise ValueError(f"not two grey images of one shape: {image.shape}, {reference.shape}")
+    for one in (image, reference):
+        low, high = one.min(), one.max()
+        # Shading in float32 may pass 1 by its rounding.
+        if not (low >= -1e-5 and high <= 1 + 1e-5):
+            raise ValueError(f"image values must lie in [0, 1]; they span [{low}, {high}]")

@@ -8,7 +8,7 @@ import lpips
 import numpy as np
 import torch
 
-from neural_shadows.metrics.grey_images import check_grey
+from neural_shadows.metrics.grey_images import check_pair
 from neural_shadows.metrics.lpips_trunk import Net, read_trunk
 
 Lpips = Callable[[np.ndarray, np.ndarray], float]
@@ -47,8 +47,7 @@ def make_lpips(net: Net, trunk: Path | None, device: str = "cpu") -> Lpips:
         return grey.expand(1, 3, *grey.shape).contiguous(memory_format=torch.channels_last)
 
     def distance(image: np.ndarray, reference: np.ndarray) -> float:
-        check_grey(reference)
-        check_grey(image, reference.shape)
+        check_pair(image, reference)
         with torch.inference_mode():
             return float(model(rgb(image), rgb(reference), normalize=True))
 

@@ -8,10 +8,8 @@ import numpy as np
 class ShadowError(NamedTuple):
     """Means over the surface points; of hard shadows, shares of points that are wrong."""
 
-    false_shadow: float
-    """Darker than the reference."""
-    light_leak: float
-    """Brighter than the reference."""
+    false_shadow: float  # darker than the reference
+    light_leak: float  # brighter than the reference
     total: float
 
 
