@@ -16,8 +16,6 @@ from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.process_memory import held_bytes, peak_bytes
 
 POINTS_PER_DIRECTION = 10_000  # the thesis's [4.1]
-TRAINING_STEPS = 200
-BATCH_SIZE = 1024
 
 SCENE = {"up": "y", "ground": True, "light": {"domain": "sphere", "min_elevation_deg": 20}}
 SAMPLING = {
@@ -25,6 +23,13 @@ SAMPLING = {
     "points_per_direction": POINTS_PER_DIRECTION,
     "silhouette_resolution": 128,
     "min_quad": 1,
+}
+TRAINING = {
+    "steps": 200,
+    "batch_size": 1024,
+    "learning_rate": 1e-4,
+    "schedule": "constant",
+    "loss": {},
 }
 
 # Sizes of the run that warms a stage up: libraries loaded, kernels compiled.
@@ -50,11 +55,6 @@ Settings = Mapping[str, Any]
 Work = Callable[[], object]
 
 
-def frame_height(frame_width: int) -> int:
-    """Of a measured frame, in pixels."""
-    return frame_width * 2 // 3
-
-
 def bumpy_sphere(subdivisions: int):
     """A sphere with waves, which shadow each other, as a mesh of 20 · 4^subdivisions triangles."""
     import numpy as np
@@ -70,39 +70,16 @@ def _mesh(folder: Path, sizes: Sizes, settings: Settings) -> Work:
 
     source = folder / "source.ply"
     bumpy_sphere(sizes["subdivisions"]).export(source)
-    return partial(
-        prepare_mesh,
-        source,
-        folder / "mesh.ply",
-        folder / "mesh.json",
-        mesh={},
-        name="bumpy sphere",
-    )
-
-
-def _directions(sizes: Sizes) -> int:
-    return sizes["samples"] // POINTS_PER_DIRECTION
-
-
-def _shard(folder: Path, sizes: Sizes, settings: Settings) -> dict[str, Any]:
-    """What `sample_rays` and `label_rays` both take."""
-    return {
-        "mesh_ply": folder / "mesh.ply",
-        "directions_npy": folder / "directions.npy",
-        "origins_npy": folder / "origins.npy",
-        "first": 0,
-        "last": _directions(sizes),
-        "seed": settings["seed"],
-        "threads": settings["threads"],
-    }
+    files = (source, folder / "mesh.ply", folder / "mesh.json")
+    return partial(prepare_mesh, *files, mesh={}, name="bumpy sphere")
 
 
 def _rays(folder: Path, sizes: Sizes, settings: Settings) -> Work:
     from neural_shadows.rays.draw_directions import draw_directions
     from neural_shadows.rays.sample_rays import sample_rays
 
-    sampling = SAMPLING | {"directions": _directions(sizes)}
     shard = _shard(folder, sizes, settings)
+    sampling = SAMPLING | {"directions": shard["last"]}
     draw_directions(
         directions_npy=shard["directions_npy"], sampling=sampling, seed=settings["seed"]
     )
@@ -115,8 +92,17 @@ def _labels(folder: Path, sizes: Sizes, settings: Settings) -> Work:
     return partial(label_rays, bounds_npy=folder / "bounds.npy", **_shard(folder, sizes, settings))
 
 
-def _network(width: int) -> dict[str, Any]:
-    return {"encoding": "frequency", "frequencies": 10, "width": width, "hidden_layers": 8}
+def _shard(folder: Path, sizes: Sizes, settings: Settings) -> dict[str, Any]:
+    """What `sample_rays` and `label_rays` both take."""
+    return {
+        "mesh_ply": folder / "mesh.ply",
+        "directions_npy": folder / "directions.npy",
+        "origins_npy": folder / "origins.npy",
+        "first": 0,
+        "last": sizes["samples"] // POINTS_PER_DIRECTION,
+        "seed": settings["seed"],
+        "threads": settings["threads"],
+    }
 
 
 def _training(folder: Path, sizes: Sizes, settings: Settings) -> Work:
@@ -133,17 +119,16 @@ def _training(folder: Path, sizes: Sizes, settings: Settings) -> Work:
         weights=folder / "trained" / "weights.safetensors",
         loss_csv=folder / "loss.csv",
         training_json=folder / "training.json",
-        network=_network(sizes["width"]),
-        training={
-            "steps": TRAINING_STEPS,
-            "batch_size": BATCH_SIZE,
-            "learning_rate": 1e-4,
-            "schedule": "constant",
-            "loss": {},
-        },
+        network=_network(sizes),
+        training=TRAINING,
         experiment="cost",
         **settings,
     )
+
+
+def _network(sizes: Sizes) -> dict[str, Any]:
+    width = sizes["width"]
+    return {"encoding": "frequency", "frequencies": 10, "width": width, "hidden_layers": 8}
 
 
 def _evaluation(folder: Path, sizes: Sizes, settings: Settings) -> Work:
@@ -153,44 +138,23 @@ def _evaluation(folder: Path, sizes: Sizes, settings: Settings) -> Work:
     from neural_shadows.networks.kinds import make_network
     from neural_shadows.networks.weight_file import save_network
 
-    network = make_network(_network(sizes["width"]))
+    network = make_network(_network(sizes))
     network.initialise(settings["seed"])
     weights = folder / "untrained.safetensors"
-    save_network(weights, network, {"network": _network(sizes["width"])})
+    save_network(weights, network, {"network": _network(sizes)})
     lpips_json = folder / "lpips.json"
     write_json(lpips_json, {"available": False})
-    width = sizes["frame_width"]
-    frames = {
-        "width": width,
-        "height": frame_height(width),
-        "view_sets": ["surface"],
-        "seed": settings["seed"],
-    }
-    references = folder / "references.safetensors"
+    width, seed = sizes["frame_width"], settings["seed"]
+    frames = {"width": width, "height": width * 2 // 3, "view_sets": ["surface"], "seed": seed}
+    mesh_ply, references = folder / "mesh.ply", folder / "references.safetensors"
 
     def work() -> None:
-        render_references(
-            folder / "mesh.ply",
-            references,
-            folder / "reference.npz",
-            scene=SCENE,
-            frames=frames,
-            first=0,
-            last=sizes["views"],
-        )
+        batch = {"scene": SCENE, "frames": frames, "first": 0, "last": sizes["views"]}
+        render_references(mesh_ply, references, folder / "reference.npz", **batch)
         for method, file in {"shadow_map_512": None, "network": weights}.items():
-            evaluate(
-                references,
-                folder / "mesh.ply",
-                file,
-                None,
-                lpips_json,
-                folder / f"{method}.csv",
-                folder / f"{method}.npz",
-                method=method,
-                scene=SCENE,
-                device=settings["device"],
-            )
+            outputs = (folder / f"{method}.csv", folder / f"{method}.npz")
+            inputs = (references, mesh_ply, file, None, lpips_json)
+            evaluate(*inputs, *outputs, method=method, scene=SCENE, device=settings["device"])
 
     return work
 
@@ -225,9 +189,5 @@ def run_alone(stage: str, folder: Path, sizes: Sizes, settings: Settings) -> dic
 
 
 if __name__ == "__main__":
-    try:
-        job = json.loads(sys.argv[1])
-        print(json.dumps(run_alone(**job | {"folder": Path(job["folder"])})))
-    except Exception as error:
-        print(f"{type(error).__name__}: {error}")
-        raise
+    job = json.loads(sys.argv[1])
+    print(json.dumps(run_alone(**job | {"folder": Path(job["folder"])})))

@@ -9,11 +9,7 @@ import numpy as np
 from neural_shadows.evaluation.first_frames import write_first_frames
 from neural_shadows.evaluation.per_view_metrics import write_metrics
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import (
-    network_method,
-    open_network,
-    traced_method,
-)
+from neural_shadows.evaluation.shadow_methods import network_method, open_network, traced_method
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
@@ -51,7 +47,7 @@ def evaluate(
         references: what `render_references` wrote.
         weights: of a network; None for `shadow_map_N`.
         depth_bias_json: what `find_depth_bias` wrote, where `bias` is `held_out`.
-        lpips_json: what `find_lpips` wrote.
+        lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
         method: the method's key, `shadow_map_N` or the name that a network goes by.
         scene: `up`, `ground` and `light`, see `open_scene`.
         bias: of a network's depth test, in sphere radii, or `held_out`.
@@ -75,7 +71,13 @@ def evaluate(
             visibility = answer(frame)
             image, reference = shade(frame, visibility), shade(frame, truth)
             pictures.setdefault(frame.view.view_set, image)
-            values = frame_metrics(image, reference, lpips)
+            values = {
+                "psnr": psnr(image, reference),
+                "ssim": ssim(image, reference),
+                "flip": flip(image, reference),
+            }
+            if lpips:
+                values["lpips"] = lpips(image, reference)
             error = shadow_error(visibility, truth)
             values |= {
                 "shadow_error": error.total,
@@ -89,24 +91,11 @@ def evaluate(
     write_metrics(metrics_csv, rows)
 
 
-def frame_metrics(
-    image: np.ndarray, reference: np.ndarray, lpips: "Lpips | None"
-) -> dict[str, float]:
-    """Image metrics of a frame (H, W); without `lpips` its value is left out."""
-    values = {
-        "psnr": psnr(image, reference),
-        "ssim": ssim(image, reference),
-        "flip": flip(image, reference),
-    }
-    if lpips is not None:
-        values["lpips"] = lpips(image, reference)
-    return values
-
-
 def _open_lpips(lpips_json: Path, device: str, threads: int) -> "Lpips | None":
     found = read_json(lpips_json)
     if not found["available"]:
         return None
+    # Here and not above: torch and torchvision take 3 s to import.
     import torch
 
     from neural_shadows.metrics.lpips_distance import make_lpips

@@ -52,9 +52,7 @@ def find_depth_bias(
             bar.update()
     errors = [
         {"depth_bias": bias, "false_shadow": false_shadow, "light_leak": light_leak}
-        for bias, (false_shadow, light_leak) in zip(
-            BIASES, (sums / len(batch)).tolist(), strict=True
-        )
+        for bias, (false_shadow, light_leak) in zip(BIASES, (sums / len(batch)).tolist())
     ]
     best = BIASES[int(sums.sum(1).argmin())]
     write_json(found_json, {"depth_bias": best, "views": len(batch), "errors": errors})

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.evaluation.cost_stages import NEEDED, frame_height
+from neural_shadows.evaluation.cost_stages import NEEDED
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.hardware import describe_machine
@@ -30,7 +30,7 @@ def size_of(over: str, value: int) -> tuple[str, int]:
         case "subdivisions":
             return "triangles", 20 * 4**value
         case "frame_width":
-            return "pixels", value * frame_height(value)
+            return "pixels", value * (value * 2 // 3)
     return over, value
 
 
@@ -46,42 +46,35 @@ def measure_cost(
         over: a key of `STAGES`; `value`: its size, the others being those of `BASE`.
 
     Raises:
-        RuntimeError: a stage failed; its message is in the log.
+        CalledProcessError: a stage failed; its traceback is in the log.
     """
     settings = {"seed": seed, "device": device, "threads": threads}
-    measured = STAGES[over]
-    needed = dict.fromkeys(stage for last in measured for stage in NEEDED[last])
-    found = []
+    needed = dict.fromkeys(stage for last in STAGES[over] for stage in NEEDED[last])
     # Beside the result: a hundred million rays take 2 GB, which a system's /tmp may not have.
     # Named after it, so that what a killed job left is found.
     folder = cost_json.with_suffix(".unfinished")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     try:
-        for stage in needed:
-            result = _in_process(stage, folder, BASE | {over: value}, settings)
-            if stage in measured:
-                found.append({"stage": stage, **result})
+        costs = {
+            stage: _in_process(stage, folder, BASE | {over: value}, settings) for stage in needed
+        }
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+    stages = [{"stage": stage, **costs[stage]} for stage in STAGES[over]]
     name, size = size_of(over, value)
+    machine = describe_machine()
     write_json(
-        cost_json,
-        {"over": name, "size": size, "stages": found, "machine": describe_machine(), **settings},
+        cost_json, {"over": name, "size": size, "stages": stages, "machine": machine, **settings}
     )
 
 
-def _in_process(stage: str, folder: Path, sizes: Mapping[str, int], settings: Mapping[str, Any]):
+def _in_process(
+    stage: str, folder: Path, sizes: Mapping[str, int], settings: Mapping[str, Any]
+) -> dict[str, float]:
     job = json.dumps({"stage": stage, "folder": str(folder), "sizes": sizes, "settings": settings})
-    done = subprocess.run(
-        [sys.executable, "-m", "neural_shadows.evaluation.cost_stages", job],
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    if done.returncode:
-        # Its traceback is in the log, or not, where that lies on a disk that is full.
-        reason = done.stdout.strip() or f"ended with status {done.returncode}"
-        raise RuntimeError(f"{stage} at {sizes}: {reason}")
+    command = [sys.executable, "-m", "neural_shadows.evaluation.cost_stages", job]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
     return json.loads(done.stdout.splitlines()[-1])
 
 

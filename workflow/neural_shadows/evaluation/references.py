@@ -20,10 +20,14 @@ from neural_shadows.files.whole_files import whole_file
 from neural_shadows.rendering.gbuffer import GBuffer, ground_points, with_ground
 from neural_shadows.scenes.cameras import Viewpoint
 
-_NAMES = ("surface", "p", "cos_geometric", "cos_shading", "visibility")
-
-# Bits of `surface`, which has a byte a pixel; `p` and the cosines are of the object's lit side alone.
+# Bits of the tensor `surface`, which has a byte a pixel.
 _OBJECT, _GROUND, _LIT_SIDE = 1, 2, 4
+
+# Tensors of the object's lit side alone; `visibility` is of the ground's as well.
+_OF_OBJECT = ("p", "cos_geometric", "cos_shading")
+
+# Of a viewpoint, which are lists in the header.
+_VECTORS = ("eye", "target", "up", "light")
 
 
 def write_references(
@@ -37,26 +41,19 @@ def write_references(
     tensors: dict[str, np.ndarray] = {}
     header: dict[str, Any] = {"ground": ground, "views": []}
     for number, (frame, visibility) in enumerate(frames):
-        tensors |= {f"{number}.{name}": array for name, array in _arrays(frame, visibility).items()}
+        surface = np.zeros(frame.height * frame.width, np.uint8)
+        surface[frame.pixel] = np.where(frame.is_object, _OBJECT, _GROUND)
+        surface[frame.pixel[frame.lit_side]] |= _LIT_SIDE
+        on_object = np.count_nonzero(frame.is_object[frame.lit_side])  # the object's come first
+        tensors[f"{number}.surface"] = surface
+        tensors[f"{number}.visibility"] = visibility[frame.lit_side]
+        for name in _OF_OBJECT:
+            tensors[f"{number}.{name}"] = getattr(frame, name)[:on_object]
         header |= {"width": frame.width, "height": frame.height}
         header["views"].append(asdict(frame.view))
     text = json.dumps(header, default=np.ndarray.tolist)
     with whole_file(path) as part:
         part.write_bytes(save(tensors, metadata={"header": text}))
-
-
-def _arrays(frame: GBuffer, visibility: np.ndarray) -> dict[str, np.ndarray]:
-    surface = np.zeros(frame.height * frame.width, np.uint8)
-    surface[frame.pixel] = np.where(frame.is_object, _OBJECT, _GROUND)
-    surface[frame.pixel[frame.lit_side]] |= _LIT_SIDE
-    on_object = np.count_nonzero(frame.is_object[frame.lit_side])  # the object's come first
-    return {
-        "surface": surface,
-        "p": frame.p[:on_object],
-        "cos_geometric": frame.cos_geometric[:on_object],
-        "cos_shading": frame.cos_shading[:on_object],
-        "visibility": visibility[frame.lit_side],
-    }
 
 
 class References:
@@ -77,7 +74,10 @@ class References:
             ) from error
         self.width, self.height = header["width"], header["height"]
         self.ground: float | None = header["ground"]
-        self.views = [_viewpoint(view) for view in header["views"]]
+        self.views = [
+            Viewpoint(**view | {name: np.array(view[name]) for name in _VECTORS})
+            for view in header["views"]
+        ]
 
     def __len__(self) -> int:
         return len(self.views)
@@ -86,8 +86,7 @@ class References:
         return map(self._frame, range(len(self)))
 
     def _frame(self, number: int) -> tuple[GBuffer, np.ndarray]:
-        arrays = {name: self._file.get_tensor(f"{number}.{name}") for name in _NAMES}
-        surface = arrays["surface"]
+        surface = self._file.get_tensor(f"{number}.surface")
         pixel = np.flatnonzero(surface & _OBJECT)
         frame = GBuffer(
             view=self.views[number],
@@ -96,17 +95,10 @@ class References:
             pixel=pixel,
             is_object=np.ones(len(pixel), bool),
             lit_side=np.flatnonzero(surface[pixel] & _LIT_SIDE),
-            p=arrays["p"],
-            cos_geometric=arrays["cos_geometric"],
-            cos_shading=arrays["cos_shading"],
+            **{name: self._file.get_tensor(f"{number}.{name}") for name in _OF_OBJECT},
         )
         if self.ground is not None:
             pixel = np.flatnonzero(surface & _GROUND)
             p = ground_points(frame.view, self.width, self.height, pixel, self.ground)
             frame = with_ground(frame, pixel, p)
-        return frame, frame.visibility(arrays["visibility"])
-
-
-def _viewpoint(view: dict[str, Any]) -> Viewpoint:
-    vectors = {key: np.array(view[key]) for key in ("eye", "target", "up", "light")}
-    return Viewpoint(**view | vectors)
+        return frame, frame.visibility(self._file.get_tensor(f"{number}.visibility"))

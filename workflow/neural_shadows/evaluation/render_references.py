@@ -52,18 +52,16 @@ def render_references(
         return frame, answer(frame)
 
     views = [(view_set, i) for view_set in frames["view_sets"] for i in range(first, last)]
+    rendered: list[tuple[GBuffer, np.ndarray]] = []
+    pictures: dict[str, np.ndarray] = {}
     with (
         ThreadPoolExecutor(threads) as pool,  # Embree and NumPy release the GIL
         progress_bar(len(views), "views", "references") as bar,
     ):
-        rendered = []
-        for one in pool.map(render, *zip(*views, strict=True)):
-            rendered.append(one)
+        for frame, visibility in pool.map(render, *zip(*views, strict=True)):
+            rendered.append((frame, visibility))
+            pictures.setdefault(frame.view.view_set, shade(frame, visibility))
             bar.update()
-    pictures: dict[str, np.ndarray] = {}
-    for frame, visibility in rendered:
-        if frame.view.view_set not in pictures:
-            pictures[frame.view.view_set] = shade(frame, visibility)
     write_first_frames(pictures_npz, "reference", pictures)
     write_references(references, rendered, opened.ground)
 

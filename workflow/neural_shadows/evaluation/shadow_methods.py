@@ -14,14 +14,7 @@ from neural_shadows.evaluation.method_names import RAY_TRACED, resolution_of, sh
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.scenes.scene import Scene
-from neural_shadows.shadow_maps.shadow_map import (
-    depth_test,
-    receivers_of,
-    shadow_map_lit,
-    shadow_map_square,
-    texel_heights,
-    texels_of,
-)
+from neural_shadows.shadow_maps.shadow_map import receivers_of, shadow_map_lit, shadow_map_square
 
 if TYPE_CHECKING:  # torch takes seconds to import, which jobs without a network need not wait for
     import torch
@@ -38,8 +31,7 @@ def traced_method(method: str, scene: Scene, *, whole_map: bool = False) -> Shad
     """The method of a key that needs no network: `ray_traced` or `shadow_map_N`.
 
     Args:
-        whole_map: render each texel of a shadow map, as a renderer does before it knows its
-            receivers. The answers are the same as with the texels in use alone.
+        whole_map: whether each texel of a shadow map is rendered, see `shadow_map_lit`.
     """
     if method == RAY_TRACED:
         return lambda frame: exact_visibility(scene.tracer, frame)
@@ -47,14 +39,8 @@ def traced_method(method: str, scene: Scene, *, whole_map: bool = False) -> Shad
     resolution = resolution_of(method)
 
     def visibility(frame: GBuffer) -> np.ndarray:
-        square = shadow_map_square(mesh.vertices, frame.view.light)
-        if not whole_map:
-            receivers = receivers_of(square, frame)
-            return frame.visibility(shadow_map_lit(scene.tracer, receivers, resolution))
-        heights = texel_heights(scene.tracer, square, resolution, np.arange(resolution**2))
-        receivers = receivers_of(square, frame)
-        texels = texels_of(receivers, resolution)
-        return frame.visibility(depth_test(receivers, heights[texels], resolution))
+        receivers = receivers_of(shadow_map_square(mesh.vertices, frame.view.light), frame)
+        return frame.visibility(shadow_map_lit(scene.tracer, receivers, resolution, whole_map))
 
     return visibility
 

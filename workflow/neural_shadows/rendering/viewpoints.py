@@ -27,7 +27,7 @@ def draw_viewpoints(
     sets can be drawn in batches, and more viewpoints leave the earlier ones as they were. Each
     draws its own light.
 
-    `shadow`: at the shadow cast on the ground, which fills about two fifths of the frame, from
+    `shadow`: at the shadow cast on the scene's ground, which fills about two fifths of the frame, from
     where the object hides little of it.
     `surface`: at a visible point of the object's surface that is turned to the light.
     `centre`: at the centre of the bounding sphere, from 20 to 70 degrees above.
@@ -36,15 +36,9 @@ def draw_viewpoints(
         aspect: width / height of the frames to come.
 
     Raises:
-        InputError: a set is unknown, or `shadow` is asked of a scene without ground, or
-            `surface` of one whose light reaches none; a value of the light's domain is wrong.
+        InputError: `surface` is asked of a scene whose light reaches none.
     """
-    view_sets, indices = tuple(view_sets), tuple(indices)
-    for view_set in view_sets:
-        if view_set not in VIEW_SETS:
-            raise InputError(f"view_sets: {view_set!r} is unknown; use {', '.join(VIEW_SETS)}")
-        if view_set == "shadow" and scene.ground is None:
-            raise InputError("view_sets: shadow needs a ground; drop it, or set ground: true")
+    indices = tuple(indices)
     draw = {"shadow": _draw_shadow, "surface": _draw_surface, "centre": _draw_centre}
     (light_domain,) = scene.lights
     viewpoints = []

@@ -4,14 +4,6 @@ import os
 import platform
 from pathlib import Path
 
-from typing_extensions import TypedDict
-
-
-class _Machine(TypedDict):
-    cpu: str
-    cores: int
-    gpu: str | None
-
 
 def processor_name() -> str:
     """The CPU's model name as the system gives it."""

@@ -110,19 +110,22 @@ def depth_test(receivers: Receivers, heights: np.ndarray, resolution: int) -> np
     return lit
 
 
-def shadow_map_lit(tracer: Tracer, receivers: Receivers, resolution: int) -> np.ndarray:
+def shadow_map_lit(
+    tracer: Tracer, receivers: Receivers, resolution: int, whole: bool = False
+) -> np.ndarray:
     """What a shadow map of resolution² texels says of each facing point: lit, (m,) bool [4.1].
 
-    The map is traced only at the texels that some receiver falls in, which gives the same
-    values as the whole map.
+    Args:
+        whole: render each texel, as a renderer does before it knows its receivers; else those
+            alone that some receiver falls in, which gives the same values.
     """
     texels = texels_of(receivers, resolution)
     square = receivers.square
-    # Where texels outnumber receivers, few are shared (at 2048² a twentieth of 500,000): a ray
-    # each is cheaper than finding the distinct ones in a table of the whole map.
-    if resolution**2 > 4 * len(texels):
+    if resolution**2 > 4 * len(texels) and not whole:
+        # Where texels outnumber receivers, few are shared (at 2048² a twentieth of 500,000): a ray
+        # each is cheaper than finding the distinct ones in a table of the whole map.
         return depth_test(receivers, texel_heights(tracer, square, resolution, texels), resolution)
-    used = np.zeros(resolution**2, bool)
+    used = np.full(resolution**2, whole)
     used[texels] = True
     used = np.flatnonzero(used)
     table = np.empty(resolution**2, np.float32)
