@@ -26,5 +26,4 @@ def test_what_the_parent_held_does_not_count():
     code = "from neural_shadows.running.process_memory import peak_bytes; print(peak_bytes())"
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     said = subprocess.check_output([sys.executable, "-c", code], env=environment, text=True)
-    assert len(array) == 512 * MIB
-    assert 0 < int(said) < 256 * MIB
+    assert 0 < int(said) < 256 * MIB < len(array)

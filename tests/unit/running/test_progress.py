@@ -2,8 +2,6 @@
 
 import io
 
-import pytest
-
 from neural_shadows.running import progress
 from neural_shadows.running.progress import progress_bar
 
@@ -20,18 +18,16 @@ def test_bar_of_a_call_from_python(capsys):
     assert "100%" in last and "30.0k/30.0k" in last
 
 
-@pytest.mark.parametrize("seconds", [0, 1000])
-def test_lines_of_a_job_that_nobody_watches(monkeypatch, capsys, seconds):
+def test_lines_of_a_job_that_nobody_watches(monkeypatch, capsys):
     """On the terminal's file and in the log, and of no job that takes no longer than a line."""
-    terminal = io.StringIO()
-    monkeypatch.setattr(progress, "TERMINAL", terminal)
-    monkeypatch.setattr(progress, "_SECONDS", seconds)
-    with progress_bar(4000, "samples", "train dragon") as bar:
-        bar.update(1000)
-    text = terminal.getvalue()
-    assert text == capsys.readouterr().err
-    if seconds:
-        assert text == ""
-    else:
-        assert text.splitlines()[-1].startswith("train dragon:  25 % of 4.00k samples, ")
-        assert text.endswith(" left\n") and "samples/s" in text
+    texts = {}
+    for seconds in (0, 1000):
+        monkeypatch.setattr(progress, "TERMINAL", io.StringIO())
+        monkeypatch.setattr(progress, "_SECONDS", seconds)
+        with progress_bar(4000, "samples", "train dragon") as bar:
+            bar.update(1000)
+        texts[seconds] = progress.TERMINAL.getvalue()
+        assert texts[seconds] == capsys.readouterr().err
+    assert texts[0].splitlines()[-1].startswith("train dragon:  25 % of 4.00k samples, ")
+    assert texts[0].endswith(" left\n") and "samples/s" in texts[0]
+    assert texts[1000] == ""

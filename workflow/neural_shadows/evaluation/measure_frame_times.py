@@ -55,8 +55,7 @@ def shadow_times(methods: Mapping[str, ShadowMethod], frame: GBuffer) -> dict[st
     milliseconds = {}
     for name, answer in methods.items():
         started = time.perf_counter()
-        # A network's answer is copied to the CPU, which waits for a GPU to be done.
-        shade(frame, answer(frame))
+        shade(frame, answer(frame))  # the answer is on the CPU, so that a GPU is done
         milliseconds[name] = 1000 * (time.perf_counter() - started)
     return milliseconds
 
@@ -129,16 +128,11 @@ def measure_frame_times(
         times_json,
         {
             "scene": times_json.stem,
-            "width": width,
-            "height": height,
-            "view_sets": list(frames["view_sets"]),
+            **frame_times,
             "views": len(viewpoints),
-            "repeats": repeats,
             "warm_up": WARM_UP,
-            "seed": frames["seed"],
             "device": chosen.type,
             "precision": str(choose_dtype("auto", chosen)).removeprefix("torch."),
-            "cpu_threads": 1,
             "machine": describe_machine(),
             "sphere_rays": float(np.median(rays)),  # of a frame: those that a network answers
             "methods": {method: {"ms": values} for method, values in milliseconds.items()},

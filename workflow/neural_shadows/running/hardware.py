@@ -2,29 +2,23 @@
 
 import os
 import platform
+import re
 from pathlib import Path
+from typing import Any
+
+CPUINFO = Path("/proc/cpuinfo")
 
 
-def processor_name() -> str:
-    """The CPU's model name as the system gives it."""
-    try:
-        for line in Path("/proc/cpuinfo").read_text().splitlines():
-            if line.startswith("model name"):
-                return line.split(":", 1)[1].strip()
-    except OSError:
-        pass  # not Linux
-    return platform.processor() or platform.machine()
-
-
-def describe_machine() -> dict:
-    """CPU, usable cores, GPU and Python version; holds no host name, user or path."""
+def describe_machine() -> dict[str, Any]:
+    """CPU, usable cores, GPU and versions; no host name, user or path: results are published."""
     import torch  # here, so that stages without networks need not load it
 
+    # Linux on x86 names its CPU there, others nowhere.
+    found = CPUINFO.is_file() and re.search(r"^model name\s*: (.*)", CPUINFO.read_text(), re.M)
+    limited = hasattr(os, "sched_getaffinity")
     return {
-        "cpu": processor_name(),
-        "cores": len(os.sched_getaffinity(0))
-        if hasattr(os, "sched_getaffinity")
-        else os.cpu_count(),
+        "cpu": found[1] if found else platform.processor() or platform.machine(),
+        "cores": len(os.sched_getaffinity(0)) if limited else os.cpu_count(),
         "gpu": torch.cuda.get_device_name() if torch.cuda.is_available() else None,
         "system": platform.system(),
         "python": platform.python_version(),

@@ -1,17 +1,15 @@
-"""How much memory this process holds, in bytes; None where the system does not tell (no Linux)."""
+"""How much memory this process holds, in bytes, as Linux tells."""
 
 import re
 from pathlib import Path
 
-_STATUS = Path("/proc/self/status")
 
-
-def held_bytes() -> int | None:
+def held_bytes() -> int:
     """What it holds now."""
     return _status("VmRSS")
 
 
-def peak_bytes() -> int | None:
+def peak_bytes() -> int:
     """The most that it ever held.
 
     `getrusage` would count what the process that started it held: 1,510 MiB for one of 32 MiB.
@@ -19,7 +17,6 @@ def peak_bytes() -> int | None:
     return _status("VmHWM")
 
 
-def _status(key: str) -> int | None:
-    text = _STATUS.read_text() if _STATUS.is_file() else ""
-    found = re.search(rf"^{key}:\s*(\d+) kB", text, re.MULTILINE)
-    return 1024 * int(found[1]) if found else None
+def _status(key: str) -> int:
+    text = Path("/proc/self/status").read_text()
+    return 1024 * int(re.search(rf"^{key}:\s*(\d+) kB", text, re.MULTILINE)[1])
