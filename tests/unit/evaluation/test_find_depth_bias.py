@@ -1,6 +1,5 @@
 """The bias that is found is the one with which a known network errs least."""
 
-import pytest
 import torch
 import trimesh
 from evaluated import make_evaluated
@@ -30,15 +29,10 @@ class ShortBall(ShadowNetwork):
         return torch.where(discriminant > 0, hit - self.short, -2 * b + 1e-4)
 
 
-@pytest.fixture(scope="module")
-def references(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("ball")
+def test_a_short_depth_gets_the_bias_that_it_lacks(tmp_path, monkeypatch):
     frames = {"width": 150, "height": 100, "view_sets": ["surface"], "seed": 1}
     ball = trimesh.creation.icosphere(5, radius=BALL)
-    return make_evaluated(folder, ball, first=3, frames=frames).references
-
-
-def test_a_short_depth_gets_the_bias_that_it_lacks(references, tmp_path, monkeypatch):
+    references = make_evaluated(tmp_path, ball, first=3, frames=frames).references
     found = {}
     for short in (0.0, 0.05):
         network = ShortBall(short)

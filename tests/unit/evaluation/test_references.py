@@ -14,11 +14,6 @@ from neural_shadows.rendering.viewpoints import draw_viewpoints
 W, H = FRAMES["width"], FRAMES["height"]
 
 
-def rendered(scene, view_sets):
-    views = draw_viewpoints(scene, view_sets, range(2), W / H, FRAMES["seed"])
-    return [render_gbuffer(scene, view, W, H) for view in views]
-
-
 def assert_same(found, expected):
     for field in fields(expected):
         a, b = getattr(found, field.name), getattr(expected, field.name)
@@ -31,7 +26,8 @@ def assert_same(found, expected):
 @pytest.mark.parametrize("ground", [True, False])
 def test_frames_come_back_to_the_bit(tmp_path, ground):
     scene = scene_of(bumpy_sphere(4), ground=ground)
-    frames = rendered(scene, ["surface", "centre"])
+    views = draw_viewpoints(scene, ["surface", "centre"], range(2), W / H, FRAMES["seed"])
+    frames = [render_gbuffer(scene, view, W, H) for view in views]
     rng = np.random.default_rng(0)
     soft = [frame.visibility(rng.random(len(frame.lit_side))) for frame in frames]
     write_references(tmp_path / "000.safetensors", zip(frames, soft), scene.ground)
