@@ -12,7 +12,6 @@ from neural_shadows.shadow_maps.shadow_map import (
     shadow_map_lit,
     shadow_map_square,
     texel_heights,
-    texels_of,
 )
 
 W, H = 300, 200
@@ -70,16 +69,6 @@ def test_a_whole_map_answers_as_the_texels_in_use_do(bumpy, resolution):
     lazy = lit_by(bumpy, frame, resolution)
     assert 256**2 < 4 * len(lazy) < 1024**2 and 0.01 < lazy.mean() < 0.99
     np.testing.assert_array_equal(lit_by(bumpy, frame, resolution, whole=True), lazy)
-
-
-def test_texels_of_the_thesis_reference(bumpy):
-    """float32 cannot number them."""
-    view = looking((1, 2, 2), unit(1, 1, 0.5))
-    square = shadow_map_square(bumpy.objects[0].vertices, view.light)
-    receivers = receivers_of(square, render_gbuffer(bumpy, view, W, H))
-    row, column = np.divmod(texels_of(receivers, 32768), 32768)
-    np.testing.assert_array_equal(column, np.floor(receivers.place[0].astype(float) * 32768))
-    np.testing.assert_array_equal(row, np.floor(receivers.place[1].astype(float) * 32768))
 
 
 @pytest.mark.parametrize("light", AXES)
