@@ -9,33 +9,20 @@ from neural_shadows.errors import InputError
 from neural_shadows.meshes.cleaning import clean_mesh, closedness
 
 
-def test_refuses_vertices_that_are_not_finite():
-    vertices = TETRAHEDRON.copy()
-    vertices[2, 1] = np.nan
-    with pytest.raises(InputError, match=r"mesh thing: vertex 2 .*0\.0, nan, 0\.0"):
-        clean_mesh(vertices, TETRAHEDRON_FACES, "thing")
-
-
 @pytest.mark.parametrize(
-    "vertices",
+    ("vertices", "words"),
     [
-        np.outer([0, 1, 2, 5], [1, 2, 3]),  # collinear
-        np.ones((4, 3)),  # a point
-        [[0, 0, 0], [1, 0, 0], [2, 1e-9, 0], [3, 0, 0]],  # lower than float32 can tell
+        (np.where(TETRAHEDRON == 1, np.nan, 0), r"vertex 1 .*nan, 0\.0, 0\.0"),
+        (np.ones((4, 3)), "diagonal 0"),
+        ([[0, 0, 0], [1, 0, 0], [2, 1e-9, 0], [3, 0, 0]], "zero area"),  # lower than float32's 1
     ],
 )
-def test_refuses_meshes_without_area(vertices):
-    for unit in (1e-6, 1e6):
-        with pytest.raises(InputError, match="mesh thing: .*(zero area|diagonal 0)"):
-            clean_mesh(np.array(vertices) * unit, TETRAHEDRON_FACES, "thing")
+def test_refuses_what_is_no_surface(vertices, words):
+    with pytest.raises(InputError, match=f"mesh thing: .*{words}"):
+        clean_mesh(np.array(vertices), TETRAHEDRON_FACES, "thing")
 
 
-UNITS = pytest.mark.parametrize(
-    ("unit", "offset"), [(1, 0), (1e-6, 0), (1, 1e6), (1e-3, 1e3), (1e150, 0)]
-)
-
-
-@UNITS
+@pytest.mark.parametrize(("unit", "offset"), [(1, 0), (1e-6, 0), (1, 1e6), (1e150, 0)])
 def test_cleans_everything_at_once_in_any_unit(unit, offset):
     """A tetrahedron with a seam and every kind of bad face."""
     extra = [
@@ -73,10 +60,9 @@ def test_cleans_everything_at_once_in_any_unit(unit, offset):
     }
 
 
-@UNITS
-def test_keeps_what_is_small_but_real(unit, offset):
+def test_keeps_what_is_small_but_real():
     # One corner cut off at 1e-6 of the size.
-    vertices = np.vstack([TETRAHEDRON, [[0, 0, 1 - 1e-6]]]) * unit + offset
+    vertices = np.vstack([TETRAHEDRON, [[0, 0, 1 - 1e-6]]])
     faces = [[0, 2, 1], [0, 1, 4], [0, 4, 2], [1, 2, 3], [1, 3, 4], [2, 4, 3]]
     _, _, report = clean_mesh(vertices, np.array(faces), "thing")
     assert (report["vertices"], report["faces"]) == (5, 6)

@@ -10,7 +10,6 @@ from mesh_files import (
     TETRAHEDRON_FACES,
     WRITERS,
     ascii_ply,
-    binary_ply,
     glb_tree,
     obj,
     pack_glb,
@@ -34,39 +33,6 @@ def test_reads_each_format(tmp_path, file):
         assert vertices.dtype == np.float64 and faces.dtype == np.int64
         # the same triangles, corner by corner (STL has no shared vertices)
         np.testing.assert_array_equal(vertices[faces], TETRAHEDRON[TETRAHEDRON_FACES])
-
-
-@pytest.mark.parametrize("endian", ["<", ">"])
-def test_reads_binary_ply_of_either_byte_order_with_other_columns(tmp_path, endian):
-    points = np.zeros(4, dtype=[("xyz", f"{endian}f8", 3), ("quality", "u1")])
-    points["xyz"] = TETRAHEDRON + 1e6 + 1 / 3
-    faces = np.zeros(4, dtype=[("n", "u1"), ("corners", f"{endian}i4", 3)])
-    faces["n"], faces["corners"] = 3, TETRAHEDRON_FACES
-    header = ascii_ply(TETRAHEDRON, TETRAHEDRON_FACES).split(b"end_header")[0].decode()
-    header = header.replace("ascii", f"binary_{'little' if endian == '<' else 'big'}_endian")
-    header = header.replace("double z", "double z\nproperty uchar quality")
-    content = header.encode() + b"end_header\n" + points.tobytes() + faces.tobytes()
-    vertices, faces = read_mesh(save(tmp_path / "m.ply", content))
-    np.testing.assert_array_equal(vertices, TETRAHEDRON + 1e6 + 1 / 3)
-    np.testing.assert_array_equal(faces, TETRAHEDRON_FACES)
-
-
-def test_texture_coordinates_do_not_copy_or_reorder_vertices(tmp_path):
-    ply = ascii_ply(TETRAHEDRON, TETRAHEDRON_FACES).decode()
-    ply = ply.replace("vertex_indices", "vertex_indices\nproperty list uchar float texcoord")
-    header, rows = ply.split("end_header\n")
-    rows = rows.splitlines()
-    rows[4:] = [f"{row} 6 0 {i} 1 {i} 1 {i + 1}" for i, row in enumerate(rows[4:])]
-    ply = "\n".join([f"{header}end_header", *rows, ""])
-    corners = " ".join(f"{i}/1" for i in (1, 2, 3))
-    text = obj(TETRAHEDRON, TETRAHEDRON_FACES[1:]).decode() + f"vt 0 0\nf {corners}\n"
-    for name, content, expected in (
-        ("m.ply", ply, TETRAHEDRON_FACES),
-        ("m.obj", text, [*TETRAHEDRON_FACES[1:], [0, 1, 2]]),
-    ):
-        vertices, faces = read_mesh(save(tmp_path / name, content))
-        np.testing.assert_array_equal(vertices, TETRAHEDRON)
-        np.testing.assert_array_equal(faces, expected)
 
 
 def test_polygons_become_triangles(tmp_path):
@@ -110,7 +76,6 @@ def test_obj_lines_of_all_kinds_and_indices_relative_to_their_line(tmp_path):
 
 
 PLY = ascii_ply(TETRAHEDRON, TETRAHEDRON_FACES).decode()
-BINARY = binary_ply(TETRAHEDRON, TETRAHEDRON_FACES)
 BOX = trimesh.creation.box()
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 DRACO = glb_tree(4, 12) | {"extensionsRequired": ["KHR_draco_mesh_compression"]}
@@ -122,20 +87,13 @@ DRACO = glb_tree(4, 12) | {"extensionsRequired": ["KHR_draco_mesh_compression"]}
         ("m.fbx", PLY, "one of .ply, .obj, .stl, .glb"),
         ("nothing.ply", None, "cannot be read .No such file"),
         ("empty.ply.gz", b"", "is empty"),
-        ("garbage.ply", b"\x00\x01\x02", "cannot be read as PLY"),
-        ("garbage.stl", b"hello\n", "no triangles"),
-        ("garbage.glb", b"glTF" + bytes(100), "cannot be read as GLB"),
         ("no_faces.ply", ascii_ply(TETRAHEDRON, []), "no triangles"),
         ("cut_row.ply", PLY[:-12], "7 rows where its header says 8"),
-        ("cut_binary.ply", BINARY[:-5], "cannot be read as PLY"),
         ("cut.stl", BOX.export(file_type="stl")[:-7], "a truncated file"),
         ("cut.glb", BOX.export(file_type="glb")[:-7], "cannot be read as GLB"),
         ("index.ply", PLY.replace("3 1 2 3", "3 1 2 4"), r"face 3 .* \[1, 2, 4\] of 4"),
-        ("negative.ply", PLY.replace("3 1 2 3", "3 1 2 -1"), r"face 3 .* \[1, 2, -1\] of 4"),
         ("index.obj", OBJ + "f 1 2 4\n", r"face 1 .* \[0, 1, 3\] of 3"),
         ("zero.obj", OBJ + "f 0 1 2\n", "the line 'f 0 1 2'"),
-        ("cut.obj", OBJ + "f 1 2\n", "the line 'f 1 2'"),
-        ("flat.obj", "v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "the line 'v 0 0'"),
         ("draco.glb", pack_glb(DRACO, bytes(400)), "KHR_draco_mesh_compression"),
         ("cut.ply.gz", gzip.compress(PLY.encode())[:-20], "Compressed file ended"),
         ("not_gzip.ply.gz", PLY.encode(), "Not a gzipped file"),
