@@ -10,8 +10,6 @@ from neural_shadows.layout import claims, tables, targets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
 
-RENDERING = {"views_per_set": 25, "batch": 12, "held_out_views": 8}
-
 
 def layout_of(*overlays: str, **values) -> Layout:
     """The layout of the shipped configuration with overlays."""
@@ -31,30 +29,19 @@ def desk() -> Layout:
 
 def test_parts_follow_each_other():
     assert [part_range(25, 3, part) for part in range(3)] == [(0, 8), (8, 16), (16, 25)]
-    assert [part_range(2, 3, part) for part in range(3)] == [(0, 0), (0, 1), (1, 2)]
-    assert batches(RENDERING) == ["000", "001", "002"]
-    ranges = [view_range(RENDERING, batch) for batch in [*batches(RENDERING), HELD_OUT]]
+    rendering = {"views_per_set": 25, "batch": 12, "held_out_views": 8}
+    assert batches(rendering) == ["000", "001", "002"]
+    ranges = [view_range(rendering, batch) for batch in [*batches(rendering), HELD_OUT]]
     assert ranges == [(0, 12), (12, 24), (24, 25), (25, 33)]
 
 
-def test_files_lie_below_the_scale_s_name(desk):
-    smoke = layout_of("smoke")
-    assert desk.paths.report("table_4_3.csv") == "reports/table_4_3.csv"
-    assert smoke.paths.report("table_4_3.csv") == "reports/smoke/table_4_3.csv"
-    log = smoke.paths.log("label_rays", "scene", "shard")
-    assert log == "results/smoke/logs/label_rays/{scene}.{shard}.log"
-    assert desk.paths.log("find_lpips") == "results/logs/find_lpips/find_lpips.log"
-
-
-def test_source_of_a_mesh():
+def test_sources_of_meshes_and_folders_of_scales():
     mesh = {"generate": None, "path": "meshes/mine.ply"}
     layout = layout_of(scenes={"fence": {"mesh": mesh}}, dragon="stanford")
     assert layout.mesh_source("dragon") == "results/scenes/dragon/downloaded.ply"
     assert layout.mesh_source("fence") == "meshes/mine.ply"
     assert layout.mesh_source("landscape") == "results/scenes/landscape/generated.ply"
-    about = layout.scenes(["fence", "landscape"])
-    assert [scene["procedural"] for scene in about.values()] == [False, True]
-    assert about["fence"]["mesh_name"] == "mine"
+    assert layout_of("smoke").paths.report("table.csv") == "reports/smoke/table.csv"
 
 
 def test_files_of_a_training(desk):
@@ -65,66 +52,36 @@ def test_files_of_a_training(desk):
     assert thesis["bounds"] == shards
 
 
-@pytest.mark.parametrize(
-    ("method", "bias", "weights", "files"),
-    [
-        ("shadow_map_512", None, 0, 0),
-        ("dragon", 0.0, 1, 0),
-        ("dragon_biased", HELD_OUT, 1, 1),
-        ("dragon_field", HELD_OUT, 1, 1),
-    ],
-)
-def test_files_of_a_method(desk, method, bias, weights, files):
-    assert desk.bias(method) == bias
-    name = method.removesuffix("_biased")
-    weight_files = [f"results/networks/{name}/weights.safetensors"]
-    assert desk.weights(method) == weight_files * weights
-    assert desk.bias_file(method) == [f"results/depth_biases/{name}.json"] * files
-    assert desk.method_encodings(method) == (desk.encodings([name]) if weights else set())
+def test_files_of_methods(desk):
+    assert desk.bias("shadow_map_512") is None and desk.bias("dragon") == 0
+    assert desk.weights("shadow_map_512") == desk.bias_file("shadow_map_512") == []
+    assert desk.weights("dragon_biased") == ["results/networks/dragon/weights.safetensors"]
+    assert desk.bias_file("dragon") == []
+    for method in ("dragon_biased", "dragon_field"):
+        assert desk.bias(method) == HELD_OUT
+        name = method.removesuffix("_biased")
+        assert desk.bias_file(method) == [f"results/depth_biases/{name}.json"]
 
 
-def test_a_table_is_made_of_its_rows(desk):
+def test_tables_and_claims_are_made_of_their_rows(desk):
     made = tables.files(desk, "table_4_3")
-    assert made["mesh_json"] == ["results/scenes/dragon/mesh.json"]
-    assert made["published_csv"] == "config/published.csv"
     assert "results/evaluations/dragon/shadow_map_512.001.csv" in made["metrics"]
     networks = ["dragon", "dragon_field"]
     assert made["trainings"] == [f"results/networks/{name}/training.json" for name in networks]
     assert made["depth_biases"] == ["results/depth_biases/dragon_field.json"]
     assert "reports/scenes/dragon.png" in made["beside"]
     # An edited network's code leaves a table alone that reads none of its files.
-    assert tables.encodings(desk, "table_4_3") == set()
-    assert tables.encodings(desk, "table_4_7") == {"frequency"}
-
-
-def test_claims_are_tested_on_the_methods_that_they_name(desk):
-    made, told = claims.files(desk), claims.arguments(desk)
-    assert "results/evaluations/dragon/dragon_uniform.000.csv" in made["metrics"]
-    assert "results/networks/dragon_high_rate/loss.csv" in made["losses"]
-    assert "results/frame_times/table_4_6/dragon.json" in made["times"]
-    assert told["samples"] == 20000 * 1024
-
-
-@pytest.mark.parametrize(
-    ("look_up", "message"),
-    [
-        (lambda layout: tables.files(layout, "table_4_33"), "tables: .*did you mean 'table_4_3'"),
-        (lambda layout: layout.training_files("dragn"), "experiments: .*did you mean 'dragon'"),
-        (lambda layout: layout.mesh_source("teapot"), "scenes: .*dragon, fence, landscape"),
-    ],
-)
-def test_names_that_there_are_not(desk, look_up, message):
-    with pytest.raises(InputError, match=message):
-        look_up(desk)
+    encodings = [tables.encodings(desk, name) for name in ("table_4_3", "table_4_7")]
+    assert encodings == [set(), {"frequency"}]
+    assert "results/networks/dragon_high_rate/loss.csv" in claims.files(desk)["losses"]
+    with pytest.raises(InputError, match="tables: .*did you mean 'table_4_3'"):
+        tables.files(desk, "table_4_33")
 
 
 def test_what_is_made_by_default(desk):
     reports = targets.all_reports(desk)
     assert {"reports/table_4_3.csv", "reports/index.html", "reports/claims.md"} <= {*reports}
     assert not any("ablations" in path or "figure_3d" in path for path in reports)
-    assert "figure_beyond_slice" in targets.beyond(desk) and "table_4_3" not in targets.beyond(desk)
-    page = targets.page_files(desk)
-    assert "results/references/dragon/000.npz" in page["pictures"]
     names = [(row["scene"], row["method"]) for row in targets.pictured(desk)]
     assert len(names) == len(set(names)) and ("dragon", "ray_traced") not in names
 
@@ -145,15 +102,8 @@ def test_the_words_at_the_end(desk, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "20")
     (tmp_path / "reports").mkdir()
-    (tmp_path / "reports" / "a.md").write_text(
-        "| a row that is too wide |\n| short |\n\n- a note\n"
-    )
+    (tmp_path / "reports" / "a.md").write_text("| a row that is too wide |\n\n- a note\n")
     made = ["results/lpips.json", "reports/a.csv", "reports/a.md", "reports/figure_1.png"]
-    assert targets.closing_words(desk, made).splitlines() == [
-        "| a row that is too…",
-        "| short |",
-        "Open reports/a.md, reports/figure_1.png",
-    ]
-    whole = targets.closing_words(desk, [*made, "reports/index.html"])
-    assert whole.endswith("\nOpen reports/index.html")
+    opened = "Open reports/a.md, reports/figure_1.png"
+    assert targets.closing_words(desk, made) == f"| a row that is too…\n{opened}"
     assert targets.closing_words(desk, made[:1]) == ""
