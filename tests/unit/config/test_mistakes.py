@@ -16,7 +16,6 @@ scale | networks | scale = 'networks': is the name of a folder of results
 scenes.dragon.mesh.path | x.ply | (an overlay drops a key of the default by setting it to null)
 scenes.landscape.light.axis | y | must be horizontal, not `up`; allowed: x, z
 scenes.landscape.view_sets | [shadow] | 'shadow' needs a scene with ground: true
-scenes.dragon.view_sets | [surface, surface] | must name each only once
 experiments.dragon.scene | dog | experiments.dragon.scene: 'dog' is not among dragon, fence
 experiments.dragon.network | thesi | experiments.dragon.network: 'thesi' (did you mean 'thesis'?)
 experiments.dragon_biased | {like: dragon} | experiments.dragon_biased: tables and pictures have a method
@@ -24,7 +23,6 @@ experiments.twin | {like: dragon} | experiments.twin: is the same as experiments
 tables.maps | {rows: [shadow_map_64], title: x} | tables.maps: has shadow maps alone and needs a `scene`
 tables.table_4_3.rows.0 | dragn | tables.table_4_3.rows of dragon: 'dragn' (did you mean 'dragon
 tables.table_4_3.rows.0 | shadow_map_512 | 'shadow_map_512' is there twice
-tables.beyond.rows.dragon.13 | dragon | "Thesis's network" is there twice
 figures.figure_4_4.view_sets | [centre] | figure_4_4.view_sets: 'centre' is not among shadow, su
 figures.figure_beyond_dragon.table | table_4_6 | 'table_4_6' is not among beyond, ablations
 figures.figure_beyond_slice.experiment | dragon | experiment: 'dragon' (did you mean 'dragon_fi
