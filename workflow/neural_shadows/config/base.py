@@ -58,6 +58,7 @@ def _power_of_two(value: int) -> int:
 
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
+Text = Annotated[str, Field(min_length=1)]
 Seed = Annotated[int, Field(ge=0, lt=2**32)]
 PowerOfTwo = Annotated[int, AfterValidator(_power_of_two)]
 

@@ -83,20 +83,14 @@ def compared(claim: AnyClaim) -> list[list[str]]:
 
 def rows_of_claim(config: "Config", methods: list[str]) -> list[Row]:
     """Methods that a claim compares as rows: a shadow map's scene is the network's beside it."""
-    scenes = {
-        method: config.experiments[name].scene
-        for method in methods
-        if (name := experiment_of(method)) in config.experiments
-    }
-    other = next(iter(scenes.values()))
-    rows = {
-        method: RowSettings(
-            method=experiment_of(method),
-            bias="held_out" if experiment_of(method) != method else None,
-        )
-        for method in methods
-    }
-    return [row_of(config, scenes.get(method, other), row) for method, row in rows.items()]
+    names = [experiment_of(method) for method in methods]
+    scenes = [config.experiments[name].scene for name in names if name in config.experiments]
+    rows = []
+    for name, method in zip(names, methods):
+        row = RowSettings(method=name, bias=None if name == method else "held_out")
+        experiment = config.experiments.get(name)
+        rows.append(row_of(config, experiment.scene if experiment else scenes[0], row))
+    return rows
 
 
 def check(config: "Config") -> None:

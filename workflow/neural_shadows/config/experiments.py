@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Seed, name_in, text_or
+from neural_shadows.config.base import Model, Seed, Text, name_in, text_or
 from neural_shadows.config.networks import Network
 from neural_shadows.config.trainings import Training
 from neural_shadows.evaluation.method_names import BIASED_SUFFIX, RAY_TRACED, SHADOW_MAP_PREFIX
@@ -18,21 +18,14 @@ class Experiment(Model):
 
     scene: name_in("scenes") = Field(description="a name in `scenes`")
     sampling: name_in("samplings") = Field(description="a name in `samplings`")
-    network: text_or(name_in("networks"), Network) = Field(
-        description="a name in `networks`, or a section of its own"
-    )
-    training: text_or(name_in("trainings"), Training) = Field(
-        description="a name in `trainings`, or a section of its own"
-    )
+    network: text_or(name_in("networks"), Network) = Field(description="a name, or a section")
+    training: text_or(name_in("trainings"), Training) = Field(description="a name, or a section")
     seed: Seed | None = Field(None, description="seed of this training; without it the scene's")
     bias: text_or(Literal["held_out"], Annotated[float, Field(ge=0, le=1)]) = Field(
-        0.0,
-        description="added to t_pred, in sphere radii; `held_out`: the best on views in no table",
+        0.0, description="added to t_pred, in radii; `held_out`: the best on views in no table"
     )
-    label: str | None = Field(
-        None,
-        min_length=1,
-        description="its name in tables; may hold settings, as `{resolution}³ field`",
+    label: Text | None = Field(
+        None, description="its name in tables; may hold settings, as `{resolution}³ field`"
     )
 
 
@@ -62,9 +55,8 @@ def formatted(config: "Config", experiment: str, label: str | None = None) -> st
         ValueError: it names a setting that the experiment's network and training do not have.
     """
     label = label or config.experiments[experiment].label or experiment
-    settings = (
-        training_of(config, experiment).model_dump() | network_of(config, experiment).model_dump()
-    )
+    parts = training_of(config, experiment), network_of(config, experiment)
+    settings = parts[0].model_dump() | parts[1].model_dump()
     try:
         return label.format(**settings)
     except (LookupError, ValueError, TypeError, AttributeError) as error:

@@ -4,7 +4,15 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in, section_or
+from neural_shadows.config.base import (
+    Model,
+    Name,
+    Text,
+    by_kind,
+    check_among,
+    name_in,
+    section_or,
+)
 from neural_shadows.config.experiments import formatted, network_of
 from neural_shadows.config.scenes import ViewSet
 from neural_shadows.config.tables import Row, rows_of
@@ -23,14 +31,10 @@ class AnyFigure(Model):
 class MethodsFigure(AnyFigure):
     """Methods of a table side by side: their errors on the mesh, in three dimensions."""
 
-    table: Name = Field(
-        description="a table of `comparison` or `networks` in `tables`; its rows are drawn"
-    )
+    table: Name = Field(description="a table of `comparison` or `networks`")
     scene: Name | None = Field(None, description="which scene of a table of several")
     methods: list[str] | None = Field(
-        None,
-        min_length=1,
-        description="which of its methods; a row with a `bias` of its own is called NAME_biased",
+        None, min_length=1, description="which of its rows; NAME_biased with a bias of its own"
     )
     kind: Literal["errors_3d"] = Field(description="`errors_3d`")
 
@@ -39,18 +43,14 @@ class PicturesFigure(MethodsFigure):
     """The same viewpoints by every method, whole and as crops [figures 4.4 to 4.7]."""
 
     kind: Literal["pictures"] = Field(description="`pictures`")
-    view_sets: list[ViewSet] = Field(
-        min_length=1, description="view sets of the scene; the first view of each"
-    )
+    view_sets: list[ViewSet] = Field(min_length=1, description="the first view of each")
 
 
 class CurveSettings(Model):
     """A curve of a figure of training losses that is more than a name."""
 
     experiment: name_in("experiments") = Field(description="a name in `experiments`")
-    label: str | None = Field(
-        None, min_length=1, description="its name in the figure; without it the experiment's label"
-    )
+    label: Text | None = Field(None, description="without it the experiment's label")
 
 
 class LossFigure(AnyFigure):
@@ -78,9 +78,7 @@ class DirectionsFigure(AnyFigure):
 class SceneFigure(AnyFigure):
     """A slice of a scene with rays, their bounds or their loss [figures 3.2, 3.5, 3.6]."""
 
-    kind: Literal["shadow_boundary", "dual_bounds", "dead_zone_loss"] = Field(
-        description="what is drawn"
-    )
+    kind: Literal["shadow_boundary", "dual_bounds", "dead_zone_loss"] = Field(description="which")
     scene: name_in("scenes") = Field(description="a name in `scenes`")
 
 
@@ -104,7 +102,7 @@ class NetworkFigure(AnyFigure):
 
     kind: Literal["field_slice", "field_3d", "depth_sheets_3d"] = Field(description="what is drawn")
     experiment: name_in("experiments") = Field(
-        description="a name in `experiments`; of a field, whose network is an `occupancy_field`"
+        description="of an `occupancy_field`, if a field is drawn"
     )
 
 
@@ -145,7 +143,7 @@ def rows_of_figure(config: "Config", figure: AnyFigure) -> list[Row]:
     if isinstance(figure, MethodsFigure):
         # Ray tracing's pictures are the reference, which is shown anyway.
         rows = [row for row in rows if row["method"] != RAY_TRACED]
-        if figure.methods is not None:
+        if figure.methods:
             rows = [row for row in rows if row["method"] in figure.methods]
     return rows
 
@@ -163,11 +161,8 @@ def check(config: "Config") -> None:
                 for curve in figure.curves:
                     formatted(config, curve.experiment, curve.label)
             case NetworkFigure(kind="field_slice" | "field_3d"):
-                fields = [
-                    name
-                    for name in config.experiments
-                    if network_of(config, name).encoding == "occupancy_field"
-                ]
+                encodings = {name: network_of(config, name).encoding for name in config.experiments}
+                fields = [name for name, one in encodings.items() if one == "occupancy_field"]
                 check_among(f"{key}.experiment", figure.experiment, fields)
             case ParetoFigure() | MethodsFigure():
                 rows = rows_of(config, figure.table)

@@ -1,9 +1,12 @@
 """The wording of what is wrong with a configuration."""
 
+import re
 import reprlib
 from typing import Any
 
 from pydantic import ValidationError
+
+_NUMBER = re.compile(r"[-+.\d]+(e[-+]?\d+)?$", re.IGNORECASE)
 
 
 def describe(error: ValidationError, values: Any) -> str:
@@ -22,7 +25,7 @@ def describe(error: ValidationError, values: Any) -> str:
             message = "this key is missing"
         case "dict_type" | "model_type" | "model_attributes_type":
             message = f"should be a section of keys, not {_shown(problem['input'])}"
-        case "float_type" if _is_number(problem["input"]):
+        case "float_type" if isinstance(problem["input"], str) and _NUMBER.match(problem["input"]):
             key = f"{key} = {_shown(problem['input'])}"
             message = "is text to YAML; write a number with a point, as 0.001 or 1.0e-3"
         case "union_tag_not_found":
@@ -57,11 +60,3 @@ def _shown(value: Any) -> str:
     shown = reprlib.Repr()
     shown.maxstring = shown.maxother = shown.maxlong = 80
     return shown.repr(value)
-
-
-def _is_number(text: Any) -> bool:
-    try:
-        float(text)
-    except (TypeError, ValueError):
-        return False
-    return True

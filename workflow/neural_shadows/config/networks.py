@@ -27,7 +27,7 @@ class RayGrid(Model):
     encoding: Literal["ray_grid"] = Field(description="`ray_grid`: points on the whole chord")
     points: int = Field(8, ge=1, le=256, description="K, points along the ray")
     grids: list[Annotated[int, Field(ge=2, le=512)]] = Field(
-        [16, 32, 60], min_length=1, description="vertices along an axis of each grid"
+        [16, 32, 60], min_length=1, description="vertices of an axis"
     )
     channels: int = Field(4, ge=1, le=64, description="trained features of a grid's vertex")
     width: int = Field(64, ge=8, le=4096, description="neurons per layer")
@@ -42,9 +42,7 @@ class OccupancyRayGrid(RayGrid):
     """A ray grid whose points lie between the first and the last occupied cell on the ray."""
 
     needs_mesh: ClassVar[bool] = True
-    encoding: Literal["occupancy_ray_grid"] = Field(
-        description="`occupancy_ray_grid`: points where the ray is near the surface"
-    )
+    encoding: Literal["occupancy_ray_grid"] = Field(description="points near the surface")
     occupancy: int = Field(64, ge=2, le=512, description="cells along an axis of the occupancy")
 
 
@@ -52,9 +50,7 @@ class HashGrid(OccupancyRayGrid):
     """An occupancy-clipped ray grid whose large grids are hash tables (Instant-NGP)."""
 
     encoding: Literal["hash_grid"] = Field(description="`hash_grid`: multiresolution hash tables")
-    table_size: PowerOfTwo = Field(
-        65536, ge=16, le=1 << 24, description="entries of a grid's hash table, a power of two"
-    )
+    table_size: PowerOfTwo = Field(65536, ge=16, le=1 << 24, description="of a grid's, in entries")
 
 
 class OccupancyField(Model):
@@ -62,11 +58,9 @@ class OccupancyField(Model):
 
     needs_mesh: ClassVar[bool] = True
     encoding: Literal["occupancy_field"] = Field(
-        description="`occupancy_field`: inside or outside, without a direction"
+        description="inside or outside, without a direction"
     )
-    resolution: int = Field(
-        256, ge=8, le=1024, multiple_of=4, description="cells along an axis, a multiple of 4"
-    )
+    resolution: int = Field(256, ge=8, le=1024, multiple_of=4, description="cells of an axis")
     surface: Literal["solid", "sheet"] = Field(
         "solid", description="`solid`: the object has an inside; `sheet`: one open surface"
     )

@@ -17,12 +17,10 @@ Section = dict[str, Any]
 def resolved(config: "Config") -> Section:
     """The sections of a configuration as Snakemake's `lookup` finds them.
 
-    Sections are as in config.yaml, with every default, but: a scene has its `mesh_name`, its
-    `seed`, `scene` (what `open_scene` takes beside the mesh) and `frames` (how its viewpoints
-    are drawn and rendered); an experiment's `network` and `training` are the sections
-    themselves, `seed` and `label` what holds; a table has its `rows`, a figure of a table its
-    `rows` and `scene`, a figure of losses its `curves` and a claim its `pairs` or `methods` as
-    `rows_of` and `row_of` give them.
+    Sections are as in config.yaml, with every default, but: a scene has its `mesh_name`, `scene`
+    (what `open_scene` takes beside the mesh) and `frames` (how its viewpoints are drawn and
+    rendered); an experiment's `network` and `training` are sections; seeds and labels are what
+    holds; rows, curves, pairs and methods are as `rows_of` gives them.
     """
     return config.model_dump() | {
         "scenes": {name: _scene(config, name) for name in config.scenes},
@@ -38,18 +36,12 @@ def resolved(config: "Config") -> Section:
 
 def _scene(config: "Config", name: str) -> Section:
     scene = config.scenes[name].model_dump()
-    seed = config.seed if scene["seed"] is None else scene["seed"]
-    rendering = config.rendering
+    scene["seed"] = config.seed if scene["seed"] is None else scene["seed"]
+    size = {"width": config.rendering.width, "height": config.rendering.height}
     return scene | {
         "mesh_name": mesh_name(config.scenes[name]),
-        "seed": seed,
         "scene": {key: scene[key] for key in ("up", "ground", "light")},
-        "frames": {
-            "width": rendering.width,
-            "height": rendering.height,
-            "view_sets": scene["view_sets"],
-            "seed": seed,
-        },
+        "frames": size | {key: scene[key] for key in ("view_sets", "seed")},
     }
 
 

@@ -14,22 +14,12 @@ class Sampling(Model):
         description="the sampling methods of table 4.1"
     )
     domain: Literal["sphere", "hemisphere", "light"] = Field(
-        "sphere",
-        description=(
-            "view directions: the whole sphere, those of light above the horizon, or of the "
-            "scene's light domain alone"
-        ),
+        "sphere", description="of view directions: all, above the horizon, or the scene's lights"
     )
     directions: int = Field(ge=1, le=1_000_000, description="view directions")
-    points_per_direction: int = Field(
-        ge=1, le=10_000_000, description="m, rays per view direction [3.4.2]"
-    )
-    silhouette_resolution: PowerOfTwo = Field(
-        128, ge=8, le=4096, description="texels along a silhouette's side, a power of two"
-    )
-    min_quad: PowerOfTwo = Field(
-        1, ge=1, le=4096, description="side of the smallest quad in texels, a power of two"
-    )
+    points_per_direction: int = Field(ge=1, le=10_000_000, description="m, its rays [3.4.2]")
+    silhouette_resolution: PowerOfTwo = Field(128, ge=8, le=4096, description="texels of a side")
+    min_quad: PowerOfTwo = Field(1, ge=1, le=4096, description="texels of the smallest one's side")
     shards: int = Field(2, ge=1, le=10_000, description="files (and jobs) the rays are split into")
 
     @model_validator(mode="after")

@@ -15,9 +15,7 @@ class Wyrm(Model):
     """The procedural stand-in dragon."""
 
     generate: Literal["wyrm"] = Field(description="`wyrm`: a creature, the stand-in dragon")
-    cells: int = Field(
-        220, ge=48, le=1024, description="marching-cubes cells along the longest axis"
-    )
+    cells: int = Field(220, ge=48, le=1024, description="marching-cubes cells of the longest axis")
 
 
 class Fence(Model):
@@ -25,9 +23,7 @@ class Fence(Model):
 
     generate: Literal["fence"] = Field(description="`fence`: diagonally crossing round wires")
     wires: int = Field(16, ge=2, le=200, description="diamonds along the panel's width")
-    wire_radius: float = Field(
-        0.006, gt=0, le=0.1, description="radius of a wire, in widths of the panel"
-    )
+    wire_radius: float = Field(0.006, gt=0, le=0.1, description="in widths of the panel")
 
 
 class Landscape(Model):
@@ -38,19 +34,16 @@ class Landscape(Model):
 
 
 class DownloadedMesh(Model):
-    """A mesh that the pipeline downloads."""
+    """A mesh that the pipeline downloads from the Stanford 3D Scanning Repository."""
 
-    download: Literal["stanford_dragon"] = Field(
-        description="`stanford_dragon`: dragon_vrip_res2.ply of the Stanford 3D Scanning Repository"
-    )
+    download: Literal["stanford_dragon"] = Field(description="its dragon_vrip_res2.ply")
 
 
 class MeshFile(Model):
     """A mesh file of the user."""
 
     path: str = Field(
-        min_length=1,
-        description="a .ply, .obj, .stl or .glb file, also .gz; relative to the working directory",
+        min_length=1, description="a .ply, .obj, .stl or .glb, also .gz; from the working directory"
     )
 
 
@@ -111,16 +104,14 @@ class Scene(Model):
     up: Literal["x", "y", "z"] = Field("y", description="the mesh's axis that points up")
     ground: bool = Field(True, description="whether it stands on a plane that receives its shadow")
     light: by_kind("domain", SphereLight, SingleAxisLight) = Field(
-        SphereLight(domain="sphere"), description="directions that viewpoints draw their light from"
+        SphereLight(domain="sphere"), description="where viewpoints' lights are"
     )
     view_sets: list[ViewSet] = Field(
         min_length=1,
         default_factory=lambda scene: ["shadow", "surface"] if scene["ground"] else ["centre"],
         description="where cameras look: by default [shadow, surface] on a ground, else [centre]",
     )
-    seed: Seed | None = Field(
-        None, description="seed of this scene alone; without it the config's `seed`"
-    )
+    seed: Seed | None = Field(None, description="without it the configuration's")
 
 
 def mesh_name(scene: Scene) -> str:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, by_kind, check_among, name_in, section_or
+from neural_shadows.config.base import Model, Text, by_kind, check_among, name_in, section_or
 from neural_shadows.config.experiments import formatted
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
@@ -26,12 +26,8 @@ class RowSettings(Model):
     bias: Literal["held_out"] | None = Field(
         None, description="the depth bias that is best on held-out views, for the experiment's own"
     )
-    label: str | None = Field(
-        None, min_length=1, description="its name in the table; without it the experiment's label"
-    )
-    published: str | None = Field(
-        None, description="the row's key in published.csv; without it the method's name"
-    )
+    label: Text | None = Field(None, description="without it the experiment's label")
+    published: str | None = Field(None, description="its key in published.csv, if not `method`")
 
 
 Rows = Annotated[list[section_or(RowSettings, "method")], Field(min_length=1)]
@@ -44,12 +40,8 @@ class AnyTable(Model):
     published: str | None = Field(
         None, pattern=r"^4\.[1-7]$", description="the thesis's number of this table"
     )
-    figures: list[name_in("figures")] = Field(
-        [], description="names in `figures` that are made and shown beside the table"
-    )
-    on_request: bool = Field(
-        False, description="whether it is made only when asked for by name, and not by `all`"
-    )
+    figures: list[name_in("figures")] = Field([], description="made and shown beside the table")
+    on_request: bool = Field(False, description="made only when asked for by name")
 
 
 class TableOfOneScene(AnyTable):
@@ -69,7 +61,7 @@ class TableByScene(AnyTable):
 
     rows: dict[name_in("scenes"), Rows] = Field(min_length=1, description="methods, by scene")
     kind: Literal["frame_times", "networks"] = Field(
-        description="`frame_times` [4.4.1]; `networks`: quality, bytes, training and speed"
+        description="[4.4.1], or all figures of networks"
     )
 
 
@@ -78,18 +70,14 @@ class CostTable(AnyTable):
 
     kind: Literal["cost"] = Field(description="`cost`")
     subdivisions: list[Annotated[int, Field(ge=1, le=9)]] = Field(
-        description="of a sphere's 20 triangles, each time into four: 6 gives 81,920"
+        description="of 20 triangles into 4 each"
     )
     samples: list[Annotated[int, Field(ge=10_000, le=10**9)]] = Field(
-        description="rays of a ray set, 10,000 of each direction"
+        description="10,000 of a direction"
     )
     width: list[Annotated[int, Field(ge=1, le=4096)]] = Field(description="neurons per layer")
-    views: list[Annotated[int, Field(ge=1, le=10_000)]] = Field(
-        description="viewpoints of an evaluation"
-    )
-    frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(
-        description="pixels; the height is two thirds of it"
-    )
+    views: list[Annotated[int, Field(ge=1, le=10_000)]] = Field(description="of an evaluation")
+    frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(description="pixels, 3:2")
 
 
 Table = by_kind("kind", TableOfOneScene, TableByScene, CostTable, default="comparison")
@@ -117,12 +105,12 @@ def rows_of(config: "Config", name: str) -> list[Row]:
         if it is no network; `bias`, a number, `held_out`, or None if it is no network.
     """
     table = config.tables[name]
-    rows = [
-        (row_of(config, scene, settings), settings.published or settings.method)
-        for scene, given in settings_by_scene(config, table).items()
-        for settings in given
+    return [
+        row_of(config, scene, row)
+        | {"published": (row.published or row.method) if table.published else None}
+        for scene, rows in settings_by_scene(config, table).items()
+        for row in rows
     ]
-    return [row | {"published": key if table.published else None} for row, key in rows]
 
 
 def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
@@ -134,10 +122,10 @@ def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
         if bias != experiment.bias:  # of a network whose own depth bias the row changes
             method = biased_key(row.method)
             label = label if row.label else f"{label}, with bias"
-    elif label is None and method == RAY_TRACED:
-        label = "Ray traced"
-    elif label is None:
-        label = f"{resolution_of(method)}² shadow map"
+    elif method == RAY_TRACED:
+        label = label or "Ray traced"
+    else:
+        label = label or f"{resolution_of(method)}² shadow map"
     return {
         "method": method,
         "label": label,

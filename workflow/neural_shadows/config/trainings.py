@@ -11,7 +11,7 @@ class Loss(Model):
     """The dead-zone loss, and a change to it [3.5, 5.1]."""
 
     false_shadow: float = Field(
-        1.0, ge=0, le=1000, description="weight of depths before the first hit (thesis: 1)"
+        1.0, ge=0, le=1000, description="weight of depths before the first hit"
     )
 
 
@@ -23,8 +23,6 @@ class Training(Model):
     batch_size: int = Field(ge=16, le=1 << 24, description="samples per step")
     learning_rate: float = Field(gt=0, le=1, description="Adam's learning rate (at its start)")
     schedule: Literal["constant", "cosine"] = Field(
-        "constant", description="learning rate over the run: constant (thesis) or cosine to zero"
+        "constant", description="of the rate: constant (thesis) or cosine to zero"
     )
-    loss: Loss = Field(
-        Loss(), description="the loss of depths; an occupancy_field predicts none in training"
-    )
+    loss: Loss = Field(Loss(), description="of depths, which an occupancy_field has none of")

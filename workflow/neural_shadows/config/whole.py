@@ -4,20 +4,17 @@
 (workflow/schemas/config.schema.json).
 """
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
 from neural_shadows.config import claims, experiments, figures, scenes, tables
 from neural_shadows.config.base import Model, Name, Seed
 from neural_shadows.config.claims import Claim
-from neural_shadows.config.compute import Compute
+from neural_shadows.config.evaluation import FrameTimes, Metrics, Rendering
 from neural_shadows.config.experiments import Experiment
 from neural_shadows.config.figures import Figure
-from neural_shadows.config.frame_times import FrameTimes
-from neural_shadows.config.metrics import Metrics
 from neural_shadows.config.networks import Network
-from neural_shadows.config.rendering import Rendering
 from neural_shadows.config.samplings import Sampling
 from neural_shadows.config.scenes import Scene
 from neural_shadows.config.tables import Table
@@ -31,15 +28,22 @@ RESERVED_SCALES = {
 }
 
 
+class Compute(Model):
+    """What the networks run on."""
+
+    device: Literal["auto", "cpu", "cuda"] = Field(
+        "auto", description="`auto`: a GPU if there is one"
+    )
+    threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")
+
+
 class Config(Model):
     """The whole configuration."""
 
     scale: Name = Field(description="name of this configuration; overlays write below it")
     seed: Seed = Field(description="seed of everything that is drawn")
     dragon: str | None = Field(
-        None,
-        min_length=1,
-        description="short for scenes.dragon.mesh: `wyrm`, `stanford`, or a mesh file",
+        None, min_length=1, description="the dragon's mesh: `wyrm`, `stanford`, or a file"
     )
     compute: Compute = Field(Compute(), description="what the networks run on")
     scenes: dict[Name, Scene] = Field(description="meshes, how they stand and are lit, by name")
@@ -50,9 +54,7 @@ class Config(Model):
     rendering: Rendering = Field(description="frames and viewpoints of all scenes")
     metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
     frame_times: FrameTimes = Field(FrameTimes(), description="how frame times are measured")
-    tables: dict[Name, Table] = Field(
-        {}, description="tables to write, by name: of the thesis's, `table_` and its number"
-    )
+    tables: dict[Name, Table] = Field({}, description="by name: `table_` and the thesis's number")
     figures: dict[Annotated[str, Field(pattern=r"^figure_[a-z0-9_]+$")], Figure] = Field(
         {}, description="figures to draw, by name: `figure_` and the thesis's number"
     )

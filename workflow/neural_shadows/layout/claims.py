@@ -33,11 +33,8 @@ def methods(claim: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
 def arguments(layout: Layout) -> dict[str, Any]:
     """What `write_claims` is told beside its files."""
     rows = [row for claim in layout.settings["claims"].values() for row in methods(claim)]
-    trainings = [
-        layout.entry("experiments", row["experiment"])["training"]
-        for row in rows
-        if row["experiment"] is not None
-    ]
+    names = tables.experiments_of(rows)
+    trainings = [layout.entry("experiments", name)["training"] for name in names]
     return {
         "claims": layout.settings["claims"],
         "run": layout.run(),

@@ -12,7 +12,7 @@ from neural_shadows.config.base import not_among
 from neural_shadows.config.networks import Network
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
-from neural_shadows.layout.parts import HELD_OUT, part_range, view_range
+from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
 
 _NETWORK = TypeAdapter(Network)
@@ -58,15 +58,12 @@ class Layout:
 
     def scenes(self, names: Iterable[str]) -> dict[str, dict[str, Any]]:
         """What a report says of some scenes."""
-        scenes = {name: self.entry("scenes", name) for name in dict.fromkeys(names)}
-        return {
-            name: {
-                "mesh_name": scene["mesh_name"],
-                "procedural": "generate" in scene["mesh"],
-                "seed": scene["seed"],
-            }
-            for name, scene in scenes.items()
-        }
+        about = {}
+        for name in names:
+            scene = self.entry("scenes", name)
+            about[name] = {key: scene[key] for key in ("mesh_name", "seed")}
+            about[name]["procedural"] = "generate" in scene["mesh"]
+        return about
 
     def mesh_source(self, scene: str) -> str:
         """The file that a scene's mesh is read from: the user's own, or one that a rule makes."""
@@ -91,9 +88,9 @@ class Layout:
 
     def shards(self, scene: str, sampling: str) -> dict[str, list[str]]:
         """All shards of a ray set."""
-        count = self.entry("samplings", sampling)["shards"]
+        parts = part_names(self.entry("samplings", sampling)["shards"])
         return {
-            stem: self.paths.ray_shards(stem, scene, sampling, count)
+            stem: [self.paths.rays(f"{stem}.{part}.npy", scene, sampling) for part in parts]
             for stem in ("origins", "bounds")
         }
 
@@ -111,11 +108,8 @@ class Layout:
 
     def export_files(self, experiment: str) -> dict[str, Any]:
         """What an export says of its network: the mesh's sphere, and the depth bias if found."""
-        scene = self.entry("experiments", experiment)["scene"]
-        return {
-            "mesh_json": self.paths.scene("mesh.json", scene),
-            "depth_bias_json": self.bias_file(experiment),
-        }
+        mesh_json = self.paths.scene("mesh.json", self.entry("experiments", experiment)["scene"])
+        return {"mesh_json": mesh_json, "depth_bias_json": self.bias_file(experiment)}
 
     def encodings(self, experiments: Iterable[str]) -> set[str]:
         """The kinds of networks of some experiments."""
@@ -144,8 +138,8 @@ class Layout:
 
     def weights(self, method: str) -> list[str]:
         """The weights of a method that is a network."""
-        file = self.paths.network("weights.safetensors", experiment_of(method))
-        return [file] * (not is_shadow_map(method))
+        names = [experiment_of(method)] * (not is_shadow_map(method))
+        return [self.paths.network("weights.safetensors", name) for name in names]
 
     def method_encodings(self, method: str) -> set[str]:
         """The kind of network of a method that is one."""

@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from neural_shadows.layout.parts import part_names
-
 
 @dataclass(frozen=True)
 class Paths:
@@ -30,10 +28,6 @@ class Paths:
         """`directions.npy`, `origins.000.npy`, `bounds.000.npy`, …, `rays.json`."""
         return f"{self.results}/rays/{scene}/{sampling}/{file}"
 
-    def ray_shards(self, stem: str, scene: str, sampling: str, shards: int) -> list[str]:
-        """All shards of a ray set: its `origins` or `bounds`."""
-        return [self.rays(f"{stem}.{part}.npy", scene, sampling) for part in part_names(shards)]
-
     def network(self, file: str, experiment: str = "{experiment}") -> str:
         """`weights.safetensors`, `loss.csv`, `training.json`, `network.onnx`, `network.json`."""
         return f"{self.results}/networks/{experiment}/{file}"
@@ -43,11 +37,7 @@ class Paths:
         return f"{self.results}/references/{scene}/{batch}.{ending}"
 
     def evaluation(
-        self,
-        ending: str,
-        scene: str = "{scene}",
-        method: str = "{method}",
-        batch: str = "{batch}",
+        self, ending: str, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
     ) -> str:
         """`csv`, the metrics of a method on a batch; `npz`, its pictures."""
         return f"{self.results}/evaluations/{scene}/{method}.{batch}.{ending}"

@@ -15,7 +15,13 @@ FILES = {
     "comparison": ("metrics", "mesh_json", "trainings", "depth_biases", "lpips_json"),
     "frame_times": ("times", "metrics", "weights", "meshes", "lpips_json"),
     "networks": (
-        *("times", "metrics", "weights", "trainings", "depth_biases", "meshes", "lpips_json"),
+        "times",
+        "metrics",
+        "weights",
+        "trainings",
+        "depth_biases",
+        "meshes",
+        "lpips_json",
     ),
     "memory": ("mesh_ply", "weights"),
     "cost": ("costs",),
@@ -100,13 +106,9 @@ def timed_encodings(layout: Layout, table: str, scene: str) -> set[str]:
 
 def metrics(layout: Layout, rows: Sequence[Row]) -> list[str]:
     """The metrics of all batches of the rows' methods, each once; a ray-traced one has none."""
+    methods = [(row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED]
     parts = batches(layout.settings["rendering"])
-    return unique(
-        layout.paths.evaluation("csv", row["scene"], row["method"], part)
-        for row in rows
-        if row["method"] != RAY_TRACED
-        for part in parts
-    )
+    return unique(layout.paths.evaluation("csv", *one, part) for one in methods for part in parts)
 
 
 def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:

@@ -47,13 +47,7 @@ def page_files(layout: Layout) -> dict[str, Any]:
     rows = pictured(layout)
     first = [(row["scene"], row["method"], "000") for row in rows]
     scenes = tables.unique(row["scene"] for row in rows)
-    return {
-        "tables": [paths.report(f"{name}.md") for name in default_tables(layout)],
-        "figures": [
-            paths.report(f"{name}.{ending}")
-            for name in default_figures(layout)
-            for ending in ("svg", "png")
-        ],
+    return _reports(layout, default_tables(layout), default_figures(layout)) | {
         "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
         "pictures": [
             *(paths.reference("npz", scene, "000") for scene in scenes),
@@ -63,6 +57,15 @@ def page_files(layout: Layout) -> dict[str, Any]:
         "meshes": [paths.scene("mesh.json", scene) for scene in settings["scenes"]],
         "trainings": tables.networks(layout, rows, "training.json"),
         "lpips_json": [paths.lpips],
+    }
+
+
+def _reports(layout: Layout, tables: Iterable[str], figures: Iterable[str]) -> dict[str, Any]:
+    """The files of some tables and figures that a page shows."""
+    report, endings = layout.paths.report, ("svg", "png")
+    return {
+        "tables": [report(f"{name}.md") for name in tables],
+        "figures": [report(f"{name}.{ending}") for name in figures for ending in endings],
     }
 
 
@@ -79,9 +82,8 @@ def pictured(layout: Layout) -> list[tables.Row]:
 
 def page_arguments(layout: Layout) -> dict[str, Any]:
     """What `write_page` is told beside its files."""
-    titles = {name: figure["title"] for name, figure in layout.settings["figures"].items()}
     return {
-        "titles": titles,
+        "titles": {name: one["title"] for name, one in layout.settings["figures"].items()},
         "beyond": beyond(layout),
         "rows": pictured(layout),
         "run": layout.run(),
@@ -92,12 +94,7 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
 
 def available(layout: Layout) -> dict[str, Any]:
     """Of `page_files` those that are there now, reports on request among them."""
-    found = page_files(layout)
-    settings, report = layout.settings, layout.paths.report
-    found["tables"] = [report(f"{name}.md") for name in settings["tables"]]
-    found["figures"] = [
-        report(f"{name}.{ending}") for name in settings["figures"] for ending in ("svg", "png")
-    ]
+    found = page_files(layout) | _reports(layout, *map(layout.settings.get, ("tables", "figures")))
     return {name: [path for path in paths if Path(path).exists()] for name, paths in found.items()}
 
 
@@ -121,11 +118,7 @@ def beyond(layout: Layout) -> list[str]:
 
 
 def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
-    """What a run that went well says at its end: a table or two, and what to open.
-
-    Args:
-        outputs: all files that it made; tables are read, and cut to the terminal's width.
-    """
+    """What a run that made `outputs` says: a table or two, cut to the terminal, and what to open."""
     reports = [path for path in outputs if path.startswith(f"{layout.paths.reports}/")]
     written = [path for path in reports if path.endswith(".md")]
     width, lines = shutil.get_terminal_size().columns, []
