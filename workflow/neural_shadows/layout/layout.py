@@ -61,8 +61,9 @@ class Layout:
         about = {}
         for name in names:
             scene = self.entry("scenes", name)
-            about[name] = {key: scene[key] for key in ("mesh_name", "seed")}
-            about[name]["procedural"] = "generate" in scene["mesh"]
+            generated = "generate" in scene["mesh"]
+            about[name] = {"mesh_name": scene["mesh_name"], "procedural": generated}
+            about[name]["seed"] = scene["seed"]
         return about
 
     def mesh_source(self, scene: str) -> str:
