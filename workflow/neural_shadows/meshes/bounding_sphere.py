@@ -62,18 +62,10 @@ def _sphere_of_few(points: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
     for size in range(1, min(len(points), 4) + 1):
         for chosen in combinations(points, size):
             subset = np.array(chosen)
-            centre = _circumcentre(subset)
+            # Equally far from each, in their affine hull; a compromise where they are dependent.
+            edges = subset[1:] - subset[0]
+            centre = subset[0] + np.linalg.lstsq(edges, (edges**2).sum(axis=1) / 2)[0]
             radius = float(np.linalg.norm(points - centre, axis=1).max())
             if radius < best[1]:
                 best = (centre, radius, subset)
     return best
-
-
-def _circumcentre(points: np.ndarray) -> np.ndarray:
-    """Point in the affine hull of one to four points that is equally far from each.
-
-    Where the points are affinely dependent it is a least-squares compromise.
-    """
-    edges = points[1:] - points[0]
-    offset, *_ = np.linalg.lstsq(edges, (edges**2).sum(axis=1) / 2)
-    return points[0] + offset

@@ -57,23 +57,17 @@ def _wire_paths(pitch: float, weave: float) -> list[np.ndarray]:
     over one and under the next.
     """
     paths = []
-    for rising in (True, False):
-        # Along a wire its own number is fixed and the other's runs.
-        numbers = range(-int(HEIGHT / pitch), int(1 / pitch) + 1)
-        if not rising:
-            numbers = range(0, int((1 + HEIGHT) / pitch) + 1)
-        for own in numbers:
-            if rising:
-                low, high = max(0, own * pitch), min(1, own * pitch + HEIGHT)
-            else:
-                low, high = max(0, own * pitch - HEIGHT), min(1, own * pitch)
+    # Along a wire its own number is fixed and the other's runs.
+    for slope, first, last in ((1, -HEIGHT, 1), (-1, 0, 1 + HEIGHT)):
+        for own in range(int(first / pitch), int(last / pitch) + 1):
+            low, high = sorted([own * pitch, own * pitch + slope * HEIGHT])
+            low, high = max(0, low), min(1, high)
             if high - low < pitch / 2:  # a corner's: shorter than one side of a diamond
                 continue
             count = 1 + int(np.ceil((high - low) / (pitch / 2) * STEPS))
             x = np.linspace(low, high, count)
-            y = x - own * pitch if rising else own * pitch - x
-            other = (x + y if rising else x - y) / pitch
-            side = np.cos(np.pi * (own + other)) * (1 if rising else -1)
+            y = slope * (x - own * pitch)
+            side = slope * np.cos(np.pi * (own + (x + slope * y) / pitch))
             paths.append(np.stack([x, y, weave * side], axis=1))
     return paths
 

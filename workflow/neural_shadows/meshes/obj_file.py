@@ -21,7 +21,7 @@ def parse_obj(data: bytes) -> tuple[np.ndarray, np.ndarray]:
     No other file that it names is opened. Relative indices count from their line.
 
     Raises:
-        ValueError: a line is not understood, or a face names no vertex.
+        ValueError: a line is not understood.
     """
     data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").replace(b"\\\n", b" ")
     coordinates, corners = array("d"), array("q")
@@ -45,20 +45,5 @@ def parse_obj(data: bytes) -> tuple[np.ndarray, np.ndarray]:
         except (ValueError, OverflowError):
             shown = line.group().strip()[:80].decode("utf-8", "replace")
             raise ValueError(f"the line '{shown}' is not understood") from None
-    vertices = np.frombuffer(coordinates, float).reshape(-1, 3)
     faces = np.frombuffer(corners, np.int64).reshape(-1, 3)
-    check_indices(faces, len(vertices))
-    return vertices, faces
-
-
-def check_indices(faces: np.ndarray, vertices: int) -> None:
-    """Refuse faces (F, 3) that name vertices which are not there.
-
-    Raises:
-        ValueError: the first such face.
-    """
-    bad = np.flatnonzero(((faces < 0) | (faces >= vertices)).any(axis=1))
-    if len(bad):
-        raise ValueError(
-            f"face {bad[0]} (counted from 0) names vertices {faces[bad[0]].tolist()} of {vertices}"
-        )
+    return np.frombuffer(coordinates, float).reshape(-1, 3), faces

@@ -12,7 +12,7 @@ import trimesh
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.formats import format_of
-from neural_shadows.meshes.obj_file import check_indices, parse_obj
+from neural_shadows.meshes.obj_file import parse_obj
 
 # What glTF data can be compressed by; trimesh reads zeros in its place.
 _COMPRESSED = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}
@@ -38,6 +38,7 @@ def read_mesh(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
     data = mesh_bytes(path)
     try:
         vertices, faces = parse_obj(data) if kind == "obj" else _parse_with_trimesh(data, kind)
+        _check_indices(faces, len(vertices))
     except Exception as error:  # whatever a damaged file makes trimesh raise
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise InputError(
@@ -86,7 +87,7 @@ def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]
         return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
     # Part by part: once joined, an index past the end of one part is a vertex of the next.
     for mesh in meshes:
-        check_indices(mesh.faces, len(mesh.vertices))
+        _check_indices(mesh.faces, len(mesh.vertices))
     # To flatten is to copy: 2 million triangles for 5 s.
     if kind == "glb" or len(meshes) > 1:
         mesh = scene.to_mesh()
@@ -110,3 +111,12 @@ def _check_glb(data: bytes) -> None:
     tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     if compressed := _COMPRESSED.intersection(tree.get("extensionsRequired", [])):
         raise ValueError(f"its data is compressed ({', '.join(compressed)}): export it without")
+
+
+def _check_indices(faces: np.ndarray, vertices: int) -> None:
+    """Refuse faces (F, 3) that name vertices which are not there."""
+    bad = np.flatnonzero(((faces < 0) | (faces >= vertices)).any(axis=1))
+    if len(bad):
+        raise ValueError(
+            f"face {bad[0]} (counted from 0) names vertices {faces[bad[0]].tolist()} of {vertices}"
+        )
