@@ -88,7 +88,6 @@ DRACO = b'{"extensionsRequired": ["KHR_draco_mesh_compression"]}'
         ("no_faces.ply", ascii_ply(TETRAHEDRON, []), "no triangles"),
         ("cut_row.ply", PLY[:-12], "7 rows where its header says 8"),
         ("cut.stl", BOX.export(file_type="stl")[:-7], "a truncated file"),
-        ("cut.glb", BOX.export(file_type="glb")[:-7], "cannot be read as GLB"),
         ("index.ply", PLY.replace("3 1 2 3", "3 1 2 4"), r"face 3 .* \[1, 2, 4\] of 4"),
         ("index.obj", OBJ + "f 1 2 4\n", r"face 1 .* \[0, 1, 3\] of 3"),
         ("zero.obj", OBJ + "f 0 1 2\n", "the line 'f 0 1 2'"),
@@ -116,6 +115,5 @@ def test_refuses_an_index_past_the_end_of_its_part_of_a_scene(tmp_path):
     parts = [trimesh.Trimesh(TETRAHEDRON[:3] + o, [[0, 1, 2]], process=False) for o in (0, 5)]
     content = trimesh.Scene(parts).export(file_type="glb")
     good, bad = (np.array([0, 1, last], "<u4").tobytes() for last in (2, 3))
-    assert content.count(good) >= 1
     with pytest.raises(InputError, match=r"\[0, 1, 3\] of 3"):
         read_mesh(save(tmp_path / "m.glb", content.replace(good, bad)))

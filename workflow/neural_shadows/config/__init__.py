@@ -1,1 +1,1 @@
-"""The configuration: a module for each section of config.yaml."""
+"""The configuration: modules named after its sections."""

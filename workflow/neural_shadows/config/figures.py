@@ -78,7 +78,7 @@ class DirectionsFigure(AnyFigure):
 class SceneFigure(AnyFigure):
     """A slice of a scene with rays, their bounds or their loss [figures 3.2, 3.5, 3.6]."""
 
-    kind: Literal["shadow_boundary", "dual_bounds", "dead_zone_loss"] = Field(description="which")
+    kind: Literal["shadow_boundary", "dual_bounds", "dead_zone_loss"] = Field(description="of what")
     scene: name_in("scenes") = Field(description="a name in `scenes`")
 
 

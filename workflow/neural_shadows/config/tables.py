@@ -60,9 +60,7 @@ class TableByScene(AnyTable):
     """A table of methods on several scenes."""
 
     rows: dict[name_in("scenes"), Rows] = Field(min_length=1, description="methods, by scene")
-    kind: Literal["frame_times", "networks"] = Field(
-        description="[4.4.1], or all figures of networks"
-    )
+    kind: Literal["frame_times", "networks"] = Field(description="speed [4.4.1], or everything")
 
 
 class CostTable(AnyTable):
@@ -77,7 +75,7 @@ class CostTable(AnyTable):
     )
     width: list[Annotated[int, Field(ge=1, le=4096)]] = Field(description="neurons per layer")
     views: list[Annotated[int, Field(ge=1, le=10_000)]] = Field(description="of an evaluation")
-    frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(description="pixels, 3:2")
+    frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(description="pixels of 3:2")
 
 
 Table = by_kind("kind", TableOfOneScene, TableByScene, CostTable, default="comparison")

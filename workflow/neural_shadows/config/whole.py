@@ -1,4 +1,4 @@
-"""The whole configuration: its sections, each explained in the file of its name.
+"""The whole configuration: its sections, explained in the files of their names.
 
 `python -m neural_shadows.config` prints the JSON schema made from it
 (workflow/schemas/config.schema.json).

@@ -9,17 +9,17 @@ from neural_shadows.layout.layout import Layout
 
 def files(layout: Layout) -> dict[str, list[str]]:
     """The files of all methods that claims compare: metrics, losses or frame times."""
-    metrics, losses, times = [], [], []
+    found = {"metrics": [], "losses": [], "times": []}
     for claim in layout.settings["claims"].values():
         rows = list(methods(claim))
         match claim["kind"]:
             case "better" | "larger_error":
-                metrics += tables.metrics(layout, rows)
+                found["metrics"] += tables.metrics(layout, rows)
             case "lower_loss":
-                losses += tables.networks(layout, rows, "loss.csv")
+                found["losses"] += tables.networks(layout, rows, "loss.csv")
             case "frame_time":
-                times += [layout.paths.frame_times(claim["table"], row["scene"]) for row in rows]
-    found = {"metrics": metrics, "losses": losses, "times": times}
+                scenes = [row["scene"] for row in rows]
+                found["times"] += [layout.paths.frame_times(claim["table"], s) for s in scenes]
     return {name: tables.unique(paths) for name, paths in found.items()}
 
 

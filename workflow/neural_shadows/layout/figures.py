@@ -43,9 +43,8 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
                 "depth_biases": tables.depth_biases(layout, settings["rows"]),
             }
         case "field_slice" | "field_3d" | "depth_sheets_3d":
-            return mesh_ply | {
-                "weights": paths.network("weights.safetensors", settings["experiment"])
-            }
+            weights = paths.network("weights.safetensors", settings["experiment"])
+            return mesh_ply | {"weights": weights}
         case "loss":
             curves = settings["curves"]
             return {"losses": [paths.network("loss.csv", curve["experiment"]) for curve in curves]}
@@ -56,11 +55,9 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
         case "view_directions":
             return {}
         case "scene_3d":
-            directions = paths.rays("directions.npy", scene, settings["sampling"])
-            return mesh | {
-                "directions_npy": directions,
-                **layout.shards(scene, settings["sampling"]),
-            }
+            names = scene, settings["sampling"]
+            directions = {"directions_npy": paths.rays("directions.npy", *names)}
+            return mesh | directions | layout.shards(*names)
         case _:  # a picture of the method
             return mesh
 
