@@ -4,17 +4,20 @@
 (workflow/schemas/config.schema.json).
 """
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field, model_validator
 
 from neural_shadows.config import claims, experiments, figures, scenes, tables
 from neural_shadows.config.base import Model, Name, Seed
 from neural_shadows.config.claims import Claim
-from neural_shadows.config.evaluation import FrameTimes, Metrics, Rendering
+from neural_shadows.config.compute import Compute
 from neural_shadows.config.experiments import Experiment
 from neural_shadows.config.figures import Figure
+from neural_shadows.config.frame_times import FrameTimes
+from neural_shadows.config.metrics import Metrics
 from neural_shadows.config.networks import Network
+from neural_shadows.config.rendering import Rendering
 from neural_shadows.config.samplings import Sampling
 from neural_shadows.config.scenes import Scene
 from neural_shadows.config.tables import Table
@@ -26,15 +29,6 @@ RESERVED_SCALES = {
     *("scenes", "rays", "networks", "references", "evaluations", "depth_biases", "frame_times"),
     *("cost", "logs", "benchmarks", "reference"),
 }
-
-
-class Compute(Model):
-    """What the networks run on."""
-
-    device: Literal["auto", "cpu", "cuda"] = Field(
-        "auto", description="`auto`: a GPU if there is one"
-    )
-    threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")
 
 
 class Config(Model):

@@ -1,0 +1,16 @@
+"""`compute`: what the networks run on."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from neural_shadows.config.base import Model
+
+
+class Compute(Model):
+    """What the networks run on."""
+
+    device: Literal["auto", "cpu", "cuda"] = Field(
+        "auto", description="`auto`: a GPU if there is one"
+    )
+    threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")
