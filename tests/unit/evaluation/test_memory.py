@@ -1,8 +1,6 @@
 import pytest
-import trimesh
-from shapes import prepared
 
-from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes, shadow_map_file_bytes
+from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.weight_file import save_network
 
@@ -21,5 +19,3 @@ def test_network_takes_the_bytes_that_the_thesis_prints(tmp_path, width, size, k
 def test_shadow_map_takes_four_bytes_a_texel():
     assert shadow_map_bytes("shadow_map_2048") == 16 * 2**20
     assert shadow_map_bytes("shadow_map_128") == 0.0625 * 2**20
-    mesh, tracer = prepared(trimesh.creation.icosphere(2))
-    assert shadow_map_file_bytes(mesh, tracer, "shadow_map_96") == 4 * 96**2

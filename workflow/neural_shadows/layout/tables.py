@@ -23,7 +23,7 @@ FILES = {
         "meshes",
         "lpips_json",
     ),
-    "memory": ("mesh_ply", "weights"),
+    "memory": ("weights",),
     "cost": ("costs",),
 }
 TOLD = {
@@ -45,7 +45,6 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "metrics": metrics(layout, rows),
         "mesh_json": reports[:1],
         "meshes": reports,
-        "mesh_ply": [paths.scene("mesh.ply", scene) for scene in scenes[:1]],
         "trainings": networks(layout, rows, "training.json"),
         "weights": networks(layout, rows, "weights.safetensors"),
         "depth_biases": depth_biases(layout, rows),

@@ -26,25 +26,20 @@ SUPPORTED, CONTRADICTED, UNDECIDED = VERDICTS = ("supported", "contradicted", "u
 HIGHER_IS_BETTER = ("psnr", "ssim")
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
 LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
+COLUMNS = ["claim", "section", "statement", "verdict", "metric", "evidence"]
 FEWEST = 10  # views, frames or points of a curve; a bootstrap of fewer is far too narrow
 
 Claim = Mapping[str, Any]
-Method = Mapping[str, Any]  # `method`, `scene`, `experiment`
 
 
 @dataclass(frozen=True)
 class Data:
-    """What claims are tested on.
+    """What claims are tested on."""
 
-    `metrics`: by scene, as `values_by_view` gives it; `losses`: by experiment, as `read_loss`
-    gives it; `times`: by table and scene, what `measure_frame_times` wrote; `seed`: of the
-    bootstrap.
-    """
-
-    metrics: Mapping[str, pd.DataFrame]
-    losses: Mapping[str, pd.DataFrame]
-    times: Mapping[tuple[str, str], Mapping[str, Any]]
-    seed: int
+    metrics: Mapping[str, pd.DataFrame]  # of `values_by_view`, by scene
+    losses: Mapping[str, pd.DataFrame]  # of `read_loss`, by experiment
+    times: Mapping[tuple[str, str], Mapping[str, Any]]  # by table and scene
+    seed: int  # of the bootstrap
 
 
 @dataclass(frozen=True)
@@ -85,9 +80,8 @@ def write_claims(
     Args:
         metrics, losses, times: per-view metrics, loss curves and frame times of the methods that
             claims name; their folders say of which scene, experiment and table.
-        claims: see `judge`; run: `scale`, `seed` (of the bootstrap).
+        claims: see `judge`.
         samples: that a network of this run was trained on, at most.
-        scenes: `mesh_name` of each scene.
 
     Raises:
         InputError: a file is missing, or a method lacks a value of a view that others have.
@@ -100,11 +94,8 @@ def write_claims(
         run["seed"],
     )
     found = judge(claims, data)
-    columns = {
-        "claim": found["statement"],
-        "verdict": [f"**{verdict}**" for verdict in found["verdict"]],
-        **{name: found[name] for name in ("section", "metric", "evidence")},
-    }
+    columns = {"claim": found["statement"], "verdict": "**" + found["verdict"] + "**"}
+    columns |= {name: found[name] for name in ("section", "metric", "evidence")}
     counts = found["verdict"].value_counts()
     meshes = ", ".join(f"{scene} {settings['mesh_name']}" for scene, settings in scenes.items())
     notes = [
@@ -129,25 +120,21 @@ def write_claims(
 
 
 def judge(claims: Mapping[str, Claim], data: Data) -> pd.DataFrame:
-    """Test claims: a row each with `claim, section, statement, verdict, metric, evidence`.
+    """Test claims: a row of `COLUMNS` each.
 
     One comparison against a claim contradicts it, all are needed to support it.
 
-    Args:
-        claims: by name: `kind`, `section`, `statement`, and what the kind needs: `pairs` of
-            methods, the claimed winner first, or `methods`; a method is a row as `config.rows`
-            gives it.
+    `claims` by name have `kind`, `section`, `statement` and what the kind needs: `pairs` of
+    methods, the claimed winner first, or `methods`; a method is a row as `config.rows` gives it.
     """
     rows = []
     for name, claim in claims.items():
         metric, comparisons = KINDS[claim["kind"]](claim, data)
         verdicts, evidence = zip(*(comparison.judged(data.seed) for comparison in comparisons))
-        verdict = SUPPORTED if set(verdicts) == {SUPPORTED} else UNDECIDED
-        if CONTRADICTED in verdicts:
-            verdict = CONTRADICTED
-        row = {"claim": name, "section": claim["section"], "statement": claim["statement"]}
-        rows.append(row | {"verdict": verdict, "metric": metric, "evidence": "; ".join(evidence)})
-    return pd.DataFrame(rows)
+        verdict = max(verdicts, key=(SUPPORTED, UNDECIDED, CONTRADICTED).index)
+        said = (name, claim["section"], claim["statement"])
+        rows.append((*said, verdict, metric, "; ".join(evidence)))
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def verdict_of(low: float, high: float, least: float, most: float) -> str:
@@ -165,20 +152,18 @@ def better(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
 
     Methods of one scene are seen from the same views, and compared view by view.
     """
-    metric, text = claim["metric"], ""
-    methods = [(method["scene"], method["method"]) for pair in claim["pairs"] for method in pair]
-    if not any((name, metric) in data.metrics[scene] for scene, name in methods):
-        metric, text = "flip", "FLIP, as LPIPS is not available: "
+    metric, note, comparisons = claim["metric"], "", []
+    first = claim["pairs"][0][0]
+    if (first["method"], metric) not in data.metrics[first["scene"]]:
+        metric, note = "flip", "FLIP, as LPIPS is not available: "
     sign = 1 if metric in HIGHER_IS_BETTER else -1
-    comparisons = []
-    for first, second in claim["pairs"]:
-        a, b = (data.metrics[row["scene"]][row["method"], metric] for row in (first, second))
-        text += f"{_mean(first, a)}, {_mean(second, b)}, advantage"
+    for pair in claim["pairs"]:
+        a, b = (data.metrics[row["scene"]][row["method"], metric] for row in pair)
         interval, values = difference_interval, [sign * a.to_numpy(), sign * b.to_numpy()]
-        if first["scene"] == second["scene"]:
+        if pair[0]["scene"] == pair[1]["scene"]:
             interval, values = mean_interval, [sign * (a - b).to_numpy()]
-        comparisons.append(Comparison(text, interval, values))
-        text = ""  # said once a claim
+        comparisons.append(Comparison(note + _means(pair, a, b), interval, values))
+        note = ""  # said once a claim
     return metric, comparisons
 
 
@@ -197,11 +182,10 @@ def larger_error(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
 def lower_loss(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     """Pairs (lower, higher) by the mean of the last tenth of the training loss."""
     comparisons = []
-    for first, second in claim["pairs"]:
-        curves = [data.losses[method["experiment"]]["loss"] for method in (first, second)]
+    for pair in claim["pairs"]:
+        curves = [data.losses[method["experiment"]]["loss"] for method in pair]
         a, b = (curve.to_numpy()[-max(1, round(LOSS_SHARE * len(curve))) :] for curve in curves)
-        text = f"{_mean(first, a)}, {_mean(second, b)}, advantage"
-        comparisons.append(Comparison(text, difference_interval, [b, a]))
+        comparisons.append(Comparison(_means(pair, a, b), difference_interval, [b, a]))
     return "loss", comparisons
 
 
@@ -220,16 +204,12 @@ def frame_time(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     return "frame time", comparisons
 
 
-KINDS = {
-    "better": better,
-    "larger_error": larger_error,
-    "lower_loss": lower_loss,
-    "frame_time": frame_time,
-}
+def _means(pair: Sequence[Mapping[str, Any]], *values: np.ndarray | pd.Series) -> str:
+    means = [f"{method['method']} {some.mean():.4g}" for method, some in zip(pair, values)]
+    return f"{', '.join(means)}, advantage"
 
 
-def _mean(method: Method, values: np.ndarray | pd.Series) -> str:
-    return f"{method['method']} {values.mean():.4g}"
+KINDS = {kind.__name__: kind for kind in (better, larger_error, lower_loss, frame_time)}
 
 
 if "snakemake" in globals():

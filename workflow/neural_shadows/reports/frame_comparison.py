@@ -1,5 +1,6 @@
 """The page's frames to compare: the first views of each scene by every method."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -26,8 +27,6 @@ def frame_comparisons(
 ) -> list[dict[str, Any]]:
     """The frames and FLIP maps of each scene that has some, as plain data for the page's script.
 
-    The maps show each method against the reference. Two methods of one label bear their keys.
-
     Args:
         pictures, metrics: the first batches, in folders of scenes.
         rows: `method`, `scene` and `label` of methods; the last of a method counts.
@@ -42,11 +41,9 @@ def frame_comparisons(
         methods = sorted(frames[0].images, key=lambda method: method != REFERENCE)
         networks = [name for name in methods[1:] if not is_shadow_map(name)]
         labels = {row["method"]: row["label"] for row in rows if row["scene"] == scene}
-        given = list(labels.values())
-        names = {REFERENCE: "Reference"} | {
-            method: f"{label} ({method})" if given.count(label) > 1 else label
-            for method, label in labels.items()
-        }
+        names = {REFERENCE: "Reference"} | labels
+        counts = Counter(labels.values())  # two methods of one label bear their keys
+        names |= {key: f"{label} ({key})" for key, label in labels.items() if counts[label] > 1}
         comparisons.append(
             {
                 "scene": scene,
@@ -65,11 +62,11 @@ def _view(frame: FirstFrame) -> dict[str, Any]:
     pictures = {}
     for method, image in frame.images.items():
         scores = frame.scores.get(method, {})
-        texts = [text.format(scores[name]) for name, text in SCORES.items() if name in scores]
+        error = flip_map(image.astype(np.float32) / 255, reference)
         pictures[method] = {
             "frame": webp_uri(Image.fromarray(image)),
-            "map": webp_uri(map_picture(flip_map(image.astype(np.float32) / 255, reference))),
-            "scores": ", ".join(texts),
+            "map": webp_uri(map_picture(error)),
+            "scores": ", ".join(SCORES[key].format(scores[key]) for key in SCORES if key in scores),
         }
     height, width = reference.shape
     return {"caption": frame.caption, "width": width, "height": height, "pictures": pictures}

@@ -38,30 +38,24 @@ def write_page(
 ) -> None:
     """Write the page of what is there, any of the lists may be empty, as one self-contained file.
 
-    Notes that several tables have are shown once, before all tables.
-
     Args:
         template: `template.html`, `style.css` and `script.js` of one folder.
-        tables: Markdown twins, in order; claims_md: that of the claims.
+        tables, claims_md: Markdown twins, in order.
         figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
         pictures, metrics: the first batch of each method and scene, and the references' pictures.
-        meshes: what `prepare_mesh` wrote; scenes: `procedural` of each scene.
-        trainings: records of trainings; lpips_json: what `find_lpips` wrote.
         beyond: names of the tables and figures that are not the thesis's.
         rows: `method`, `scene` and `label` of the methods that have pictures.
-        run: `scale`, `seed`, `width`, `height` (pixels).
         benchmarks: Snakemake's, a folder for each rule.
 
     Raises:
         InputError: a file is missing or not whole.
     """
-    described = {
-        scene: describe_mesh(mesh, scenes[scene]) for scene, mesh in read_meshes(meshes).items()
-    }
+    described = {s: describe_mesh(mesh, scenes[s]) for s, mesh in read_meshes(meshes).items()}
     claims = table_block(claims_md) if claims_md else None
     blocks = [table_block(path) for path in tables]
-    counts = Counter(note for block in [claims, *blocks] if block for note in block.notes)
     drawings = figure_blocks(figures, titles)
+    # Notes that several tables have are shown once, before all tables.
+    notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
     facts = run_facts(
         run=run,
         meshes=described,
@@ -72,11 +66,7 @@ def write_page(
     )
     folder = template[0].parent
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
+        loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
     )
     page = environment.get_template("template.html").render(
         title=f"Neural Shadow Ray Queries: {run['scale']} scale",
@@ -88,7 +78,7 @@ def write_page(
         tables=[block for block in blocks if block.name not in beyond],
         figures=[block for block in drawings if block.name not in beyond],
         beyond=[block for block in blocks + drawings if block.name in beyond],
-        shared_notes=[note for note, count in counts.items() if count > 1],
+        shared_notes=[note for note, count in notes.items() if count > 1],
     )
     write_text(html, page)
 

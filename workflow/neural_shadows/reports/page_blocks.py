@@ -2,13 +2,13 @@
 
 import base64
 import io
+import itertools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from markdown_it import MarkdownIt
-from markdown_it.token import Token
 from markupsafe import Markup
 from PIL import Image
 
@@ -19,11 +19,8 @@ LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
 
 @dataclass(frozen=True)
 class Block:
-    """A table or figure of the page.
-
-    `kind` and `name` make its anchor, `title` its line in the contents, `caption` what is shown
-    below a figure, `notes` what is shown below a table.
-    """
+    """A table or figure of the page: `kind` and `name` make its anchor, `title` its line in the
+    contents; a `caption` is shown below a figure, `notes` below a table."""
 
     kind: str
     name: str
@@ -43,7 +40,15 @@ def table_block(path: Path) -> Block:
     markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
     tokens = markdown.parse(path.read_text(encoding="utf-8"))
     title, end = tokens[1].content, [token.type for token in tokens].index("table_close") + 1
-    _mark_cells(tokens[:end])
+    pairs = list(zip(tokens[:end], tokens[1:]))
+    headings = [inside.content for token, inside in pairs if token.type == "th_open"]
+    cells = [pair for pair in pairs if pair[0].type in ("th_open", "td_open")]
+    for (cell, inside), heading in zip(cells, itertools.cycle(headings)):
+        verdict = inside.content.strip("*")
+        if heading.startswith("thesis"):
+            cell.attrSet("class", "thesis")
+        elif verdict in VERDICTS:
+            cell.attrSet("class", verdict)
     html = markdown.renderer.render(tokens[3:end], markdown.options, {})
     # An interval stands below its value, so that twelve columns fit on a screen.
     html = re.sub(r"(<td[^>]*>[^<\[]+) (\[[^<\]]+\])</td>", r"\1 <small>\2</small></td>", html)
@@ -57,41 +62,19 @@ def table_block(path: Path) -> Block:
     return Block("table", path.stem, title, Markup(f"{box}{html}</div>"), notes=notes)
 
 
-def _mark_cells(tokens: Sequence[Token]) -> None:
-    """Set the classes of table cells by what their column or they say."""
-    thesis: set[int] = set()
-    column = 0
-    for token, inside in zip(tokens, tokens[1:]):
-        if token.type == "tr_open":
-            column = 0
-        elif token.type in ("th_open", "td_open"):
-            if token.type == "th_open" and inside.content.startswith("thesis"):
-                thesis.add(column)
-            verdict = inside.content.strip("*")
-            if column in thesis:
-                token.attrSet("class", "thesis")
-            elif token.type == "td_open" and verdict in VERDICTS:
-                token.attrSet("class", verdict)
-            column += 1
-
-
 def figure_blocks(paths: Sequence[Path], titles: Mapping[str, str]) -> list[Block]:
     """Figures as images: the SVG if it is small, or else the PNG as WebP, half its size.
 
-    The title stands in the picture. The number of a figure of the thesis comes from its name:
-    `figure_4_3` is figure 4.3.
-
-    Args:
-        paths: `.png`, and `.svg` if there is one, of each figure; titles: by name.
+    Their titles, given by name, stand in the pictures. `figure_4_3` is figure 4.3 of the thesis.
     """
-    files = {path.stem: path.with_suffix(".svg") for path in paths}
     blocks = []
-    for name, svg in files.items():
+    for svg in dict.fromkeys(path.with_suffix(".svg") for path in paths):
         if svg in paths and svg.stat().st_size <= LARGEST_SVG:
             source = data_uri("svg+xml", svg.read_bytes())
         else:
             with Image.open(svg.with_suffix(".png")) as image:
                 source = webp_uri(image)
+        name = svg.stem
         title, caption = titles.get(name, name), ""
         html = Markup('<img alt="{}" src="{}">').format(title, source)
         if number := re.fullmatch(r"figure_(\d)_(\d+)", name):

@@ -13,9 +13,7 @@ REFERENCES = {
 def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = None) -> str:
     """A table's heading: what it shows, on which mesh, and whether the thesis has the same.
 
-    Args:
-        published: the thesis's number of the table, "4.3"; None for one that is not in it.
-        mesh: what `prepare_mesh` wrote; None for a table of several meshes or of none.
+    `mesh` is what `prepare_mesh` wrote; None for a table of several meshes or of none.
     """
     if mesh is not None and mesh["name"] not in title:
         title += f", mesh {mesh['name']}"
@@ -37,11 +35,7 @@ def describe_frames(run: Mapping[str, Any]) -> str:
 
 
 def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
-    """One phrase on a prepared mesh: name, what it is, size, whether it is closed.
-
-    Args:
-        mesh: what `prepare_mesh` wrote; scene: `procedural`, whether the pipeline made it.
-    """
+    """One phrase on a mesh: name, what it is, size, whether it is closed."""
     stand_in = "a procedural stand-in, " if scene["procedural"] else ""
     kind = "" if mesh["thesis_mesh"] else f" ({stand_in}not the thesis's mesh)"
     closed = "watertight" if mesh["watertight"] else "open"

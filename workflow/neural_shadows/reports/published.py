@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+OF_ANY_MESH = ("size_kib", "memory_mib")
 
-def read_published(path: str | Path) -> pd.Series:
+
+def read_published(path: Path) -> pd.Series:
     """Read the printed numbers: a Series of values by (table, row, column).
 
     `row` is the pipeline's key of the method. Values are as printed, save two shadow maps of
@@ -23,20 +25,22 @@ def add_printed(
     rows: Sequence[Mapping[str, Any]],
     columns: Sequence[str],
     number: str | None,
-    published: pd.Series | None,
+    published_csv: Path,
+    meshes: Mapping[str, Mapping[str, Any]],
 ) -> pd.DataFrame:
     """The frame with `thesis_<column>` and `<column>_minus_thesis`; NaN where none is printed.
 
+    Beside a mesh that the thesis did not measure stand its sizes alone.
+
     Args:
         frame: a row for each of `rows`, in their order.
-        rows: `published` of each, its key in the thesis's table.
         number: the thesis's number of the table, "4.3"; None for one that is not in it.
-        published: see `read_published`; None where the thesis did not measure the same.
+        meshes: `thesis_mesh` of each scene.
     """
-    known = {} if published is None else published
-    thesis = {
-        f"thesis_{column}": [known.get((number, row["published"], column), np.nan) for row in rows]
-        for column in columns
-    }
-    minus = {f"{name}_minus_thesis": frame[name] - thesis[f"thesis_{name}"] for name in columns}
-    return frame.assign(**thesis, **minus)
+    published = read_published(published_csv)
+    for column in columns:
+        known = [column in OF_ANY_MESH or meshes[row["scene"]]["thesis_mesh"] for row in rows]
+        values = [published.get((number, row["published"], column), np.nan) for row in rows]
+        frame = frame.assign(**{f"thesis_{column}": np.where(known, values, np.nan)})
+    minus = {f"{name}_minus_thesis": frame[name] - frame[f"thesis_{name}"] for name in columns}
+    return frame.assign(**minus)

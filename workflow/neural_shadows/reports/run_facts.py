@@ -24,10 +24,8 @@ def run_facts(
 ) -> dict[str, str]:
     """Names and values of the facts, in the order to show them.
 
-    Args:
-        run: `scale`, `seed`, `width`, `height` (pixels); meshes: a phrase on that of each scene.
-        records, lpips: what the trainings and `find_lpips` wrote.
-        benchmarks: Snakemake's, a folder for each rule; folder: the checkout.
+    Of `meshes` a phrase each, by scene; `records` of the trainings; `folder` is the checkout, and
+    the rest as for `write_page`.
     """
     facts = {"scale": run["scale"]}
     facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
@@ -50,27 +48,24 @@ def run_facts(
 
 def commit_of(folder: Path) -> str:
     """The git commit that a folder is checked out at, and whether files differ from it."""
-    git = ["git", "-C", str(folder)]
-    style = {"check": True, "capture_output": True, "text": True}
+    git = ["git", "-C", str(folder), "describe", "--always", "--exclude=*", "--abbrev=40"]
     try:
-        commit = subprocess.run([*git, "rev-parse", "HEAD"], **style).stdout.strip()
-        status = [*git, "status", "--porcelain", "--untracked-files=no"]
-        changed = subprocess.run(status, **style).stdout
+        return subprocess.check_output(
+            [*git, "--dirty= with uncommitted changes"], stderr=subprocess.DEVNULL, text=True
+        ).strip()
     except (OSError, subprocess.CalledProcessError):
         return "not a git checkout"
-    return f"{commit} with uncommitted changes" if changed else commit
 
 
 def _duration(folder: Path) -> str:
     """How long a rule's jobs took in all, and how many they were, from its benchmark files."""
     spent = [pd.read_csv(path, sep="\t")["s"].sum() for path in sorted(folder.glob("*.tsv"))]
+    if not spent:
+        return ""
     seconds = sum(spent)
-    if seconds < 120:
-        time = f"{seconds:.0f} s"
-    else:
-        time = f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
-    rule = folder.name.replace("_", " ")
-    return f"{rule} {time} ({_counted(len(spent), 'job')})" if spent else ""
+    time = f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+    time = f"{seconds:.0f} s" if seconds < 120 else time
+    return f"{folder.name.replace('_', ' ')} {time} ({_counted(len(spent), 'job')})"
 
 
 def _machine(machine: Mapping[str, Any]) -> str:

@@ -8,7 +8,7 @@ from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import read_biases
-from neural_shadows.reports.published import add_printed, read_published
+from neural_shadows.reports.published import add_printed
 from neural_shadows.reports.tables.quality import (
     READING,
     context_columns,
@@ -37,27 +37,15 @@ def write(
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
-    """Write a comparison as CSV and Markdown, sorted by LPIPS as in the thesis.
+    """Write a comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
 
-    Without LPIPS, FLIP sorts. CSV: the columns of `quality_table`, then `thesis_<metric>` and
+    CSV: the columns of `quality_table`, then `thesis_<metric>` and
     `<metric>_minus_thesis` of the three that the thesis prints, then the context.
-
-    Args:
-        metrics: per view, of all methods of the rows.
-        depth_biases: those that were found, a file for each experiment.
-        published: the thesis's number of the table, "4.3"; None for one that is not in it.
-        rows: as `config.rows` gives them; all of one scene.
-        run: `scale`, `seed`, `width`, `height` (pixels), `reference`.
-        scenes: `procedural` and `seed` of the rows' scene.
-
-    Raises:
-        InputError: a file is missing, or a method lacks a value.
     """
-    scene = scenes[rows[0]["scene"]]
-    mesh, lpips = read_json(mesh_json), read_json(lpips_json)
+    name = rows[0]["scene"]
+    scene, mesh, lpips = scenes[name], read_json(mesh_json), read_json(lpips_json)
     table = quality_table(read_metrics(metrics), rows, scene["seed"])
-    printed = read_published(published_csv) if mesh["thesis_mesh"] else None
-    table = add_printed(table, rows, PRINTED, published, printed)
+    table = add_printed(table, rows, PRINTED, published, published_csv, {name: mesh})
     table = table.assign(**context_columns(mesh, lpips, run, scene["seed"]))
     order = "lpips" if table["lpips"].notna().any() else "flip"
     table = table.sort_values(order, kind="stable", ignore_index=True)
@@ -78,7 +66,7 @@ def write(
         notes.append(f"*thesis*: empty, since it did not measure the mesh {mesh['name']}.")
     notes += [
         *phrases.describe_biases(rows, read_biases(rows, depth_biases)),
-        phrases.describe_scene(rows[0]["scene"], mesh, scene),
+        phrases.describe_scene(name, mesh, scene),
         *(phrases.describe_training(read_json(path)) for path in trainings),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),

@@ -17,11 +17,7 @@ SLOPE_POINTS = 3  # the largest sizes, where what a stage does at any size weigh
 
 
 def write(*, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[str, Any]) -> None:
-    """Write the table of `cost_table` as CSV and Markdown.
-
-    Args:
-        costs: what `measure_cost` wrote, a file for each size; run: `scale`.
-    """
+    """Write the table of `cost_table`; `costs`: what `measure_cost` wrote, a file for each size."""
     measured = [read_json(path) for path in costs]
     table = cost_table(measured)
     columns = {
@@ -51,23 +47,12 @@ def write(*, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[st
 def cost_table(measured: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
     """A row for each stage and size: seconds, memory in MiB, and the exponents of both.
 
-    Args:
-        measured: contents of the files that `measure_cost` wrote.
+    `measured`: contents of the files that `measure_cost` wrote.
     """
-    table = pd.DataFrame(
-        [
-            {
-                "stage": stage["stage"],
-                "over": one["over"],
-                "size": one["size"],
-                "seconds": stage["seconds"],
-                "memory_mib": stage["bytes"] / MIB,
-                "peak_mib": stage["peak_bytes"] / MIB,
-            }
-            for one in measured
-            for stage in one["stages"]
-        ]
-    ).sort_values(["over", "stage", "size"], ignore_index=True)
+    table = pd.json_normalize(measured, "stages", ["over", "size"])
+    table = table.astype({"size": int}).sort_values(["over", "stage", "size"], ignore_index=True)
+    table["memory_mib"], table["peak_mib"] = table["bytes"] / MIB, table["peak_bytes"] / MIB
+    table = table[["stage", "over", "size", "seconds", "memory_mib", "peak_mib"]]
     for _, rows in table.groupby(["over", "stage"]):
         for column in ("seconds", "memory_mib"):
             exponent = growth(rows["size"].to_numpy(), rows[column].to_numpy())

@@ -4,12 +4,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import read_meshes
-from neural_shadows.reports.published import add_printed, read_published
+from neural_shadows.reports.published import add_printed
 from neural_shadows.reports.tables.quality import quality_cells, with_ends
 from neural_shadows.reports.tables.timed_quality import timed_quality
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
@@ -39,30 +37,13 @@ def write(
     CSV: `method, scene, frame_ms, frame_ms_q1, frame_ms_q3, repeats, lpips, lpips_low, lpips_high,
     size_kib`, then `thesis_<column>` and `<column>_minus_thesis` of the three that the thesis
     prints. Its times and LPIPS stand beside methods on its own meshes alone; its sizes beside any.
-
-    Args:
-        times, meshes: what `measure_frame_times` and `prepare_mesh` wrote, a file for each scene.
-        metrics, weights: see `timed_quality`.
-        published: the thesis's number of the table, "4.6"; None for one that is not in it.
-        rows: as `config.rows` gives them.
-        run: `scale`, `seed` (of the bootstrap).
-
-    Raises:
-        InputError: a file is missing, or a method lacks a value.
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
     table = timed_quality(timed, metrics, weights, rows, run["seed"])
     table["size_kib"] = table["bytes"] / 1024
     table = table[["method", "scene", *FRAME_MS, "repeats", *with_ends("lpips"), "size_kib"]]
-    table = add_printed(table, rows, PRINTED, published, read_published(published_csv))
-    others = {
-        scene: mesh["name"]
-        for scene, mesh in read_meshes(meshes).items()
-        if not mesh["thesis_mesh"]
-    }
-    for column in ("frame_ms", "lpips"):
-        names = [f"thesis_{column}", f"{column}_minus_thesis"]
-        table.loc[table["scene"].isin(others), names] = np.nan
+    described = read_meshes(meshes)
+    table = add_printed(table, rows, PRINTED, published, published_csv, described)
     table = table.assign(scale=run["scale"])
 
     columns = {
@@ -81,8 +62,11 @@ def write(
     ]
     if published:
         notes.append("*thesis*: the number that it prints, its times from another machine.")
-        for scene, name in others.items():
-            notes.append(f"*thesis*: sizes only for {scene}; it did not measure the mesh {name}.")
+        notes += [
+            f"*thesis*: sizes only for {scene}; it did not measure the mesh {mesh['name']}."
+            for scene, mesh in described.items()
+            if not mesh["thesis_mesh"]
+        ]
     else:
         columns = {name: cells for name, cells in columns.items() if not name.startswith("thesis")}
     notes += [
@@ -92,8 +76,9 @@ def write(
         phrases.describe_lpips(read_json(lpips_json)),
         phrases.describe_run(run),
     ]
-    title = phrases.titled(title, published)
-    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
+    write_twins(
+        table, columns, csv, md, title=phrases.titled(title, published), notes=notes, text_columns=2
+    )
 
 
 if "snakemake" in globals():

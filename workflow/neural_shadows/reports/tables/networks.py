@@ -53,22 +53,9 @@ def write(
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
-    """Write the table as CSV and Markdown, in the order of `rows`, scenes kept together.
+    """Write the table in the order of `rows`, scenes kept together.
 
-    CSV: `scene`, `method`, the metrics with their intervals, `FACTS`, `views` and the context. A
-    ray-traced row has no quality: it is the reference itself.
-
-    Args:
-        times, meshes: what `measure_frame_times` and `prepare_mesh` wrote, a file for each scene.
-        metrics, weights: see `timed_quality`.
-        trainings: of the networks among the rows, each once.
-        depth_biases: those that were found, a file for each experiment.
-        rows: as `config.rows` gives them.
-        run: `scale`, `seed` (of the bootstrap), `width`, `height` (pixels), `reference`.
-        scenes: `procedural` and `seed` (of the viewpoints) of the rows' scenes.
-
-    Raises:
-        InputError: a file is missing, or a method lacks a value.
+    CSV: `scene`, `method`, the metrics with their intervals, `FACTS`, `views` and the context.
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
     records = {record["name"]: record for record in map(read_json, trainings)}
@@ -94,8 +81,7 @@ def write(
     table = table.merge(pd.DataFrame(facts), on=["scene", "method"])
     quality = [name for metric in METRICS for name in with_ends(metric)]
     first = ["scene", "method", *quality, *FACTS, "views"]
-    context = table.columns.difference([*first, "repeats"], sort=False)
-    table = table.reindex(columns=[*first, *context])
+    table = table[[*first, *table.columns.difference([*first, "repeats"], sort=False)]]
 
     columns = {
         "scene": table["scene"],

@@ -34,15 +34,11 @@ def quality_table(
 ) -> pd.DataFrame:
     """A row per method: means over all views of a scene, and bootstrap intervals.
 
-    Args:
-        metrics: as `read_metrics` gives it. No LPIPS at all means that its trunk is not
-            available; its columns are then empty.
-        rows: `method` (its key in `metrics`) and `label` (its name in the table) of each row.
-        seed: of the bootstrap.
+    Columns `method` (the label), the metrics, `<metric>_low` and `<metric>_high` (95 %), `views`.
+    Shares and FLIP are in [0, 1], PSNR in dB. Without LPIPS its columns are empty.
 
-    Returns:
-        Columns `method` (the label), the metrics, `<metric>_low` and `<metric>_high` (95 %),
-        `views`; in the order of `rows`. Shares and FLIP are in [0, 1], PSNR in dB.
+    Args:
+        metrics: as `read_metrics` gives it; seed: of the bootstrap.
 
     Raises:
         InputError: a method lacks a finite value of a view that others have.
@@ -50,13 +46,10 @@ def quality_table(
     wide = values_by_view(metrics, [row["method"] for row in rows])
     records = []
     for row in rows:
-        record = {"method": row["label"]}
-        for metric in METRICS:
-            known = (row["method"], metric) in wide
-            values = wide[row["method"], metric].to_numpy() if known else None
-            interval = mean_interval(values, seed) if known else (np.nan,) * 3
-            record |= dict(zip(with_ends(metric), interval))
-        records.append(record | {"views": len(wide)})
+        record = {"method": row["label"], "views": len(wide)}
+        for metric, values in wide[row["method"]].items():
+            record |= dict(zip(with_ends(metric), mean_interval(values.to_numpy(), seed)))
+        records.append(record)
     ends = [end for metric in METRICS for end in with_ends(metric)[1:]]
     return pd.DataFrame(records, columns=["method", *METRICS, *ends, "views"])
 
@@ -64,8 +57,7 @@ def quality_table(
 def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFrame:
     """Values with a row per view and a column per (method, metric), none of them missing.
 
-    Args:
-        metrics: as `read_metrics` gives it; without LPIPS there are no columns of it.
+    Without LPIPS there are no columns of it.
 
     Raises:
         InputError: a method lacks a finite value of a view that others have.

@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.evaluation.per_view_metrics import read_metrics
-from neural_shadows.reports.inputs import by_folder
+from neural_shadows.reports.inputs import by_folder, read_sizes
 from neural_shadows.reports.tables.quality import quality_table
 
 QUARTILES = ("frame_ms_q1", "frame_ms", "frame_ms_q3")
@@ -25,28 +24,19 @@ def timed_quality(
 ) -> pd.DataFrame:
     """A row per method, those of a scene together.
 
-    Args:
-        times: what `measure_frame_times` wrote, by scene.
-        metrics: per view, of all rows that are not ray traced: that is the reference itself.
-        weights: of the networks among the rows, each once.
-        seed: of the bootstrap.
+    Columns `scene`, `method` (the label), `QUARTILES`, `repeats`, `bytes`, and those of
+    `quality_table`; NaN where a column does not apply: a ray-traced frame is the reference itself.
 
-    Returns:
-        Columns `scene`, `method` (the label), `QUARTILES`, `repeats`, `bytes`, and those of
-        `quality_table`; NaN where a column does not apply.
+    Args:
+        times: what `measure_frame_times` wrote, by scene; seed: of the bootstrap.
     """
-    sizes = {name: network_bytes(path) for name, [path] in by_folder(weights).items()}
-    files = by_folder(metrics)
+    sizes, files = read_sizes(rows, weights), by_folder(metrics)
     parts = []
     for scene, timed in times.items():
         here = [row for row in rows if row["scene"] == scene]
         known = []
         for row in here:
-            ms, size = timed["methods"][row["method"]]["ms"], np.nan
-            if row["experiment"]:
-                size = sizes[row["experiment"]]
-            elif row["method"] != RAY_TRACED:
-                size = shadow_map_bytes(row["method"])
+            ms, size = timed["methods"][row["method"]]["ms"], sizes.get(row["method"], np.nan)
             quartiles = dict(zip(QUARTILES, np.quantile(ms, (0.25, 0.5, 0.75))))
             names = {"scene": scene, "method": row["label"]}
             known.append({**names, **quartiles, "repeats": len(ms), "bytes": size})
