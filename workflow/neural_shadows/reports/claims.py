@@ -10,11 +10,7 @@ import pandas as pd
 
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.metrics.intervals import (
-    difference_interval,
-    mean_interval,
-    median_ratio_interval,
-)
+from neural_shadows.metrics import intervals
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import by_folder
 from neural_shadows.reports.tables.quality import values_by_view
@@ -80,7 +76,6 @@ def write_claims(
     Args:
         metrics, losses, times: per-view metrics, loss curves and frame times of the methods that
             claims name; their folders say of which scene, experiment and table.
-        claims: see `judge`.
         samples: that a network of this run was trained on, at most.
 
     Raises:
@@ -123,7 +118,6 @@ def judge(claims: Mapping[str, Claim], data: Data) -> pd.DataFrame:
     """Test claims: a row of `COLUMNS` each.
 
     One comparison against a claim contradicts it, all are needed to support it.
-
     `claims` by name have `kind`, `section`, `statement` and what the kind needs: `pairs` of
     methods, the claimed winner first, or `methods`; a method is a row as `config.rows` gives it.
     """
@@ -159,9 +153,9 @@ def better(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     sign = 1 if metric in HIGHER_IS_BETTER else -1
     for pair in claim["pairs"]:
         a, b = (data.metrics[row["scene"]][row["method"], metric] for row in pair)
-        interval, values = difference_interval, [sign * a.to_numpy(), sign * b.to_numpy()]
+        interval, values = intervals.difference_interval, [sign * a.to_numpy(), sign * b.to_numpy()]
         if pair[0]["scene"] == pair[1]["scene"]:
-            interval, values = mean_interval, [sign * (a - b).to_numpy()]
+            interval, values = intervals.mean_interval, [sign * (a - b).to_numpy()]
         comparisons.append(Comparison(note + _means(pair, a, b), interval, values))
         note = ""  # said once a claim
     return metric, comparisons
@@ -175,7 +169,7 @@ def larger_error(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
         values = data.metrics[method["scene"]][method["method"]]
         a, b = values[larger], values[smaller]
         text = f"{method['method']}: {larger} {a.mean():.4g}, {smaller} {b.mean():.4g}, excess"
-        comparisons.append(Comparison(text, mean_interval, [(a - b).to_numpy()]))
+        comparisons.append(Comparison(text, intervals.mean_interval, [(a - b).to_numpy()]))
     return f"{larger} − {smaller}", comparisons
 
 
@@ -185,7 +179,7 @@ def lower_loss(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
     for pair in claim["pairs"]:
         curves = [data.losses[method["experiment"]]["loss"] for method in pair]
         a, b = (curve.to_numpy()[-max(1, round(LOSS_SHARE * len(curve))) :] for curve in curves)
-        comparisons.append(Comparison(_means(pair, a, b), difference_interval, [b, a]))
+        comparisons.append(Comparison(_means(pair, a, b), intervals.difference_interval, [b, a]))
     return "loss", comparisons
 
 
@@ -200,7 +194,8 @@ def frame_time(claim: Claim, data: Data) -> tuple[str, list[Comparison]]:
         series = [np.array(methods[method["method"]]["ms"]) for method in pair]
         medians = [f"{m['method']} {np.median(ms):.4g} ms" for m, ms in zip(pair, series)]
         text = f"{', '.join(medians)}, ratio ({limits})"
-        comparisons.append(Comparison(text, median_ratio_interval, series, bounds, "#.3g"))
+        interval = intervals.median_ratio_interval
+        comparisons.append(Comparison(text, interval, series, bounds, "#.3g"))
     return "frame time", comparisons
 
 

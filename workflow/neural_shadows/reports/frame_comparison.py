@@ -29,8 +29,7 @@ def frame_comparisons(
 
     Args:
         pictures, metrics: the first batches, in folders of scenes.
-        rows: `method`, `scene` and `label` of methods; the last of a method counts.
-        meshes: a phrase on the mesh of each scene.
+        rows: the last of a method counts; meshes: a phrase on the mesh of each scene.
     """
     scores = by_folder(metrics)
     comparisons = []

@@ -8,8 +8,6 @@ from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.files.whole_files import read_json
 
-Row = Mapping[str, Any]  # `method`, `experiment`, `bias` (a number or `held_out`)
-
 
 def by_folder(paths: Iterable[Path]) -> dict[str, list[Path]]:
     """Paths by the name of their folder: a scene, an experiment or a table."""
@@ -24,9 +22,9 @@ def read_meshes(paths: Iterable[Path]) -> dict[str, dict[str, Any]]:
     return {path.parent.name: read_json(path) for path in paths}
 
 
-def read_biases(rows: Sequence[Row], depth_biases: Iterable[Path]) -> dict[str, float]:
+def read_biases(rows: Sequence[Mapping[str, Any]], paths: Iterable[Path]) -> dict[str, float]:
     """The depth bias of each network among the rows, by method."""
-    found = {path.stem: read_json(path)["depth_bias"] for path in depth_biases}
+    found = {path.stem: read_json(path)["depth_bias"] for path in paths}
     return {
         row["method"]: found[row["experiment"]] if row["bias"] == "held_out" else row["bias"]
         for row in rows
@@ -34,7 +32,7 @@ def read_biases(rows: Sequence[Row], depth_biases: Iterable[Path]) -> dict[str, 
     }
 
 
-def read_sizes(rows: Sequence[Row], weights: Iterable[Path]) -> dict[str, int]:
+def read_sizes(rows: Sequence[Mapping[str, Any]], weights: Iterable[Path]) -> dict[str, int]:
     """Bytes of each network and shadow map among the rows, by method."""
     stored = {path.parent.name: network_bytes(path) for path in weights}
     return {

@@ -8,7 +8,7 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from neural_shadows.files.whole_files import read_json, write_text
+from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.frame_comparison import frame_comparisons
 from neural_shadows.reports.inputs import read_meshes
 from neural_shadows.reports.page_blocks import figure_blocks, table_block
@@ -40,7 +40,6 @@ def write_page(
 
     Args:
         template: `template.html`, `style.css` and `script.js` of one folder.
-        tables, claims_md: Markdown twins, in order.
         figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
         pictures, metrics: the first batch of each method and scene, and the references' pictures.
         beyond: names of the tables and figures that are not the thesis's.
@@ -56,14 +55,6 @@ def write_page(
     drawings = figure_blocks(figures, titles)
     # Notes that several tables have are shown once, before all tables.
     notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
-    facts = run_facts(
-        run=run,
-        meshes=described,
-        records=[read_json(path) for path in trainings],
-        lpips=read_json(lpips_json) if lpips_json else None,
-        benchmarks=benchmarks,
-        folder=Path.cwd(),
-    )
     folder = template[0].parent
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
@@ -72,7 +63,7 @@ def write_page(
         title=f"Neural Shadow Ray Queries: {run['scale']} scale",
         style=Markup((folder / "style.css").read_text(encoding="utf-8")),
         script=Markup((folder / "script.js").read_text(encoding="utf-8")),
-        facts=facts,
+        facts=run_facts(run, described, trainings, lpips_json, benchmarks),
         claims=claims,
         comparisons=frame_comparisons(pictures, metrics, rows, described),
         tables=[block for block in blocks if block.name not in beyond],

@@ -19,8 +19,10 @@ LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
 
 @dataclass(frozen=True)
 class Block:
-    """A table or figure of the page: `kind` and `name` make its anchor, `title` its line in the
-    contents; a `caption` is shown below a figure, `notes` below a table."""
+    """A table or figure of the page.
+
+    `title` is its line in the contents; a `caption` is shown below a figure, `notes` below a table.
+    """
 
     kind: str
     name: str
@@ -40,15 +42,14 @@ def table_block(path: Path) -> Block:
     markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
     tokens = markdown.parse(path.read_text(encoding="utf-8"))
     title, end = tokens[1].content, [token.type for token in tokens].index("table_close") + 1
-    pairs = list(zip(tokens[:end], tokens[1:]))
-    headings = [inside.content for token, inside in pairs if token.type == "th_open"]
-    cells = [pair for pair in pairs if pair[0].type in ("th_open", "td_open")]
-    for (cell, inside), heading in zip(cells, itertools.cycle(headings)):
-        verdict = inside.content.strip("*")
+    pairs = zip(tokens[:end], tokens[1:])
+    cells = [(cell, text.content) for cell, text in pairs if cell.type in ("th_open", "td_open")]
+    headings = [text for cell, text in cells if cell.type == "th_open"]
+    for (cell, text), heading in zip(cells, itertools.cycle(headings)):
         if heading.startswith("thesis"):
             cell.attrSet("class", "thesis")
-        elif verdict in VERDICTS:
-            cell.attrSet("class", verdict)
+        elif text.strip("*") in VERDICTS:
+            cell.attrSet("class", text.strip("*"))
     html = markdown.renderer.render(tokens[3:end], markdown.options, {})
     # An interval stands below its value, so that twelve columns fit on a screen.
     html = re.sub(r"(<td[^>]*>[^<\[]+) (\[[^<\]]+\])</td>", r"\1 <small>\2</small></td>", html)

@@ -4,11 +4,6 @@ import datetime
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-REFERENCES = {
-    "exact": "an exact shadow ray per pixel",
-    "shadow_map": "a 32768² shadow map, as in the thesis",
-}
-
 
 def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = None) -> str:
     """A table's heading: what it shows, on which mesh, and whether the thesis has the same.
@@ -30,7 +25,8 @@ def describe_run(run: Mapping[str, Any]) -> str:
 
 def describe_frames(run: Mapping[str, Any]) -> str:
     """One sentence on the frames whose quality is measured."""
-    reference = REFERENCES[run["reference"]]
+    shadow_map = "a 32768² shadow map, as in the thesis"
+    reference = "an exact shadow ray per pixel" if run["reference"] == "exact" else shadow_map
     return f"Frames of {run['width']} × {run['height']}; reference: {reference}."
 
 

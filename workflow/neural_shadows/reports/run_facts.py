@@ -10,23 +10,21 @@ from typing import Any
 
 import pandas as pd
 
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.inputs import by_folder
+
 PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
 
 
 def run_facts(
-    *,
     run: Mapping[str, Any],
     meshes: Mapping[str, str],
-    records: Sequence[Mapping[str, Any]],
-    lpips: Mapping[str, Any] | None,
+    trainings: Sequence[Path],
+    lpips_json: Path | None,
     benchmarks: Path,
-    folder: Path,
 ) -> dict[str, str]:
-    """Names and values of the facts, in the order to show them.
-
-    Of `meshes` a phrase each, by scene; `records` of the trainings; `folder` is the checkout, and
-    the rest as for `write_page`.
-    """
+    """Names and values of the facts, in the order to show them; `meshes`: a phrase on each."""
+    records = [read_json(path) for path in trainings]
     facts = {"scale": run["scale"]}
     facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
     facts["frames"] = f"{run['width']} × {run['height']}"
@@ -35,14 +33,15 @@ def run_facts(
         counts = " or ".join(f"{count:,}" for count in samples)
         facts["training"] = f"{_counted(len(records), 'network')}, {counts} samples each"
         facts["hardware"] = "; ".join(dict.fromkeys(_machine(one["machine"]) for one in records))
-    if lpips:
+    if lpips_json:
+        lpips = read_json(lpips_json)
         facts["LPIPS"] = f"network {lpips['net']}" if lpips["available"] else "not available"
     facts["seed"] = str(run["seed"])
     packages = ", ".join(f"{package} {version(package)}" for package in PACKAGES)
     facts["versions"] = f"Python {python_version()}, {packages}"
-    facts["commit"] = commit_of(folder)
-    if spent := "; ".join(filter(None, map(_duration, sorted(benchmarks.glob("*"))))):
-        facts["durations"] = spent
+    facts["commit"] = commit_of(Path.cwd())
+    if spent := by_folder(sorted(benchmarks.glob("*/*.tsv"))):
+        facts["durations"] = "; ".join(_duration(*rule) for rule in spent.items())
     return facts | {"made on": datetime.date.today().isoformat()}
 
 
@@ -57,15 +56,12 @@ def commit_of(folder: Path) -> str:
         return "not a git checkout"
 
 
-def _duration(folder: Path) -> str:
+def _duration(rule: str, jobs: Sequence[Path]) -> str:
     """How long a rule's jobs took in all, and how many they were, from its benchmark files."""
-    spent = [pd.read_csv(path, sep="\t")["s"].sum() for path in sorted(folder.glob("*.tsv"))]
-    if not spent:
-        return ""
-    seconds = sum(spent)
+    seconds = sum(pd.read_csv(path, sep="\t")["s"].sum() for path in jobs)
     time = f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
     time = f"{seconds:.0f} s" if seconds < 120 else time
-    return f"{folder.name.replace('_', ' ')} {time} ({_counted(len(spent), 'job')})"
+    return f"{rule.replace('_', ' ')} {time} ({_counted(len(jobs), 'job')})"
 
 
 def _machine(machine: Mapping[str, Any]) -> str:

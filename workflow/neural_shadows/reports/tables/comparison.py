@@ -9,12 +9,7 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import read_biases
 from neural_shadows.reports.published import add_printed
-from neural_shadows.reports.tables.quality import (
-    READING,
-    context_columns,
-    quality_cells,
-    quality_table,
-)
+from neural_shadows.reports.tables import quality
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -39,22 +34,21 @@ def write(
 ) -> None:
     """Write a comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
 
-    CSV: the columns of `quality_table`, then `thesis_<metric>` and
-    `<metric>_minus_thesis` of the three that the thesis prints, then the context.
+    CSV: the columns of `quality_table`, those of `add_printed`, and the context.
     """
     name = rows[0]["scene"]
     scene, mesh, lpips = scenes[name], read_json(mesh_json), read_json(lpips_json)
-    table = quality_table(read_metrics(metrics), rows, scene["seed"])
+    table = quality.quality_table(read_metrics(metrics), rows, scene["seed"])
     table = add_printed(table, rows, PRINTED, published, published_csv, {name: mesh})
-    table = table.assign(**context_columns(mesh, lpips, run, scene["seed"]))
+    table = table.assign(**quality.context_columns(mesh, lpips, run, scene["seed"]))
     order = "lpips" if table["lpips"].notna().any() else "flip"
     table = table.sort_values(order, kind="stable", ignore_index=True)
 
     columns = {"method": table["method"]}
-    for metric, (heading, _, decimals) in READING.items():
+    for metric, (heading, _, decimals) in quality.READING.items():
         if table[metric].isna().all():  # LPIPS without its trunk
             continue
-        columns[heading] = quality_cells(table, metric)
+        columns[heading] = quality.quality_cells(table, metric)
         if published and metric in PRINTED:
             cells = number_cells(table[f"thesis_{metric}"], f"{{:.{decimals}f}}")
             columns[f"thesis {metric.upper()}"] = cells

@@ -45,10 +45,7 @@ def write(*, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[st
 
 
 def cost_table(measured: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
-    """A row for each stage and size: seconds, memory in MiB, and the exponents of both.
-
-    `measured`: contents of the files that `measure_cost` wrote.
-    """
+    """A row for each stage and size: seconds, memory in MiB, and the exponents of both."""
     table = pd.json_normalize(measured, "stages", ["over", "size"])
     table = table.astype({"size": int}).sort_values(["over", "stage", "size"], ignore_index=True)
     table["memory_mib"], table["peak_mib"] = table["bytes"] / MIB, table["peak_bytes"] / MIB

@@ -8,8 +8,7 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import read_meshes
 from neural_shadows.reports.published import add_printed
-from neural_shadows.reports.tables.quality import quality_cells, with_ends
-from neural_shadows.reports.tables.timed_quality import timed_quality
+from neural_shadows.reports.tables.quality import quality_cells, timed_quality, with_ends
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -32,11 +31,10 @@ def write(
     rows: Sequence[Mapping[str, Any]],
     run: Mapping[str, Any],
 ) -> None:
-    """Write a table of frame times as CSV and Markdown, in the order of `rows`.
+    """Write a table of frame times, in the order of `rows`.
 
     CSV: `method, scene, frame_ms, frame_ms_q1, frame_ms_q3, repeats, lpips, lpips_low, lpips_high,
-    size_kib`, then `thesis_<column>` and `<column>_minus_thesis` of the three that the thesis
-    prints. Its times and LPIPS stand beside methods on its own meshes alone; its sizes beside any.
+    size_kib`, then the columns of `add_printed` of the three that the thesis prints.
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
     table = timed_quality(timed, metrics, weights, rows, run["seed"])

@@ -11,30 +11,13 @@ from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import read_biases, read_meshes
-from neural_shadows.reports.tables.quality import (
-    METRICS,
-    READING,
-    context_columns,
-    quality_cells,
-    with_ends,
-)
-from neural_shadows.reports.tables.timed_quality import timed_quality
+from neural_shadows.reports.tables import quality
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 # What a method is, beside its quality; empty where it does not apply.
-FACTS = (
-    "encoding",
-    "bytes",
-    "parameters",
-    "training_seconds",
-    "samples",
-    "depth_bias",
-    "rays_per_second",
-    "frame_ms",
-    "frame_ms_q1",
-    "frame_ms_q3",
-)
+FACTS = ("encoding", "bytes", "parameters", "training_seconds", "samples", "depth_bias")
+SPEEDS = ("rays_per_second", "frame_ms", "frame_ms_q1", "frame_ms_q3")
 
 
 def write(
@@ -55,7 +38,8 @@ def write(
 ) -> None:
     """Write the table in the order of `rows`, scenes kept together.
 
-    CSV: `scene`, `method`, the metrics with their intervals, `FACTS`, `views` and the context.
+    CSV: `scene`, `method`, the metrics with their intervals, `FACTS`, `SPEEDS`, `views` and
+    the context.
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
     records = {record["name"]: record for record in map(read_json, trainings)}
@@ -66,7 +50,7 @@ def write(
         scene, method = row["scene"], row["method"]
         facts.append({"scene": scene, "method": row["label"]})
         if method != RAY_TRACED:
-            facts[-1] |= context_columns(reports[scene], lpips, run, scenes[scene]["seed"])
+            facts[-1] |= quality.context_columns(reports[scene], lpips, run, scenes[scene]["seed"])
         if row["experiment"]:
             record = records[row["experiment"]]
             facts[-1] |= {
@@ -77,16 +61,16 @@ def write(
                 "depth_bias": biases[method],
                 "rays_per_second": np.median(timed[scene]["rays_per_second"][method]),
             }
-    table = timed_quality(timed, metrics, weights, rows, run["seed"])
+    table = quality.timed_quality(timed, metrics, weights, rows, run["seed"])
     table = table.merge(pd.DataFrame(facts), on=["scene", "method"])
-    quality = [name for metric in METRICS for name in with_ends(metric)]
-    first = ["scene", "method", *quality, *FACTS, "views"]
+    scores = [name for metric in quality.METRICS for name in quality.with_ends(metric)]
+    first = ["scene", "method", *scores, *FACTS, *SPEEDS, "views"]
     table = table[[*first, *table.columns.difference([*first, "repeats"], sort=False)]]
 
     columns = {
         "scene": table["scene"],
         "method": table["method"],
-        **{READING[name][0]: quality_cells(table, name) for name in METRICS[:4]},
+        **{quality.READING[m][0]: quality.quality_cells(table, m) for m in quality.METRICS[:4]},
         "false shadow % ↓": number_cells(table["false_shadow"], "{:.3f}", 100),
         "light leak % ↓": number_cells(table["light_leak"], "{:.3f}", 100),
         "size KiB ↓": number_cells(table["bytes"], "{:,.0f}", 1 / 1024),

@@ -1,16 +1,21 @@
-"""Image quality of methods: means over views with their bootstrap intervals."""
+"""Quality of methods, as means over views with bootstrap intervals, and their time and size."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.metrics.intervals import mean_interval
+from neural_shadows.reports.inputs import by_folder, read_sizes
 from neural_shadows.reports.tables.writing import interval_cells
 
 METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
+QUARTILES = ("frame_ms_q1", "frame_ms", "frame_ms_q3")
 
 # Markdown: heading, factor, decimals. The thesis prints LPIPS and SSIM with four, PSNR with two.
 READING = {
@@ -35,10 +40,8 @@ def quality_table(
     """A row per method: means over all views of a scene, and bootstrap intervals.
 
     Columns `method` (the label), the metrics, `<metric>_low` and `<metric>_high` (95 %), `views`.
-    Shares and FLIP are in [0, 1], PSNR in dB. Without LPIPS its columns are empty.
-
-    Args:
-        metrics: as `read_metrics` gives it; seed: of the bootstrap.
+    Shares and FLIP are in [0, 1], PSNR in dB. Without LPIPS its columns are empty. `metrics` is as
+    `read_metrics` gives it, `seed` of the bootstrap.
 
     Raises:
         InputError: a method lacks a finite value of a view that others have.
@@ -77,18 +80,41 @@ def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFram
     return wide
 
 
+def timed_quality(
+    times: Mapping[str, Mapping[str, Any]],
+    metrics: Sequence[Path],
+    weights: Sequence[Path],
+    rows: Sequence[Mapping[str, Any]],
+    seed: int,
+) -> pd.DataFrame:
+    """A row per method, those of a scene together; `times` by scene.
+
+    Columns `scene`, `method` (the label), `QUARTILES`, `repeats`, `bytes`, and those of
+    `quality_table`; NaN where a column does not apply: a ray-traced frame is the reference itself.
+    """
+    sizes, files = read_sizes(rows, weights), by_folder(metrics)
+    parts = []
+    for scene, timed in times.items():
+        here = [row for row in rows if row["scene"] == scene]
+        known = []
+        for row in here:
+            ms, size = timed["methods"][row["method"]]["ms"], sizes.get(row["method"], np.nan)
+            quartiles = dict(zip(QUARTILES, np.quantile(ms, (0.25, 0.5, 0.75))))
+            names = {"scene": scene, "method": row["label"]}
+            known.append({**names, **quartiles, "repeats": len(ms), "bytes": size})
+        measured = [row for row in here if row["method"] != RAY_TRACED]
+        quality = quality_table(read_metrics(files[scene]), measured, seed)
+        parts.append(pd.DataFrame(known).merge(quality, on="method", how="left"))
+    return pd.concat(parts, ignore_index=True)
+
+
 def context_columns(
     mesh: Mapping[str, Any], lpips: Mapping[str, Any], run: Mapping[str, Any], seed: int
 ) -> dict[str, Any]:
     """What every row of a table of quality says of where it comes from; seed: of the views."""
-    return {
-        "mesh": mesh["name"],
-        "scale": run["scale"],
-        "width": run["width"],
-        "height": run["height"],
-        "lpips_net": lpips["net"] if lpips["available"] else None,
-        "seed": seed,
-    }
+    size = {name: run[name] for name in ("scale", "width", "height")}
+    network = lpips["net"] if lpips["available"] else None
+    return {"mesh": mesh["name"], **size, "lpips_net": network, "seed": seed}
 
 
 def quality_cells(table: pd.DataFrame, metric: str) -> list[str]:

@@ -62,7 +62,6 @@ def interval_cells(
     table: pd.DataFrame, columns: Sequence[str], decimals: int, factor: float = 1
 ) -> list[str]:
     """Cells of a value and the ends of its interval, three columns; empty for NaN."""
-    ends = f"{{:.{decimals}f}}"
     triples = table[list(columns)].to_numpy(float) * factor
-    form = f"{ends} [{ends}, {ends}]"
+    form = "{:.#f} [{:.#f}, {:.#f}]".replace("#", str(decimals))
     return ["" if np.isnan(triple[0]) else form.format(*triple) for triple in triples]
