@@ -1,4 +1,4 @@
-"""Rows, metrics and the context of a run, for the tests of reports."""
+"""Rows, the context of a run and small results of its stages, for the tests of reports."""
 
 import inspect
 import json
@@ -6,10 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from sample_records import LPIPS, MESH, TRAINING
-
-from neural_shadows.evaluation.method_names import RAY_TRACED, experiment_of, is_shadow_map
-from neural_shadows.reports.tables.quality import METRICS
 
 PUBLISHED = Path(__file__).parents[1] / "config" / "published.csv"
 RUN = {"scale": "test", "seed": 1, "width": 60, "height": 40, "reference": "exact"}
@@ -17,17 +13,26 @@ SCENES = {
     "dragon": {"mesh_name": "wyrm", "procedural": True, "seed": 11},
     "fence": {"mesh_name": "fence", "procedural": True, "seed": 12},
 }
+LPIPS = {"net": "alex", "available": True}
+MACHINE = {"cpu": "a CPU", "cores": 2, "gpu": None}
+ON_CPU = {"device": "cpu", "precision": "float32"}
+SETTINGS = {"steps": 10, "batch_size": 64, "learning_rate": 0.1, "schedule": "constant"}
+NETWORK = {"name": "dragon", "network": {"encoding": "frequency"}, "parameters": 100}
+SPENT = {"samples": 640, "seconds": 1.5, "machine": MACHINE, "threads": 2}
+TRAINING = {"training": SETTINGS | ON_CPU} | NETWORK | SPENT
+FRAMES = {"width": 60, "height": 40, "views": 4, "repeats": 2, "warm_up": 1, "sphere_rays": 123.0}
+TIMES = {"scene": "dragon", "machine": MACHINE} | ON_CPU | FRAMES
 
 
 def row(method, label=None, *, scene="dragon", published=None, bias=0.0):
     """A row as `config.rows` gives it."""
-    network = method != RAY_TRACED and not is_shadow_map(method)
+    network = not method.startswith(("shadow_map_", "ray_traced"))
     return {
         "method": method,
         "label": label or method,
         "published": published or method,
         "scene": scene,
-        "experiment": experiment_of(method) if network else None,
+        "experiment": method.removesuffix("_biased") if network else None,
         "bias": bias if network else None,
     }
 
@@ -46,19 +51,12 @@ def metrics_of(means, views=8):
     )
 
 
-def all_metrics(mean):
-    """The same mean of each metric."""
-    return dict.fromkeys(METRICS, mean)
-
-
-def write_metrics(folder, scene, metrics):
-    """Files of per-view metrics as `evaluate` names them, one a method."""
-    paths = []
-    for method, values in metrics.groupby("method"):
-        paths.append(folder / "evaluations" / scene / f"{method}.000.csv")
-        paths[-1].parent.mkdir(parents=True, exist_ok=True)
-        values.to_csv(paths[-1], index=False)
-    return paths
+def write_metrics(folder, means, scene="dragon", views=8):
+    """A file of `metrics_of` in the folder of a scene."""
+    path = folder / scene / "metrics.csv"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    metrics_of(means, views).to_csv(path, index=False)
+    return path
 
 
 def write_record(path, record):
@@ -69,30 +67,21 @@ def write_record(path, record):
 
 
 def write_mesh(folder, scene="dragon", **changes):
-    """What `prepare_mesh` writes."""
-    record = {**MESH, "name": SCENES[scene]["mesh_name"], "thesis_mesh": False, **changes}
-    return write_record(folder / "scenes" / scene / "mesh.json", record)
-
-
-def write_lpips(folder, available=True):
-    """What `find_lpips` writes."""
-    return write_record(folder / "lpips.json", {**LPIPS, "available": available})
+    """What reports read of what `prepare_mesh` writes."""
+    record = {"name": SCENES[scene]["mesh_name"], "faces": 4, "watertight": True}
+    return write_record(folder / scene / "mesh.json", {**record, "thesis_mesh": False, **changes})
 
 
 def written_table(write, folder, **given):
     """The table (CSV as a frame, and the Markdown's path) that a kind's `write` makes.
 
-    What is not given are the files and settings of one scene with one network, `dragon`.
+    What is not given is of a scene with one network, `dragon`, which has the thesis's bytes.
     """
-    files = {
-        "mesh_json": lambda: write_mesh(folder),
-        "meshes": lambda: [write_mesh(folder)],
-        "trainings": lambda: [write_record(folder / "networks/dragon/training.json", TRAINING)],
-        "lpips_json": lambda: write_lpips(folder),
-    }
+    weights = folder / "networks" / "dragon" / "weights.safetensors"
     settings = {
-        "depth_biases": [],
-        "weights": [folder / "networks/dragon/weights.safetensors"],
+        "trainings": [write_record(weights.with_name("training.json"), TRAINING)],
+        "lpips_json": write_record(folder / "lpips.json", LPIPS),
+        "weights": [weights],
         "published_csv": PUBLISHED,
         "csv": folder / "table.csv",
         "md": folder / "table.md",
@@ -101,8 +90,8 @@ def written_table(write, folder, **given):
         "run": RUN,
         "scenes": SCENES,
     } | given
-    takes = inspect.signature(write).parameters
-    write(**{name: settings[name] if name in settings else files[name]() for name in takes})
+    weights.write_bytes(bytes(8 + 2_227_200))  # the length of an empty header, and the weights
+    write(**{name: settings[name] for name in inspect.signature(write).parameters})
     return pd.read_csv(folder / "table.csv"), folder / "table.md"
 
 

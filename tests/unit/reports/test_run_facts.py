@@ -1,15 +1,15 @@
 import subprocess
 from platform import python_version
 
-from report_samples import RUN
-from sample_records import LPIPS, MACHINE, TRAINING
+from report_samples import LPIPS, MACHINE, RUN, TRAINING, write_record
 
 from neural_shadows.reports.run_facts import commit_of, run_facts
 
 
 def git(folder, *arguments):
     identity = ["-c", "user.name=Test", "-c", "user.email=test@example.org"]
-    subprocess.run(["git", *identity, "-C", folder, *arguments], check=True, capture_output=True)
+    command = ["git", *identity, "-C", folder, *arguments]
+    return subprocess.check_output(command, text=True).strip()
 
 
 def test_commit_is_named_and_changes_are_reported(tmp_path):
@@ -18,7 +18,8 @@ def test_commit_is_named_and_changes_are_reported(tmp_path):
     (tmp_path / "file").write_text("one")
     git(tmp_path, "add", "file")
     git(tmp_path, "commit", "--quiet", "-m", "first")
-    head = next((tmp_path / ".git/refs/heads").iterdir()).read_text().strip()
+    git(tmp_path, "tag", "-a", "v1", "-m", "a release")
+    head = git(tmp_path, "rev-parse", "HEAD")
     assert commit_of(tmp_path) == head
     (tmp_path / "file").write_text("two")
     assert commit_of(tmp_path) == f"{head} with uncommitted changes"
@@ -30,23 +31,15 @@ def test_facts(tmp_path):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(f"s\th:m:s\tmax_rss\n{seconds}\t0:01:00\t90.5\n")
     other = {**TRAINING, "samples": 20_480_000, "machine": {**MACHINE, "gpu": "A GPU"}}
-    facts = run_facts(
-        run=RUN,
-        meshes={"dragon": "wyrm, 10 triangles"},
-        records=[TRAINING, TRAINING, other],
-        lpips={**LPIPS, "available": True},
-        benchmarks=tmp_path / "benchmarks",
-        folder=tmp_path,
+    first, second = (
+        write_record(tmp_path / f"{record['samples']}.json", record) for record in (TRAINING, other)
     )
+    lpips_json = write_record(tmp_path / "lpips.json", LPIPS)
+    meshes = {"dragon": "wyrm, 10 triangles"}
+    facts = run_facts(RUN, meshes, [first, first, second], lpips_json, tmp_path / "benchmarks")
     assert facts["mesh of dragon"] == "wyrm, 10 triangles"
     assert facts["training"] == "3 networks, 640 or 20,480,000 samples each"
     assert facts["hardware"] == "a CPU, 2 cores; a CPU, 2 cores, A GPU"
     assert facts["LPIPS"] == "network alex"
     assert facts["durations"] == "evaluate 2 s (1 job); train 3 min (2 jobs)"
     assert facts["versions"].startswith(f"Python {python_version()}, snakemake ")
-
-
-def test_what_is_not_there_is_no_fact(tmp_path):
-    nothing = {"meshes": {}, "records": [], "lpips": None, "benchmarks": tmp_path / "none"}
-    facts = run_facts(run=RUN, folder=tmp_path, **nothing)
-    assert list(facts) == ["scale", "frames", "seed", "versions", "commit", "made on"]

@@ -30,8 +30,7 @@ def add_printed(
 ) -> pd.DataFrame:
     """The frame with `thesis_<column>` and `<column>_minus_thesis`; NaN where none is printed.
 
-    Beside a mesh that the thesis did not measure stand its sizes alone. The frame has a row for
-    each of `rows`, in their order.
+    Beside a mesh that the thesis did not measure stand its sizes alone; `rows` are the frame's.
 
     Args:
         number: the thesis's number of the table, "4.3"; None for one that is not in it.

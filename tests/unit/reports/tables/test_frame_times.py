@@ -1,74 +1,44 @@
 import pytest
-from report_samples import (
-    all_metrics,
-    cells_of,
-    metrics_of,
-    row,
-    write_mesh,
-    write_metrics,
-    write_record,
-    written_table,
-)
-from sample_records import FRAME_TIMES
+import report_samples as samples
 
-from neural_shadows.reports.tables import frame_times, timed_quality
+from neural_shadows.reports.tables.frame_times import write
+from neural_shadows.reports.tables.quality import METRICS
 
 ROWS = [
-    row("dragon", "256 wide", published="dragon_256"),
-    row("ray_traced", "Ray traced"),
-    row("shadow_map_512", "512²"),
+    samples.row("dragon", published="dragon_256"),
+    samples.row("ray_traced"),
+    samples.row("shadow_map_512"),
 ]
-METHODS = {
-    "dragon": {"ms": [10.0, 30.0, 20.0, 50.0, 40.0]},
-    "ray_traced": {"ms": [1.0, 2.0]},
-    "shadow_map_512": {"ms": [3.0, 3.0]},
-}
+MS = {"dragon": [10, 30, 20, 50, 40], "ray_traced": [1, 2], "shadow_map_512": [3, 3]}
 
 
-@pytest.fixture
-def write(tmp_path, monkeypatch):
-    monkeypatch.setattr(timed_quality, "network_bytes", lambda path: 2_227_200)
-    times = {**FRAME_TIMES, "methods": METHODS}
-    metrics = metrics_of({"dragon": all_metrics(0.1), "shadow_map_512": all_metrics(0.3)})
-
-    def write(thesis_mesh, published="4.6"):
-        table, md = written_table(
-            frame_times.write,
-            tmp_path,
-            times=[write_record(tmp_path / "frame_times/t/dragon.json", times)],
-            metrics=write_metrics(tmp_path, "dragon", metrics),
-            meshes=[write_mesh(tmp_path, thesis_mesh=thesis_mesh)],
-            published=published,
-            rows=ROWS,
-        )
-        return table.set_index("method"), md
-
-    return write
-
-
-def test_median_quartiles_lpips_and_size_beside_the_thesis(write):
-    table, md = write(thesis_mesh=True)
-    ours = table.loc["256 wide"]
+@pytest.mark.parametrize("thesis_mesh", [True, False])
+def test_median_quartiles_lpips_and_size_beside_the_thesis(tmp_path, thesis_mesh):
+    times = {**samples.TIMES, "methods": {method: {"ms": ms} for method, ms in MS.items()}}
+    means = {"dragon": 0.1, "shadow_map_512": 0.3}
+    means = {method: dict.fromkeys(METRICS, mean) for method, mean in means.items()}
+    table, md = samples.written_table(
+        write,
+        tmp_path,
+        times=[samples.write_record(tmp_path / "frame_times/t/dragon.json", times)],
+        metrics=[samples.write_metrics(tmp_path, means)],
+        meshes=[samples.write_mesh(tmp_path, thesis_mesh=thesis_mesh)],
+        published="4.6",
+        rows=ROWS,
+    )
+    ours, ray_traced, shadow_map = (part for _, part in table.iterrows())
     assert ours[["frame_ms_q1", "frame_ms", "frame_ms_q3", "repeats"]].tolist() == [20, 30, 40, 5]
-    assert ours["lpips"] == pytest.approx(0.1)
     assert ours["lpips_low"] < ours["lpips"] < ours["lpips_high"]
-    theirs = ours[["thesis_frame_ms", "thesis_lpips", "thesis_size_kib"]]
-    assert theirs.tolist() == [29.1, 0.0379, 2175]
-    assert ours["frame_ms_minus_thesis"] == pytest.approx(30 - 29.1)
-    assert ours["size_kib_minus_thesis"] == 0
-    assert cells_of(md, 0)["frame ms ↓"] == "30.0 [20.0, 40.0]"
+    assert samples.cells_of(md, 0)["frame ms ↓"] == "30.0 [20.0, 40.0]"
     # Baselines have what applies to them.
-    assert table.loc["Ray traced", ["lpips", "size_kib"]].isna().all()
-    assert table.loc["512²", ["lpips", "size_kib"]].tolist() == pytest.approx([0.3, 1024])
-    assert cells_of(md, 1)["LPIPS ↓"] == ""
-
-
-def test_of_another_mesh_the_thesis_says_sizes_alone(write):
-    table, md = write(thesis_mesh=False)
-    ours = table.loc["256 wide"]
-    assert ours[["thesis_frame_ms", "thesis_lpips", "frame_ms_minus_thesis"]].isna().all()
-    assert ours["thesis_size_kib"] == 2175
-    note = "*thesis*: sizes only for dragon; it did not measure the mesh wyrm."
-    assert note in md.read_text()
-    _, md = write(thesis_mesh=False, published=None)
-    assert "thesis" not in md.read_text().replace("the thesis does not name", "")
+    assert ray_traced[["lpips", "size_kib"]].isna().all()
+    assert shadow_map[["lpips", "size_kib"]].tolist() == pytest.approx([0.3, 1024])
+    assert samples.cells_of(md, 1)["LPIPS ↓"] == ""
+    # Of another mesh the thesis says the network's size alone.
+    assert (ours["thesis_size_kib"], ours["size_kib_minus_thesis"]) == (2175, 0)
+    theirs = ours[["thesis_frame_ms", "thesis_lpips", "frame_ms_minus_thesis"]]
+    if thesis_mesh:
+        assert theirs.tolist() == pytest.approx([29.1, 0.0379, 30 - 29.1])
+    else:
+        assert theirs.isna().all()
+    assert ("it did not measure the mesh wyrm" in md.read_text()) is not thesis_mesh
