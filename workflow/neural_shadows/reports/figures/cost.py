@@ -1,22 +1,20 @@
 """How the cost of each stage grows, as a figure."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter, NullLocator
 
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports.figures.style import COLOURS, GRID, new_figure, write_figure
+from neural_shadows.reports.figures.style import COLOURS, GRID, Section, new_figure, write_figure
 from neural_shadows.reports.tables.cost import cost_table
 from neural_shadows.running.stage import run_stage
 
 ROWS = {"seconds": "seconds", "memory_mib": "peak memory, MiB"}
 
 
-def draw(costs: list[Path], png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
+def draw(costs: list[Path], png: Path, svg: Path, *, title: str, run: Section) -> None:
     """Draw seconds, and below them memory, of the stages over each size that was measured."""
     table = cost_table([read_json(path) for path in costs])
     write_figure(cost_figure(table, title=f"{title} ({run['scale']} scale)"), png, svg)

@@ -1,8 +1,6 @@
 """The dead-zone loss over the predicted depth (figure 3.7)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import torch
@@ -10,12 +8,12 @@ import torch
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.reports.figures.drawing import open_figure
 from neural_shadows.reports.figures.mesh_slice import slice_rays
-from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, write_figure
+from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, Section, write_figure
 from neural_shadows.running.stage import run_stage
 
 
 def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Section
 ) -> None:
     """Draw the loss of the ray with the most distant bounds, and of the longest that misses."""
     cut, figure = open_figure(mesh_ply, mesh_json, scene, title, 9, 4.6)

@@ -1,9 +1,7 @@
 """A network's depths for one light beside their bounds, in three dimensions (figure 3.2)."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyvista
@@ -14,6 +12,7 @@ from neural_shadows.rays.labels import chord_lengths, dual_bounds
 from neural_shadows.rays.silhouette import entry_points
 from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
+from neural_shadows.reports.figures.style import Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -23,7 +22,7 @@ STEP = 0.15  # in depth between neighbouring rays: beyond it, a sheet is torn
 
 
 def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Section
 ) -> None:
     """Draw t_lb, t_pred and t_ub of a light's rays that hit, each as a sheet where it lies.
 

@@ -1,16 +1,14 @@
 """What the pictures of how the method works are drawn with [figures 3.1 to 3.6]."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, PathPatch, Rectangle
+from matplotlib.patches import Circle, PathPatch
 from matplotlib.path import Path as Outline
-from matplotlib.transforms import Affine2D, Transform
+from matplotlib.transforms import Affine2D
 
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.rays.poisson_disk import PatternBank
@@ -18,7 +16,7 @@ from neural_shadows.rays.quadtree import build_quadtree
 from neural_shadows.rays.sampling import sample_quads
 from neural_shadows.rays.silhouette import plane_basis, silhouette
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, SliceRays, slice_mesh
-from neural_shadows.reports.figures.style import BLUE, ORANGE, new_figure
+from neural_shadows.reports.figures.style import BLUE, ORANGE, Section, new_figure
 from neural_shadows.scenes.scene import open_scene
 from neural_shadows.scenes.tracing import Tracer
 
@@ -33,7 +31,7 @@ DRAWN_SEGMENTS = 4000
 
 
 def open_figure(
-    mesh_ply: Path, mesh_json: Path, scene: Mapping[str, Any], title: str, *size: float
+    mesh_ply: Path, mesh_json: Path, scene: Section, title: str, *size: float
 ) -> tuple[MeshSlice, Figure]:
     """The slice of a scene that the figures show, and an empty figure whose title names the mesh.
 
@@ -66,18 +64,21 @@ def draw_outline(axes: Axes, cut: MeshSlice) -> None:
     # One path: as lines of their own the segments take three times the bytes in an SVG.
     count = len(cut.outline)
     path = Outline(cut.outline.reshape(-1, 2), [Outline.MOVETO, Outline.LINETO] * count)
-    style = {"fill": False, "edgecolor": OUTLINE, "linewidth": 1.0, "zorder": 3}
+    style = {"fill": False, "edgecolor": OUTLINE, "zorder": 3, "label": "the mesh's section"}
     axes.add_patch(PathPatch(path, rasterized=count > DRAWN_SEGMENTS, **style))
 
 
 def draw_bounded_rays(axes: Axes, rays: SliceRays, width: float) -> None:
     """Draw each ray up to its lower bound, between the bounds, and in shadow from there on."""
-    hit, end = rays.hit, rays.end
-    draw_segments(axes, rays.at(0 * end), rays.at(rays.t_lb), colors=ORANGE, linewidths=width)
-    between = rays.at(rays.t_lb)[hit], rays.at(end)[hit]
-    draw_segments(axes, *between, colors=BLUE, linewidths=3.2 * width)
-    behind = rays.at(end)[hit], rays.at(rays.chord)[hit]
-    draw_segments(axes, *behind, colors=SHADE, linewidths=width)
+    hit, t_lb, end = rays.hit, rays.t_lb, rays.end
+    parts = (
+        (slice(None), 0 * end, t_lb, ORANGE, 1, "lit: up to t$_{lb}$, the first hit or the sphere"),
+        (hit, t_lb, end, BLUE, 3.2, "t$_{lb}$ to t$_{ub}$, the second hit"),
+        (hit, end, rays.chord, SHADE, 1, "in shadow"),
+    )
+    for which, begin, stop, colour, wide, label in parts:
+        style = {"colors": colour, "linewidths": wide * width, "label": label}
+        draw_segments(axes, rays.at(begin)[which], rays.at(stop)[which], **style)
 
 
 class SilhouetteDrawing:
@@ -100,38 +101,33 @@ class SilhouetteDrawing:
         self.resolution = resolution
         self.covered = silhouette(tracer, direction, resolution)
         self.quads = build_quadtree(self.covered, min_quad)
-        self._turn = np.eye(3)
-        self._turn[:2, :2] = np.stack([right, up]) @ np.stack(plane_basis(direction), axis=1)
+        turn = np.eye(3)
+        turn[:2, :2] = np.stack([right, up]) @ np.stack(plane_basis(direction), axis=1)
+        self._upright = Affine2D(turn)
 
-    def _upright(self, axes: Axes) -> Transform:
-        return Affine2D(self._turn) + axes.transData
-
-    def draw(self, axes: Axes) -> None:
-        """Draw what the object covers, in grey."""
-        style = {"cmap": "gray", "vmin": 0, "vmax": 1, "interpolation": "nearest"}
+    def draw(self, axes: Axes, quads: bool = True) -> None:
+        """Draw what the object covers, in grey, and the quadtree."""
         image = np.where(self.covered, 0.72, 1.0)  # row 0 is the lowest
-        extent = (-1, 1, -1, 1)
-        axes.imshow(image, extent=extent, origin="lower", transform=self._upright(axes), **style)
-
-    def draw_quads(self, axes: Axes) -> None:
-        """Draw the quadtree."""
-        texel = 2 / self.resolution
-        squares = [
-            Rectangle((column * texel - 1, row * texel - 1), size * texel, size * texel)
-            for row, column, size in self.quads
-        ]
-        style = {"facecolor": "none", "edgecolor": BLUE, "linewidth": 0.4, "rasterized": True}
-        axes.add_collection(PatchCollection(squares, transform=self._upright(axes), **style))
+        style = {"cmap": "gray", "vmin": 0, "vmax": 1, "interpolation": "nearest"}
+        style |= {"transform": self._upright + axes.transData}
+        axes.imshow(image, extent=(-1, 1, -1, 1), origin="lower", **style)
+        if quads:
+            row, column, size = self.quads.T[:, :, None]
+            x, y = column + size * [0, 0, 1, 1], row + size * [0, 1, 1, 0]
+            squares = np.stack([x, y], axis=-1) * 2 / self.resolution - 1
+            style = {"transform": style["transform"], "linewidth": 0.4, "rasterized": True}
+            style |= {"facecolor": "none", "edgecolor": BLUE}
+            axes.add_collection(PolyCollection(squares, **style))
 
     def draw_points(self, axes: Axes, count: int, seed: int, size: float) -> None:
         """Draw so many points, divided over the quads."""
         rng, bank = np.random.default_rng(seed), PatternBank(seed)
         points = sample_quads(self.quads, self.resolution, count, rng, bank)
         style = {"s": size, "color": OUTLINE, "linewidths": 0, "rasterized": True}
-        axes.scatter(*points.T, transform=self._upright(axes), **style)
+        axes.scatter(*points.T, transform=self._upright + axes.transData, **style)
 
 
-def slice_silhouette(cut: MeshSlice, sampling: Mapping[str, Any]) -> SilhouetteDrawing:
+def slice_silhouette(cut: MeshSlice, sampling: Section) -> SilhouetteDrawing:
     """The silhouette along a slice's normal, in a sampling's resolution.
 
     A sampling has `silhouette_resolution` and `min_quad` also if its sampler does without.

@@ -1,19 +1,15 @@
 """The two bounds of a label (figure 3.6)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
-
-from matplotlib.lines import Line2D
 
 from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import slice_rays
-from neural_shadows.reports.figures.style import BLUE, ORANGE, legend_below, write_figure
+from neural_shadows.reports.figures.style import Section, legend_below, write_figure
 from neural_shadows.running.stage import run_stage
 
 
 def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Section
 ) -> None:
     """Draw some of a light's rays in a slice, coloured by their bounds."""
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title)
@@ -24,14 +20,7 @@ def draw(
     for axes, count in ((whole, drawing.FEW_RAYS), (part, 8 * drawing.FEW_RAYS)):
         drawing.draw_bounded_rays(axes, slice_rays(cut, count), 1.2)
         drawing.draw_outline(axes, cut)
-    legend_below(
-        figure,
-        [
-            Line2D([], [], color=ORANGE, label="lit: up to t$_{lb}$, the first hit or the sphere"),
-            Line2D([], [], color=BLUE, linewidth=4, label="t$_{lb}$ to t$_{ub}$, the second hit"),
-            Line2D([], [], color=drawing.SHADE, label="in shadow"),
-        ],
-    )
+    legend_below(figure)
     write_figure(figure, png, svg)
 
 

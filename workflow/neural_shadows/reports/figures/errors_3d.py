@@ -1,9 +1,8 @@
 """Where methods err: false shadow and light leak as points on the scene, in three dimensions."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from neural_shadows.evaluation.shadow_methods import (
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
+from neural_shadows.reports.figures.style import Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -33,9 +33,9 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: Mapping[str, Any],
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    scene: Section,
+    rows: Sequence[Section],
+    run: Section,
     threads: int = 1,
 ) -> None:
     """Draw the wrong points of a batch of viewpoints by each method.

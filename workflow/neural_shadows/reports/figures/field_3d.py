@@ -1,8 +1,6 @@
 """The surface that an occupancy field has learned, in three dimensions, beside the mesh."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyvista
@@ -17,6 +15,7 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
+from neural_shadows.reports.figures.style import Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -25,7 +24,7 @@ COLOURS = "RdBu_r"
 
 
 def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Section
 ) -> None:
     """Draw the mesh, and beside it where the field's logit is 0, coloured by the distance.
 

@@ -1,13 +1,11 @@
 """What an occupancy field has learned, in a slice, beside the mesh [5.4.1]."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import torch
+from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch, Rectangle
 
@@ -19,7 +17,7 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.reports.figures.drawing import OUTLINE, draw_outline
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_mesh
-from neural_shadows.reports.figures.style import legend_below, new_figure, write_figure
+from neural_shadows.reports.figures.style import Section, legend_below, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -29,7 +27,7 @@ EMPTY_COLOUR, ENCLOSED_COLOUR = "#f4f4f4", "#5b6b7b"
 
 
 def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Section
 ) -> None:
     """Draw the slice whole and in detail, at the outline's highest point.
 
@@ -58,7 +56,6 @@ def draw(
     legend_below(
         figure,
         [
-            Patch(color=OUTLINE, label="the mesh's section"),
             Patch(facecolor=EMPTY_COLOUR, edgecolor="#cccccc", label="empty: nothing stored"),
             Patch(color=ENCLOSED_COLOUR, label="enclosed: in shadow, nothing stored"),
         ],
@@ -68,11 +65,12 @@ def draw(
 
 def slice_logits(
     field: OccupancyFieldNetwork, cut: MeshSlice, centre: np.ndarray, half: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Logits (PIXELS, PIXELS) of a square of the slice, NaN where no brick is, and `grid` there.
+) -> np.ndarray:
+    """Logits (PIXELS, PIXELS) of a square of the slice, rows upwards: NaN in empty bricks, ∞ in
+    enclosed ones.
 
     Args:
-        centre: (2,) of the square in the slice's plane; `half`: half its side. Rows run upwards.
+        centre: (2,) of the square in the slice's plane; `half`: half its side.
     """
     at = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * half - half
     x, y = np.meshgrid(centre[0] + at, centre[1] + at)
@@ -80,21 +78,20 @@ def slice_logits(
     p = torch.from_numpy(p.astype(np.float32))
     with torch.inference_mode():
         bricks = field.bricks_at(p)
-        logits = torch.full((len(p),), torch.nan)
+        logits = torch.where(bricks == SOLID, torch.inf, torch.nan)
         held = bricks >= 0
         logits[held] = field.logits_at(p[held], bricks[held], field.logits())
-    return logits.view(PIXELS, PIXELS).numpy(), bricks.view(PIXELS, PIXELS).numpy()
+    return logits.view(PIXELS, PIXELS).numpy()
 
 
 def _show(
     axes: Axes, field: OccupancyFieldNetwork, cut: MeshSlice, centre: np.ndarray, half: float
 ) -> AxesImage:
-    logits, bricks = slice_logits(field, cut, centre, half)
     extent = np.add.outer(centre, [-half, half]).ravel()
-    style = {"extent": extent, "origin": "lower", "interpolation": "nearest"}
-    colours = ListedColormap([EMPTY_COLOUR, ENCLOSED_COLOUR])
-    axes.imshow(np.where(bricks == SOLID, 1, 0), cmap=colours, vmin=0, vmax=1, **style)
-    image = axes.imshow(logits, cmap="RdBu", vmin=-LIMIT, vmax=LIMIT, **style)
+    colours = colormaps["RdBu"].with_extremes(bad=EMPTY_COLOUR, over=ENCLOSED_COLOUR)
+    style = {"cmap": colours, "vmin": -LIMIT, "vmax": LIMIT, "interpolation": "nearest"}
+    logits = slice_logits(field, cut, centre, half)
+    image = axes.imshow(logits, extent=extent, origin="lower", **style)
     draw_outline(axes, cut)
     axes.set(xlim=extent[:2], ylim=extent[2:], xticks=[], yticks=[])
     return image

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,7 +11,7 @@ from neural_shadows.reports.figures import style
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
-SMOOTHING = 0.02  # of the curve's points, each the mean of a five hundredth of the run
+PARTS = 150  # of a curve that is drawn as means
 
 
 def draw(
@@ -22,7 +21,7 @@ def draw(
     *,
     title: str,
     curves: Sequence[Mapping[str, str]],
-    run: Mapping[str, Any],
+    run: style.Section,
 ) -> None:
     """Draw the loss curves of experiments.
 
@@ -39,18 +38,13 @@ def draw(
 
 
 def smoothed(values: np.ndarray) -> np.ndarray:
-    """Running mean of a curve (n,), over as many points on either side, fewer at its ends: (n,).
-
-    pandas' would lean to one side at the ends, and the first tenth of a loss falls fastest.
-    """
-    i = np.arange(len(values))
-    reach = np.minimum(np.minimum(i, i[::-1]), round(SMOOTHING * len(values) / 2))
-    total = np.concatenate([[0.0], np.cumsum(values)])
-    return (total[i + reach + 1] - total[i - reach]) / (2 * reach + 1)
+    """Means of a curve (n,) over parts of it that are equally wide on a logarithmic axis."""
+    starts = np.unique(np.geomspace(1, len(values), PARTS).astype(int)) - 1
+    return np.add.reduceat(values, starts) / np.diff(starts, append=len(values))
 
 
 def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
-    """Draw loss over samples, both logarithmic; the points pale and their running mean.
+    """Draw loss over samples, both logarithmic; the points pale, and their means.
 
     Args:
         curves: as `read_loss` gives them, by label in the legend's order.
@@ -58,14 +52,11 @@ def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
     figure = style.new_figure(title, 9, 5.4)
     axes = figure.subplots()
     for i, (label, curve) in enumerate(curves.items()):
-        samples, loss, colour = (
-            curve["samples"],
-            curve["loss"],
-            style.COLOURS[i % len(style.COLOURS)],
-        )
-        axes.plot(samples, loss, color=colour, alpha=0.25, linewidth=0.8)
-        text = f"{label} (at the end {loss.iloc[-1]:.3g})"
-        axes.plot(samples, smoothed(loss.to_numpy()), color=colour, linewidth=1.8, label=text)
+        points = curve[["samples", "loss"]].to_numpy(float).T
+        colour = style.COLOURS[i % len(style.COLOURS)]
+        axes.plot(*points, color=colour, alpha=0.25, linewidth=0.8)
+        text = f"{label} (at the end {points[1, -1]:.3g})"
+        axes.plot(*map(smoothed, points), color=colour, linewidth=1.8, label=text)
     axes.set(xscale="log", yscale="log", xlabel="training samples", ylabel="dead-zone loss")
     # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
     settled = max(curve["loss"].iloc[len(curve) // 100 :].max() for curve in curves.values())

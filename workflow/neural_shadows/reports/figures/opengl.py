@@ -1,6 +1,7 @@
 """Whether VTK can draw on this machine; where it cannot, it would crash its process."""
 
 import ctypes
+import subprocess
 import sys
 from functools import cache
 
@@ -13,7 +14,7 @@ _PLATFORM_DEVICE = 0x313F  # EGL_PLATFORM_DEVICE_EXT
 
 
 def available() -> bool:
-    """Whether figures in three dimensions can be drawn here: 40 ms, and VTK is not loaded."""
+    """Whether figures in three dimensions can be drawn here: 60 ms, and VTK is not loaded."""
     return window_class() is not None
 
 
@@ -26,6 +27,13 @@ def window_class() -> str | None:
     """
     if sys.platform != "linux":
         return ""  # OpenGL is part of the system
+    # In a process of its own: a driver's LLVM, once loaded, makes a later `import triton` crash.
+    command = [sys.executable, "-I", "-S", __file__]
+    return subprocess.run(command, capture_output=True, text=True).stdout.strip() or None
+
+
+def find_window() -> str | None:
+    """The same, of Linux, tried in this process."""
     if _egl_starts():
         return "vtkEGLRenderWindow"
     return "vtkOSOpenGLRenderWindow" if any(map(_load, _OSMESA)) else None
@@ -45,17 +53,16 @@ def _egl_starts() -> bool:
         return False
     egl.eglGetProcAddress.restype = pointer
     egl.eglInitialize.argtypes = [pointer] * 3
-    egl.eglTerminate.argtypes = [pointer]
     query = egl.eglGetProcAddress(b"eglQueryDevicesEXT")
     display_of = egl.eglGetProcAddress(b"eglGetPlatformDisplayEXT")
     if not query or not display_of:
         return False
     devices, count = (pointer * 16)(), number()
     ctypes.CFUNCTYPE(number, number, pointer, pointer)(query)(16, devices, ctypes.byref(count))
-    for device in devices[: count.value]:
-        call = ctypes.CFUNCTYPE(pointer, number, pointer, pointer)(display_of)
-        display = call(_PLATFORM_DEVICE, device, None)
-        if display and egl.eglInitialize(display, None, None):
-            egl.eglTerminate(display)
-            return True
-    return False
+    display_of = ctypes.CFUNCTYPE(pointer, number, pointer, pointer)(display_of)
+    displays = [display_of(_PLATFORM_DEVICE, device, None) for device in devices[: count.value]]
+    return any(display and egl.eglInitialize(display, None, None) for display in displays)
+
+
+if __name__ == "__main__":
+    print(find_window() or "")

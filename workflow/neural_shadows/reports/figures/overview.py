@@ -1,8 +1,6 @@
 """The method in one picture (figure 3.1)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +10,7 @@ from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
-from neural_shadows.reports.figures.style import BLUE, ORANGE, write_figure
+from neural_shadows.reports.figures.style import BLUE, ORANGE, Section, write_figure
 from neural_shadows.running.stage import run_stage
 
 
@@ -23,8 +21,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: Mapping[str, Any],
-    sampling: Mapping[str, Any],
+    scene: Section,
+    sampling: Section,
     seed: int,
 ) -> None:
     """Draw directions, points on a silhouette, labels and a query beside each other."""
@@ -38,7 +36,6 @@ def draw(
     drawing.draw_disk(points, "b  rays through a silhouette's quadtree")
     shown = drawing.slice_silhouette(cut, sampling)
     shown.draw(points)
-    shown.draw_quads(points)
     shown.draw_points(points, drawing.SHOWN_POINTS // 3, seed, 2)
     drawing.draw_disk(labels, "c  labels: bounds along the rays")
     drawing.draw_bounded_rays(labels, slice_rays(cut, drawing.FEW_RAYS), 1.0)

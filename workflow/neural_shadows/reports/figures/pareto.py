@@ -1,14 +1,12 @@
 """Quality over what it costs: bytes, frame time, training time [5.4.1]."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from neural_shadows.evaluation.method_names import RAY_TRACED, is_shadow_map
 from neural_shadows.reports.figures import style
@@ -21,19 +19,17 @@ COSTS = {
     "frame_ms": ("frame time, ms", 1),
     "training_seconds": ("training, s", 1),
 }
-MAP_COLOUR, FRONT_COLOUR = "#777777", "#bbbbbb"
-# A kind of method: its colour and marker.
+# A kind of method: its colour and marker, in the legend's order.
 STYLES = {
-    "shadow map": (MAP_COLOUR, "s"),
+    "shadow map": ("#777777", "s"),
     "ray traced": ("#000000", "*"),
-    "frequency": (style.COLOURS[1], "o"),
-    "ray_grid": (style.COLOURS[3], "v"),
-    "occupancy_ray_grid": (style.COLOURS[2], "^"),
-    "hash_grid": (style.COLOURS[4], "D"),
-    "occupancy_field": (style.COLOURS[0], "P"),
+    "thesis's network": (style.COLOURS[1], "o"),
+    "ray grid": (style.COLOURS[3], "v"),
+    "occupancy ray grid": (style.COLOURS[2], "^"),
+    "hash grid": (style.COLOURS[4], "D"),
+    "occupancy field": (style.COLOURS[0], "P"),
 }
 OTHER = (style.COLOURS[5], "X")
-UNNAMED = {"frequency": "thesis's network"}
 
 
 def draw(
@@ -43,8 +39,8 @@ def draw(
     *,
     title: str,
     scene: str,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[style.Section],
+    run: style.Section,
 ) -> None:
     """Draw a scene of a table of networks.
 
@@ -66,10 +62,10 @@ def draw(
 
 
 def kind_of(method: str, encoding: str) -> str:
-    """What a method with this key is: a map, ray traced, or a network of this encoding."""
-    if method == RAY_TRACED:
-        return "ray traced"
-    return "shadow map" if is_shadow_map(method) else encoding
+    """What the legend calls a method with this key: a map, ray traced, or by its encoding."""
+    if method == RAY_TRACED or is_shadow_map(method):
+        return "ray traced" if method == RAY_TRACED else "shadow map"
+    return "thesis's network" if encoding == "frequency" else encoding.replace("_", " ")
 
 
 def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
@@ -87,39 +83,47 @@ def pareto_figure(table: pd.DataFrame, *, title: str) -> Figure:
     """
     quality = "lpips" if table["lpips"].notna().any() else "flip"
     points = table.rename(columns=dict(zip(with_ends(quality), ("error", "low", "high"))))
+    # Ray tracing is the reference: its error 0 is below any height of the axis.
+    exact, floor = points["error"].isna(), points["low"].min() / 2
+    points.loc[exact, ["error", "low", "high"]] = floor
     figure = style.new_figure(title, 14, 5.2)
     panels = figure.subplots(1, 3, sharey=True)
     for axes, (column, (label, factor)) in zip(panels, COSTS.items()):
-        shown = points.assign(cost=points[column] * factor)
         axes.set(xscale="log", yscale="log", xlabel=label)
-        measured = shown.dropna(subset=["cost", "error"])
-        for row in measured.itertuples():
+        shown = points.assign(cost=points[column] * factor)
+        for row in shown.dropna(subset="cost").itertuples():
             colour, marker = STYLES.get(row.kind, OTHER)
             spread = [[row.error - row.low], [row.high - row.error]]
-            axes.errorbar(row.cost, row.error, spread, color=colour, marker=marker, capsize=2)
-        if column == "training_seconds":
+            look = {
+                "color": colour,
+                "marker": marker,
+                "markersize": 7,
+                "capsize": 2,
+                "label": row.kind,
+            }
+            axes.errorbar(row.cost, row.error, spread, linestyle="", **look)
+        for row in shown[exact].dropna(subset="cost").itertuples():
+            _name(axes, "ray traced: 0", (row.cost, floor), (8, -2))
+        if column == "training_seconds":  # maps train nothing: a network must come below their line
             axes.set_xlim(left=axes.get_xlim()[0] / 2.5)  # room for the maps' names
-            _draw_untrained(axes, shown[shown["kind"] == "shadow map"])
-        _draw_exact(axes, shown)
-        _draw_front(axes, measured)
+            for row in shown[shown["kind"] == "shadow map"].itertuples():
+                axes.axhline(row.error, color=STYLES[row.kind][0], linewidth=0.7, linestyle=":")
+                where = {"xycoords": ("axes fraction", "data")}
+                _name(axes, row.method, (0.01, row.error), (0, 0), **where)
+        _draw_front(axes, shown[~exact].dropna(subset="cost"))
         axes.grid(**style.GRID)
         style.plain_numbers(axes.xaxis)
         axes.tick_params(axis="x", labelsize="small")
     panels[0].set_ylabel(f"{quality.upper()}, mean [95 % interval]")
     style.plain_numbers(panels[0].yaxis)
-    entries = []
-    for kind in sorted(set(table["kind"]), key=[*STYLES, *table["kind"]].index):
-        colour, marker = STYLES.get(kind, OTHER)
-        text = UNNAMED.get(kind, kind.replace("_", " "))
-        entries.append(Line2D([], [], color=colour, marker=marker, linestyle="", label=text))
-    style.legend_below(figure, entries)
+    style.legend_below(figure)
     return figure
 
 
 def _draw_front(axes: Axes, points: pd.DataFrame) -> None:
     """Join and name the methods that no other undercuts, the names within the panel."""
     best = points.iloc[front(points["cost"].to_numpy(), points["error"].to_numpy())]
-    axes.plot(best["cost"], best["error"], color=FRONT_COLOUR, linewidth=1, zorder=0)
+    axes.plot(best["cost"], best["error"], color="#bbbbbb", linewidth=1, zorder=0)
     axes.autoscale_view()
     places = axes.transData.transform(best[["cost", "error"]])
     places = axes.transAxes.inverted().transform(places)
@@ -130,22 +134,6 @@ def _draw_front(axes: Axes, points: pd.DataFrame) -> None:
         look = {"ha": "right" if left else "left", "va": "top" if below else "bottom"}
         offset = (-6 if left else 6, -5 if below else 5)
         _name(axes, row.method, (row.cost, row.error), offset, **look)
-
-
-def _draw_untrained(axes: Axes, maps: pd.DataFrame) -> None:
-    """Draw maps, which train nothing, as lines that a network must come below."""
-    for row in maps.dropna(subset="error").itertuples():
-        axes.axhline(row.error, color=MAP_COLOUR, linewidth=0.7, linestyle=":")
-        _name(axes, row.method, (0.01, row.error), (0, 0), xycoords=("axes fraction", "data"))
-
-
-def _draw_exact(axes: Axes, points: pd.DataFrame) -> None:
-    """Draw ray tracing, the reference, whose error 0 is below any height of the axis."""
-    floor = points["low"].min() / 2  # of the whole table, so that all panels share their heights
-    for row in points[points["error"].isna()].dropna(subset="cost").itertuples():
-        colour, marker = STYLES.get(row.kind, OTHER)
-        axes.plot(row.cost, floor, color=colour, marker=marker, markersize=11, clip_on=False)
-        _name(axes, "ray traced: 0", (row.cost, floor), (8, -2))
 
 
 def _name(axes: Axes, text: str, at: tuple[float, float], offset: tuple[int, int], **look) -> None:

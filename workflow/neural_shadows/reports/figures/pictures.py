@@ -4,10 +4,8 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from math import ceil
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.lib.stride_tricks import sliding_window_view
@@ -15,7 +13,7 @@ from scipy.ndimage import maximum_filter, minimum_filter
 
 from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.reports.figures.style import DPI, ORANGE, write_figure
+from neural_shadows.reports.figures.style import ORANGE, Section, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
 
@@ -27,9 +25,8 @@ CROP_SHARE = 0.2  # of the frame's height and width
 
 MOST_COLUMNS = 6  # of methods in a line; more go to a line of their own
 WIDTH = 13.6  # inches, 2040 px
-GAP = 0.06  # inches between pictures
-LINE = 0.2  # inches, a line of text
-FONT_SIZE = 10
+LETTERS = 160  # of the bold names, across the figure
+TEXT = 0.9  # inches of a line's names and scores
 
 SCORES = {"psnr": "PSNR {:.2f} dB", "lpips": "LPIPS {:.4f}"}
 
@@ -42,9 +39,9 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Section],
     view_sets: Sequence[str],
-    run: Mapping[str, Any],
+    run: Section,
 ) -> None:
     """Draw the first frame of each view set by every method, whole and as a crop.
 
@@ -93,61 +90,39 @@ def picture_strip(frames: Sequence[FirstFrame], labels: Mapping[str, str], title
 
     Args:
         frames: viewpoints whose images have one shape and hold `reference`, which is drawn last,
-            as in the thesis. Scores that all of a viewpoint have are written below its crops.
+            as in the thesis. Scores that a viewpoint has are written below its crops.
         labels: the name of each method to draw, in the order to draw them, and of `reference`.
     """
     methods = [*(method for method in labels if method != "reference"), "reference"]
-    columns = ceil(len(methods) / ceil(len(methods) / MOST_COLUMNS))
+    lines = ceil(len(methods) / MOST_COLUMNS)
+    columns = ceil(len(methods) / lines)
     rows, across = frames[0].images["reference"].shape
-    width = (WIDTH - GAP * (columns + 1)) / columns
-    height = width * rows / across
-    # A letter of the bold default font is about 0.6 of its size wide: names must not run together.
-    letters = int(72 * width / (0.6 * FONT_SIZE))
-    names = {method: textwrap.fill(labels[method], letters) for method in methods}
-    name_height = LINE * (1 + max(name.count("\n") for name in names.values()))
-    scores = [key for key in SCORES if any(key in s for s in frames[0].scores.values())]
-    # Of a line of methods: names, frames, crops, scores and a free line.
-    line_height = name_height + 2 * height + GAP + LINE * (len(scores) + 1)
-    block = 1.4 * LINE + ceil(len(methods) / columns) * line_height
-    total = 2 * LINE + len(frames) * block + (LINE if scores else 0)
-    figure = Figure(figsize=(WIDTH, total), dpi=DPI)
-
-    def write(left: float, top: float, text: str, **style) -> None:
-        figure.text(left / WIDTH, 1 - top / total, text, **{"va": "center"} | style)
-
-    def show(left: float, top: float, image: np.ndarray, interpolation: str) -> Axes:
-        box = left / WIDTH, 1 - (top + height) / total, width / WIDTH, height / total
-        axes = figure.add_axes(box, xticks=[], yticks=[])
-        axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation=interpolation, aspect="auto")
-        return axes
-
-    write(GAP, LINE, title, fontsize=FONT_SIZE + 3, weight="bold")
-    for i, frame in enumerate(frames):
-        start = 2 * LINE + i * block
-        write(GAP, start + 0.6 * LINE, frame.caption, fontsize=FONT_SIZE + 1)
+    height = 0.7 + len(frames) * (0.3 + lines * (2 * WIDTH / columns * rows / across + TEXT))
+    figure = new_figure(title, WIDTH, height)
+    figure.get_layout_engine().set(w_pad=0.03, hspace=0, wspace=0)
+    figure.supxlabel("Scores are of the whole frames.", x=0.005, ha="left", fontsize=10)
+    for part, frame in zip(figure.subfigures(len(frames), squeeze=False).flat, frames):
+        part.suptitle(frame.caption, x=0.005, ha="left", fontsize=11)
         images = {m: frame.images[m].astype(np.float32) / 255 for m in methods}
         row, column, crop_rows, crop_columns = choose_crop(images)
-        for j, method in enumerate(methods):
-            left = GAP + j % columns * (width + GAP)
-            top = start + 1.4 * LINE + j // columns * line_height + name_height
-            middle = {"ha": "center", "fontsize": FONT_SIZE}
-            style = {"weight": "bold", "va": "bottom", "linespacing": 1.0} | middle
-            write(left + width / 2, top - 0.2 * LINE, names[method], **style)
-            axes = show(left, top, images[method], "auto")
+        panels = part.subplots(2 * lines, columns, squeeze=False)
+        for i, axes in enumerate(panels.flat):
+            axes.set(xticks=[], yticks=[], anchor="NS"[i // columns % 2 == 0])
             axes.spines[:].set_visible(False)
-            style = {"fill": False, "edgecolor": ORANGE, "linewidth": 1.2}
+        for j, method in enumerate(methods):
+            whole, crop = panels[2 * (j // columns) :, j % columns][:2]
+            name = textwrap.fill(labels[method], LETTERS // columns)  # names must not run together
+            whole.set_title(name, fontsize=10, weight="bold")
+            style = {"cmap": "gray", "vmin": 0, "vmax": 1}
+            whole.imshow(images[method], **style)
             corner = column - 0.5, row - 0.5
-            axes.add_patch(Rectangle(corner, crop_columns, crop_rows, **style))
-            part = images[method][row : row + crop_rows, column : column + crop_columns]
-            axes = show(left, top + height + GAP, part, "nearest")
-            axes.spines[:].set(edgecolor=ORANGE, linewidth=1.2)
-            below = top + 2 * height + GAP + 0.7 * LINE
+            whole.add_patch(Rectangle(corner, crop_columns, crop_rows, fill=False, color=ORANGE))
+            part_of = images[method][row : row + crop_rows, column : column + crop_columns]
+            crop.imshow(part_of, interpolation="nearest", **style)
+            crop.spines[:].set(visible=True, edgecolor=ORANGE, linewidth=1.2)
             found = frame.scores.get(method, {})
-            for k, key in enumerate(key for key in scores if key in found):
-                text = SCORES[key].format(found[key])
-                write(left + width / 2, below + k * LINE, text, **middle)
-    if scores:
-        write(GAP, total - 0.7 * LINE, "Scores are of the whole frames.", fontsize=FONT_SIZE)
+            texts = [text.format(found[key]) for key, text in SCORES.items() if key in found]
+            crop.set_xlabel("\n".join(texts))
     return figure
 
 

@@ -1,12 +1,9 @@
 """A picture of a prepared scene: object and bounding sphere, and a silhouette's quadtree."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from neural_shadows.files.whole_files import whole_file
@@ -16,7 +13,7 @@ from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.reports.figures.drawing import SilhouetteDrawing, draw_disk
 from neural_shadows.reports.figures.hero_view import DISTANCE, FOV, hero_view
-from neural_shadows.reports.figures.style import COLOURS, ORANGE
+from neural_shadows.reports.figures.style import COLOURS, ORANGE, Section, new_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import Viewpoint, camera_axes
 from neural_shadows.scenes.scene import Scene, open_scene
@@ -26,7 +23,7 @@ RESOLUTION = 128  # of the silhouette, as in the default config
 AXIS_COLOURS = dict(zip("xyz", (COLOURS[1], COLOURS[2], COLOURS[0])))
 
 
-def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Mapping[str, Any]) -> None:
+def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Section) -> None:
     """Draw the object in its bounding sphere, and a silhouette of it with its quadtree.
 
     Raises:
@@ -35,38 +32,24 @@ def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Mapping[str, Any]
     report = read_mesh_report(mesh_json)
     opened = open_scene(mesh_ply, **scene)
     view = hero_view(opened.up)
-    # A square either side, and room for one line above and two below.
-    figure = Figure(figsize=(12.8, 7.2), dpi=110)
-    left = figure.add_axes((0.005, 0.08, 0.49, 0.871), xticks=[], yticks=[])
-    right = figure.add_axes((0.505, 0.08, 0.49, 0.871))
-    left.set_title(f"{report['name']}: {report['faces']:,} triangles; up: {scene['up']}")
+    figure = new_figure(report["name"], 12.8, 7.4)
+    left, right = figure.subplots(1, 2)
+    left.set(xticks=[], yticks=[], title=f"{report['faces']:,} triangles; up: {scene['up']}")
     _draw_object(left, opened, view)
     across, upward, away = camera_axes(view.eye, view.target, view.up)
     shown = SilhouetteDrawing(opened.tracer, away, across, upward, RESOLUTION, 1)
     quads = f"quadtree of {len(shown.quads):,} quads"
     draw_disk(right, f"the same view's silhouette of {RESOLUTION}² texels, {quads}")
     shown.draw(right)
-    shown.draw_quads(right)
-    notes = describe(report, scene["up"])
-    figure.text(0.01, 0.065, "\n".join(notes), va="top", fontsize=10, linespacing=1.5)
-    print(*notes, sep="\n")
-    with whole_file(png) as part:
-        figure.savefig(part)
-
-
-def describe(report: Mapping[str, Any], up: str) -> list[str]:
-    """What to check before a run, a sentence or two a line.
-
-    Args:
-        report: on the mesh, of `prepare_mesh`.
-    """
     closed = "The mesh is watertight." if report["watertight"] else "The mesh is open."
     if report["sheet"]:
         closed += " It is a sheet: give an occupancy field of it `surface: sheet`."
-    return [
-        f"Up is {up}: if the object does not stand as it should, change the scene's `up`.",
-        f"{closed} Orange: its bounding sphere, whose radius is the unit of all lengths.",
-    ]
+    up = f"Up is {scene['up']}: if the object does not stand as it should, change the scene's `up`."
+    notes = f"{up}\n{closed} Orange: its bounding sphere, whose radius is the unit of all lengths."
+    figure.supxlabel(notes, x=0.01, ha="left", fontsize=10)
+    print(notes)
+    with whole_file(png) as part:
+        figure.savefig(part)
 
 
 def _draw_object(axes: Axes, scene: Scene, view: Viewpoint) -> None:
@@ -76,18 +59,16 @@ def _draw_object(axes: Axes, scene: Scene, view: Viewpoint) -> None:
     scale = PIXELS / 2 / np.tan(np.radians(FOV) / 2)
     # Seen from outside, the sphere's outline is the cone that touches it.
     radius = scale / np.sqrt(DISTANCE**2 - 1)
-    middle = np.full(2, PIXELS / 2)
-    axes.add_patch(Circle(middle, radius, fill=False, color=ORANGE, linewidth=1.2))
-    corner, length = np.array((70, PIXELS - 70)), 50
-    right, upward, _ = camera_axes(view.eye, view.target, view.up)
+    axes.add_patch(Circle((PIXELS / 2, PIXELS / 2), radius, fill=False, color=ORANGE))
+    corner, (right, upward, _) = (
+        np.array((70, PIXELS - 70)),
+        camera_axes(view.eye, view.target, view.up),
+    )
     for axis, (name, colour) in zip(np.eye(3), AXIS_COLOURS.items()):
-        end = corner + length * np.array((axis @ right, -axis @ upward))
-        arrow = {"arrowstyle": "->", "color": colour, "linewidth": 2, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", end, corner, arrowprops=arrow)
+        at = corner + 65 * np.array((axis @ right, -axis @ upward))
         text = f"{name} (up)" if axis @ view.up else name
-        at = corner + 1.3 * (end - corner)
-        axes.annotate(text, at, color=colour, weight="bold", ha="center", va="center")
-    axes.set(xlim=(0, PIXELS), ylim=(PIXELS, 0))
+        style = {"color": colour, "weight": "bold", "ha": "center", "va": "center"}
+        axes.annotate(text, corner, at, arrowprops={"arrowstyle": "<-", "color": colour}, **style)
 
 
 if "snakemake" in globals():

@@ -1,11 +1,9 @@
 """A silhouette with its quadtree (figure 3.5)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from neural_shadows.reports.figures import drawing
-from neural_shadows.reports.figures.style import write_figure
+from neural_shadows.reports.figures.style import Section, write_figure
 from neural_shadows.running.stage import run_stage
 
 
@@ -16,8 +14,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: Mapping[str, Any],
-    sampling: Mapping[str, Any],
+    scene: Section,
+    sampling: Section,
     seed: int,
 ) -> None:
     """Draw a silhouette's quadtree, and points divided over its quads."""
@@ -27,9 +25,8 @@ def draw(
     quads = f"quadtree of {len(shown.quads):,} quads"
     drawing.draw_disk(left, f"silhouette of {shown.resolution}² texels, {quads}")
     shown.draw(left)
-    shown.draw_quads(left)
     drawing.draw_disk(right, f"{drawing.SHOWN_POINTS:,} points, divided evenly over the quads")
-    shown.draw(right)
+    shown.draw(right, quads=False)
     shown.draw_points(right, drawing.SHOWN_POINTS, seed, 3)
     write_figure(figure, png, svg)
 

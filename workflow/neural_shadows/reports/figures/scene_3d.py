@@ -1,8 +1,6 @@
 """A scene in its bounding sphere, its light, and what is sampled of it, in three dimensions."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyvista
@@ -12,7 +10,7 @@ from neural_shadows.rays.labels import chord_lengths
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.style import BLUE, COLOURS, ORANGE
+from neural_shadows.reports.figures.style import BLUE, COLOURS, ORANGE, Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.lights import arc_directions, lowest_elevation
 from neural_shadows.scenes.scene import Scene, open_scene
@@ -31,7 +29,7 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: Mapping[str, Any],
+    scene: Section,
 ) -> None:
     """Draw a scene with its light and view directions, and some of its training rays.
 

@@ -1,20 +1,24 @@
 """The boundary of the shadow along a ray (figure 3.2)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from matplotlib.patches import Patch
 
 from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import slice_rays
-from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, legend_below, write_figure
+from neural_shadows.reports.figures.style import (
+    BLUE,
+    GRID,
+    ORANGE,
+    Section,
+    legend_below,
+    write_figure,
+)
 from neural_shadows.running.stage import run_stage
 
 
 def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Section
 ) -> None:
     """Draw a light's rays in a slice, and their bounds over the offset across the light."""
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title)
@@ -22,29 +26,23 @@ def draw(
     drawing.draw_disk(plane, "the slice, lit from the upper left")
     rays = slice_rays(cut, 1200)
     hit, end = rays.hit, rays.end
-    parts = ((end, rays.chord, drawing.SHADE), (rays.t_lb, end, BLUE))
-    for begin, stop, colour in parts:
+    parts = (
+        (rays.t_lb, end, BLUE, "between first and second hit: t$_s$ may lie anywhere"),
+        (end, rays.chord, drawing.SHADE, "in shadow"),
+    )
+    for begin, stop, colour, label in parts:
         lines = rays.at(begin)[hit], rays.at(stop)[hit]
         drawing.draw_segments(plane, *lines, colors=colour, linewidths=0.5, rasterized=True)
-        graph.fill_between(rays.offset, begin, np.where(hit, stop, begin), color=colour, lw=0)
+        stop = np.where(hit, stop, begin)
+        graph.fill_between(rays.offset, begin, stop, color=colour, lw=0, label=label)
     drawing.draw_outline(plane, cut)
     few = slice_rays(cut, 12)
-    drawing.draw_segments(
-        plane, few.at(np.zeros(12)), few.at(few.t_lb), colors=ORANGE, linewidths=1
-    )
-    graph.plot(rays.offset, rays.chord, color=ORANGE, linewidth=1.2)
-    graph.set_xlabel("offset of the ray across the light")
-    graph.set_ylabel("depth t along the ray, from the sphere")
+    drawing.draw_segments(plane, few.at(0 * few.t_lb), few.at(few.t_lb), colors=ORANGE)
+    graph.plot(rays.offset, rays.chord, color=ORANGE, label="bounding sphere and light")
+    graph.set(xlabel="offset of the ray across the light", ylabel="depth t along the ray")
     graph.set_title("the same by depth: a boundary t$_s$ within the blue is right", fontsize=11)
     graph.grid(**GRID)
-    legend_below(
-        figure,
-        [
-            Patch(color=BLUE, label="between first and second hit: t$_s$ may lie anywhere"),
-            Patch(color=drawing.SHADE, label="in shadow"),
-            Patch(color=ORANGE, label="bounding sphere and light"),
-        ],
-    )
+    legend_below(figure)
     write_figure(figure, png, svg)
 
 

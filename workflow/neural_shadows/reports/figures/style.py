@@ -1,7 +1,8 @@
 """What all figures share: colours, resolution, title, legend, writing."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from matplotlib import rc_context
 from matplotlib.artist import Artist
@@ -11,6 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from neural_shadows.files.whole_files import whole_file
 
+Section = Mapping[str, Any]  # of the configuration, or of what it says of a run
 DPI = 150
 # Okabe and Ito's colours, which readers with any colour vision tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -33,9 +35,11 @@ def plain_numbers(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def legend_below(figure: Figure, entries: Sequence[Artist]) -> None:
-    """One legend for all panels, in a line below them."""
-    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries))
+def legend_below(figure: Figure, entries: Iterable[Artist] = ()) -> None:
+    """One legend for all panels, in a line below them: what is labelled in them, and entries."""
+    labelled = [handle for axes in figure.axes for handle in axes.get_legend_handles_labels()[0]]
+    handles = {artist.get_label(): artist for artist in (*labelled, *entries)}
+    figure.legend(handles=[*handles.values()], loc="outside lower center", ncols=len(handles))
 
 
 def write_figure(figure: Figure, png: Path, svg: Path) -> None:

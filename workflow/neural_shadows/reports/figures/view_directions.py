@@ -20,18 +20,20 @@ def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
     uniform = np.random.default_rng((seed, DIRECTIONS)).normal(size=(SHOWN_DIRECTIONS, 3))
     uniform /= np.linalg.norm(uniform, axis=1, keepdims=True)
     poisson = sphere_directions(SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0]
-    grid = figure.add_gridspec(2, 2, height_ratios=(3, 2))
-    spectrum = figure.add_subplot(grid[1, :])
-    shown = (("Poisson-disk", poisson, BLUE), ("uniform", uniform, ORANGE))
-    for column, (label, directions, colour) in enumerate(shown):
-        axes = figure.add_subplot(grid[0, column])
+    panels = figure.subplot_mosaic(
+        [["Poisson-disk", "uniform"], ["spectrum"] * 2], height_ratios=(3, 2)
+    )
+    spectrum = panels["spectrum"]
+    for label, directions, colour in (
+        ("Poisson-disk", poisson, BLUE),
+        ("uniform", uniform, ORANGE),
+    ):
         heading = f"{label} (a hemisphere of {SHOWN_DIRECTIONS} directions)"
-        draw_hemisphere(axes, directions, heading)
+        draw_hemisphere(panels[label], directions, heading)
         power = angular_power_spectrum(directions, DEGREES)
         spectrum.plot(np.arange(1, DEGREES + 1), power, color=colour, marker=".", label=label)
     spectrum.axhline(1, color="grey", linestyle="--", linewidth=1, label="expected of uniform")
-    spectrum.set_ylim(bottom=0)
-    spectrum.set(xlabel="degree of the spherical harmonics", ylabel="power")
+    spectrum.set(xlabel="degree of the spherical harmonics", ylabel="power", ylim=(0, None))
     spectrum.grid(**GRID)
     spectrum.legend()
     write_figure(figure, png, svg)

@@ -2,11 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.tables.writing import read_table
@@ -22,8 +20,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[style.Section],
+    run: style.Section,
 ) -> None:
     """Draw the networks of a table of frame times.
 
@@ -55,14 +53,14 @@ def width_figure(
     shown = table.assign(width=width).dropna(subset="width").sort_values("width")
     figure = style.new_figure(title, 11, 4.8)
     quality, speed = figure.subplots(1, 2)
-    scenes = list(dict.fromkeys(shown["scene"]))
     for axes, (column, (low, high)) in zip((quality, speed), SPREADS.items()):
-        for colour, scene in zip(style.COLOURS, scenes):
-            rows = shown[shown["scene"] == scene]
-            spread = [rows[column] - rows[low], rows[high] - rows[column]]
-            axes.errorbar(rows["width"], rows[column], spread, color=colour, marker="o", capsize=3)
-            theirs = rows[f"thesis_{column}"]
-            axes.plot(rows["width"], theirs, color=colour, marker="s", linestyle="--")
+        for colour, (scene, rows) in zip(style.COLOURS, shown.groupby("scene", sort=False)):
+            at, value, theirs = rows["width"], rows[column], rows[f"thesis_{column}"]
+            spread = [value - rows[low], rows[high] - value]
+            axes.errorbar(at, value, spread, color=colour, marker="o", capsize=3, label=scene)
+            if theirs.notna().any():
+                look = {"color": colour, "marker": "s", "linestyle": "--"}
+                axes.plot(at, theirs, label=f"{scene}, thesis", **look)
         axes.set_xscale("log", base=2)
         ticks = sorted(set(shown["width"].astype(int)))
         axes.set_xticks(ticks, ticks)
@@ -70,17 +68,13 @@ def width_figure(
         axes.grid(**style.GRID)
     quality.set_ylabel("LPIPS, mean [95 % interval]")
     quality.set_ylim(bottom=0)
-    entries = [Line2D([], [], color=c, marker="o", label=s) for c, s in zip(style.COLOURS, scenes)]
     if shown["thesis_lpips"].notna().any():
         note = "the thesis does not say which network its LPIPS is of: compare slopes"
         quality.set_title(note, fontsize=9)
-        entries.append(Line2D([], [], color="grey", marker="o", label="this run"))
-        look = {"color": "grey", "marker": "s", "linestyle": "--"}
-        entries.append(Line2D([], [], label="thesis", **look))
     speed.set_ylabel("frame time, ms, median [quartiles]")
     speed.set_yscale("log")  # ours and the thesis's machine may be far apart
     style.plain_numbers(speed.yaxis)
-    style.legend_below(figure, entries)
+    style.legend_below(figure)
     return figure
 
 
