@@ -1,6 +1,5 @@
 """A network's depths for one light beside their bounds, in three dimensions (figure 3.2)."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +15,14 @@ from neural_shadows.reports.figures.style import Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
-RAYS = 500  # along a side of the disk across the light
+RAYS = 500  # along a side of the square across the light
 TOLERANCE = 0.005  # of a depth that counts as right: two thirds of a cell of a 256³ field
 STEP = 0.15  # in depth between neighbouring rays: beyond it, a sheet is torn
+COLOURS = {
+    "between the bounds": space.OBJECT_COLOUR,
+    "false shadow": space.FALSE_SHADOW,
+    "light leak": space.LIGHT_LEAK,
+}
 
 
 def draw(
@@ -31,33 +35,30 @@ def draw(
     """
     opened = open_scene(mesh_ply, **scene)
     network, _ = load_network(weights)
-    view = hero_view(opened.up)
-    # From nearer the light, where less of the sheets is torn.
-    eye = view.eye / np.linalg.norm(view.eye) + 0.9 * view.light
-    view = replace(view, eye=3.0 * eye / np.linalg.norm(eye))
+    view = hero_view(opened.up, 3.0)
     d = (-view.light).astype(np.float32)
     at = (np.arange(RAYS) + 0.5) / RAYS * 2 - 1
-    disk = np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
-    o = entry_points(-view.light, disk)  # offsets beyond the sphere are taken to its rim
+    square = np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
+    o = entry_points(-view.light, square)  # offsets beyond the sphere are taken to its rim
     t_lb, t_ub = dual_bounds(opened.tracer, o, d)
     chord = chord_lengths(o, np.broadcast_to(d, o.shape))
-    hit = ((disk**2).sum(axis=1) < 0.99) & (t_lb < chord - 1e-6)
-    t_ub = np.minimum(t_ub, chord)
+    hit = ((square**2).sum(axis=1) < 0.99) & (t_lb < chord - 1e-6)
     with torch.inference_mode():
-        depths = network.depths(torch.from_numpy(o), torch.from_numpy(d), torch.float32)
-    t_pred = np.minimum(depths.numpy(), chord)
-    early, late = t_pred < t_lb - TOLERANCE, t_pred > t_ub + TOLERANCE
-    error = np.select([early, late], [1, 2])
-    colours = [space.OBJECT_COLOUR, space.FALSE_SHADOW, space.LIGHT_LEAK]
-    plotters = []
-    for t in (t_lb, t_pred, t_ub):
-        sheet = sheet_of(np.where(hit, t, np.nan), o + t[:, None] * d)
-        sheet["error"] = (error if t is t_pred else 0 * error)[sheet["ray"]]
-        plotters.append(space.new_plotter(view))
-        plotters[-1].add_mesh(
-            sheet,
-            scalars="error",
-            cmap=colours,
+        t_pred = network.depths(torch.from_numpy(o), torch.from_numpy(d), torch.float32).numpy()
+    t_ub, t_pred = np.minimum(t_ub, chord), np.minimum(t_pred, chord)
+    error = np.select([t_pred < t_lb - TOLERANCE, t_pred > t_ub + TOLERANCE], [1, 2])
+    right = np.mean(error[hit] == 0)
+    sheets = {
+        "t$_{lb}$: what the light meets": (t_lb, 0 * error),
+        f"t$_{{pred}}$: what the network answers, {right:.0%} right": (t_pred, error),
+        "t$_{ub}$: where it would leave": (t_ub, 0 * error),
+    }
+    shown = {}
+    for heading, (t, value) in sheets.items():
+        plotter = shown[heading] = space.new_plotter(view)
+        plotter.add_mesh(
+            sheet_of(np.where(hit, t, np.nan), o + t[:, None] * d, value),
+            cmap=[*COLOURS.values()],
             clim=(0, 2),
             interpolate_before_map=False,
             smooth_shading=True,
@@ -65,33 +66,20 @@ def draw(
             diffuse=0.7,
             show_scalar_bar=False,
         )
-    right = 1 - np.mean((early | late)[hit])
-    headings = (
-        "t$_{lb}$: what the light meets",
-        f"t$_{{pred}}$: what the network answers, {right:.0%} right",
-        "t$_{ub}$: where it would leave",
-    )
-    space.write_pictures(
-        dict(zip(headings, plotters)),
-        png,
-        svg,
-        title=title,
-        colours=dict(zip(("between the bounds", "false shadow", "light leak"), colours)),
-    )
+    space.write_pictures(shown, png, svg, title=title, colours=COLOURS)
 
 
-def sheet_of(depths: np.ndarray, points: np.ndarray) -> pyvista.PolyData:
+def sheet_of(depths: np.ndarray, points: np.ndarray, error: np.ndarray) -> pyvista.PolyData:
     """Quads between the points (RAYS², 3) of rays whose depths (RAYS²,), NaN for none, are near.
 
-    The sheet's points have the index of their `ray`.
+    The sheet's points have the `error` (RAYS²,) of their ray.
     """
     i = np.arange(RAYS**2).reshape(RAYS, RAYS)
     quads = np.stack([i[:-1, :-1], i[:-1, 1:], i[1:, 1:], i[1:, :-1]], axis=-1).reshape(-1, 4)
     quads = quads[np.ptp(depths[quads], axis=1) < STEP]
-    rays, corners = np.unique(quads, return_inverse=True)
-    sheet = pyvista.PolyData.from_regular_faces(points[rays], corners.reshape(-1, 4))
-    sheet["ray"] = rays
-    return sheet
+    sheet = pyvista.PolyData.from_regular_faces(points, quads)
+    sheet["error"] = error
+    return sheet.remove_unused_points()
 
 
 if "snakemake" in globals():

@@ -22,6 +22,7 @@ from neural_shadows.scenes.scene import open_scene
 
 MOST_VIEWS = 12  # of a batch; a network answers for each
 MOST_POINTS = 20_000
+COLOURS = {"false shadow": space.FALSE_SHADOW, "light leak": space.LIGHT_LEAK}
 
 
 def draw(
@@ -49,32 +50,25 @@ def draw(
     """
     opened = open_scene(mesh_ply, **scene)
     networks = {path.parent.name: path for path in weights}
-    biases = {path.stem: path for path in depth_biases}
+    held_out = {path.stem: read_json(path)["depth_bias"] for path in depth_biases}
     shown = {}
     for row in rows:
         if row["experiment"] is None:
             method = traced_method(row["method"], opened)
         else:
             network, dtype = open_network(networks[row["experiment"]], "auto", threads)
-            bias = row["bias"]
-            if bias == "held_out":
-                bias = read_json(biases[row["experiment"]])["depth_bias"]
+            bias = held_out[row["experiment"]] if row["bias"] == "held_out" else row["bias"]
             method = network_method(network, dtype, bias or 0.0)
         p, error, share = wrong_points(method, References(references))
         plotter = space.new_plotter(hero_view(opened.up, 4.1))
         space.add_object(plotter, opened)
         space.add_ground(plotter, opened)
-        for sign, colour in ((-1, space.FALSE_SHADOW), (1, space.LIGHT_LEAK)):
+        for sign, colour in zip((-1, 1), COLOURS.values()):
             if np.any(error == sign):
                 plotter.add_points(p[error == sign], color=colour, point_size=5, lighting=False)
         shown[f"{row['label']}\n{share:.2%} of the points wrong"] = plotter
-    space.write_pictures(
-        shown,
-        png,
-        svg,
-        title=f"{title} ({run['scale']} scale)",
-        colours={"false shadow": space.FALSE_SHADOW, "light leak": space.LIGHT_LEAK},
-    )
+    title = f"{title} ({run['scale']} scale)"
+    space.write_pictures(shown, png, svg, title=title, colours=COLOURS)
 
 
 def wrong_points(method: ShadowMethod, batch: References) -> tuple[np.ndarray, np.ndarray, float]:
@@ -82,17 +76,14 @@ def wrong_points(method: ShadowMethod, batch: References) -> tuple[np.ndarray, n
 
     At most `MOST_POINTS` near the object; the share is of all points that face the light.
     """
-    points, signs, count, total = [], [], 0, 0
+    points, errors = [], []
     for frame, truth in islice(batch, 0, None, 1 + (len(batch) - 1) // MOST_VIEWS):
-        error = np.sign(np.round(method(frame)) - np.round(truth))[frame.lit_side]
-        wrong = np.flatnonzero(error)
-        count, total = count + len(wrong), total + len(error)
-        near = wrong[np.linalg.norm(frame.p[wrong], axis=1) < 1.1 * space.REACH]
-        points.append(frame.p[near])
-        signs.append(error[near])
-    p, sign = np.concatenate(points), np.concatenate(signs)
-    thin = slice(None, None, 1 + len(p) // MOST_POINTS)
-    return p[thin], sign[thin], count / max(total, 1)
+        errors.append(np.sign(np.round(method(frame)) - np.round(truth))[frame.lit_side])
+        points.append(frame.p)
+    p, error = np.concatenate(points), np.concatenate(errors)
+    near = (error != 0) & (np.linalg.norm(p, axis=1) < 1.1 * space.REACH)
+    shown = np.flatnonzero(near)[:: 1 + np.count_nonzero(near) // MOST_POINTS]
+    return p[shown], error[shown], np.count_nonzero(error) / max(len(error), 1)
 
 
 if "snakemake" in globals():

@@ -40,31 +40,18 @@ def draw(
     shape = space.add_object(left, opened)
     field, _ = load_network(weights)
     learned = learned_surface(field).compute_implicit_distance(shape)
-    cell = 2 / field.resolution
-    distance = learned["implicit_distance"] / cell
+    distance = learned["implicit_distance"] * field.resolution / 2
     learned["cells"] = np.abs(distance) if field.surface == "sheet" else distance
-    right.add_mesh(
-        learned,
-        scalars="cells",
-        cmap=COLOURS,
-        clim=(-0.5, 0.5),
-        smooth_shading=True,
-        show_scalar_bar=False,
-    )
+    style = {"cmap": COLOURS, "clim": (-0.5, 0.5), "show_scalar_bar": False}
+    right.add_mesh(learned, scalars="cells", smooth_shading=True, **style)
     within = np.mean(np.abs(distance) < 0.5)
-    space.write_pictures(
-        {
-            f"the mesh: {shape.n_cells:,} triangles": left,
-            f"the field of {field.resolution}³ cells: {within:.0%} within half a cell": right,
-        },
-        png,
-        svg,
-        title=title,
-        scale=(
-            "distance from the mesh, cells: outside > 0 > inside",
-            ScalarMappable(Normalize(-0.5, 0.5), COLOURS),
-        ),
-    )
+    shown = {
+        f"the mesh: {shape.n_cells:,} triangles": left,
+        f"the field of {field.resolution}³ cells: {within:.0%} within half a cell": right,
+    }
+    scale = "distance from the mesh, cells: outside > 0 > inside"
+    colours = ScalarMappable(Normalize(-0.5, 0.5), COLOURS)
+    space.write_pictures(shown, png, svg, title=title, scale=(scale, colours))
 
 
 def learned_surface(field: OccupancyFieldNetwork) -> pyvista.PolyData:
@@ -80,13 +67,12 @@ def learned_surface(field: OccupancyFieldNetwork) -> pyvista.PolyData:
         field.logits().detach()[field.table.long()].view(places.shape[:2])
     )
     # Rays are never followed, and nothing is learned, beyond the bounding sphere.
-    place = np.ogrid[-1 : 1 : (size + 1) * 1j, -1 : 1 : (size + 1) * 1j, -1 : 1 : (size + 1) * 1j]
-    logits[sum(x**2 for x in place) > 1] = -LIMIT
+    square = np.linspace(-1, 1, size + 1) ** 2
+    logits[square[:, None, None] + square[:, None] + square > 1] = -LIMIT
     step = -(-size // MOST_CELLS)
     shown = logits[::step, ::step, ::step]
-    grid = pyvista.ImageData(
-        dimensions=shown.shape, spacing=(2 * step / size,) * 3, origin=(-1,) * 3
-    )
+    spacing = (2 * step / size,) * 3
+    grid = pyvista.ImageData(dimensions=shown.shape, spacing=spacing, origin=(-1, -1, -1))
     grid["logit"] = shown.ravel(order="F")
     return grid.contour([0.0], "logit")
 

@@ -15,7 +15,7 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
     OccupancyFieldNetwork,
 )
 from neural_shadows.networks.weight_file import load_network
-from neural_shadows.reports.figures.drawing import OUTLINE, draw_outline
+from neural_shadows.reports.figures.drawing import draw_outline
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_mesh
 from neural_shadows.reports.figures.style import Section, legend_below, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
@@ -42,32 +42,26 @@ def draw(
     figure = new_figure(title, 13, 6.6)
     whole, detail = figure.subplots(1, 2)
     _show(whole, field, cut, np.zeros(2), 1.0)
-    whole.set_title(
-        f"bricks of {BRICK}³ cells at the surface, {field.resolution}³ cells in all", fontsize=11
-    )
+    whole.set_title(f"bricks of {BRICK}³ cells at the surface, {field.resolution}³ cells in all")
     # The highest point stands a little above the middle: there is less to be seen above it.
     ends = cut.outline.reshape(-1, 2)
     centre = ends[ends[:, 1].argmax()] - (0, 0.4 * DETAIL)
-    square = {"fill": False, "edgecolor": OUTLINE, "linewidth": 1}
-    whole.add_patch(Rectangle(centre - DETAIL, 2 * DETAIL, 2 * DETAIL, **square))
+    whole.add_patch(Rectangle(centre - DETAIL, 2 * DETAIL, 2 * DETAIL, fill=False))
     image = _show(detail, field, cut, centre, DETAIL)
-    detail.set_title("the square: shadow begins where the logit turns positive", fontsize=11)
+    detail.set_title("the square: shadow begins where the logit turns positive")
     figure.colorbar(image, ax=detail, label="logit: outside < 0 < inside", shrink=0.8)
-    legend_below(
-        figure,
-        [
-            Patch(facecolor=EMPTY_COLOUR, edgecolor="#cccccc", label="empty: nothing stored"),
-            Patch(color=ENCLOSED_COLOUR, label="enclosed: in shadow, nothing stored"),
-        ],
-    )
+    empty = Patch(facecolor=EMPTY_COLOUR, edgecolor="#cccccc", label="empty: nothing stored")
+    enclosed = Patch(color=ENCLOSED_COLOUR, label="enclosed: in shadow, nothing stored")
+    legend_below(figure, [empty, enclosed])
     write_figure(figure, png, svg)
 
 
 def slice_logits(
     field: OccupancyFieldNetwork, cut: MeshSlice, centre: np.ndarray, half: float
 ) -> np.ndarray:
-    """Logits (PIXELS, PIXELS) of a square of the slice, rows upwards: NaN in empty bricks, ∞ in
-    enclosed ones.
+    """Logits (PIXELS, PIXELS) of a square of the slice, rows upwards.
+
+    NaN in empty bricks, beyond LIMIT in enclosed ones.
 
     Args:
         centre: (2,) of the square in the slice's plane; `half`: half its side.
@@ -78,7 +72,7 @@ def slice_logits(
     p = torch.from_numpy(p.astype(np.float32))
     with torch.inference_mode():
         bricks = field.bricks_at(p)
-        logits = torch.where(bricks == SOLID, torch.inf, torch.nan)
+        logits = torch.where(bricks == SOLID, 2 * LIMIT, torch.nan)
         held = bricks >= 0
         logits[held] = field.logits_at(p[held], bricks[held], field.logits())
     return logits.view(PIXELS, PIXELS).numpy()

@@ -11,7 +11,7 @@ from neural_shadows.reports.figures import style
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
-PARTS = 150  # of a curve that is drawn as means
+PARTS = 60  # of a curve that is drawn as means
 
 
 def draw(

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patheffects import withStroke
 
 from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.rays.streams import DIRECTIONS
@@ -28,11 +27,8 @@ def draw(
     """Draw directions, points on a silhouette, labels and a query beside each other."""
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title, 13.3, 4)
     directions, points, labels, query = figure.subplots(1, 4)
-    drawing.draw_hemisphere(
-        directions,
-        sphere_directions(drawing.SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0],
-        "a  view directions",
-    )
+    pattern = sphere_directions(drawing.SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0]
+    drawing.draw_hemisphere(directions, pattern, "a  view directions")
     drawing.draw_disk(points, "b  rays through a silhouette's quadtree")
     shown = drawing.slice_silhouette(cut, sampling)
     shown.draw(points)
@@ -50,11 +46,10 @@ def _draw_query(axes: Axes, cut: MeshSlice) -> None:
     drawing.draw_outline(axes, cut)
     rays = slice_rays(cut, 401)
     # The ray whose parts before, in and behind the object are all long enough to be seen.
-    end = rays.end
-    shortest = np.minimum(rays.t_lb, np.minimum(end - rays.t_lb, rays.chord - end))
-    i = int(np.argmax(np.where(rays.hit, shortest, -1)))
+    parts = np.diff([0 * rays.end, rays.t_lb, rays.end, rays.chord], axis=0)
+    i = np.argmax(np.where(rays.hit, parts.min(axis=0), -1))
     o, d = rays.origins[i], rays.direction
-    first, last, chord = float(rays.t_lb[i]), float(end[i]), float(rays.chord[i])
+    first, last, chord = rays.t_lb[i], rays.end[i], rays.chord[i]
     depth, s = (first + last) / 2, last + 0.6 * (chord - last)
     parts = ((-0.2, 0, ORANGE, ":"), (0, depth, ORANGE, "-"), (depth, s, drawing.SHADE, "-"))
     for begin, stop, colour, style in parts:
@@ -62,12 +57,10 @@ def _draw_query(axes: Axes, cut: MeshSlice) -> None:
         axes.plot(*line, color=colour, linewidth=2, linestyle=style)
     axes.annotate("light", o - 0.26 * d, ha="center", va="center", color=ORANGE)
     axes.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25))
-    side = 0.13 * np.array([-d[1], d[0]])
     for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", drawing.OUTLINE)):
         axes.plot(*(o + t * d), "o", color=colour, zorder=4)
-        style = {"ha": "center", "va": "center", "fontsize": 12, "zorder": 5}
-        halo = [withStroke(linewidth=2.5, foreground="white")]
-        axes.annotate(text, o + t * d + side, path_effects=halo, **style)
+        style = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 12, "zorder": 5}
+        axes.annotate(text, o + t * d, **style)
 
 
 if "snakemake" in globals():

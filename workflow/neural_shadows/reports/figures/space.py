@@ -9,20 +9,13 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.patches import Patch
 
 from neural_shadows.errors import InputError
-from neural_shadows.reports.figures import opengl
-from neural_shadows.reports.figures.style import (
-    BLUE,
-    ORANGE,
-    legend_below,
-    new_figure,
-    write_figure,
-)
+from neural_shadows.reports.figures import opengl, style
 from neural_shadows.scenes.cameras import Viewpoint
 from neural_shadows.scenes.scene import Scene
 
 WIDTH, HEIGHT = 900, 800  # pixels of a picture
 OBJECT_COLOUR = "#d8d4cc"
-FALSE_SHADOW, LIGHT_LEAK = ORANGE, BLUE
+FALSE_SHADOW, LIGHT_LEAK = style.ORANGE, style.BLUE
 GROUND_COLOUR = "#f1eee6"
 REACH = 1.2  # radii of what is shown of the ground
 
@@ -82,7 +75,7 @@ def write_pictures(
     """
     width = min(6.2, 18 / len(shown))
     height = width * HEIGHT / WIDTH + (1.3 if colours else 0.8)
-    figure = new_figure(title, width * len(shown) + (0.9 if scale else 0), height)
+    figure = style.new_figure(title, width * len(shown) + (0.9 if scale else 0), height)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
     for axes, (heading, plotter) in zip(panels, shown.items()):
         axes.imshow(plotter.screenshot(return_img=True))
@@ -92,5 +85,5 @@ def write_pictures(
     if scale:
         figure.colorbar(scale[1], ax=panels, label=scale[0], shrink=0.7)
     if colours:
-        legend_below(figure, [Patch(color=c, label=label) for label, c in colours.items()])
-    write_figure(figure, png, svg)
+        style.legend_below(figure, [Patch(color=c, label=label) for label, c in colours.items()])
+    style.write_figure(figure, png, svg)
