@@ -20,14 +20,12 @@ def draw(
     rays = slice_rays(cut, 401)
     axes = figure.subplots()
     t = torch.linspace(0, 2, 401)
-    chosen = []
-    thick = np.where(rays.hit & np.isfinite(rays.t_ub), rays.t_ub - rays.t_lb, -1)
-    if thick.max() > 0:
-        chosen.append(("hits", int(np.argmax(thick)), BLUE))
-    if not rays.hit.all():
-        chosen.append(("misses", int(np.argmax(np.where(rays.hit, -1, rays.chord))), ORANGE))
-    for name, i, colour in chosen:
-        low, high = float(rays.t_lb[i]), float(rays.t_ub[i])
+    thick = np.where(rays.hit & np.isfinite(rays.t_ub), rays.t_ub - rays.t_lb, 0)
+    long = np.where(rays.hit, 0, rays.chord)
+    for name, size, colour in (("hits", thick, BLUE), ("misses", long, ORANGE)):
+        if not size.any():
+            continue
+        low, high = (float(bound[np.argmax(size)]) for bound in (rays.t_lb, rays.t_ub))
         loss = DeadZone()(t, torch.tensor(low), torch.tensor(high))
         upper = "∞" if np.isinf(high) else f"{high:.2f}"
         label = f"a ray that {name}: t$_{{lb}}$ = {low:.2f}, t$_{{ub}}$ = {upper}"

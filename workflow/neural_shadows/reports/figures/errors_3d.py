@@ -6,13 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from neural_shadows.evaluation import shadow_methods
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import (
-    ShadowMethod,
-    network_method,
-    open_network,
-    traced_method,
-)
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
@@ -54,11 +49,12 @@ def draw(
     shown = {}
     for row in rows:
         if row["experiment"] is None:
-            method = traced_method(row["method"], opened)
+            method = shadow_methods.traced_method(row["method"], opened)
         else:
-            network, dtype = open_network(networks[row["experiment"]], "auto", threads)
+            path = networks[row["experiment"]]
+            network, dtype = shadow_methods.open_network(path, "auto", threads)
             bias = held_out[row["experiment"]] if row["bias"] == "held_out" else row["bias"]
-            method = network_method(network, dtype, bias or 0.0)
+            method = shadow_methods.network_method(network, dtype, bias or 0.0)
         p, error, share = wrong_points(method, References(references))
         plotter = space.new_plotter(hero_view(opened.up, 4.1))
         space.add_object(plotter, opened)
@@ -71,7 +67,9 @@ def draw(
     space.write_pictures(shown, png, svg, title=title, colours=COLOURS)
 
 
-def wrong_points(method: ShadowMethod, batch: References) -> tuple[np.ndarray, np.ndarray, float]:
+def wrong_points(
+    method: shadow_methods.ShadowMethod, batch: References
+) -> tuple[np.ndarray, np.ndarray, float]:
     """Points (k, 3) where a method errs, the sign of the error (k,), and the share of all points.
 
     At most `MOST_POINTS` near the object; the share is of all points that face the light.

@@ -19,7 +19,6 @@ from neural_shadows.reports.figures.style import Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
-MOST_CELLS = 256  # a side, of what is drawn: more are finer than the picture
 COLOURS = "RdBu_r"
 
 
@@ -69,11 +68,9 @@ def learned_surface(field: OccupancyFieldNetwork) -> pyvista.PolyData:
     # Rays are never followed, and nothing is learned, beyond the bounding sphere.
     square = np.linspace(-1, 1, size + 1) ** 2
     logits[square[:, None, None] + square[:, None] + square > 1] = -LIMIT
-    step = -(-size // MOST_CELLS)
-    shown = logits[::step, ::step, ::step]
-    spacing = (2 * step / size,) * 3
-    grid = pyvista.ImageData(dimensions=shown.shape, spacing=spacing, origin=(-1, -1, -1))
-    grid["logit"] = shown.ravel(order="F")
+    spacing = (2 / size,) * 3
+    grid = pyvista.ImageData(dimensions=logits.shape, spacing=spacing, origin=(-1, -1, -1))
+    grid["logit"] = logits.ravel(order="F")
     return grid.contour([0.0], "logit")
 
 

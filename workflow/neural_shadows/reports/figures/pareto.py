@@ -8,7 +8,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from neural_shadows.evaluation.method_names import RAY_TRACED, is_shadow_map
+from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.tables.writing import read_table
@@ -61,9 +61,9 @@ def draw(
     style.write_figure(figure, png, svg)
 
 
-def kind_of(method: str, encoding: str) -> str:
-    """What the legend calls a method with this key: a map, ray traced, or by its encoding."""
-    if method == RAY_TRACED or is_shadow_map(method):
+def kind_of(method: str, encoding: str | float) -> str:
+    """What the legend calls a method with this key, whose encoding is NaN if it is no network."""
+    if not isinstance(encoding, str):
         return "ray traced" if method == RAY_TRACED else "shadow map"
     return "thesis's network" if encoding == "frequency" else encoding.replace("_", " ")
 
@@ -94,22 +94,17 @@ def pareto_figure(table: pd.DataFrame, *, title: str) -> Figure:
         for row in shown.dropna(subset="cost").itertuples():
             colour, marker = STYLES.get(row.kind, OTHER)
             spread = [[row.error - row.low], [row.high - row.error]]
-            look = {
-                "color": colour,
-                "marker": marker,
-                "markersize": 7,
-                "capsize": 2,
-                "label": row.kind,
-            }
-            axes.errorbar(row.cost, row.error, spread, linestyle="", **look)
-        for row in shown[exact].dropna(subset="cost").itertuples():
-            _name(axes, "ray traced: 0", (row.cost, floor), (8, -2))
+            look = {"color": colour, "marker": marker, "label": row.kind, "linestyle": ""}
+            axes.errorbar(row.cost, row.error, spread, markersize=7, capsize=2, **look)
+        for cost in shown["cost"][exact].dropna():
+            axes.text(1.1 * cost, floor, "ray traced: 0", va="center", fontsize=7)
         if column == "training_seconds":  # maps train nothing: a network must come below their line
             axes.set_xlim(left=axes.get_xlim()[0] / 2.5)  # room for the maps' names
             for row in shown[shown["kind"] == "shadow map"].itertuples():
                 axes.axhline(row.error, color=STYLES[row.kind][0], linewidth=0.7, linestyle=":")
-                where = {"xycoords": ("axes fraction", "data")}
-                _name(axes, row.method, (0.01, row.error), (0, 0), **where)
+                axes.text(
+                    0.01, row.error, row.method, transform=axes.get_yaxis_transform(), fontsize=7
+                )
         _draw_front(axes, shown[~exact].dropna(subset="cost"))
         axes.grid(**style.GRID)
         style.plain_numbers(axes.xaxis)
@@ -125,19 +120,15 @@ def _draw_front(axes: Axes, points: pd.DataFrame) -> None:
     best = points.iloc[front(points["cost"].to_numpy(), points["error"].to_numpy())]
     axes.plot(best["cost"], best["error"], color="#bbbbbb", linewidth=1, zorder=0)
     axes.autoscale_view()
-    places = axes.transData.transform(best[["cost", "error"]])
-    places = axes.transAxes.inverted().transform(places)
+    places = (axes.transData - axes.transAxes).transform(best[["cost", "error"]])
     for i, row in enumerate(best.itertuples()):
         # Below and to the left in the right half; below also where the last name is too near.
         left = places[i, 0] > 0.5
         below = left or (i > 0 and places[i - 1, 1] - places[i, 1] < 0.04)
         look = {"ha": "right" if left else "left", "va": "top" if below else "bottom"}
         offset = (-6 if left else 6, -5 if below else 5)
-        _name(axes, row.method, (row.cost, row.error), offset, **look)
-
-
-def _name(axes: Axes, text: str, at: tuple[float, float], offset: tuple[int, int], **look) -> None:
-    axes.annotate(text, at, fontsize=7, xytext=offset, textcoords="offset points", **look)
+        look |= {"xytext": offset, "textcoords": "offset points", "fontsize": 7}
+        axes.annotate(row.method, (row.cost, row.error), **look)
 
 
 if "snakemake" in globals():

@@ -36,8 +36,8 @@ def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Section) -> None:
     left, right = figure.subplots(1, 2)
     left.set(xticks=[], yticks=[], title=f"{report['faces']:,} triangles; up: {scene['up']}")
     _draw_object(left, opened, view)
-    across, upward, away = camera_axes(view.eye, view.target, view.up)
-    shown = SilhouetteDrawing(opened.tracer, away, across, upward, RESOLUTION, 1)
+    basis = camera_axes(view.eye, view.target, view.up)
+    shown = SilhouetteDrawing(opened.tracer, basis, RESOLUTION, 1)
     quads = f"quadtree of {len(shown.quads):,} quads"
     draw_disk(right, f"the same view's silhouette of {RESOLUTION}² texels, {quads}")
     shown.draw(right)
