@@ -13,31 +13,19 @@ from neural_shadows.reports.figures.space import new_plotter
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="OpenGL is part of the system")
 
 
-@pytest.fixture
-def libraries(monkeypatch):
-    def libraries(*names, found="a library"):
-        opengl.window_class.cache_clear()
-        monkeypatch.setattr(opengl, "_load", lambda name: found if name in names else None)
-
-    yield libraries
-    opengl.window_class.cache_clear()
-
-
-def test_without_libraries_a_figure_says_what_to_install(libraries):
-    libraries()
-    assert not opengl.available()
-    with pytest.raises(InputError, match="libosmesa6"):
-        new_plotter(hero_view(Y_UP))
-    libraries("libOSMesa.so.6")
-    assert opengl.window_class() == "vtkOSOpenGLRenderWindow"
-
-
-def test_egl_without_a_device_is_not_enough(libraries):
+@pytest.mark.parametrize("name", ["libOSMesa.so.6", "libEGL.so.1", None])
+def test_egl_without_a_device_is_not_enough_and_osmesa_is(monkeypatch, name):
     # eglQueryDevicesEXT succeeds and leaves the count at 0, as without a driver.
     prototype = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
-    query = prototype(lambda *_: 1)
-    egl = MagicMock()
-    egl.eglGetProcAddress.return_value = ctypes.cast(query, ctypes.c_void_p).value
-    libraries("libEGL.so.1", found=egl)
-    assert not opengl.available()
-    egl.eglInitialize.assert_not_called()
+    query, library = prototype(lambda *_: 1), MagicMock()
+    library.eglGetProcAddress.return_value = ctypes.cast(query, ctypes.c_void_p).value
+    monkeypatch.setattr(opengl, "_load", {name: library}.get)
+    expected = "vtkOSOpenGLRenderWindow" if name == "libOSMesa.so.6" else None
+    assert opengl.find_window() == expected
+    library.eglInitialize.assert_not_called()
+
+
+def test_a_figure_without_opengl_says_what_to_install(monkeypatch):
+    monkeypatch.setattr(opengl, "window_class", lambda: None)
+    with pytest.raises(InputError, match="libosmesa6"):
+        new_plotter(hero_view(Y_UP))

@@ -1,0 +1,116 @@
+"""The pictures of the method and of scenes, each drawn by its kind's own `draw`."""
+
+from importlib import import_module
+
+import numpy as np
+import pytest
+import trimesh
+from matplotlib.colors import to_rgb
+from matplotlib.image import imread
+from scipy.ndimage import binary_opening
+from scipy.special import sph_harm_y
+from shapes import SPHERE_OF_LIGHTS, box, bumpy_sphere, scene_of, sheet
+
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.rays.poisson_disk import sphere_directions
+from neural_shadows.reports.figures import view_directions
+from neural_shadows.reports.figures.mesh_slice import slice_mesh, slice_rays
+from neural_shadows.reports.figures.preview import draw as draw_preview
+from neural_shadows.reports.figures.style import ORANGE
+
+SAMPLING = {"silhouette_resolution": 32, "min_quad": 1}
+SLICES = ("shadow_boundary", "dual_bounds", "dead_zone_loss")
+RADIUS = 0.5
+
+
+def draw(shape, kind, folder, up="y"):
+    files = [folder / name for name in ("mesh.ply", "mesh.json", "f.png", "f.svg")]
+    shape.export(files[0])
+    write_json(files[1], {"name": "a mesh"})
+    settings = {} if kind in SLICES else {"sampling": SAMPLING, "seed": 1}
+    settings["scene"] = {"up": up, "ground": True, "light": SPHERE_OF_LIGHTS}
+    import_module(f"neural_shadows.reports.figures.{kind}").draw(*files, title="How", **settings)
+    assert files[3].stat().st_size < 600_000
+    return imread(files[2])[..., :3]
+
+
+@pytest.mark.parametrize("kind", [*SLICES, "overview", "quadtree"])
+def test_each_kind_is_drawn_also_of_a_sheet_without_second_hits(tmp_path, kind):
+    picture = draw(bumpy_sphere(3), kind, tmp_path)
+    assert 1300 <= picture.shape[1] <= 2000 and picture.std() > 0.02
+    if kind != "quadtree":
+        assert draw(sheet(0.0, 0.5), kind, tmp_path).std() > 0.02
+
+
+@pytest.mark.parametrize("up", ["y", "z"])
+def test_the_silhouette_stands_upright_where_the_object_is(tmp_path, up):
+    corner = box(0.4, 0.2, 0.1).apply_translation((0.4, 0.3, 0))
+    if up == "z":  # the same, seen from the front: (x, y, z) as (x, −z, y)
+        corner.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0)))
+    picture = draw(corner, "quadtree", tmp_path, up)
+    left = picture[:, : picture.shape[1] // 2]
+
+    def extent(colour, smallest):
+        of_colour = np.abs(left - colour).max(axis=2) < 0.02
+        rows, columns = np.nonzero(binary_opening(of_colour, np.ones((smallest, smallest))))
+        return np.array([columns.min(), columns.max(), rows.max(), rows.min()])
+
+    # Letters have grey rims, but no grey area.
+    circle, grey = extent(to_rgb(ORANGE), 1), extent(184 / 255, 5)
+    centre = np.repeat([circle[:2].mean(), circle[2:].mean()], 2)
+    radius = (circle[1] - circle[0]) / 2
+    x_min, x_max, y_min, y_max = (grey - centre) / radius * (1, 1, -1, -1)
+    # Half a texel of 2/32 at most, as a texel counts by its centre, and a line's width.
+    assert (x_min, x_max, y_min, y_max) == pytest.approx((0.2, 0.6, 0.2, 0.4), abs=0.04)
+
+
+def test_bounds_of_a_sphere_are_its_chords():
+    ball = slice_mesh(scene_of(trimesh.creation.icosphere(5, RADIUS)))
+    np.testing.assert_allclose(np.linalg.norm(ball.outline, axis=2), RADIUS, atol=3e-3)
+    rays = slice_rays(ball, 101)
+    for t in (0 * rays.chord, rays.chord):
+        np.testing.assert_allclose(np.linalg.norm(rays.at(t), axis=1), 1)
+    inside = np.abs(rays.offset) < 0.98 * RADIUS
+    half = np.sqrt(RADIUS**2 - rays.offset[inside] ** 2)
+    middle = np.sqrt(1 - rays.offset[inside] ** 2)
+    np.testing.assert_allclose(rays.t_lb[inside], middle - half, atol=5e-3)
+    np.testing.assert_allclose(rays.t_ub[inside], middle + half, atol=5e-3)
+    beside = np.abs(rays.offset) > RADIUS
+    assert not rays.hit[beside].any() and rays.hit[inside].all()
+
+
+def test_slice_runs_along_the_greatest_horizontal_extent():
+    cut = slice_mesh(scene_of(box(0.2, 0.5, 1)))
+    np.testing.assert_array_equal(cut.across, np.eye(3)[2])
+    np.testing.assert_allclose(np.abs(cut.outline).max(axis=(0, 1)), (0.5, 0.25))
+
+
+def test_the_preview_says_the_up_axis_and_a_sheet(tmp_path, capsys):
+    box(1, 0.4, 0.6).export(tmp_path / "mesh.ply")
+    files = tmp_path / "mesh.ply", tmp_path / "mesh.json", tmp_path / "a.png"
+    for up, is_sheet in (("y", False), ("z", True)):
+        report = {"name": "a mesh", "faces": 12, "watertight": not is_sheet, "sheet": is_sheet}
+        write_json(files[1], report)
+        draw_preview(*files, scene={"up": up, "ground": True, "light": SPHERE_OF_LIGHTS})
+        said = capsys.readouterr().out
+        assert f"Up is {up}:" in said
+        assert ("`surface: sheet`" in said) == is_sheet
+    assert imread(files[2])[..., :3].std() > 0.05
+
+
+def test_the_spectrum_is_the_sum_over_spherical_harmonics():
+    x = np.random.default_rng(1).normal(size=(40, 3))
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    theta, phi = np.arccos(x[:, 2]), np.arctan2(x[:, 1], x[:, 0])
+    for degree, power in enumerate(view_directions.angular_power_spectrum(x, 6), start=1):
+        sums = [sph_harm_y(degree, m, theta, phi).sum() for m in range(-degree, degree + 1)]
+        expected = 4 * np.pi / (40 * (2 * degree + 1)) * np.sum(np.abs(sums) ** 2)
+        assert power == pytest.approx(expected, rel=1e-9)
+
+
+def test_poisson_disks_are_blue(tmp_path):
+    power = view_directions.angular_power_spectrum(sphere_directions(500, 1)[0], 50)
+    assert power[:20].max() < 0.25
+    assert power[-10:].mean() > 1
+    view_directions.draw(tmp_path / "f.png", tmp_path / "f.svg", title="Directions", seed=1)
+    assert (tmp_path / "f.svg").stat().st_size < 600_000
