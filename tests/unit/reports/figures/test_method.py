@@ -42,12 +42,9 @@ def test_each_kind_is_drawn_also_of_a_sheet_without_second_hits(tmp_path, kind):
         assert draw(sheet(0.0, 0.5), kind, tmp_path).std() > 0.02
 
 
-@pytest.mark.parametrize("up", ["y", "z"])
-def test_the_silhouette_stands_upright_where_the_object_is(tmp_path, up):
-    corner = box(0.4, 0.2, 0.1).apply_translation((0.4, 0.3, 0))
-    if up == "z":  # the same, seen from the front: (x, y, z) as (x, −z, y)
-        corner.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0)))
-    picture = draw(corner, "quadtree", tmp_path, up)
+def test_the_silhouette_stands_upright_where_the_object_is(tmp_path):
+    corner = box(0.4, 0.1, 0.2).apply_translation((0.4, 0, 0.3))
+    picture = draw(corner, "quadtree", tmp_path, up="z")
     left = picture[:, : picture.shape[1] // 2]
 
     def extent(colour, smallest):
@@ -68,8 +65,6 @@ def test_bounds_of_a_sphere_are_its_chords():
     ball = slice_mesh(scene_of(trimesh.creation.icosphere(5, RADIUS)))
     np.testing.assert_allclose(np.linalg.norm(ball.outline, axis=2), RADIUS, atol=3e-3)
     rays = slice_rays(ball, 101)
-    for t in (0 * rays.chord, rays.chord):
-        np.testing.assert_allclose(np.linalg.norm(rays.at(t), axis=1), 1)
     inside = np.abs(rays.offset) < 0.98 * RADIUS
     half = np.sqrt(RADIUS**2 - rays.offset[inside] ** 2)
     middle = np.sqrt(1 - rays.offset[inside] ** 2)
@@ -79,22 +74,13 @@ def test_bounds_of_a_sphere_are_its_chords():
     assert not rays.hit[beside].any() and rays.hit[inside].all()
 
 
-def test_slice_runs_along_the_greatest_horizontal_extent():
-    cut = slice_mesh(scene_of(box(0.2, 0.5, 1)))
-    np.testing.assert_array_equal(cut.across, np.eye(3)[2])
-    np.testing.assert_allclose(np.abs(cut.outline).max(axis=(0, 1)), (0.5, 0.25))
-
-
 def test_the_preview_says_the_up_axis_and_a_sheet(tmp_path, capsys):
     box(1, 0.4, 0.6).export(tmp_path / "mesh.ply")
     files = tmp_path / "mesh.ply", tmp_path / "mesh.json", tmp_path / "a.png"
-    for up, is_sheet in (("y", False), ("z", True)):
-        report = {"name": "a mesh", "faces": 12, "watertight": not is_sheet, "sheet": is_sheet}
-        write_json(files[1], report)
-        draw_preview(*files, scene={"up": up, "ground": True, "light": SPHERE_OF_LIGHTS})
-        said = capsys.readouterr().out
-        assert f"Up is {up}:" in said
-        assert ("`surface: sheet`" in said) == is_sheet
+    write_json(files[1], {"name": "a mesh", "faces": 12, "watertight": False, "sheet": True})
+    draw_preview(*files, scene={"up": "z", "ground": True, "light": SPHERE_OF_LIGHTS})
+    said = capsys.readouterr().out
+    assert "Up is z:" in said and "`surface: sheet`" in said
     assert imread(files[2])[..., :3].std() > 0.05
 
 

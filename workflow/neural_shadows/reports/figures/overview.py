@@ -51,10 +51,8 @@ def _draw_query(axes: Axes, cut: MeshSlice) -> None:
     o, d = rays.origins[i], rays.direction
     first, last, chord = rays.t_lb[i], rays.end[i], rays.chord[i]
     depth, s = (first + last) / 2, last + 0.6 * (chord - last)
-    parts = ((-0.2, 0, ORANGE, ":"), (0, depth, ORANGE, "-"), (depth, s, drawing.SHADE, "-"))
-    for begin, stop, colour, style in parts:
-        line = np.stack([o + begin * d, o + stop * d]).T
-        axes.plot(*line, color=colour, linewidth=2, linestyle=style)
+    for begin, stop, colour in ((-0.2, depth, ORANGE), (depth, s, drawing.SHADE)):
+        axes.plot(*np.stack([o + begin * d, o + stop * d]).T, color=colour, linewidth=2)
     axes.annotate("light", o - 0.26 * d, ha="center", va="center", color=ORANGE)
     axes.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25))
     for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", drawing.OUTLINE)):

@@ -16,7 +16,6 @@ from neural_shadows.scenes.scene import Scene
 WIDTH, HEIGHT = 900, 800  # pixels of a picture
 OBJECT_COLOUR = "#d8d4cc"
 FALSE_SHADOW, LIGHT_LEAK = style.ORANGE, style.BLUE
-GROUND_COLOUR = "#f1eee6"
 REACH = 1.2  # radii of what is shown of the ground
 
 
@@ -55,7 +54,7 @@ def add_ground(plotter: pyvista.Plotter, scene: Scene) -> None:
     if scene.ground is not None:
         centre = scene.ground * scene.up
         disk = pyvista.Disc(center=centre, inner=0, outer=REACH, normal=scene.up, c_res=90)
-        plotter.add_mesh(disk, color=GROUND_COLOUR, lighting=False)
+        plotter.add_mesh(disk, color="#f1eee6", lighting=False)
 
 
 def write_pictures(
@@ -74,8 +73,7 @@ def write_pictures(
         scale: label and colours of a scale at the right.
     """
     width = min(6.2, 18 / len(shown))
-    height = width * HEIGHT / WIDTH + (1.3 if colours else 0.8)
-    figure = style.new_figure(title, width * len(shown) + (0.9 if scale else 0), height)
+    figure = style.new_figure(title, width * len(shown), width * HEIGHT / WIDTH + 1)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
     for axes, (heading, plotter) in zip(panels, shown.items()):
         axes.imshow(plotter.screenshot(return_img=True))
