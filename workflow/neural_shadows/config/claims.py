@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in
 from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
-from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
+from neural_shadows.evaluation.method_names import experiment_of, is_classic
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -102,9 +102,9 @@ def check(config: "Config") -> None:
         key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
             for method in methods:
-                if not is_shadow_map(method):
+                if not is_classic(method):
                     check_among(key, experiment_of(method), config.experiments)
-            if all(map(is_shadow_map, methods)):
+            if all(map(is_classic, methods)):
                 raise ValueError(f"{key}: {methods}: one of them should be an experiment")
             if len(set(methods)) < len(methods):
                 raise ValueError(f"{key}: {methods[0]!r} is compared with itself")

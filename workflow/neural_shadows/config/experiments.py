@@ -7,7 +7,7 @@ from pydantic import Field
 from neural_shadows.config.base import Model, Seed, Text, name_in, text_or
 from neural_shadows.config.networks import Network
 from neural_shadows.config.trainings import Training
-from neural_shadows.evaluation.method_names import BIASED_SUFFIX, RAY_TRACED, SHADOW_MAP_PREFIX
+from neural_shadows.evaluation.method_names import BIASED_SUFFIX, CLASSIC, RAY_TRACED
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -71,11 +71,12 @@ def check(config: "Config") -> None:
     trained: dict[str, str] = {}
     for name, experiment in config.experiments.items():
         key = f"experiments.{name}"
-        taken = name in ("reference", RAY_TRACED) or name.startswith(SHADOW_MAP_PREFIX)
-        if taken or name.endswith(BIASED_SUFFIX):
+        families = tuple(f"{family}_" for family in CLASSIC)
+        if name in ("reference", RAY_TRACED) or name.startswith(families):
+            raise ValueError(f"{key}: a method of tables has a name like this; choose another")
+        if name.endswith(BIASED_SUFFIX):
             raise ValueError(
-                f"{key}: tables and pictures have a method of this name; allowed: any other than "
-                f"'reference', '{RAY_TRACED}', '{SHADOW_MAP_PREFIX}…' and '…{BIASED_SUFFIX}'"
+                f"{key}: {BIASED_SUFFIX!r} ends a row's name with a bias; leave it out"
             )
         same = trained.setdefault(experiment.model_dump_json(exclude={"label", "bias"}), name)
         if same != name:

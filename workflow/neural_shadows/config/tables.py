@@ -11,8 +11,8 @@ from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
     RAY_TRACED,
     biased_key,
-    is_shadow_map,
-    resolution_of,
+    classic_label,
+    is_classic,
 )
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
     elif method == RAY_TRACED:
         label = label or "Ray traced"
     else:
-        label = label or f"{resolution_of(method)}² shadow map"
+        label = label or classic_label(method)
     return {
         "method": method,
         "label": label,
@@ -152,7 +152,7 @@ def check(config: "Config") -> None:
             for row in rows:
                 if row.bias is not None:
                     check_among(f"{key}.rows with a bias", row.method, here)
-                elif not is_shadow_map(row.method):
+                elif not is_classic(row.method):
                     allowed = ["shadow_map_N", *timed, *here]
                     check_among(f"{key}.rows of {scene}", row.method, allowed)
             made = [row_of(config, scene, row) for row in rows]

@@ -9,7 +9,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from neural_shadows.evaluation.method_names import RAY_TRACED, experiment_of, is_shadow_map
+from neural_shadows.evaluation.method_names import RAY_TRACED, experiment_of, is_classic
 from neural_shadows.evaluation.shadow_methods import (
     ShadowMethod,
     network_method,
@@ -95,7 +95,7 @@ def measure_frame_times(
     rates: dict[str, list[float]] = {}
     timed: dict[str, ShadowMethod] = {}
     for method in methods:
-        if method == RAY_TRACED or is_shadow_map(method):
+        if method == RAY_TRACED or is_classic(method):
             timed[method] = traced_method(method, opened, whole_map=True)
         else:
             network, dtype = open_network(files[experiment_of(method)], device, 1)

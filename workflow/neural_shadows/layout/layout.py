@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 from neural_shadows.config.base import not_among
 from neural_shadows.config.networks import Network
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.method_names import experiment_of, is_shadow_map
+from neural_shadows.evaluation.method_names import experiment_of, is_classic
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
 
@@ -128,7 +128,7 @@ class Layout:
 
     def bias(self, method: str) -> float | str | None:
         """The depth bias of a method that is a network: a number, or `held_out`."""
-        if is_shadow_map(method):
+        if is_classic(method):
             return None
         name = experiment_of(method)
         return self.entry("experiments", name)["bias"] if method == name else HELD_OUT
@@ -139,9 +139,9 @@ class Layout:
 
     def weights(self, method: str) -> list[str]:
         """The weights of a method that is a network."""
-        names = [experiment_of(method)] * (not is_shadow_map(method))
+        names = [experiment_of(method)] * (not is_classic(method))
         return [self.paths.network("weights.safetensors", name) for name in names]
 
     def method_encodings(self, method: str) -> set[str]:
         """The kind of network of a method that is one."""
-        return self.encodings([experiment_of(method)] * (not is_shadow_map(method)))
+        return self.encodings([experiment_of(method)] * (not is_classic(method)))
