@@ -18,7 +18,7 @@ scenes.landscape.light.axis | y | must be horizontal, not `up`; allowed: x, z
 scenes.landscape.view_sets | [shadow] | 'shadow' needs a scene with ground: true
 experiments.dragon.scene | dog | experiments.dragon.scene: 'dog' is not among dragon, fence
 experiments.dragon.network | thesi | experiments.dragon.network: 'thesi' (did you mean 'thesis'?)
-experiments.dragon_biased | {like: dragon} | experiments.dragon_biased: tables and pictures have a method
+experiments.dragon_biased | {like: dragon} | experiments.dragon_biased: '_biased' ends a row's name
 experiments.twin | {like: dragon} | experiments.twin: is the same as experiments.dragon
 tables.maps | {rows: [shadow_map_64], title: x} | tables.maps: has shadow maps alone and needs a `scene`
 tables.table_4_3.rows.0 | dragn | tables.table_4_3.rows of dragon: 'dragn' (did you mean 'dragon
