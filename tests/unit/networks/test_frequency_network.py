@@ -50,29 +50,6 @@ def test_encoding_against_float64():
     assert (error < 4e-7 * 2.0 ** np.arange(10)).all()
 
 
-@pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
-def test_output_is_never_negative(dtype):
-    network = thesis_network(64)
-    with torch.no_grad():
-        network.output.sub_(network.output.mean())  # both signs: about half the rays below zero
-        t = network(*RAYS, dtype)
-    assert t.shape == (256,) and t.dtype == torch.float32
-    assert t.min() == 0 < t.max()
-
-
-def test_output_is_twice_the_last_layer():
-    network = FrequencyNetwork(frequencies=0, width=8, hidden_layers=1)
-    with torch.no_grad():
-        for weight in network.layers:
-            weight.copy_(torch.eye(8, weight.shape[1]))
-        network.output.copy_(torch.tensor([[1.0, 0, 0, 0, 1, 0, 0, 0]]))
-        t = network(
-            torch.tensor([[0.6, 0.0, -0.8]]), torch.tensor([[0.0, -1.0, 0.0]]), torch.float32
-        )
-    # 2 · ((0.6 + 1) / 2 + (−1 + 1) / 2)
-    assert t.item() == pytest.approx(1.6, abs=1e-6)
-
-
 @pytest.mark.parametrize("width", WIDTHS)
 def test_no_seed_gives_a_dead_network(width):
     means = []

@@ -35,14 +35,6 @@ def test_cells_are_those_that_a_triangle_touches(size):
     assert inside.mean() > 0.85
 
 
-def test_a_plane_across_an_axis_is_one_layer():
-    vertices = np.array([[-0.9, 0.1, -0.9], [0.9, 0.1, -0.9], [0.9, 0.1, 0.9], [-0.9, 0.1, 0.9]])
-    expected = np.zeros((10, 10, 10), bool)
-    expected[:, 5, :] = True  # [0, 0.2)
-    faces = np.array([[0, 1, 2], [0, 2, 3]])
-    assert np.array_equal(surface_cells(vertices, faces, 10), expected)
-
-
 @pytest.mark.parametrize(("hole", "closed"), [(0, True), (1, True), (150, False)])
 def test_the_inside_of_a_sphere_is_enclosed_unless_its_hole_is_large(hole, closed):
     sphere = trimesh.creation.icosphere(4, radius=0.8)

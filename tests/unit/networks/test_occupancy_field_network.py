@@ -9,8 +9,7 @@ from shapes import bumpy_sphere, prepared, sheet
 
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.networks.object_space.field_marching import SOLID, skips
-from neural_shadows.networks.object_space.occupancy_field_network import LIMIT, lay_out
+from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
 from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
@@ -47,32 +46,6 @@ def set_logits(network, function) -> None:
 
 def ball(p):
     return 40 * (0.5 - p.norm(dim=1))
-
-
-def test_vertices_of_neighbouring_bricks_are_shared():
-    surface = np.zeros((4, 4, 4), bool)
-    surface[1, 1, 1] = surface[1, 1, 2] = surface[3, 3, 3] = True
-    layout = lay_out(surface, solid=True)
-    assert layout.count == 3 * 125 - 25
-    assert np.array_equal(layout.grid >= 0, surface)
-    assert sorted(layout.grid[surface]) == [0, 1, 2]
-    assert np.array_equal(np.unique(layout.table), np.arange(layout.count))
-    # Brick 0's far face along z is brick 1's near one.
-    first, second = layout.table[:2].reshape(2, 5, 5, 5)
-    assert np.array_equal(first[:, :, 4], second[:, :, 0])
-
-
-def test_bricks_without_values_say_what_they_are():
-    surface = np.ones((5, 5, 5), bool)
-    surface[2, 2, 2] = False
-    assert lay_out(surface, solid=True).grid[2, 2, 2] == SOLID
-    assert lay_out(surface, solid=False).grid[2, 2, 2] == -1
-    # Empty ones how far the next is, by the larger of the distances along the axes.
-    surface = np.zeros((9, 9, 9), bool)
-    assert (skips(surface) == 9).all()
-    surface[0, 4, 4] = True
-    assert skips(surface)[:, 4, 4].tolist() == [1, 1, 2, 3, 4, 5, 6, 7, 8]
-    assert skips(surface)[3, 8, 0] == 4
 
 
 def test_linear_functions_are_interpolated_exactly(tmp_path):
@@ -127,16 +100,6 @@ def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored):
         assert (found < -2 * o @ d - 1e-3).float().mean() > 0.3
 
 
-def test_new_weights_are_seen_and_enclosed_bricks_are_solid(tmp_path):
-    network = made(trimesh.creation.icosphere(4, radius=0.9), tmp_path, SOLID_32)
-    o, d = torch.tensor([[-1.0, 0, 0]]), torch.tensor([1.0, 0, 0])
-    set_logits(network, lambda p: 40 * (0.9 - p.norm(dim=1)))
-    assert network.depths(o, d, torch.float32).item() == pytest.approx(0.1, abs=0.01)
-    with torch.no_grad():
-        network.values.fill_(-10.0)  # all that is held says outside
-    assert 0.1 < network.depths(o, d, torch.float32).item() < 0.1 + 2 * (2 / 8)
-
-
 def learn(network, batch: LabelledBatch, steps: int) -> None:
     generator = torch.Generator().manual_seed(0)
     optimiser = torch.optim.Adam(network.parameters(), lr=0.5)
@@ -178,16 +141,3 @@ def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
         near = (t - t_lb).abs() < 0.02
         assert near[hit & side].float().mean() > 0.95
         assert (past & side).sum() > 20 and (t[past & side] == LIT).all()
-
-
-@pytest.mark.parametrize(("stored", "step"), [("int8", 2 / 127), ("float16", 1e-3), ("float32", 0)])
-def test_what_a_file_keeps(tmp_path, stored, step):
-    settings = SOLID_32 | {"stored": stored}
-    network = made(bumpy_sphere(4), tmp_path, settings)
-    set_logits(network, lambda p: 30 * (0.85 - p.norm(dim=1)))
-    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
-    loaded, _ = load_network(tmp_path / "weights.safetensors")
-    assert torch.equal(loaded.grid, network.grid) and torch.equal(loaded.table, network.table)
-    error = (loaded.logits() - network.logits()).abs().max().item()
-    assert error <= LIMIT * step / 2 * 1.01 + 1e-3
-    assert loaded.stored()["bricks"].nbytes == 8**3 // 8

@@ -10,7 +10,6 @@ from shapes import bumpy_sphere, prepared
 
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.networks.object_space.hash_grid_network import HashedGrid
 from neural_shadows.networks.object_space.ray_grid_network import FeatureGrid
 from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
 from neural_shadows.networks.weight_file import load_network, save_network
@@ -60,17 +59,6 @@ def test_a_grid_interpolates_linear_functions_exactly():
     assert torch.allclose(grid(torch.tensor([[2.0, 1, 1]])), torch.tensor([[0.0, 0]]), atol=1e-6)
 
 
-def test_a_grid_is_hashed_only_where_it_is_larger_than_its_table():
-    grids = HashedGrid(8, 2, 512), HashedGrid(9, 2, 512)
-    assert [len(grid.values) for grid in grids] == [512, 512]
-    vertices = torch.cartesian_prod(*[torch.arange(8)] * 3)
-    assert torch.equal(grids[0].index(vertices), torch.arange(512))
-    hashed = grids[1].index(torch.cartesian_prod(*[torch.arange(9)] * 3))
-    assert hashed.min() >= 0 and hashed.max() < 512
-    # Of 729 random entries, 512 (1 - e^(-729/512)) = 389 differ.
-    assert 340 < len(hashed.unique()) < 440
-
-
 def test_points_lie_around_every_hit(tmp_path):
     shape = bumpy_sphere(4)
     shape.export(tmp_path / "mesh.ply")
@@ -89,19 +77,6 @@ def test_points_lie_around_every_hit(tmp_path):
     assert (t_a >= 0).all() and (t_b <= chords(o, d) + 1e-6).all()
     # Where nothing is, they take up less of the ray than the whole.
     assert ((t_b - t_a)[meets] / chords(o, d)[meets]).mean() < 0.95
-
-
-@pytest.mark.parametrize("kind", ["occupancy_ray_grid", "hash_grid"])
-def test_rays_past_all_occupied_cells_are_lit_and_cost_nothing(ball_ply, kind):
-    network = made(kind, ball_ply)
-    batch = ball_batch(2000)
-    o, d, *_ = batch
-    past = (o - (o * d).sum(1, keepdim=True) * d).norm(dim=1) > 0.8
-    t = network(o, d, torch.float32)
-    assert (t[past] == LIT).all() and not (t[hits(batch)] == LIT).any()
-    batch = LabelledBatch(*(part[past] for part in batch))
-    losses, outputs = network.losses(batch, DeadZone(), torch.float32, None)
-    assert len(losses) == len(outputs) == 0 < past.sum()
 
 
 @pytest.mark.parametrize("kind", KINDS)

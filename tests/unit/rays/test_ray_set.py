@@ -1,32 +1,162 @@
+"""A ray set as the stages make it, in two shards."""
+
+import json
 import shutil
 
 import numpy as np
 import pytest
+import trimesh
 from rays import open_rays
+from shapes import prepared
 
 from neural_shadows.errors import InputError
+from neural_shadows.files.whole_files import sha256_of
+from neural_shadows.rays.describe_rays import describe_rays
+from neural_shadows.rays.draw_directions import draw_directions
+from neural_shadows.rays.label_rays import label_rays
+from neural_shadows.rays.labels import dual_bounds
+from neural_shadows.rays.sample_rays import sample_rays
+
+SEED = 3
+SAMPLING = {
+    "sampler": "poisson_quadtree",
+    "directions": 30,
+    "points_per_direction": 400,
+    "silhouette_resolution": 32,
+    "min_quad": 1,
+}
 
 
-def test_rays_of_a_set_are_as_the_contract_says(ray_set, everything):
+@pytest.fixture(scope="module")
+def shape():
+    """A torus, which hides itself, with a loose sheet: rays of every kind."""
+    ring = trimesh.creation.torus(0.6, 0.15, major_sections=40, minor_sections=16)
+    corners = [[-0.4, 0, 0.6], [0.4, 0, 0.6], [0.4, 0.4, 0.6]]
+    return ring + trimesh.Trimesh(corners, [[0, 1, 2]], process=False)
+
+
+@pytest.fixture(scope="module")
+def mesh_ply(shape, tmp_path_factory):
+    path = tmp_path_factory.mktemp("mesh") / "mesh.ply"
+    shape.export(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def make_set(mesh_ply, tmp_path_factory):
+    """A function that makes the ray set in a new folder, in shards between the cuts."""
+
+    def make(cuts=(0, 11, 30), threads=2, seed=SEED, **changes):
+        folder = tmp_path_factory.mktemp("rays")
+        sampling, files = SAMPLING | changes, {"mesh_ply": mesh_ply}
+        files["directions_npy"] = folder / "directions.npy"
+        draw_directions(directions_npy=files["directions_npy"], sampling=sampling, seed=SEED)
+        for shard, (first, last) in enumerate(zip(cuts, cuts[1:], strict=False)):
+            files["origins_npy"] = folder / f"origins.{shard:03}.npy"
+            part = {"seed": seed, "first": first, "last": last, "threads": threads}
+            sample_rays(sampling=sampling, **files, **part)
+            label_rays(bounds_npy=folder / f"bounds.{shard:03}.npy", **files, **part)
+        return folder
+
+    return make
+
+
+@pytest.fixture(scope="module")
+def ray_set(make_set):
+    """Folder of the ray set, which tests leave as it is."""
+    return make_set()
+
+
+def everything(folder):
+    """All rays of a folder: origins, directions, t_lb, t_ub."""
+    rays = open_rays(folder)
+    return rays.gather(np.arange(rays.count))
+
+
+def test_rays_of_a_set_are_as_the_contract_says(ray_set, shape):
     rays = open_rays(ray_set)
     assert (rays.count, rays.points_per_direction) == (30 * 400, 400)
     assert [len(origins) for origins in rays.origins] == [11, 19]
-    origins, directions, t_lb, t_ub = everything(ray_set)
-    assert all(array.dtype == np.float32 for array in (origins, directions, t_lb, t_ub))
+    origins, directions, t_lb, t_ub = whole = everything(ray_set)
+    assert all(array.dtype == np.float32 for array in whole)
     assert np.array_equal(directions, np.repeat(rays.directions, 400, axis=0))
     for vectors in (origins, directions):
         assert np.abs(np.linalg.norm(vectors.astype(float), axis=1) - 1).max() < 1e-6
     assert (np.sum(origins.astype(float) * directions, axis=1) < 0).all()
+    assert np.array_equal([t_lb, t_ub], dual_bounds(prepared(shape)[1], origins, directions))
     for part, stored in ((origins, rays.origins), (np.stack([t_lb, t_ub], 1), rays.bounds)):
         assert np.array_equal(part, np.concatenate(stored).reshape(part.shape))
-
-
-def test_gather_finds_rays_across_shards(ray_set, everything):
-    rays, whole = open_rays(ray_set), everything(ray_set)
-    edges = np.array([11 * 400, 11 * 400 - 1, rays.count - 1, 0])
-    for indices in (np.random.default_rng(0).integers(rays.count, size=5000), edges, edges[:0]):
+    # Any rays of both shards.
+    for indices in (np.array([4400, 4399, 11_999, 0]), np.arange(0)):
         for found, stored in zip(rays.gather(indices), whole, strict=True):
             assert np.array_equal(found, stored[indices])
+
+
+@pytest.mark.parametrize("sampler", ["poisson_quadtree", "uniform_quadtree", "uniform"])
+def test_threads_and_shards_change_no_byte_and_seeds_do(make_set, sampler):
+    contents = [
+        [array.tobytes() for array in everything(make_set(cuts, threads, seed, sampler=sampler))]
+        for cuts, threads, seed in [((0, 30), 1, 3), ((0, 7, 8, 30), 2, 3), ((0, 30), 1, 4)]
+    ]
+    assert contents[0] == contents[1]
+    assert contents[0][0] != contents[2][0]
+
+
+def test_a_direction_s_points_are_its_own(mesh_ply, tmp_path):
+    files = {"directions_npy": tmp_path / "directions.npy", "origins_npy": tmp_path / "o.npy"}
+    np.save(files["directions_npy"], np.array([[0, 0, 1]] * 2, np.float32))
+    sample_rays(mesh_ply=mesh_ply, **files, sampling=SAMPLING, seed=SEED, first=0, last=2)
+    first, second = np.load(files["origins_npy"])
+    assert not np.array_equal(first, second)
+
+
+def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
+    describe_rays(
+        mesh_ply=mesh_ply,
+        directions_npy=ray_set / "directions.npy",
+        origins=[ray_set / f"origins.00{i}.npy" for i in (0, 1)],
+        bounds=[ray_set / f"bounds.00{i}.npy" for i in (0, 1)],
+        rays_json=tmp_path / "rays.json",
+        sampling=SAMPLING,
+        seed=SEED,
+    )
+    content = json.loads((tmp_path / "rays.json").read_text())
+    origins, directions, t_lb, t_ub = everything(ray_set)
+    chord = -2 * np.sum(origins.astype(float) * directions, axis=1)
+    missed = np.isinf(t_ub) & (np.abs(t_lb - chord) < 1e-6)
+    assert 0.1 < content["misses"] == pytest.approx(missed.mean(), abs=1e-12)
+    once = np.isinf(t_ub) & ~missed
+    assert 0.001 < content["one_hit"] == pytest.approx(once.mean(), abs=1e-12)
+    assert content["mesh_sha256"] == sha256_of(mesh_ply)
+    assert len(content["sha256"]) == 5
+    for file, digest in content["sha256"].items():
+        assert digest == sha256_of(ray_set / file)
+    expected = SAMPLING | {"rays": 12_000, "shards": 2, "seed": SEED, "second_hit_step": 2e-5}
+    assert content.items() >= expected.items()
+
+
+@pytest.mark.parametrize(
+    ("first", "error", "message"),
+    [
+        (0, InputError, r"origins.npy: holds .*\(19, 400, 3\)"),  # another range's
+        (11, RuntimeError, r"labels .*bounds.npy \(seed 3\): ray 0 of direction 11 from"),
+    ],
+)
+def test_a_shard_that_cannot_be_labelled_is_not_there(
+    mesh_ply, ray_set, tmp_path, first, error, message
+):
+    np.save(tmp_path / "origins.npy", 0.5 * np.load(ray_set / "origins.001.npy"))
+    with pytest.raises(error, match=message):
+        label_rays(
+            mesh_ply=mesh_ply,
+            directions_npy=ray_set / "directions.npy",
+            origins_npy=tmp_path / "origins.npy",
+            bounds_npy=tmp_path / "bounds.npy",
+            seed=SEED,
+            first=first,
+            last=30,
+        )
+    assert [path.name for path in tmp_path.iterdir()] == ["origins.npy"]
 
 
 def cut(path):
@@ -37,20 +167,16 @@ def pickled(path):
     np.save(path, np.array([{}], dtype=object), allow_pickle=True)
 
 
-def as_float64(path):
-    np.save(path, np.load(path).astype(np.float64))
-
-
 def one_less(path):
     np.save(path, np.load(path)[:-1])
 
 
-@pytest.mark.parametrize("name", ["directions", "origins.001", "bounds.000"])
-@pytest.mark.parametrize("damage", [cut, pickled, as_float64, one_less])
+@pytest.mark.parametrize(
+    ("name", "damage"),
+    [("directions", cut), ("origins.001", pickled), ("directions", one_less), ("bounds.000", cut)],
+)
 def test_damaged_files_are_named(ray_set, tmp_path, name, damage):
     folder = shutil.copytree(ray_set, tmp_path / "rays")
     damage(folder / f"{name}.npy")
-    # A shard that lost directions is missed at its bounds.
-    blamed = name.replace("origins", "bounds") if damage is one_less else name
-    with pytest.raises(InputError, match=f"{blamed}.npy: .* run again"):
+    with pytest.raises(InputError, match=f"{name}.npy: .* run again"):
         open_rays(folder)

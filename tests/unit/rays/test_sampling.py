@@ -10,7 +10,7 @@ from shapes import prepared, unit
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.quadtree import DISK_RADIUS, build_quadtree, disk_area
 from neural_shadows.rays.sampling import sample_direction, sample_quads, uniform_on_disk
-from neural_shadows.rays.silhouette import plane_basis, silhouette
+from neural_shadows.rays.silhouette import plane_basis
 
 RESOLUTION = 16
 CELLS = 3  # a quad is divided into 3 × 3 cells, the smallest quads too
@@ -123,21 +123,6 @@ def test_patterns_keep_their_distance_in_whole_quads():
             assert closest > np.sqrt(0.5 / 12) * 2 * size / RESOLUTION
 
 
-def test_slivers_at_the_rim_get_their_points_too():
-    # A checkerboard is split down to texels; of some, the disk has less than a thousandth.
-    quads = build_quadtree(np.indices((128, 128)).sum(axis=0) % 2 == 0, 1)
-    left, bottom = 2 * quads[:, 1] / 128 - 1, 2 * quads[:, 0] / 128 - 1
-    side = 2 / 128
-    areas = [disk_area(a, b, a + side, b + side) for a, b in zip(left, bottom, strict=True)]
-    assert 0 < min(areas) < 1e-3 * side**2
-    for bank in BANKS.values():
-        points = sample_quads(quads, 128, 5 * len(quads), np.random.default_rng(0), bank)
-        assert np.linalg.norm(points, axis=1).max() < DISK_RADIUS
-        column, row = np.floor((points.T + 1) * 64).astype(int)
-        assert np.array_equal(row, np.repeat(quads[:, 0], 5))
-        assert np.array_equal(column, np.repeat(quads[:, 1], 5))
-
-
 @pytest.fixture(scope="module")
 def ball():
     return prepared(trimesh.creation.icosphere(subdivisions=3, radius=0.5))[1]
@@ -165,12 +150,3 @@ def test_rays_go_into_the_sphere_and_quadtrees_follow_the_silhouette(ball, sampl
     at_border = np.mean(np.abs(np.linalg.norm(offsets, axis=1) - 0.5) < 0.05)
     # The ring of 0.45 to 0.55 is 10 % of the disk.
     assert at_border == pytest.approx(0.1, abs=0.03) if sampler == "uniform" else at_border > 0.6
-
-
-def test_rays_follow_the_quads_of_their_own_silhouette(ball):
-    direction = unit(2, 1, -1)
-    quads = build_quadtree(silhouette(ball, direction, RESOLUTION), 2)
-    m = 3 * len(quads)
-    origins = rays_of(ball, "uniform_quadtree", direction, m, RESOLUTION, 2)
-    offsets = origins @ np.stack(plane_basis(direction), axis=1)
-    assert np.bincount(quad_of(quads, offsets)).tolist() == [3] * len(quads)

@@ -7,13 +7,11 @@ from rays import ball_rays, open_rays
 from scipy import stats
 
 from neural_shadows.rays.ray_set import RaySet
-from neural_shadows.training import batches as training_data
 from neural_shadows.training.batches import (
     GAMMA,
     DeviceRays,
     HostRays,
     batch_indices,
-    batch_source,
     split_mix,
 )
 
@@ -47,14 +45,6 @@ def test_batches_are_uniform_and_in_range():
     assert 0 <= last.min() < 2**17 and 2**31 - 2**17 < last.max() < 2**31
 
 
-def test_batches_depend_on_seed_and_step_alone():
-    keys = [(step, seed) for step in range(5) for seed in range(5)]
-    batches = np.concatenate([drawn(*key) for key in keys])
-    assert np.array_equal(batches, np.concatenate([drawn(*key) for key in keys]))
-    # 1,600 of a million: 1.3 are drawn twice by chance.
-    assert len(np.unique(batches)) > 1590
-
-
 @pytest.fixture
 def ray_set(tmp_path) -> RaySet:
     """Seven directions of five rays each, in two shards."""
@@ -74,12 +64,3 @@ def test_rays_on_a_device_are_those_on_disk(ray_set):
     for source in (HostRays(ray_set, CPU), DeviceRays(ray_set, CPU)):
         for found, part in zip(source.gather(indices), expected, strict=True):
             assert torch.equal(found, torch.from_numpy(part))
-
-
-@pytest.mark.parametrize(("free", "kind"), [(1400, HostRays), (1402, DeviceRays)])
-def test_rays_go_to_a_gpu_that_has_room(ray_set, monkeypatch, free, kind):
-    """35 rays are 700 bytes, which must be less than half of what is free."""
-    monkeypatch.setattr(torch.cuda, "mem_get_info", lambda device: (free, 1 << 30))
-    monkeypatch.setattr(training_data, "DeviceRays", lambda rays, device: DeviceRays(rays, CPU))
-    assert isinstance(batch_source(ray_set, torch.device("cuda")), kind)
-    assert isinstance(batch_source(ray_set, CPU), HostRays)

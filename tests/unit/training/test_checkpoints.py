@@ -18,16 +18,7 @@ def folder_of(tmp_path, header=HEADER):
     return checkpoint_folder(tmp_path / "networks" / "ball" / "weights.safetensors", header)
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"name": "balls"},
-        {"network": HEADER["network"] | {"width": 16}},
-        {"training": HEADER["training"] | {"loss": {"false_shadow": 2.0}}},
-        {"data": {"rays": 20_001}},
-    ],
-    ids=lambda change: next(iter(change)),
-)
+@pytest.mark.parametrize("change", [{"name": "balls"}, {"data": {"rays": 20_001}}])
 def test_other_settings_have_another_checkpoint(tmp_path, change):
     ours = folder_of(tmp_path)
     assert ours.parent == tmp_path / "networks" / CHECKPOINTS
@@ -43,7 +34,6 @@ def test_other_code_of_the_network_s_kind_has_another_checkpoint(tmp_path, monke
 
 
 def test_checkpoints_of_finished_networks_are_removed(tmp_path):
-    remove_finished(tmp_path)  # nothing there
     names = ("dragon-1a", "dragon-2b", "dragon_64-3c", "fence-4d")
     folders = [tmp_path / CHECKPOINTS / name for name in names]
     for folder in folders:

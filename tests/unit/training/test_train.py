@@ -6,22 +6,18 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
-import numpy as np
-import pandas as pd
 import pytest
 import torch
 import trimesh
 from rays import ball_batch, write_ball_rays
 
 from neural_shadows.errors import InputError
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
-from neural_shadows.networks.weight_file import load_network, load_tensors
+from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.training import cuda_graph
 from neural_shadows.training import train as stage
-from neural_shadows.training.batches import DeviceRays, HostRays
 from neural_shadows.training.loss_curve import read_loss
 
 GATHER = RaySet.gather
@@ -98,9 +94,8 @@ def states(folder: Path) -> list[Path]:
     return list(folder.glob("checkpoints/*/state.safetensors"))
 
 
-@pytest.mark.parametrize("precision", ["float32", "bfloat16"])
-def test_learns_the_ball(tmp_path, precision):
-    run_training(tmp_path, precision=precision)
+def test_learns_the_ball(tmp_path):
+    run_training(tmp_path)
     loss = read_loss(tmp_path / "ball" / "loss.csv")["loss"]
     assert loss.iloc[0] > 0.1
     assert loss.iloc[-20:].mean() < 0.03  # seeds 1 to 3 gave 0.018 to 0.021
@@ -131,32 +126,6 @@ def test_files_of_a_run(tmp_path):
     assert record["final_loss"] == curve["loss"].iloc[-1]
     assert curve["learning_rate"].iloc[0] == 5e-3
     assert states(tmp_path) == []  # a short run needs none
-
-
-def test_points_of_the_curve_are_means(tmp_path, monkeypatch):
-    """Seven points' worth of steps and a rest of two: the points' means are the steps' means."""
-    settings = TINY | {"training": TINY["training"] | {"steps": 30}}
-    run_training(tmp_path, **settings)
-    losses = pd.read_csv(tmp_path / "ball" / "loss.csv")["loss"]
-    monkeypatch.setattr(stage, "CURVE_POINTS", 7)  # 30 // 7 = 4 steps each
-    run_training(tmp_path, **settings)
-    curve = pd.read_csv(tmp_path / "ball" / "loss.csv")
-    assert list(curve["step"]) == [4, 8, 12, 16, 20, 24, 28, 30]
-    means = [part.mean() for part in np.split(losses, curve["step"][:-1])]
-    assert curve["loss"].to_numpy() == pytest.approx(means, rel=1e-5)
-
-
-def test_a_run_whose_files_were_lost_is_not_trained_again(tmp_path):
-    """Snakemake deletes the files of a job that was killed before it had noted the job's end."""
-    interrupt(tmp_path, **TINY)
-    run_training(tmp_path, **TINY)  # ends long before the next checkpoint would be due
-    (state,) = states(tmp_path)
-    assert load_tensors(state)[1]["step"] == 20
-    before = contents(tmp_path)
-    for path in (tmp_path / "ball").iterdir():
-        path.unlink()
-    assert run_training(tmp_path, **TINY) == 0
-    assert contents(tmp_path) == before
 
 
 KINDS = [
@@ -227,12 +196,3 @@ def test_a_recorded_step_gives_the_same_bytes(tmp_path, monkeypatch):
     run_training(tmp_path / "recorded", **TINY)
     assert len(aside) == cuda_graph.WARM_UP
     assert contents(tmp_path / "recorded") == contents(tmp_path / "plain")
-
-
-def test_only_steps_of_fixed_shape_on_a_gpu_are_recorded():
-    cuda, cpu = torch.device("cuda"), torch.device("cpu")
-    network, other = make_network(KINDS[0]), make_network(KINDS[1])
-    on_device, on_host = DeviceRays.__new__(DeviceRays), HostRays.__new__(HostRays)
-    assert stage.may_be_recorded(network, cuda, on_device)
-    for without in ((network, cpu, on_device), (network, cuda, on_host), (other, cuda, on_device)):
-        assert not stage.may_be_recorded(*without)

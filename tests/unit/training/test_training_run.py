@@ -1,7 +1,5 @@
 """A step's loss, gradient and weights; a saved state is the restored one."""
 
-import math
-
 import pytest
 import torch
 from rays import ball_rays
@@ -9,7 +7,7 @@ from rays import ball_rays
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.networks.weight_file import load_tensors
-from neural_shadows.training.training_run import TrainingRun, learning_rate_at
+from neural_shadows.training.training_run import TrainingRun
 
 RAYS = [torch.from_numpy(part) for part in ball_rays(1000)]
 SETTINGS = {
@@ -72,29 +70,6 @@ def test_gradient_against_differences():
         differences.append((losses[0] - losses[1]) / (2 * step))
     assert gradient[0].tolist() == pytest.approx(differences, abs=0.02)
     assert max(map(abs, differences)) > 0.2
-
-
-def test_steps_are_those_of_torch_s_adam():
-    ours, theirs = new_run(learning_rate=1e-2), new_run()
-    adam = torch.optim.Adam(theirs.weights.values(), lr=torch.tensor(1e-2), fused=True)
-    for step in range(4):
-        take_step(ours, slice(100 * step, 100 * step + 100))
-        batch = LabelledBatch(*(part[100 * step : 100 * step + 100] for part in RAYS))
-        losses, _ = theirs.network.losses(batch, theirs.dead_zone, torch.float32, None)
-        adam.zero_grad()
-        (losses.sum() / 100).backward()
-        adam.step()
-    assert_same_weights(ours, theirs)
-
-
-@pytest.mark.parametrize(
-    ("schedule", "wanted"),
-    [("constant", [1, 1, 1, 1]), ("cosine", [1, (1 + math.sqrt(0.5)) / 2, 0.5, 0])],
-)
-def test_learning_rates(schedule, wanted):
-    settings = SETTINGS | {"learning_rate": 0.01, "schedule": schedule}
-    rates = [learning_rate_at(torch.tensor(step), settings).item() for step in (0, 25, 50, 100)]
-    assert rates == pytest.approx([0.01 * share for share in wanted], abs=1e-12)
 
 
 def test_restored_state_is_the_saved_one(tmp_path):
