@@ -1,7 +1,5 @@
 """Ray grids: what they interpolate, where their points lie, and that they learn a ball."""
 
-import math
-
 import pytest
 import torch
 import trimesh
@@ -11,7 +9,7 @@ from shapes import bumpy_sphere, prepared
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.ray_grid_network import FeatureGrid
-from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
+from neural_shadows.networks.object_space.shadow_network import LabelledBatch, chords, hits
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
 
@@ -101,21 +99,6 @@ def test_it_learns_a_ball(ball_ply, kind, head):
     assert lit_in_front.float().mean() > 0.97
     assert lit_behind[~hit].float().mean() > 0.9
     assert (~lit_behind[hit]).float().mean() > 0.9
-
-
-def test_confidence_decides_alone_and_the_depth_is_trained_on_hits_alone(ball_ply):
-    network = made("ray_grid", ball_ply, head="depth_confidence")
-    batch = ball_batch(256)
-    o, d, t_lb, _ = batch
-    with torch.no_grad():
-        network.output.weight.zero_()
-        for confidence, depth in ((1e-6, 0.3), (-1e-6, LIT)):
-            network.output.bias.copy_(torch.tensor([0.3, confidence]))
-            assert torch.allclose(network(o, d, torch.float32), torch.tensor(depth))
-        network.output.bias.zero_()
-    losses, _ = network.losses(batch, DeadZone(), torch.float32, None)
-    expected = torch.where(hits(batch), t_lb, 0) + 0.1 * math.log(2)
-    assert torch.allclose(losses, expected, atol=1e-6)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -1,11 +1,9 @@
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from scipy.stats import chisquare
 
-from neural_shadows.rays.poisson_disk import PatternBank, exactly, poisson_disk, sphere_directions
+from neural_shadows.rays.poisson_disk import exactly, poisson_disk, sphere_directions
 
 TORUS = {False: {"boxsize": 1}, True: {}}  # by `on_sphere`
 
@@ -56,23 +54,3 @@ def test_directions_cover_the_sphere_evenly():
     x, y, z = sphere_directions(4800, 8)[0].T
     counts = np.histogram2d(z, np.arctan2(y, x), bins=(6, 8))[0]
     assert np.abs(counts - 100).max() < 20
-
-
-def patterns_of(table, n):
-    start, patterns, points = table
-    return points[start[n] : start[n] + n * patterns[n]].reshape(patterns[n], n, 2)
-
-
-def test_bank_gives_the_same_in_any_order_and_from_threads():
-    forward, backward, shared = PatternBank(1), PatternBank(1), PatternBank(1)
-    forward.table(np.array([5]))
-    backward.table(np.array([9, 0]))
-    with ThreadPoolExecutor(4) as pool:
-        list(pool.map(shared.table, np.arange(40).reshape(-1, 2) % 12))
-    wanted = np.array([5, 9])
-    for n in wanted:
-        expected = patterns_of(forward.table(wanted), n)
-        assert len(expected) >= 4 and not np.array_equal(expected[0], expected[1])
-        assert np.array_equal(patterns_of(backward.table(wanted), n), expected)
-        assert np.array_equal(patterns_of(shared.table(wanted), n), expected)
-        assert not np.array_equal(patterns_of(PatternBank(2).table(wanted), n), expected)

@@ -6,7 +6,6 @@ from rays import ball_rays
 
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
-from neural_shadows.networks.weight_file import load_tensors
 from neural_shadows.training.training_run import TrainingRun
 
 RAYS = [torch.from_numpy(part) for part in ball_rays(1000)]
@@ -37,11 +36,6 @@ def take_step(run: TrainingRun, rays: slice) -> tuple[float, float]:
     return run.loss_sum.item() - before, run.spread.item()
 
 
-def assert_same_weights(ours: TrainingRun, theirs: TrainingRun) -> None:
-    for one, other in zip(ours.weights.values(), theirs.weights.values(), strict=True):
-        assert torch.equal(one, other)
-
-
 @pytest.mark.parametrize("chunk", [99, 64, 7])
 def test_chunks_add_up_to_the_batch(chunk):
     """The spread of the outputs too: a last chunk of one ray has none of its own."""
@@ -70,20 +64,3 @@ def test_gradient_against_differences():
         differences.append((losses[0] - losses[1]) / (2 * step))
     assert gradient[0].tolist() == pytest.approx(differences, abs=0.02)
     assert max(map(abs, differences)) > 0.2
-
-
-def test_restored_state_is_the_saved_one(tmp_path):
-    state, again = tmp_path / "state.safetensors", tmp_path / "again.safetensors"
-    run, other = new_run(1), new_run(2)
-    for step in range(5):
-        take_step(run, slice(step, step + 64))
-    run.curve, run.seconds = [[5, 1e-3, 1 / 3]], 0.1 + 0.2
-    run.save(state)
-    other.restore(state)
-    assert (other.step, other.curve, other.seconds) == (5, run.curve, run.seconds)
-    other.save(again)
-    assert again.read_bytes() == state.read_bytes()
-    assert len(load_tensors(state)[0]) == 3 * 4  # weights and both of Adam's means
-    for one in (run, other):  # and Adam's own count of steps, for its bias correction
-        take_step(one, slice(64))
-    assert_same_weights(run, other)

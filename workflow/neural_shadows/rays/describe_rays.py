@@ -27,9 +27,8 @@ def describe_rays(
 
     Args:
         origins, bounds: the shards, in the order of their directions.
-        rays_json: gets the counts, the settings it was made with, the units, the mesh's
-            sha256 and that of each file, the step behind the first hit, and the shares of rays
-            that hit the object at no place (`misses`) and at one (`one_hit`).
+        rays_json: gets the counts, settings, units, checksums, and the shares of rays that hit
+            the object at no place (`misses`) and at one (`one_hit`).
 
     Raises:
         InputError: as `RaySet`.

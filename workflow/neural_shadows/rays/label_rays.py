@@ -26,7 +26,7 @@ def label_rays(
     Args:
         origins_npy: from `sample_rays` for the same first and last.
         bounds_npy: gets (last − first, m, 2) float32, [t_lb, t_ub] of each ray.
-        seed: what the rays were drawn with, for whoever must find a ray again.
+        seed: what the rays were drawn with, for the error's message.
 
     Raises:
         InputError: a file that cannot be used, or that is of another range of directions.

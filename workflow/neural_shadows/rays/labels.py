@@ -65,13 +65,11 @@ def check_bounds(
     tolerance: `dual_bounds` ends t_lb with it.
 
     Args:
-        directions: (D, 3), origins: (D, m, 3), bounds: (D, m, 2), all float32, as in a ray set.
-        name: what the error calls them.
-        first: index of their first direction in the ray set.
+        directions: (D, 3), origins: (D, m, 3), bounds: (D, m, 2), all float32.
+        name: what the error calls them; first: the index of their first direction.
 
     Raises:
-        RuntimeError: bounds that break these rules, as of rays that do not start on the
-            sphere, of an object that is not in it, or of a file that was not written whole.
+        RuntimeError: bounds that break these rules.
     """
     for i, direction in enumerate(directions):
         chord = chord_lengths(origins[i], direction)

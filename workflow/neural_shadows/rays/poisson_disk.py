@@ -87,10 +87,7 @@ def sphere_directions(count, seed):
 class PatternBank:
     """Poisson-disk patterns on the unit torus, made when first asked for; threads may share it.
 
-    What it holds for a count of points depends on the seed and that count alone.
-
-    Args:
-        seed: an integer or some, as of numpy's SeedSequence.
+    What it holds for a count of points depends on the seed (of numpy's) and that count alone.
     """
 
     def __init__(self, seed: int | Sequence[int]):
@@ -113,7 +110,6 @@ class PatternBank:
             return self._table
 
     def _add(self, count: int) -> None:
-        """Put a copy of the table, with patterns of `count` points, in the table's place."""
         start, patterns, points = self._table
         grown = np.zeros((2, max(len(start), count + 1)), np.int64)
         grown[:, : len(start)] = start, patterns

@@ -23,9 +23,7 @@ def build_quadtree(silhouette, min_quad):
         min_quad: side of the smallest quads in texels, a power of two up to the resolution.
 
     Returns:
-        (q, 3) int32, each (row, column, size) in texels, in the Z-order of the quads. It
-        covers [2·column/resolution − 1, 2·(column + size)/resolution − 1] of a, and of b as
-        much by its row.
+        (q, 3) int32, each (row, column, size) in texels, in the Z-order of the quads.
     """
     resolution = len(silhouette)
     # sums[i, j]: covered texels above row i and left of column j, for the count in any quad.

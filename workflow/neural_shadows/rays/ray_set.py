@@ -22,9 +22,7 @@ from neural_shadows.errors import InputError
 class RaySet:
     """A ray set on disk, opened with memory mapping; nothing is read before it is asked for.
 
-    Args:
-        directions_npy: (D, 3) float32.
-        origins, bounds: the shards, in the order of their directions.
+    `origins` and `bounds` are the shards, in the order of their directions.
 
     Raises:
         InputError: a file is damaged, or the files are not of the same ray set.

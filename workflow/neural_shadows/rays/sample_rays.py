@@ -32,7 +32,7 @@ def sample_rays(
 
     Args:
         origins_npy: gets (last − first, m, 3) float32 points on the unit sphere.
-        sampling: `sampler`, `points_per_direction` m, `silhouette_resolution` and `min_quad`.
+        sampling: see `sample_direction`.
 
     Raises:
         InputError: a file that cannot be used.

@@ -26,9 +26,7 @@ def sample_direction(
     Args:
         sampling: `sampler`; `points_per_direction` m; and, unless the sampler is `uniform`,
             `silhouette_resolution` and `min_quad` in texels, powers of two.
-        rng: used for this direction alone, so that rays do not depend on the order or the
-            thread in which directions are done.
-        bank: used by `poisson_quadtree` alone.
+        rng: used for this direction alone; bank: by `poisson_quadtree` alone.
 
     Returns:
         (m, 3) float32 on the unit sphere, o·d <= −1e-3. Rays of a quad follow each other.
@@ -57,8 +55,7 @@ def sample_quads(
     quad a point is uniform over what the quad shares with the disk of `DISK_RADIUS`.
 
     Args:
-        quads: (q, 3) as of `build_quadtree`.
-        resolution: of the silhouette, in texels.
+        quads: (q, 3) as of `build_quadtree`, of a silhouette of `resolution`² texels.
         bank: the Poisson-disk patterns that fill the quads; without it points are
             independent. In quads cut by the disk's rim the pattern is stretched over the box
             around what remains, drawn denser, and thinned at random to the points inside.

@@ -1,7 +1,5 @@
 """Where training's samples come from: a ray set on disk, or laid out on the GPU."""
 
-from typing import Protocol
-
 import numpy as np
 import torch
 from torch import Tensor
@@ -14,13 +12,6 @@ GAMMA = 0x9E3779B97F4A7C15 - 2**64
 _MIX = ((30, 0xBF58476D1CE4E5B9 - 2**64), (27, 0x94D049BB133111EB - 2**64), (31, 1))
 
 
-class BatchSource(Protocol):
-    """Labelled rays by their indices, on the device that the network is on."""
-
-    def gather(self, indices: Tensor) -> LabelledBatch:
-        """The rays `indices` (n,) int64, which are on that device too."""
-
-
 class HostRays:
     """Rays that stay on the disk, or in its cache; each batch is copied to the device."""
 
@@ -28,7 +19,7 @@ class HostRays:
         self._rays, self._device = rays, device
 
     def gather(self, indices: Tensor) -> LabelledBatch:
-        """See `BatchSource.gather`."""
+        """The rays of these indices (n,) int64, on the device."""
         parts = self._rays.gather(indices.cpu().numpy())
         return LabelledBatch(*(torch.from_numpy(part).to(self._device) for part in parts))
 
@@ -48,7 +39,7 @@ class DeviceRays:
         )
 
     def gather(self, indices: Tensor) -> LabelledBatch:
-        """See `BatchSource.gather`."""
+        """The rays of these indices (n,) int64, which are on the device too."""
         directions = torch.div(indices, self._points, rounding_mode="floor")
         bounds = self._bounds.index_select(0, indices)
         return LabelledBatch(
@@ -59,7 +50,7 @@ class DeviceRays:
         )
 
 
-def batch_source(rays: RaySet, device: torch.device) -> BatchSource:
+def batch_source(rays: RaySet, device: torch.device) -> HostRays | DeviceRays:
     """The rays laid out on a GPU if they take less than half of what is free there."""
     if device.type == "cuda":
         free, _ = torch.cuda.mem_get_info(device)

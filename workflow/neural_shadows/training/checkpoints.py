@@ -26,8 +26,7 @@ def checkpoint_folder(weights: Path, header: Mapping[str, Any]) -> Path:
     anew and never resume from a state that they did not make.
 
     Args:
-        weights: `networks/<experiment>/weights.safetensors`.
-        header: what the weights' header says: `name`, `network`, `training`, `data`.
+        weights: `networks/<experiment>/weights.safetensors`; header: of that file.
     """
     digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
     for module in (_STAGE, kind_module(header["network"]["encoding"])):
@@ -42,9 +41,6 @@ def remove_finished(networks: Path) -> None:
     To be called when whoever asked for these has taken note of them. Before that Snakemake may
     yet delete one and ask for it again, after a kill or on a full disk; the training then ends
     at once.
-
-    Args:
-        networks: the folder of a run's networks, each in a folder of its experiment's name.
     """
     for checkpoint in (networks / CHECKPOINTS).glob("*"):
         experiment = checkpoint.name.rpartition("-")[0]

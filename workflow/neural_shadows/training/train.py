@@ -12,18 +12,12 @@ from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import read_json, write_json, write_text
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import save_network
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.running.hardware import describe_machine
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
-from neural_shadows.training.batches import (
-    BatchSource,
-    DeviceRays,
-    batch_indices,
-    batch_source,
-)
+from neural_shadows.training.batches import DeviceRays, batch_indices, batch_source
 from neural_shadows.training.checkpoints import STATE, checkpoint_folder
 from neural_shadows.training.cuda_graph import recorded
 from neural_shadows.training.training_run import TrainingRun, gradient_pool
@@ -65,12 +59,10 @@ def train(
         directions_npy, origins, bounds, rays_json: the ray set and its description, which goes
             into the weights' header and into the checkpoint's name.
         mesh_ply: prepared mesh of the object, for a network that needs it; None for others.
-        weights, loss_csv, training_json: files to write; the weights in a folder of the
-            experiment's, with `checkpoints` beside it.
+        weights: in a folder of the experiment's, with `checkpoints` beside it.
         network: what `make_network` makes it from.
         training: `steps`, `batch_size`, `learning_rate`, `schedule` (`constant` or `cosine`) and
             `loss`, the weights of `DeadZone`.
-        experiment: its name, for messages and the weights' header.
         threads: chunks of a batch computed side by side; the weights do not depend on it.
 
     Raises:
@@ -121,12 +113,7 @@ def train(
 
 
 def train_to_end(
-    run: TrainingRun,
-    rays: RaySet,
-    name: str,
-    checkpoint: Path,
-    threads: int,
-    started: float,
+    run: TrainingRun, rays: RaySet, name: str, checkpoint: Path, threads: int, started: float
 ) -> None:
     """Do the steps that are left; the run's seconds count from `started` on the monotonic clock."""
     steps, batch_size = run.settings["steps"], run.settings["batch_size"]
@@ -147,7 +134,7 @@ def train_to_end(
             )
             run.train_step(source.gather(indices), workers)
 
-        if may_be_recorded(run.network, run.device, source):
+        if run.network.recordable and isinstance(source, DeviceRays):
             advance = recorded(advance)
         while step < steps:
             advance()
@@ -166,11 +153,6 @@ def train_to_end(
                     last_saved, saved_step = time.monotonic(), step
     if 0 < saved_step < steps:
         run.save(checkpoint / STATE)
-
-
-def may_be_recorded(network: ShadowNetwork, device: torch.device, source: BatchSource) -> bool:
-    """Whether a GPU can repeat a step on its own, with the samples that it has."""
-    return network.recordable and device.type == "cuda" and isinstance(source, DeviceRays)
 
 
 def check_learning(name: str, step: int, loss: float, spread: float) -> None:

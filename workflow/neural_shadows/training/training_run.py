@@ -45,7 +45,9 @@ class TrainingRun:
         self.settings, self.device = settings, torch.device(settings["device"])
         self.network, self.dead_zone = network.to(self.device), DeadZone(**settings["loss"])
         self.dtype = choose_dtype(settings["precision"], self.device)
-        self.chunk = chunk_size(settings["batch_size"], self.device, network.training_chunk)
+        self.chunk = settings["batch_size"]  # rays that one thread takes at once
+        if self.device.type == "cpu":
+            self.chunk = min(network.training_chunk, -(-self.chunk // 2))
         self.weights = dict(network.named_parameters())
         self.step = torch.zeros((), dtype=torch.int64, device=self.device)
         self.loss_sum = torch.zeros((), device=self.device)  # of the steps since the last point
@@ -169,10 +171,3 @@ def gradient_pool(threads: int) -> ThreadPoolExecutor:
     batches of 16,384 on two cores, in one run).
     """
     return ThreadPoolExecutor(threads, initializer=torch.set_num_threads, initargs=(1,))
-
-
-def chunk_size(batch_size: int, device: torch.device, most: int) -> int:
-    """Rays that one thread takes at once: on a CPU `most`, and no more than half a batch."""
-    if device.type == "cuda":
-        return batch_size
-    return min(most, -(-batch_size // 2))

@@ -71,7 +71,6 @@ class FrequencyNetwork(ShadowNetwork):
             )
 
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
-        """See `ShadowNetwork.forward`."""
         x = (torch.cat([origins, directions], dim=1) + 1) / 2
         h = self.encoding(x).to(dtype)
         for weight in self.layers:

@@ -15,19 +15,13 @@ class HashedGrid(FeatureGrid):
     """A feature grid whose vertices share a table's entries, 2^n; dense if all fit into it."""
 
     def __init__(self, resolution: int, channels: int, table_size: int):
-        self.table_size = table_size
-        super().__init__(resolution, channels)
-
-    def size(self) -> int:
-        """See `FeatureGrid.size`."""
-        return min(super().size(), self.table_size)
+        super().__init__(resolution, channels, min(resolution**3, table_size))
 
     def index(self, vertices: Tensor) -> Tensor:
-        """See `FeatureGrid.index`."""
-        if super().size() <= self.table_size:
+        if len(self.values) == self.resolution**3:
             return super().index(vertices)
         x, y, z = (vertices * vertices.new_tensor(PRIMES)).unbind(-1)
-        return (x ^ y ^ z) & (self.table_size - 1)
+        return (x ^ y ^ z) & (len(self.values) - 1)
 
 
 class HashGridNetwork(OccupancyRayGridNetwork):

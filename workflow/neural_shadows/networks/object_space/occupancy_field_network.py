@@ -229,7 +229,6 @@ class OccupancyFieldNetwork(ShadowNetwork):
         return torch.where(crossing.any(1), depth, LIT)
 
     def depths(self, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
-        """See `ShadowNetwork.depths`."""
         if self.device.type != "cpu":
             return super().depths(origins, d, dtype)
         size = self.resolution // BRICK
@@ -260,7 +259,6 @@ class OccupancyFieldNetwork(ShadowNetwork):
         return values | {"bricks": pack_bits(self.grid >= 0)}
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
-        """See `ShadowNetwork.restore`."""
         tensors = dict(tensors)
         size = self.resolution // BRICK
         surface = unpack_bits(tensors.pop("bricks"), size**3).view(size, size, size).numpy()

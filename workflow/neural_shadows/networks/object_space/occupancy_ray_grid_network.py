@@ -37,7 +37,6 @@ class OccupancyRayGridNetwork(RayGridNetwork):
         self.cells = torch.from_numpy(cells.reshape(-1))
 
     def span(self, origins: Tensor, directions: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """See `RayGridNetwork.span`."""
         chord = chords(origins, directions)
         n = self.occupancy
         # Two steps a cell: a corner that is cut in between loses half a cell of the span.
@@ -58,7 +57,6 @@ class OccupancyRayGridNetwork(RayGridNetwork):
         return super().stored() | {"cells": pack_bits(self.cells)}
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
-        """See `ShadowNetwork.restore`."""
         tensors = dict(tensors)
         self.cells = unpack_bits(tensors.pop("cells"), len(self.cells))
         super().restore(tensors)

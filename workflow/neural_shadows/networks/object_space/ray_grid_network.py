@@ -28,18 +28,15 @@ class FeatureGrid(nn.Module):
     Args:
         resolution: vertices along an axis.
         channels: features of a vertex.
+        entries: vertices that have features of their own.
     """
 
-    def __init__(self, resolution: int, channels: int):
+    def __init__(self, resolution: int, channels: int, entries: int | None = None):
         super().__init__()
         self.resolution, self.channels = resolution, channels
-        self.values = nn.Parameter(torch.empty(self.size(), channels))
+        self.values = nn.Parameter(torch.empty(entries or resolution**3, channels))
         corners = torch.cartesian_prod(*[torch.arange(2)] * 3)
         self.register_buffer("corners", corners, persistent=False)
-
-    def size(self) -> int:
-        """Number of vertices that have features of their own."""
-        return self.resolution**3
 
     def index(self, vertices: Tensor) -> Tensor:
         """Where the features of vertices (..., 3) int64 are: (...)."""
@@ -178,5 +175,4 @@ class RayGridNetwork(ShadowNetwork):
         return quantise(self.state_dict(), self.storage)
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
-        """See `ShadowNetwork.restore`."""
         self.load_state_dict(restore_values(tensors, self.storage))

@@ -13,10 +13,6 @@ from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 # stay in the cache; on a GPU a whole frame goes at once.
 QUERY_CHUNKS = {"cpu": 4096, "cuda": 1 << 20}
 
-# Rays per forward and backward pass on a CPU, at most: at 256 wide one layer's activations are
-# then 1 MiB and stay in a core's cache.
-TRAINING_CHUNK = 2048
-
 
 class LabelledBatch(NamedTuple):
     """Rays with their labels, all float32 and on one device, in normalised space."""
@@ -50,7 +46,9 @@ class ShadowNetwork(nn.Module, ABC):
     (see `networks/kinds.py`), and its arguments are a model in `config/networks.py`.
     """
 
-    training_chunk: ClassVar[int] = TRAINING_CHUNK
+    # Rays per forward and backward pass on a CPU, at most: at 256 wide one layer's activations
+    # are then 1 MiB and stay in a core's cache.
+    training_chunk: ClassVar[int] = 2048
     query_chunks: ClassVar[dict[str, int]] = QUERY_CHUNKS
     # Whether the losses have the same shapes whatever the batch, draw nothing, and read nothing
     # back from a GPU, so that a GPU can record a training step and repeat it.

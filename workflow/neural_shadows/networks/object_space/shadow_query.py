@@ -22,11 +22,7 @@ class SphereRays:
 def sphere_rays(p: Tensor, light: Tensor) -> SphereRays:
     """Rays from the light to points, entering the unit sphere; the others are culled [3.6.1].
 
-    Args:
-        p: (m, 3) float32 points in normalised space.
-        light: (3,) float32 unit vector l towards the light, on the same device.
-
-    A point is culled, and is lit, if its line p + s l misses the sphere or if it lies between
+    Points p (m, 3) and the unit vector l towards the light (3,) are float32. A point is culled, and is lit, if its line p + s l misses the sphere or if it lies between
     the light and the sphere (s ≤ 0).
     """
     along = p @ light
@@ -60,10 +56,8 @@ def network_lit(
     essential: a ray that misses the object is only ever trained to t ≥ ℓ, so that without it
     every receiver behind the sphere would be in shadow.
 
-    Args:
-        p: (m, 3) float32 points in normalised space, on the network's device.
-        light: (3,) float32 unit vector towards the light, there too.
-        depth_bias: in units of the sphere's radius.
+    p and light are as of `sphere_rays`, in normalised space and on the network's device; the
+    depth bias is in units of the sphere's radius.
     """
     rays = sphere_rays(p, light)
     t_pred = network.depths(rays.origins, -light, dtype)
