@@ -48,18 +48,6 @@ def ball(p):
     return 40 * (0.5 - p.norm(dim=1))
 
 
-def test_linear_functions_are_interpolated_exactly(tmp_path):
-    network = made(bumpy_sphere(4), tmp_path, SOLID_32)
-    slope = torch.tensor([2.0, -3, 1])
-    set_logits(network, lambda p: p @ slope)
-    p = torch.rand(4000, 3, generator=torch.Generator().manual_seed(0)) * 2 - 1
-    bricks = network.bricks_at(p)
-    held = bricks >= 0
-    assert 0.1 < held.float().mean() < 0.9
-    found = network.logits_at(p[held], bricks[held], network.logits())
-    assert torch.allclose(found, p[held] @ slope, atol=1e-4)
-
-
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
 def test_rays_cross_a_ball_where_it_is(tmp_path, settings):
     network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)

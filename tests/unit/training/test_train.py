@@ -117,11 +117,9 @@ def test_files_of_a_run(tmp_path):
     assert record.items() >= expected.items()
     assert record["samples_per_second"] > 0 and record["machine"]["cpu"]
     curve = read_loss(tmp_path / "ball" / "loss.csv")
-    assert list(curve) == ["step", "samples", "learning_rate", "loss"]
     assert list(curve["step"]) == list(range(1, 21))
     assert (curve["samples"] == 32 * curve["step"]).all()
     assert record["final_loss"] == curve["loss"].iloc[-1]
-    assert curve["learning_rate"].iloc[0] == 5e-3
     assert not list(tmp_path.glob("checkpoints/*"))  # a short run needs none
 
 

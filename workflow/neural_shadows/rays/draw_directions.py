@@ -24,11 +24,9 @@ def draw_directions(
     """Draw the view directions of a ray set and write `directions.npy`, (D, 3) float32.
 
     Args:
-        sampling: its number of `directions` D and its `sampler`: `poisson_quadtree` gives a
-            Poisson-disk pattern, the others independent uniform directions.
-        light: the light domain to draw from, d = −l, where a network is to be trained for that
-            light alone [4.1.1]; None for the whole sphere.
-        up: the axis that `light` stands on.
+        sampling: `directions` D and `sampler`: `poisson_quadtree` gives a Poisson-disk pattern,
+            the others independent uniform directions.
+        light: the domain to draw from, d = −l [4.1.1], on the axis `up`; None for the sphere.
 
     Raises:
         InputError: a wrong light domain.

@@ -49,15 +49,13 @@ def train(
 ) -> None:
     """Train one network with Adam on its loss, the thesis's on the dead-zone loss [3.5, 4.1].
 
-    Writes the weights, the loss curve and a record of the run (seconds, rate, machine). A
-    run that was killed continues from its checkpoint when it is called again with the same
+    A run that was killed continues from its checkpoint when it is called again with the same
     arguments, and on a CPU ends in the same weights as an undisturbed one (a GPU adds the
-    gradients of grids in any order). A run that saved a checkpoint leaves that of its end, so
-    that nothing is lost with the files that it writes; see `checkpoints.remove_finished`.
+    gradients of grids in any order). A run that saved a checkpoint leaves that of its end: see
+    `checkpoints.remove_finished`.
 
     Args:
-        directions_npy, origins, bounds, rays_json: the ray set and its description, which goes
-            into the weights' header and into the checkpoint's name.
+        rays_json: the ray set's description, which goes into the weights' header.
         mesh_ply: prepared mesh of the object, for a network that needs it; None for others.
         weights: in a folder of the experiment's, with `checkpoints` beside it.
         network: what `make_network` makes it from.
@@ -161,12 +159,11 @@ def check_learning(name: str, step: int, loss: float, spread: float) -> None:
     Raises:
         InputError: the loss is not finite, or all predictions are the same.
     """
+    if math.isfinite(loss) and spread > 0:
+        return
+    problem = "the network answers the same for every ray (its output died)"
     if not math.isfinite(loss):
         problem = f"the loss is {loss}"
-    elif not spread > 0:
-        problem = "the network answers the same for every ray (its output died)"
-    else:
-        return
     raise InputError(
         f"training {name}: {problem} at step {step}; lower its `learning_rate` in the "
         "config, or change the `seed`"

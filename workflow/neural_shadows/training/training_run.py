@@ -165,9 +165,8 @@ class TrainingRun:
 def gradient_pool(threads: int) -> ThreadPoolExecutor:
     """Threads that each compute a chunk's gradients alone.
 
-    They meet once a step. Threads inside each matrix product would meet 60 times a step, and
-    where another process takes one core away for a moment, all wait for it each time: beside
-    one busy process that gave 29,000 samples/s and this gives 70,000 (alone 95,000 and 113,000;
-    batches of 16,384 on two cores, in one run).
+    They meet once a step. Threads inside each matrix product would meet 60 times, and all wait
+    where another process takes a core for a moment: beside one busy process that gave 29,000
+    samples/s and this gives 70,000 (batches of 16,384 on two cores).
     """
     return ThreadPoolExecutor(threads, initializer=torch.set_num_threads, initargs=(1,))

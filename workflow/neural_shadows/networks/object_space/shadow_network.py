@@ -42,8 +42,8 @@ def hits(batch: LabelledBatch) -> Tensor:
 class ShadowNetwork(nn.Module, ABC):
     """A function t_pred(o, d) with trained weights: behind that depth, all is in shadow.
 
-    A kind of network is a subclass in a module of its own, named for the config's `encoding`
-    (see `networks/kinds.py`), and its arguments are a model in `config/networks.py`.
+    A kind of network is a subclass in a module of its own, see `networks/kinds.py`; its
+    arguments are a model in `config/networks.py`.
     """
 
     # Rays per forward and backward pass on a CPU, at most: at 256 wide one layer's activations
