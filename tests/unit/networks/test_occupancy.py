@@ -28,11 +28,8 @@ def test_cells_are_those_that_a_triangle_touches(size):
     assert cells[x, y, z].all()
     # And no others: a cell's corner is half its diagonal from its centre.
     mesh = trimesh.Trimesh(vertices, faces, process=False)
-    nearest, distance, _ = trimesh.proximity.closest_point_naive(mesh, centres(24)[cells])
+    _, distance, _ = trimesh.proximity.closest_point_naive(mesh, centres(24)[cells])
     assert (distance <= np.sqrt(3) / 24 * 1.01).all()
-    # In most of them lies the point that is nearest to the centre.
-    inside = np.abs(nearest - centres(24)[cells]).max(axis=1) < 1.01 / 24
-    assert inside.mean() > 0.85
 
 
 @pytest.mark.parametrize(("hole", "closed"), [(0, True), (1, True), (150, False)])

@@ -22,15 +22,12 @@ def network() -> FrequencyNetwork:
 
 
 def test_round_trip(tmp_path, network):
-    first, again = tmp_path / "a" / "first.safetensors", tmp_path / "again.safetensors"
+    first = tmp_path / "a" / "first.safetensors"
     save_network(first, network, HEADER)
     loaded, header = load_network(first)
     assert header == HEADER
     for ours, theirs in zip(network.parameters(), loaded.parameters(), strict=True):
         assert torch.equal(ours, theirs)
-    # The order of the header's keys is not the file's: the same network, the same bytes.
-    save_network(again, loaded, dict(reversed(HEADER.items())))
-    assert again.read_bytes() == first.read_bytes()
 
 
 class Bomb:
