@@ -37,7 +37,7 @@ class RandomRays:
         self.parts = LabelledBatch(unit(), unit(), t_lb, t_lb + 0.1)
 
     def gather(self, indices: torch.Tensor) -> LabelledBatch:
-        """See `BatchSource.gather`."""
+        """A batch of rays and their labels."""
         return LabelledBatch(*(part.index_select(0, indices) for part in self.parts))
 
 

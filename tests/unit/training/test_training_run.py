@@ -64,3 +64,16 @@ def test_gradient_against_differences():
         differences.append((losses[0] - losses[1]) / (2 * step))
     assert gradient[0].tolist() == pytest.approx(differences, abs=0.02)
     assert max(map(abs, differences)) > 0.2
+
+
+def test_steps_are_those_of_torch_s_adam():
+    ours, theirs = new_run(learning_rate=1e-2), new_run()
+    adam = torch.optim.Adam(theirs.weights.values(), lr=torch.tensor(1e-2), fused=True)
+    for step in range(4):
+        take_step(ours, slice(100 * step, 100 * step + 100))
+        batch = LabelledBatch(*(part[100 * step : 100 * step + 100] for part in RAYS))
+        losses, _ = theirs.network.losses(batch, theirs.dead_zone, torch.float32, None)
+        adam.zero_grad()
+        (losses.sum() / 100).backward()
+        adam.step()
+    assert_same_weights(ours, theirs)
