@@ -57,7 +57,7 @@ rule find_depth_bias:
             "evaluation/find_depth_bias", LAYOUT.encodings([wildcards.experiment])
         ),
     output:
-        found_json=PATHS.depth_bias(),
+        depth_bias_json=PATHS.depth_bias(),
     log:
         PATHS.log("find_depth_bias", "experiment"),
     benchmark:

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,22 +25,10 @@ SAMPLING = {
     "silhouette_resolution": 128,
     "min_quad": 1,
 }
-TRAINING = {
-    "steps": 200,
-    "batch_size": 1024,
-    "learning_rate": 1e-4,
-    "schedule": "constant",
-    "loss": {},
-}
+TRAINING = dict(steps=200, batch_size=1024, learning_rate=1e-4, schedule="constant", loss={})
 
 # Sizes of the run that warms a stage up: libraries loaded, kernels compiled.
-TINY = {
-    "subdivisions": 2,
-    "samples": POINTS_PER_DIRECTION,
-    "width": 16,
-    "views": 1,
-    "frame_width": 48,
-}
+TINY = dict(subdivisions=2, samples=POINTS_PER_DIRECTION, width=16, views=1, frame_width=48)
 
 # The stages whose files each needs, and itself.
 NEEDED = {
@@ -50,8 +39,6 @@ NEEDED = {
     "evaluation": ("mesh", "evaluation"),
 }
 
-Sizes = Mapping[str, int]
-Settings = Mapping[str, Any]
 Work = Callable[[], object]
 
 
@@ -65,121 +52,103 @@ def bumpy_sphere(subdivisions: int):
     return trimesh.Trimesh(ball.vertices * (1 + 0.3 * waves), ball.faces, process=False)
 
 
-def _mesh(folder: Path, sizes: Sizes, settings: Settings) -> Work:
-    from neural_shadows.meshes.prepare_mesh import prepare_mesh
+@dataclass(frozen=True)
+class Stages:
+    """By stage: lays out what the work is given on files in a folder, and gives the work itself."""
 
-    source = folder / "source.ply"
-    bumpy_sphere(sizes["subdivisions"]).export(source)
-    files = (source, folder / "mesh.ply", folder / "mesh.json")
-    return partial(prepare_mesh, *files, mesh={}, name="bumpy sphere")
+    folder: Path
+    sizes: Mapping[str, int]
+    settings: Mapping[str, Any]  # `seed`, `device` and `threads`
 
+    def mesh(self) -> Work:
+        from neural_shadows.meshes.prepare_mesh import prepare_mesh
 
-def _rays(folder: Path, sizes: Sizes, settings: Settings) -> Work:
-    from neural_shadows.rays.draw_directions import draw_directions
-    from neural_shadows.rays.sample_rays import sample_rays
+        files = [self.folder / name for name in ("source.ply", "mesh.ply", "mesh.json")]
+        bumpy_sphere(self.sizes["subdivisions"]).export(files[0])
+        return partial(prepare_mesh, *files, mesh={}, name="bumpy sphere")
 
-    shard = _shard(folder, sizes, settings)
-    sampling = SAMPLING | {"directions": shard["last"]}
-    draw_directions(
-        directions_npy=shard["directions_npy"], sampling=sampling, seed=settings["seed"]
-    )
-    return partial(sample_rays, sampling=sampling, **shard)
+    def rays(self) -> Work:
+        from neural_shadows.rays.draw_directions import draw_directions
+        from neural_shadows.rays.sample_rays import sample_rays
 
+        shard = self._shard()
+        sampling = SAMPLING | {"directions": shard["last"]}
+        given = {key: shard[key] for key in ("directions_npy", "seed")}
+        draw_directions(**given, sampling=sampling)
+        return partial(sample_rays, sampling=sampling, **shard)
 
-def _labels(folder: Path, sizes: Sizes, settings: Settings) -> Work:
-    from neural_shadows.rays.label_rays import label_rays
+    def labels(self) -> Work:
+        from neural_shadows.rays.label_rays import label_rays
 
-    return partial(label_rays, bounds_npy=folder / "bounds.npy", **_shard(folder, sizes, settings))
+        return partial(label_rays, bounds_npy=self.folder / "bounds.npy", **self._shard())
 
+    def _shard(self) -> dict[str, Any]:
+        """What `sample_rays` and `label_rays` both take."""
+        files = ("mesh.ply", "directions.npy", "origins.npy")
+        given = {name.replace(".", "_"): self.folder / name for name in files}
+        given |= {key: self.settings[key] for key in ("seed", "threads")}
+        return given | {"first": 0, "last": self.sizes["samples"] // POINTS_PER_DIRECTION}
 
-def _shard(folder: Path, sizes: Sizes, settings: Settings) -> dict[str, Any]:
-    """What `sample_rays` and `label_rays` both take."""
-    return {
-        "mesh_ply": folder / "mesh.ply",
-        "directions_npy": folder / "directions.npy",
-        "origins_npy": folder / "origins.npy",
-        "first": 0,
-        "last": sizes["samples"] // POINTS_PER_DIRECTION,
-        "seed": settings["seed"],
-        "threads": settings["threads"],
-    }
+    def training(self) -> Work:
+        from neural_shadows.training.train import train
 
+        write_json(self.folder / "rays.json", {})
+        return partial(
+            train,
+            directions_npy=self.folder / "directions.npy",
+            origins=[self.folder / "origins.npy"],
+            bounds=[self.folder / "bounds.npy"],
+            rays_json=self.folder / "rays.json",
+            mesh_ply=None,
+            weights=self.folder / "trained" / "weights.safetensors",
+            loss_csv=self.folder / "loss.csv",
+            training_json=self.folder / "training.json",
+            network=self._network(),
+            training=TRAINING,
+            experiment="cost",
+            **self.settings,
+        )
 
-def _training(folder: Path, sizes: Sizes, settings: Settings) -> Work:
-    from neural_shadows.training.train import train
+    def _network(self) -> dict[str, Any]:
+        width = self.sizes["width"]
+        return {"encoding": "frequency", "frequencies": 10, "width": width, "hidden_layers": 8}
 
-    write_json(folder / "rays.json", {})
-    return partial(
-        train,
-        directions_npy=folder / "directions.npy",
-        origins=[folder / "origins.npy"],
-        bounds=[folder / "bounds.npy"],
-        rays_json=folder / "rays.json",
-        mesh_ply=None,
-        weights=folder / "trained" / "weights.safetensors",
-        loss_csv=folder / "loss.csv",
-        training_json=folder / "training.json",
-        network=_network(sizes),
-        training=TRAINING,
-        experiment="cost",
-        **settings,
-    )
+    def evaluation(self) -> Work:
+        """The reference, a shadow map and an untrained network on one thread, as each job has."""
+        from neural_shadows.evaluation.evaluate import evaluate
+        from neural_shadows.evaluation.render_references import render_references
+        from neural_shadows.networks.kinds import make_network
+        from neural_shadows.networks.weight_file import save_network
 
+        names = ("mesh.ply", "references.safetensors", "untrained.safetensors", "lpips.json")
+        mesh_ply, references, weights, lpips_json = (self.folder / name for name in names)
+        network = make_network(self._network())
+        network.initialise(self.settings["seed"])
+        save_network(weights, network, {"network": self._network()})
+        write_json(lpips_json, {"available": False})
+        width = self.sizes["frame_width"]
+        frames = {"width": width, "height": width * 2 // 3, "view_sets": ["surface"]}
+        frames["seed"] = self.settings["seed"]
+        batch = {"scene": SCENE, "frames": frames, "first": 0, "last": self.sizes["views"]}
 
-def _network(sizes: Sizes) -> dict[str, Any]:
-    width = sizes["width"]
-    return {"encoding": "frequency", "frequencies": 10, "width": width, "hidden_layers": 8}
+        def work() -> None:
+            render_references(mesh_ply, references, self.folder / "reference.npz", **batch)
+            for method, file in {"shadow_map_512": None, "network": weights}.items():
+                outputs = (self.folder / f"{method}.{ending}" for ending in ("csv", "npz"))
+                settings = {"method": method, "scene": SCENE, "device": self.settings["device"]}
+                evaluate(references, mesh_ply, file, None, lpips_json, *outputs, **settings)
 
-
-def _evaluation(folder: Path, sizes: Sizes, settings: Settings) -> Work:
-    """The reference, a shadow map and an untrained network on one thread, as each job has."""
-    from neural_shadows.evaluation.evaluate import evaluate
-    from neural_shadows.evaluation.render_references import render_references
-    from neural_shadows.networks.kinds import make_network
-    from neural_shadows.networks.weight_file import save_network
-
-    network = make_network(_network(sizes))
-    network.initialise(settings["seed"])
-    weights = folder / "untrained.safetensors"
-    save_network(weights, network, {"network": _network(sizes)})
-    lpips_json = folder / "lpips.json"
-    write_json(lpips_json, {"available": False})
-    width, seed = sizes["frame_width"], settings["seed"]
-    frames = {"width": width, "height": width * 2 // 3, "view_sets": ["surface"], "seed": seed}
-    mesh_ply, references = folder / "mesh.ply", folder / "references.safetensors"
-
-    def work() -> None:
-        batch = {"scene": SCENE, "frames": frames, "first": 0, "last": sizes["views"]}
-        render_references(mesh_ply, references, folder / "reference.npz", **batch)
-        for method, file in {"shadow_map_512": None, "network": weights}.items():
-            outputs = (folder / f"{method}.csv", folder / f"{method}.npz")
-            inputs = (references, mesh_ply, file, None, lpips_json)
-            evaluate(*inputs, *outputs, method=method, scene=SCENE, device=settings["device"])
-
-    return work
+        return work
 
 
-WORKS: dict[str, Callable[[Path, Sizes, Settings], Work]] = {
-    "mesh": _mesh,
-    "rays": _rays,
-    "labels": _labels,
-    "training": _training,
-    "evaluation": _evaluation,
-}
-"""By stage: lays out what the work is given on files in a folder, and gives the work itself."""
-
-
-def run_alone(stage: str, folder: Path, sizes: Sizes, settings: Settings) -> dict[str, float]:
-    """Warm a stage up and run it: seconds, and memory in bytes.
-
-    Args:
-        folder: with the files of the stages that it needs.
-        settings: `seed`, `device` and `threads`.
-    """
+def run_alone(
+    stage: str, folder: Path, sizes: Mapping[str, int], settings: Mapping[str, Any]
+) -> dict[str, float]:
+    """Warm a stage up and run it: seconds, and memory in bytes. Arguments as of `Stages`."""
     with tempfile.TemporaryDirectory(dir=folder) as small:
         for needed in NEEDED[stage]:
-            WORKS[needed](Path(small), TINY, settings)()
-    work = WORKS[stage](folder, sizes, settings)
+            getattr(Stages(Path(small), TINY, settings), needed)()()
+    work = getattr(Stages(folder, sizes, settings), stage)()
     before = held_bytes()
     started = time.perf_counter()
     work()

@@ -1,8 +1,8 @@
 """The stage that measures one method against the reference on a batch of viewpoints [4.1]."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,9 +18,6 @@ from neural_shadows.rendering.shading import shade
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
-
-if TYPE_CHECKING:
-    from neural_shadows.metrics.lpips_distance import Lpips
 
 
 def evaluate(
@@ -62,28 +59,17 @@ def evaluate(
         answer = network_method(network, dtype, bias or 0.0)
     else:
         answer = traced_method(method, open_scene(mesh_ply, **scene))
-    lpips = _open_lpips(lpips_json, device, threads)
+    metrics = {"psnr": psnr, "ssim": ssim, "flip": flip} | _lpips(lpips_json, device, threads)
     batch = References(references)
     rows: list[dict[str, Any]] = []
     pictures: dict[str, np.ndarray] = {}
-    with progress_bar(len(batch), "views", method) as bar:
+    with progress_bar(len(batch), "views", f"evaluate {method}") as bar:
         for frame, truth in batch:
             visibility = answer(frame)
             image, reference = shade(frame, visibility), shade(frame, truth)
             pictures.setdefault(frame.view.view_set, image)
-            values = {
-                "psnr": psnr(image, reference),
-                "ssim": ssim(image, reference),
-                "flip": flip(image, reference),
-            }
-            if lpips:
-                values["lpips"] = lpips(image, reference)
-            error = shadow_error(visibility, truth)
-            values |= {
-                "shadow_error": error.total,
-                "false_shadow": error.false_shadow,
-                "light_leak": error.light_leak,
-            }
+            values = {name: metric(image, reference) for name, metric in metrics.items()}
+            values |= shadow_error(visibility, truth)._asdict()
             key = {"view": frame.view.index, "view_set": frame.view.view_set, "method": method}
             rows += [key | {"metric": name, "value": value} for name, value in values.items()]
             bar.update()
@@ -91,10 +77,10 @@ def evaluate(
     write_metrics(metrics_csv, rows)
 
 
-def _open_lpips(lpips_json: Path, device: str, threads: int) -> "Lpips | None":
+def _lpips(lpips_json: Path, device: str, threads: int) -> dict[str, Callable[..., float]]:
     found = read_json(lpips_json)
     if not found["available"]:
-        return None
+        return {}
     # Here and not above: torch and torchvision take 3 s to import.
     import torch
 
@@ -103,7 +89,7 @@ def _open_lpips(lpips_json: Path, device: str, threads: int) -> "Lpips | None":
 
     torch.set_num_threads(threads)
     trunk = Path(found["trunk"]) if found["trunk"] else None
-    return make_lpips(found["net"], trunk, choose_device(device).type)
+    return {"lpips": make_lpips(found["net"], trunk, choose_device(device).type)}
 
 
 if "snakemake" in globals():

@@ -23,7 +23,7 @@ BIASES = (0.0, *(float(b) for b in np.round(0.0005 * 2 ** (np.arange(25) / 3), 5
 def find_depth_bias(
     references: Path,
     weights: Path,
-    found_json: Path,
+    depth_bias_json: Path,
     *,
     device: str = "auto",
     threads: int = 1,
@@ -40,7 +40,7 @@ def find_depth_bias(
     batch = References(references)
     # Sums over views of (false shadow, light leak) by bias.
     sums = np.zeros((len(BIASES), 2))
-    with progress_bar(len(batch), "views", "depth biases") as bar:
+    with progress_bar(len(batch), "views", f"find depth bias of {weights.parent.name}") as bar:
         for frame, truth in batch:
             p, light = on_device(frame.p, frame.view.light, network.device)
             rays = sphere_rays(p, light)
@@ -55,7 +55,7 @@ def find_depth_bias(
         for bias, (false_shadow, light_leak) in zip(BIASES, (sums / len(batch)).tolist())
     ]
     best = BIASES[int(sums.sum(1).argmin())]
-    write_json(found_json, {"depth_bias": best, "views": len(batch), "errors": errors})
+    write_json(depth_bias_json, {"depth_bias": best, "views": len(batch), "errors": errors})
 
 
 if "snakemake" in globals():

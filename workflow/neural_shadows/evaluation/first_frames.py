@@ -60,4 +60,4 @@ def _read_arrays(path: Path) -> dict[str, np.ndarray]:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return dict(arrays)
     except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
-        raise InputError(f"{path}: cannot be read ({error}); delete it and run again") from error
+        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error

@@ -14,14 +14,8 @@ from neural_shadows.files.whole_files import write_json
 from neural_shadows.running.hardware import describe_machine
 from neural_shadows.running.stage import run_stage
 
-# What stays as it is while one of them grows.
-BASE = {
-    "subdivisions": 6,  # 81,920 triangles
-    "samples": 1_000_000,
-    "width": 256,
-    "views": 4,
-    "frame_width": 600,
-}
+# What stays as it is while one of them grows; 81,920 triangles.
+BASE = dict(subdivisions=6, samples=1_000_000, width=256, views=4, frame_width=600)
 
 
 def size_of(over: str, value: int) -> tuple[str, int]:
@@ -51,22 +45,17 @@ def measure_cost(
     settings = {"seed": seed, "device": device, "threads": threads}
     needed = dict.fromkeys(stage for last in STAGES[over] for stage in NEEDED[last])
     # Beside the result: a hundred million rays take 2 GB, which a system's /tmp may not have.
-    # Named after it, so that what a killed job left is found.
+    # Named after it, so that what a failed job left is found.
     folder = cost_json.with_suffix(".unfinished")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    try:
-        costs = {
-            stage: _in_process(stage, folder, BASE | {over: value}, settings) for stage in needed
-        }
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    sizes = BASE | {over: value}
+    costs = {stage: _in_process(stage, folder, sizes, settings) for stage in needed}
+    shutil.rmtree(folder)
     stages = [{"stage": stage, **costs[stage]} for stage in STAGES[over]]
     name, size = size_of(over, value)
-    machine = describe_machine()
-    write_json(
-        cost_json, {"over": name, "size": size, "stages": stages, "machine": machine, **settings}
-    )
+    made = {"machine": describe_machine(), **settings}
+    write_json(cost_json, {"over": name, "size": size, "stages": stages, **made})
 
 
 def _in_process(

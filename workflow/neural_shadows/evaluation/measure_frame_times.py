@@ -9,7 +9,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from neural_shadows.evaluation.method_names import RAY_TRACED, experiment_of, is_classic
+from neural_shadows.evaluation.method_names import experiment_of
 from neural_shadows.evaluation.shadow_methods import (
     ShadowMethod,
     network_method,
@@ -20,7 +20,7 @@ from neural_shadows.files.whole_files import write_json
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
-from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
+from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.running.hardware import describe_machine
@@ -45,19 +45,6 @@ def record_rates(network: ShadowNetwork, rates: list[float]) -> ShadowNetwork:
 
     network.depths = timed
     return network
-
-
-def shadow_times(methods: Mapping[str, ShadowMethod], frame: GBuffer) -> dict[str, float]:
-    """Milliseconds that shadowing and shading a frame takes, by each method in turn.
-
-    Turns spread a disturbance of the machine over all methods.
-    """
-    milliseconds = {}
-    for name, answer in methods.items():
-        started = time.perf_counter()
-        shade(frame, answer(frame))  # the answer is on the CPU, so that a GPU is done
-        milliseconds[name] = 1000 * (time.perf_counter() - started)
-    return milliseconds
 
 
 def measure_frame_times(
@@ -95,34 +82,35 @@ def measure_frame_times(
     rates: dict[str, list[float]] = {}
     timed: dict[str, ShadowMethod] = {}
     for method in methods:
-        if method == RAY_TRACED or is_classic(method):
-            timed[method] = traced_method(method, opened, whole_map=True)
-        else:
-            network, dtype = open_network(files[experiment_of(method)], device, 1)
+        if file := files.get(experiment_of(method)):
+            network, dtype = open_network(file, device, 1)
             rates[method] = []
             timed[method] = network_method(record_rates(network, rates[method]), dtype)
+        else:
+            timed[method] = traced_method(method, opened, whole_map=True)
 
     width, height, repeats = (frame_times[key] for key in ("width", "height", "repeats"))
-    per_set = -(-repeats // len(frames["view_sets"]))
-    viewpoints = draw_viewpoints(
-        opened, frames["view_sets"], range(per_set), width / height, frames["seed"]
-    )
+    view_sets, seed = frames["view_sets"], frames["seed"]
+    per_set = range(-(-repeats // len(view_sets)))
+    viewpoints = draw_viewpoints(opened, view_sets, per_set, width / height, seed)
     viewpoints = sorted(viewpoints, key=lambda view: view.index)[:repeats]  # the sets in turn
 
     milliseconds: dict[str, list[float]] = {method: [] for method in timed}
     rays = []
-    with progress_bar(WARM_UP + repeats, "frames", "frame times") as bar:
+    with progress_bar(WARM_UP + repeats, "frames", f"measure times of {times_json.stem}") as bar:
         for i in range(-WARM_UP, repeats):
             view = viewpoints[i % len(viewpoints)]
             started = time.perf_counter()
             frame = render_gbuffer(opened, view, width, height)
             # The same work for every method, so timed once and counted for each.
-            primary = 1000 * (time.perf_counter() - started)
-            times = shadow_times(timed, frame)
-            if i >= 0:
-                rays.append(len(sphere_rays(*on_device(frame.p, view.light, chosen)).index))
-                for method, value in times.items():
-                    milliseconds[method].append(primary + value)
+            primary = time.perf_counter() - started
+            # In turn, which spreads a disturbance of the machine over all methods.
+            for method, answer in timed.items():
+                started = time.perf_counter()
+                shade(frame, answer(frame))  # the answer is on the CPU, so that a GPU is done
+                seconds = primary + time.perf_counter() - started
+                milliseconds[method].append(1000 * seconds)
+            rays.append(len(sphere_rays(*on_device(frame.p, view.light, chosen)).index))
             bar.update()
     write_json(
         times_json,
@@ -134,8 +122,8 @@ def measure_frame_times(
             "device": chosen.type,
             "precision": str(choose_dtype("auto", chosen)).removeprefix("torch."),
             "machine": describe_machine(),
-            "sphere_rays": float(np.median(rays)),  # of a frame: those that a network answers
-            "methods": {method: {"ms": values} for method, values in milliseconds.items()},
+            "sphere_rays": float(np.median(rays[WARM_UP:])),  # those that a network answers
+            "methods": {name: {"ms": values[WARM_UP:]} for name, values in milliseconds.items()},
             # of a network's query alone, by frame
             "rays_per_second": {method: found[WARM_UP:] for method, found in rates.items()},
         },

@@ -11,13 +11,7 @@ from neural_shadows.files.whole_files import whole_file
 if TYPE_CHECKING:
     import pandas as pd
 
-COLUMNS = {
-    "view": "int64",
-    "view_set": "str",
-    "method": "str",
-    "metric": "str",
-    "value": "float64",
-}
+COLUMNS = dict(view="int64", view_set="str", method="str", metric="str", value="float64")
 
 
 def write_metrics(metrics_csv: Path, rows: Iterable[Mapping[str, Any]]) -> None:
@@ -43,8 +37,5 @@ def read_metrics(paths: Iterable[Path]) -> "pd.DataFrame":
         try:
             found.append(pd.read_csv(path, dtype=COLUMNS, usecols=list(COLUMNS)))
         except (OSError, ValueError) as error:
-            reason = " ".join(str(error).split())
-            raise InputError(
-                f"{path}: cannot be read ({reason}); delete it and run again"
-            ) from error
+            raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
     return pd.concat(found, ignore_index=True)

@@ -6,7 +6,7 @@ takes 2 MB and not 5.
 """
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -69,9 +69,7 @@ class References:
             self._file = safe_open(path, framework="numpy")
             header = json.loads(self._file.metadata()["header"])
         except (OSError, SafetensorError, TypeError, KeyError) as error:
-            raise InputError(
-                f"{path}: cannot be read ({error}); delete it and run again"
-            ) from error
+            raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
         self.width, self.height = header["width"], header["height"]
         self.ground: float | None = header["ground"]
         self.views = [
@@ -82,14 +80,12 @@ class References:
     def __len__(self) -> int:
         return len(self.views)
 
-    def __iter__(self) -> Iterator[tuple[GBuffer, np.ndarray]]:
-        return map(self._frame, range(len(self)))
-
-    def _frame(self, number: int) -> tuple[GBuffer, np.ndarray]:
+    def __getitem__(self, number: int) -> tuple[GBuffer, np.ndarray]:
+        view = self.views[number]  # an IndexError ends an iteration
         surface = self._file.get_tensor(f"{number}.surface")
         pixel = np.flatnonzero(surface & _OBJECT)
         frame = GBuffer(
-            view=self.views[number],
+            view=view,
             width=self.width,
             height=self.height,
             pixel=pixel,

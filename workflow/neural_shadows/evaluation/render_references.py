@@ -1,7 +1,6 @@
 """The stage that renders a batch of viewpoints once for all methods [4.1]."""
 
 from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +27,6 @@ def render_references(
     first: int,
     last: int,
     reference: str = "exact",
-    threads: int = 1,
 ) -> None:
     """Draw viewpoints `first` to `last` (exclusive) of each view set, and render them.
 
@@ -44,23 +42,18 @@ def render_references(
     """
     opened = open_scene(mesh_ply, **scene)
     answer = traced_method(REFERENCES[reference], opened)
-    width, height = frames["width"], frames["height"]
-
-    def render(view_set: str, index: int) -> tuple[GBuffer, np.ndarray]:
-        (view,) = draw_viewpoints(opened, [view_set], [index], width / height, frames["seed"])
-        frame = render_gbuffer(opened, view, width, height)
-        return frame, answer(frame)
-
-    views = [(view_set, i) for view_set in frames["view_sets"] for i in range(first, last)]
+    width, height, view_sets, seed = (
+        frames[key] for key in ("width", "height", "view_sets", "seed")
+    )
+    views = draw_viewpoints(opened, view_sets, range(first, last), width / height, seed)
     rendered: list[tuple[GBuffer, np.ndarray]] = []
     pictures: dict[str, np.ndarray] = {}
-    with (
-        ThreadPoolExecutor(threads) as pool,  # Embree and NumPy release the GIL
-        progress_bar(len(views), "views", "references") as bar,
-    ):
-        for frame, visibility in pool.map(render, *zip(*views, strict=True)):
+    with progress_bar(len(views), "views", f"render references of {mesh_ply.parent.name}") as bar:
+        for view in views:
+            frame = render_gbuffer(opened, view, width, height)
+            visibility = answer(frame)
             rendered.append((frame, visibility))
-            pictures.setdefault(frame.view.view_set, shade(frame, visibility))
+            pictures.setdefault(view.view_set, shade(frame, visibility))
             bar.update()
     write_first_frames(pictures_npz, "reference", pictures)
     write_references(references, rendered, opened.ground)

@@ -8,9 +8,9 @@ import numpy as np
 class ShadowError(NamedTuple):
     """Means over the surface points; of hard shadows, shares of points that are wrong."""
 
+    shadow_error: float  # both of the others
     false_shadow: float  # darker than the reference
     light_leak: float  # brighter than the reference
-    total: float
 
 
 def shadow_error(visibility: np.ndarray, reference: np.ndarray) -> ShadowError:
@@ -22,5 +22,5 @@ def shadow_error(visibility: np.ndarray, reference: np.ndarray) -> ShadowError:
     if len(reference) == 0:
         raise ValueError("shadow_error: no pixel shows object or receiver")
     difference = np.subtract(visibility, reference, dtype=np.float64)
-    sums = (-difference).clip(0).sum(), difference.clip(0).sum(), np.abs(difference).sum()
+    sums = np.abs(difference).sum(), (-difference).clip(0).sum(), difference.clip(0).sum()
     return ShadowError(*(float(total / len(reference)) for total in sums))

@@ -1,17 +1,32 @@
 """How far a job is: a bar where somebody watches, else a line now and then."""
 
 import sys
-from typing import TextIO
+from typing import Any, TextIO
 
 from tqdm import tqdm
 
 TERMINAL: TextIO | None = None
 """Where the person is, while stderr goes to a job's log (`stage.py`)."""
 
-# Between two lines where no bar can be drawn.
+# Between two lines where no bar can be drawn, and before the first.
 _SECONDS = 20
 
-_LINE = "{desc}: {percentage:3.0f} % of {total_fmt}{unit}, {rate_fmt}, {remaining} left"
+_BAR = "{l_bar}{bar}| {n_fmt}/{total_fmt} [{elapsed}<{remaining}, {pace}]"
+_LINE = "{desc}: {percentage:3.0f} % of {total_fmt}{unit}, {pace}, {remaining} left"
+
+
+class _Bar(tqdm):
+    @property
+    def format_dict(self) -> dict[str, Any]:
+        """tqdm's, and `pace`: units a second, or seconds a unit where those are more than one."""
+        found = super().format_dict
+        rate = found["rate"] or (found["n"] - found["initial"]) / (found["elapsed"] or 1)
+        units = found["unit"].strip()
+        slow = 0 < rate < 1
+        pace = (
+            f"{1 / rate:.1f} s a {units[:-1]}" if slow else f"{self.format_sizeof(rate)} {units}/s"
+        )
+        return found | {"pace": pace}
 
 
 class _LogAndTerminal:
@@ -19,6 +34,7 @@ class _LogAndTerminal:
 
     def __init__(self, terminal: TextIO):
         self._terminal = terminal
+        self.flush = terminal.flush
 
     def write(self, text: str) -> None:
         line = text.strip()
@@ -29,22 +45,14 @@ class _LogAndTerminal:
         elif line:
             print(line, file=self._terminal)
 
-    def flush(self) -> None:
-        self._terminal.flush()
-
 
 def progress_bar(total: int, unit: str, title: str, initial: int = 0) -> tqdm:
-    """A bar that counts to `total` units (samples, viewpoints), SI-scaled."""
-    settings = dict(total=total, initial=initial, unit=f" {unit}", unit_scale=True, desc=title)
-    if TERMINAL is None:
-        return tqdm(**settings, dynamic_ncols=True)
-    if TERMINAL.isatty():
-        return tqdm(**settings, file=_LogAndTerminal(TERMINAL), mininterval=2, ncols=80)
-    return tqdm(
-        **settings,
-        file=_LogAndTerminal(TERMINAL),
-        mininterval=_SECONDS,
-        maxinterval=_SECONDS,
-        delay=_SECONDS,  # nothing of what takes no longer
-        bar_format=_LINE,
-    )
+    """A bar that counts to `total` units, a plural ("samples", "views"); thousands are "4.00k"."""
+    settings = dict(total=total, initial=initial, unit=f" {unit}", desc=title, bar_format=_BAR)
+    settings |= dict(unit_scale=total >= 1000, ncols=80, mininterval=2)
+    if TERMINAL:
+        settings |= dict(file=_LogAndTerminal(TERMINAL))
+        if not TERMINAL.isatty():
+            seconds = dict.fromkeys(("mininterval", "maxinterval", "delay"), _SECONDS)
+            settings |= seconds | dict(bar_format=_LINE)
+    return _Bar(**settings)

@@ -30,14 +30,12 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
     Args:
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
         function: takes keyword arguments named as in the rule: each named input (but `code`
-            and `beside`), output and param (but `kind`; those in `settings` one by one), and,
-            if it has arguments of these names, `threads` and wildcards.
+            and `beside`), output and param (but `kind`; those in `settings` one by one), and, if
+            it has arguments of these names, `threads` and wildcards.
     """
-    path = Path(job.log[0])
-    path.parent.mkdir(parents=True, exist_ok=True)
     # A name of a file that is no text must not make an error of its own.
     terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
-    with path.open("w", encoding="utf-8", errors="backslashreplace", buffering=1) as log:
+    with open(job.log[0], "w", encoding="utf-8", errors="backslashreplace", buffering=1) as log:
         # By file descriptor, so that what native libraries print is captured as well.
         os.dup2(log.fileno(), 1)
         os.dup2(log.fileno(), 2)
@@ -47,13 +45,14 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
         try:
             function(**arguments_of(job, function))
         except Exception as error:
-            line = f"{job.rule}: {_message(error)} [log: {shlex.quote(str(path))}]"
+            # An error of these names the file and the reason, others need their type.
+            kind = "" if isinstance(error, InputError | OSError) else f"{type(error).__name__}: "
+            message = " ".join(f"{kind}{error}".split())
+            line = f"{job.rule}: {message} [log: {shlex.quote(job.log[0])}]"
             # First, for the log may lie on a disk that is full.
             print(line, file=terminal)
             print(traceback.format_exc(), line, sep="\n", file=log)
             sys.exit(1)
-        finally:
-            progress.TERMINAL = None
 
 
 def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
@@ -68,22 +67,18 @@ def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
     input, output, params, wildcards = (
         dict(part.items()) for part in (job.input, job.output, job.params, job.wildcards)
     )
-    given = {**input, **output, **params.pop(_SPREAD, {}), **params}
-    given = {name: value for name, value in given.items() if name not in _RULE_ONLY}
     takes = inspect.signature(function).parameters
     offered = {"threads": job.threads, **wildcards}
-    given = {name: value for name, value in offered.items() if name in takes} | given
+    given = {name: value for name, value in offered.items() if name in takes}
+    given |= {**input, **output, **params.pop(_SPREAD, {}), **params}
+    given = {name: value for name, value in given.items() if name not in _RULE_ONLY}
     check_names(function, given)
     types = get_type_hints(function)
     return {name: _converted(value, types.get(name)) for name, value in given.items()}
 
 
 def check_names(function: Callable[..., None], given: Iterable[str]) -> None:
-    """Check that a rule's names are those of its function's arguments.
-
-    Raises:
-        TypeError: a name that the function does not take, or an argument without one.
-    """
+    """Raise TypeError where a rule's names are not those of its function's arguments."""
     takes = inspect.signature(function).parameters
     needed = {name for name, argument in takes.items() if argument.default is argument.empty}
     extra, missing = sorted(set(given) - takes.keys()), sorted(needed - set(given))
@@ -99,10 +94,3 @@ def _converted(value: Any, type_: Any) -> Any:
         paths = [value] if isinstance(value, str) else list(value)
         return Path(paths[0]) if paths else None
     return int(value) if type_ is int else value  # a wildcard is text
-
-
-def _message(error: Exception) -> str:
-    """One line: these errors name the file and the reason, others need their type."""
-    readable = isinstance(error, InputError | OSError)
-    text = str(error) if readable else f"{type(error).__name__}: {error}"
-    return " ".join(text.split())
