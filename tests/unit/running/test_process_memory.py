@@ -1,9 +1,4 @@
 import mmap
-import os
-import subprocess
-import sys
-
-import numpy as np
 
 from neural_shadows.running.process_memory import held_bytes, peak_bytes
 
@@ -19,11 +14,3 @@ def test_memory_that_was_given_back_is_in_the_peak_alone():
     assert held - begin > 60 * MIB
     assert held_bytes() < held - 60 * MIB
     assert peak_bytes() > held - 2 * MIB  # the kernel counts in batches of pages
-
-
-def test_what_the_parent_held_does_not_count():
-    array = np.ones(512 * MIB, np.uint8)
-    code = "from neural_shadows.running.process_memory import peak_bytes; print(peak_bytes())"
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    said = subprocess.check_output([sys.executable, "-c", code], env=environment, text=True)
-    assert 0 < int(said) < 256 * MIB < len(array)

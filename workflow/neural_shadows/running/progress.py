@@ -12,7 +12,7 @@ TERMINAL: TextIO | None = None
 _SECONDS = 20
 
 _BAR = "{l_bar}{bar}| {n_fmt}/{total_fmt} [{elapsed}<{remaining}, {pace}]"
-_LINE = "{desc}: {percentage:3.0f} % of {total_fmt}{unit}, {pace}, {remaining} left"
+_LINE = "{desc}: {percentage:3.0f} % of {total_fmt} {unit}, {pace}, {remaining} left"
 
 
 class _Bar(tqdm):
@@ -21,11 +21,8 @@ class _Bar(tqdm):
         """tqdm's, and `pace`: units a second, or seconds a unit where those are more than one."""
         found = super().format_dict
         rate = found["rate"] or (found["n"] - found["initial"]) / (found["elapsed"] or 1)
-        units = found["unit"].strip()
-        slow = 0 < rate < 1
-        pace = (
-            f"{1 / rate:.1f} s a {units[:-1]}" if slow else f"{self.format_sizeof(rate)} {units}/s"
-        )
+        unit, size = found["unit"], self.format_sizeof(rate)
+        pace = f"{1 / rate:.1f} s a {unit[:-1]}" if 0 < rate < 1 else f"{size} {unit}/s"
         return found | {"pace": pace}
 
 
@@ -48,11 +45,11 @@ class _LogAndTerminal:
 
 def progress_bar(total: int, unit: str, title: str, initial: int = 0) -> tqdm:
     """A bar that counts to `total` units, a plural ("samples", "views"); thousands are "4.00k"."""
-    settings = dict(total=total, initial=initial, unit=f" {unit}", desc=title, bar_format=_BAR)
-    settings |= dict(unit_scale=total >= 1000, ncols=80, mininterval=2)
+    settings = dict(total=total, initial=initial, unit=unit, desc=title, bar_format=_BAR)
+    settings |= dict(unit_scale=total >= 1000, ncols=80)
     if TERMINAL:
-        settings |= dict(file=_LogAndTerminal(TERMINAL))
+        settings |= dict(file=_LogAndTerminal(TERMINAL), mininterval=2)
         if not TERMINAL.isatty():
-            seconds = dict.fromkeys(("mininterval", "maxinterval", "delay"), _SECONDS)
-            settings |= seconds | dict(bar_format=_LINE)
+            settings |= dict.fromkeys(("mininterval", "maxinterval", "delay"), _SECONDS)
+            settings["bar_format"] = _LINE
     return _Bar(**settings)

@@ -6,7 +6,7 @@ import os
 import shlex
 import sys
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, get_type_hints
 
@@ -16,9 +16,6 @@ from neural_shadows.running import progress
 # What a rule names for Snakemake alone: the modules that a result depends on, what else is to be
 # made when a table is asked for, and the kind of a table or figure, which names its script.
 _RULE_ONLY = {"code", "beside", "kind"}
-
-# The params of a kind, each an argument.
-_SPREAD = "settings"
 
 
 def run_stage(job: Any, function: Callable[..., None]) -> None:
@@ -60,9 +57,6 @@ def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
 
     Paths become what the argument's annotation says: `Path`, `Path | None` (None for no file) or
     `list[Path]`; anything else stays as it is, but a wildcard may be an `int`.
-
-    Raises:
-        TypeError: see `check_names`.
     """
     input, output, params, wildcards = (
         dict(part.items()) for part in (job.input, job.output, job.params, job.wildcards)
@@ -70,20 +64,10 @@ def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
     takes = inspect.signature(function).parameters
     offered = {"threads": job.threads, **wildcards}
     given = {name: value for name, value in offered.items() if name in takes}
-    given |= {**input, **output, **params.pop(_SPREAD, {}), **params}
+    given |= {**input, **output, **params.pop("settings", {}), **params}
     given = {name: value for name, value in given.items() if name not in _RULE_ONLY}
-    check_names(function, given)
     types = get_type_hints(function)
     return {name: _converted(value, types.get(name)) for name, value in given.items()}
-
-
-def check_names(function: Callable[..., None], given: Iterable[str]) -> None:
-    """Raise TypeError where a rule's names are not those of its function's arguments."""
-    takes = inspect.signature(function).parameters
-    needed = {name for name, argument in takes.items() if argument.default is argument.empty}
-    extra, missing = sorted(set(given) - takes.keys()), sorted(needed - set(given))
-    if extra or missing:
-        raise TypeError(f"{function.__name__}: the rule gives too much: {extra}, lacks: {missing}")
 
 
 def _converted(value: Any, type_: Any) -> Any:
