@@ -57,10 +57,8 @@ def test_a_mesh_that_cannot_be_read(fresh, tmp_path):
     overlay = write_overlay(tmp_path / "cut.yaml", scenes={"cut": {"mesh": {"path": str(mesh)}}})
     done = checkout.snakemake("results/smoke/scenes/cut/mesh.ply", overlays=[overlay])
     assert done.returncode != 0
-    log = "results/smoke/logs/prepare_mesh/cut.log"
     # By the job, and again at the end of its log, which is shown.
     lines = [row for row in done.stdout.splitlines() if row.startswith("prepare_mesh: ")]
     assert len(set(lines)) == 1 and len(lines) == 2, done.stdout
-    assert str(mesh) in lines[0] and lines[0].endswith(f"[log: {log}]")
-    assert (checkout.folder / log).read_text().endswith(lines[0] + "\n")
-    assert not (checkout.results / "scenes" / "cut" / "mesh.ply").exists()
+    assert str(mesh) in lines[0]
+    assert lines[0].endswith("[log: results/smoke/logs/prepare_mesh/cut.log]")
