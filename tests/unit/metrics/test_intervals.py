@@ -19,27 +19,6 @@ def test_a_share_gives_the_binomial_percentiles():
     assert high == pytest.approx(exact.ppf(0.975) / 40, abs=1e-12)
 
 
-def test_covers_the_true_mean_as_often_as_it_says():
-    rng = np.random.default_rng(4)
-    trials, covered = 400, 0
-    for seed in range(trials):
-        _, low, high = mean_interval(rng.normal(0.0, 1.0, 60), seed, resamples=500)
-        covered += low <= 0.0 <= high
-    # Percentile intervals of 60 views are a little short: t/z of 59 degrees and the n/(n-1)
-    # of the variance give 0.94. Four standard errors of 400 trials are 0.047.
-    assert covered / trials == pytest.approx(0.94, abs=0.047)
-
-
-def test_a_single_value_has_no_width():
-    assert mean_interval(np.array([0.25]), seed=0) == (0.25, 0.25, 0.25)
-
-
-def test_the_seed_decides():
-    values = np.random.default_rng(5).exponential(size=50)
-    assert mean_interval(values, seed=7) == mean_interval(values, seed=7)
-    assert mean_interval(values, seed=7) != mean_interval(values, seed=8)
-
-
 def test_difference_has_the_width_of_both_samples():
     rng = np.random.default_rng(6)
     a, b = rng.normal(3.0, 2.0, 1500), rng.normal(1.0, 1.0, 500)

@@ -5,13 +5,13 @@ import lpips
 import pytest
 import torch
 import torchvision
-from images import constant, random_image
+from images import random_image
 
 from neural_shadows.metrics.lpips_distance import load_model, make_lpips
 from neural_shadows.metrics.lpips_trunk import MODELS
 
 
-@pytest.mark.parametrize("net", ["squeeze", "alex", "vgg"])
+@pytest.mark.parametrize("net", ["squeeze", "alex"])
 def test_distance_is_the_packages(net, tmp_path, monkeypatch):
     torch.manual_seed(7)
     model = torchvision.models.get_model(MODELS[net], weights=None)
@@ -28,8 +28,6 @@ def test_distance_is_the_packages(net, tmp_path, monkeypatch):
     assert expected > 1e-3  # not two zeros
     assert distance(image, reference) == pytest.approx(expected, rel=1e-5, abs=1e-7)
     assert distance(reference, reference) == 0.0
-    with pytest.raises(ValueError, match="\\[0, 1\\]"):
-        distance(constant(255.0), reference)
 
 
 def test_published_value():
