@@ -24,22 +24,10 @@ OFFLINE = {"http_proxy": _PROXY, "https_proxy": _PROXY, "no_proxy": ""}
 
 
 def source_files() -> list[Path]:
-    """Files of the checkout that git tracks or would, relative to `ROOT`.
-
-    Without git (an unpacked archive): all but what runs and tools leave behind.
-    """
-    if shutil.which("git") is None or not (ROOT / ".git").exists():
-        made = {".snakemake", ".venv", "venv", "results", "reports", "__pycache__"}
-        paths = (path.relative_to(ROOT) for path in ROOT.rglob("*"))
-        return [path for path in paths if (ROOT / path).is_file() and not made & {*path.parts}]
-    listed = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT,
-        check=True,
-        capture_output=True,
-        text=True,
-    )
-    paths = (Path(name) for name in listed.stdout.split("\0") if name)
+    """Files of the checkout that git tracks or would, relative to `ROOT`."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.check_output(command, cwd=ROOT, text=True)
+    paths = (Path(name) for name in listed.split("\0"))
     return [path for path in paths if (ROOT / path).is_file()]
 
 

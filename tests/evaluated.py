@@ -25,18 +25,13 @@ class Evaluated(NamedTuple):
     weights: Path  # of the experiment `net`
 
 
-def make_evaluated(folder: Path, shape=None, first: int = 0, **settings) -> Evaluated:
-    """Write them; `settings` are those of `render_references`."""
+def make_evaluated(folder: Path, shape=None, first: int = 0, frames=FRAMES, **given) -> Evaluated:
+    """Write them; `given` are others of `render_references`."""
     names = ("mesh.ply", "000.safetensors", "000.npz", "lpips.json", "net/weights.safetensors")
     files = Evaluated(*(folder / name for name in names))
-    folder.mkdir(exist_ok=True)
-    (bumpy_sphere(4) if shape is None else shape).export(files.mesh_ply)
-    render_references(
-        files.mesh_ply,
-        files.references,
-        files.pictures_npz,
-        **{"scene": SCENE, "frames": FRAMES, "first": first, "last": first + 2} | settings,
-    )
+    (shape or bumpy_sphere(4)).export(files.mesh_ply)
+    given |= {"scene": SCENE, "frames": frames, "first": first, "last": first + 2}
+    render_references(*files[:3], **given)
     write_json(files.lpips_json, {"available": False})
     network = FrequencyNetwork(**TINY)
     network.initialise(1)

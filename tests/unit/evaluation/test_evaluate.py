@@ -24,7 +24,6 @@ def evaluated(files, folder, method, weights=None, depth_bias_json=None, **setti
     inputs = files.references, files.mesh_ply, weights, depth_bias_json, files.lpips_json
     evaluate(*inputs, *outputs, method=method, scene=SCENE, device="cpu", **settings)
     metrics = read_metrics(outputs[:1])
-    assert set(metrics["method"]) == {method}
     return metrics.set_index(["view_set", "view", "metric"])["value"], *outputs
 
 
@@ -36,26 +35,23 @@ def test_metrics_are_those_of_each_view(files, tmp_path):
         visibility = answer(frame)
         image, reference = shade(frame, visibility), shade(frame, truth)
         assert values[*view, "psnr"] == psnr(image, reference) < 100
-        wrong = np.mean(visibility != truth)
-        assert values[*view, "shadow_error"] == pytest.approx(wrong)
-        parts = values[*view, "false_shadow"] + values[*view, "light_leak"]
-        assert parts == pytest.approx(wrong)
+        assert values[*view, "shadow_error"] == pytest.approx(np.mean(visibility != truth))
+        assert values[*view, "light_leak"] == pytest.approx(np.mean(visibility > truth))
         assert 0 < values[*view, "flip"] < 1 and 0 < values[*view, "ssim"] < 1
     assert len(values) == 4 * 6  # without LPIPS
 
     first = read_first_frames([files.pictures_npz, pictures_npz], [metrics_csv])
-    assert [frame.caption.split()[0] for frame in first] == ["aimed", "aimed"]
-    for frame, (pixels, truth) in zip(first, list(References(files.references))[::2]):
+    for frame, (pixels, truth) in zip(first, list(References(files.references))[::2], strict=True):
         assert list(frame.images) == ["reference", "shadow_map_64"]
         expected = np.round(255 * shade(pixels, truth)).astype(np.uint8)
         np.testing.assert_array_equal(frame.images["reference"], expected)
-        key = (pixels.view.view_set, 0, "psnr")
-        assert frame.scores["shadow_map_64"]["psnr"] == values[key]
+        scores = frame.scores["shadow_map_64"]
+        assert scores["psnr"] == values[pixels.view.view_set, 0, "psnr"]
 
 
 def test_a_network_is_asked_with_its_bias(files, tmp_path):
     write_json(tmp_path / "net.json", {"depth_bias": 0.3})
-    frame, truth = list(References(files.references))[2]
+    frame, truth = References(files.references)[2]
     errors = {}
     for bias in (0.0, 0.3):
         values, *_ = evaluated(files, tmp_path, "net", files.weights, bias=bias)

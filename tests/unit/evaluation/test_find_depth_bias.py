@@ -19,8 +19,7 @@ class ShortBall(ShadowNetwork):
         super().__init__()
         self.short = torch.nn.Parameter(torch.tensor(short))
 
-    def initialise(self, seed):
-        raise NotImplementedError
+    initialise = None
 
     def forward(self, origins, directions, dtype):
         b = (origins * directions).sum(1)
@@ -44,7 +43,5 @@ def test_a_short_depth_gets_the_bias_that_it_lacks(tmp_path, monkeypatch):
     assert found[0.0]["depth_bias"] < found[0.05]["depth_bias"]
     assert found[0.05]["errors"][0]["false_shadow"] > 0.05
     for one in found.values():
-        assert one["views"] == 2
-        assert [error["depth_bias"] for error in one["errors"]] == list(BIASES)
         total = [error["false_shadow"] + error["light_leak"] for error in one["errors"]]
         assert total[BIASES.index(one["depth_bias"])] == min(total)

@@ -1,6 +1,6 @@
 from neural_shadows.evaluation import cost_stages
 from neural_shadows.evaluation import measure_cost as measure_cost_file
-from neural_shadows.evaluation.cost_stages import NEEDED, TINY, WORKS, bumpy_sphere, run_alone
+from neural_shadows.evaluation.cost_stages import NEEDED, TINY, bumpy_sphere, run_alone
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.measure_cost import BASE, measure_cost, size_of
 from neural_shadows.files.whole_files import read_json
@@ -11,14 +11,12 @@ SETTINGS = {"seed": 0, "device": "cpu", "threads": 1}
 def test_sizes_are_shown_as_what_they_make():
     assert size_of("subdivisions", 3) == ("triangles", len(bumpy_sphere(3).faces))
     assert size_of("frame_width", 600) == ("pixels", 600 * 400)
-    assert size_of("samples", 1000) == ("samples", 1000)
     assert set(STAGES) == set(BASE) == set(TINY)
 
 
 def test_each_stage_is_measured(tmp_path, monkeypatch):
     monkeypatch.setitem(cost_stages.TRAINING, "steps", 5)
-    for stage in WORKS:
-        assert NEEDED[stage][-1] == stage
+    for stage in NEEDED:
         cost = run_alone(stage, tmp_path, TINY, SETTINGS)
         assert cost["seconds"] > 0 and cost["peak_bytes"] > cost["bytes"] >= 0
 
@@ -35,5 +33,5 @@ def test_what_a_killed_measurement_left_is_removed(tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["samples.4.json"]
     cost = read_json(tmp_path / "samples.4.json")
     assert (cost["over"], cost["size"]) == ("samples", 4)
-    assert [stage["stage"] for stage in cost["stages"]] == list(STAGES["samples"])
-    assert all(stage["files"] == [] for stage in cost["stages"])
+    found = {stage["stage"]: stage["files"] for stage in cost["stages"]}
+    assert found == dict.fromkeys(STAGES["samples"], [])

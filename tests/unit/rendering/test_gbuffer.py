@@ -3,24 +3,20 @@ import pytest
 import trimesh
 from shapes import Y_UP, box, bumpy_sphere, looking, scene_of, sheet, unit
 
-from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET, render_gbuffer
 
 W, H = 150, 100
 
 
-@pytest.fixture(scope="module")
-def sphere():
-    return scene_of(trimesh.creation.icosphere(5), ground=False)
-
-
-def test_sphere_covers_its_perspective_disc(sphere):
+def test_sphere_covers_its_perspective_disc():
+    sphere = scene_of(trimesh.creation.icosphere(5), ground=False)
     frame = render_gbuffer(sphere, looking((0, 0, 3), unit(0, 1, 1)), 600, 400)
     # Tangent rays leave at asin(1/3); the frame is 2 tan(fov/2) high.
     radius = np.tan(np.arcsin(1 / 3)) / np.tan(np.radians(22.5)) * 200
     assert frame.is_object.all()
     assert len(frame.pixel) == pytest.approx(np.pi * radius**2, rel=0.005)
-    assert np.mean(np.divmod(frame.pixel, 600), axis=1) == pytest.approx([199.5, 299.5], abs=0.5)
+    # Points that are turned from the light are not asked for.
+    assert (frame.cos_geometric > 0).all() and 0 < len(frame.p) < len(frame.pixel)
 
 
 def test_picture_is_upright_and_not_mirrored():
@@ -54,16 +50,6 @@ def test_normals_are_interpolated():
     assert np.abs(frame.cos_geometric - exact).max() > 0.04
 
 
-def test_points_turned_from_the_light_are_not_asked_for(sphere):
-    frame = render_gbuffer(sphere, looking((0, 0, 3), unit(1, 0, 0.2)), W, H)
-    assert (frame.cos_geometric > 0).all()
-    assert (frame.pixel[frame.lit_side] % W).mean() > W / 2  # the light comes from the right
-    visible = frame.visibility(np.ones(len(frame.lit_side), bool))
-    assert visible.dtype == np.float32
-    assert 0 < visible.sum() == len(frame.lit_side) < len(frame.pixel)
-    assert (np.flatnonzero(visible) == frame.lit_side).all()
-
-
 @pytest.mark.parametrize("winding", [1, -1])
 def test_both_sides_of_a_sheet_are_shaded(winding):
     scene = scene_of(sheet(0.0, 0.7, winding), ground=False)
@@ -72,21 +58,9 @@ def test_both_sides_of_a_sheet_are_shaded(winding):
     assert len(frame.lit_side) == len(frame.pixel) > 100
     np.testing.assert_allclose(frame.p[:, 1], SHADING_OFFSET, atol=1e-7)
     np.testing.assert_allclose(frame.cos_shading, light[1], atol=1e-6)
-    assert exact_visibility(scene.tracer, frame).all()
     # From below, the side seen is turned from the light.
     below = render_gbuffer(scene, looking((0.5, -2, 2), light), W, H)
     assert len(below.pixel) > 100 and len(below.lit_side) == 0
-
-
-@pytest.mark.parametrize("light", np.eye(3))
-def test_faces_edge_on_to_the_light_are_dark(light):
-    """Of the three faces that are seen of a box one is lit, and the others are edge-on."""
-    scene = scene_of(box(1, 1, 1), ground=False)
-    frame = render_gbuffer(scene, looking((1.5, 2, 2.5), light), W, H)
-    assert 200 < len(frame.lit_side) < len(frame.pixel) / 2
-    np.testing.assert_allclose(frame.p @ light, 0.5 + SHADING_OFFSET, atol=2e-7)
-    assert (frame.cos_geometric == 1).all()
-    assert exact_visibility(scene.tracer, frame).sum() == len(frame.lit_side)
 
 
 def test_ground_ends_at_its_radius():

