@@ -15,11 +15,10 @@ import yaml
 ROOT = Path(__file__).parents[1]
 SMOKE = Path("config/smoke.yaml")
 
-# Where somebody keeps a password, which nothing that a run writes may hold.
+# Where somebody keeps a password, which nothing that a run writes may hold. LPIPS's trunk can be
+# downloaded nowhere there, so that the tables are the same everywhere.
 SECRET = "password-of-the-proxy"
 _PROXY = f"http://reader:{SECRET}@127.0.0.1:9"
-
-# LPIPS's trunk can then be downloaded nowhere, so that the tables are the same everywhere.
 OFFLINE = {"http_proxy": _PROXY, "https_proxy": _PROXY, "no_proxy": ""}
 
 
@@ -32,7 +31,6 @@ def source_files() -> list[Path]:
 
 
 def write_overlay(path: Path, **sections: Any) -> Path:
-    """Write a config overlay."""
     path.write_text(yaml.safe_dump(sections), encoding="utf-8")
     return path
 
@@ -72,9 +70,8 @@ class Checkout:
     def command(self, *arguments: str, overlays: Sequence[Path] = ()) -> list[str]:
         """Snakemake's command line; `overlays` are merged into the smoke configuration."""
         configs = [str(path) for path in (SMOKE, *overlays)]
-        snakemake = [sys.executable, "-m", "snakemake"]
-        cores = str(self.cores)
-        return [*snakemake, *arguments, "--cores", cores, "--configfile", *configs]
+        snakemake = [sys.executable, "-m", "snakemake", "--cores", str(self.cores)]
+        return [*snakemake, *arguments, "--configfile", *configs]
 
     def environment(self) -> dict[str, str]:
         """The environment that Snakemake runs in: offline, nothing of the user's settings."""

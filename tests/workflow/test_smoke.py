@@ -73,7 +73,7 @@ def test_every_kind_of_network_is_in_the_table_past_the_thesis(smoke):
 
 def test_a_page_of_all_and_one_of_what_is_there(finished):
     page = (finished.reports / "index.html").read_text(encoding="utf-8")
-    assert 'id="table_4_1"' in page and 'id="figure_beyond_slice"' in page
+    assert 'id="table-table_4_1"' in page and 'id="figure-figure_beyond_slice"' in page
     assert "<script src" not in page and "<link" not in page
     (finished.reports / "table_4_1.md").unlink()
     finished.run("reports/smoke/available.html")

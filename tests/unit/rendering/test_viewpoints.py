@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 import trimesh
 from scipy.stats import kstest
-from shapes import box, scene_of, sheet
+from shapes import box, scene_of
 
-from neural_shadows.errors import InputError
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints, surface_points
@@ -32,16 +31,14 @@ def views(torus):
 
 
 def test_shadow_frames_are_filled_with_cast_shadow(torus, views):
-    cast, covered = [], []
+    cast = []
     for view in views["shadow"]:
         frame = render_gbuffer(torus, view, W, H)
         dark = exact_visibility(torus.tracer, frame) == 0
         cast.append(np.count_nonzero(dark & ~frame.is_object) / (W * H))
-        covered.append(np.count_nonzero(frame.is_object) / (W * H))
         assert view.target[1] == pytest.approx(torus.ground, abs=1e-6)
         assert view.eye[1] > torus.ground + 0.1
     assert np.mean(cast) > 0.35 and np.quantile(cast, 0.2) > 0.2
-    assert np.mean(covered) < 0.2
 
 
 def test_surface_frames_show_the_surface_in_their_middle(torus, views):
@@ -70,13 +67,6 @@ def test_surface_points_are_uniform_by_area():
     # A weight w of a point uniform over a triangle exceeds x with probability (1 − x)².
     for weight in (u, v, 1 - u - v):
         assert kstest((1 - weight) ** 2, "uniform").pvalue > 1e-3
-
-
-def test_surface_that_no_light_reaches_is_refused():
-    scene = scene_of(sheet(0.0, 0.5), light=ARC)
-    scene.objects[0].face_normals[:] = [1, 0, 0]  # and the arc about x has no light along x
-    with pytest.raises(InputError, match="view_sets: surface"):
-        draw(scene, ["surface"], range(1))
 
 
 def test_centre_views_look_down_at_the_centre():

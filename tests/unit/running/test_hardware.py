@@ -1,5 +1,3 @@
-import torch
-
 from neural_shadows.running import hardware
 from neural_shadows.running.hardware import describe_machine
 
@@ -12,4 +10,4 @@ def test_description(tmp_path, monkeypatch):
     machine = describe_machine()
     # No host name, no user, no path: results are published.
     assert list(machine) == ["cpu", "cores", "gpu", "system", "python", "torch"]
-    assert machine["cpu"] == "AMD EPYC: 9654" and machine["torch"] == torch.__version__
+    assert machine["cpu"] == "AMD EPYC: 9654"

@@ -1,5 +1,3 @@
-"""Bars show the count, the pace and the time left; where nobody watches, a line now and then."""
-
 import io
 
 import pytest
