@@ -8,8 +8,7 @@ from tqdm import tqdm
 TERMINAL: TextIO | None = None
 """Where the person is, while stderr goes to a job's log (`stage.py`)."""
 
-# Between two lines where no bar can be drawn, and before the first.
-_SECONDS = 20
+_SECONDS = 20  # between two lines where no bar can be drawn, and before the first
 
 _BAR = "{l_bar}{bar}| {n_fmt}/{total_fmt} [{elapsed}<{remaining}, {pace}]"
 _LINE = "{desc}: {percentage:3.0f} % of {total_fmt} {unit}, {pace}, {remaining} left"
