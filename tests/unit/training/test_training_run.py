@@ -36,6 +36,11 @@ def take_step(run: TrainingRun, rays: slice) -> tuple[float, float]:
     return run.loss_sum.item() - before, run.spread.item()
 
 
+def assert_same_weights(ours: TrainingRun, theirs: TrainingRun) -> None:
+    for one, other in zip(ours.weights.values(), theirs.weights.values(), strict=True):
+        assert torch.equal(one, other)
+
+
 @pytest.mark.parametrize("chunk", [99, 64, 7])
 def test_chunks_add_up_to_the_batch(chunk):
     """The spread of the outputs too: a last chunk of one ray has none of its own."""

@@ -7,15 +7,15 @@ import numpy as np
 import onnxruntime
 import pytest
 import torch
-from sample_records import MESH
-from shapes import bumpy_sphere, looking, scene_of, unit
+from shapes import bumpy_sphere, looking, unit
 
 from neural_shadows.errors import InputError
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rendering.gbuffer import render_gbuffer
-from neural_shadows.viewer.export_network import export_network
+from neural_shadows.scenes.scene import open_scene
+from neural_shadows.viewer import export_network as stage
 
 GRID = {
     "points": 3,
@@ -74,7 +74,8 @@ def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
     assert conventions["query"]["depth_bias"] == (0.02 if biased else 0.125)
     network, _ = load_network(tmp_path / "weights.safetensors")
     session = onnxruntime.InferenceSession(tmp_path / "network.onnx")
-    frame = render_gbuffer(scene_of(bumpy_sphere(4)), looking((0, 1, 3), unit(1, 1, 0.3)), 90, 60)
+    scene = open_scene(tmp_path / "mesh.ply", up="y", ground=True, light={})
+    frame = render_gbuffer(scene, looking((0, 1, 3), unit(1, 1, 0.3)), 90, 60)
     p, light = frame.p.astype(np.float64), frame.view.light
 
     along = p @ light
@@ -90,7 +91,7 @@ def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
     bias = conventions["query"]["depth_bias"]
     lit[asked] = np.minimum(s[asked], 2 * h[asked]) <= t_pred + bias
 
-    tensors = on_device(frame.p, light, network.device)
+    tensors = on_device(frame.p, frame.view.light, network.device)
     expected = network_lit(network, *tensors, dtype=torch.float32, depth_bias=bias).numpy()
     assert 0 < (~expected).sum() < len(p)
     assert (lit == expected).mean() > 0.995  # rounding turns points on the border
