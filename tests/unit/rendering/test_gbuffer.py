@@ -62,6 +62,21 @@ def test_both_sides_of_a_sheet_are_shaded(winding):
     assert len(render_gbuffer(scene, looking((0.5, -2, 2), light), W, H).lit_side) == 0
 
 
+def test_a_face_turned_over_is_shaded_as_its_neighbours():
+    plate = box(1, 0.1, 1).subdivide().subdivide()
+    right = scene_of(plate, ground=False)
+    faces = plate.faces.copy()
+    top = np.flatnonzero(plate.face_normals[:, 1] > 0.9)[::7]
+    faces[top] = faces[top, ::-1]
+    # As a scan has them: its vertices' normals are those of the surface around the face.
+    turned = trimesh.Trimesh(plate.vertices, faces, process=False)
+    turned.vertex_normals = plate.vertex_normals
+    view = looking((0.5, 2, 2), unit(0.3, 1, 0.2))
+    frames = [render_gbuffer(one, view, W, H) for one in (right, scene_of(turned, ground=False))]
+    assert len(top) > 3 and len(frames[0].p) > 1000
+    np.testing.assert_allclose(frames[1].cos_shading, frames[0].cos_shading, atol=1e-6)
+
+
 def test_ground_ends_at_its_radius():
     scene = scene_of(bumpy_sphere(2))
     frame = render_gbuffer(scene, looking((0, 0.5, 3), Y_UP), W, H)

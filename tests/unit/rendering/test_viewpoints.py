@@ -55,6 +55,23 @@ def test_surface_frames_show_the_surface_in_their_middle(torus, views):
     assert np.mean(covered) > 0.4
 
 
+def test_views_have_a_least_share_of_cast_shadow():
+    # A low wall on a large plate: most lights and cameras see little of its shadow.
+    wall = trimesh.util.concatenate([box(1.4, 0.02, 1.4), box(0.05, 0.3, 0.6)])
+    scene = scene_of(wall, ground=False, light=ARC | {"axis": "z"})
+
+    def shares(least):
+        found = []
+        for view in draw_viewpoints(scene, ["centre"], range(12), W / H, 5, least):
+            frame = render_gbuffer(scene, view, W, H)
+            dark = len(frame.lit_side) - np.count_nonzero(exact_visibility(scene.tracer, frame))
+            found.append(dark / len(frame.pixel))
+        return np.array(found)
+
+    assert np.quantile(shares(0.0), 0.5) < 0.08
+    assert shares(0.1).min() > 0.08  # judged by a picture of 24 rows
+
+
 def test_surface_points_are_uniform_by_area():
     # Two triangles, of areas 1 : 3, apart from each other.
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 0, 1], [5, 0, 0], [8, 0, 0], [5, 0, 1]], float)

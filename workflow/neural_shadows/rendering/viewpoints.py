@@ -19,7 +19,12 @@ _CANDIDATES = 48
 
 
 def draw_viewpoints(
-    scene: Scene, view_sets: Iterable[str], indices: Iterable[int], aspect: float, seed: int
+    scene: Scene,
+    view_sets: Iterable[str],
+    indices: Iterable[int],
+    aspect: float,
+    seed: int,
+    least_shadow: float = 0.0,
 ) -> list[Viewpoint]:
     """Viewpoints number `indices` of each of `view_sets`, in that order [4.1].
 
@@ -34,6 +39,8 @@ def draw_viewpoints(
 
     Args:
         aspect: width / height of the frames to come.
+        least_shadow: share of a viewpoint's surface that must lie in cast shadow; light and
+            camera are drawn until it does, and or else the best of `_CANDIDATES`.
 
     Raises:
         InputError: `surface` is asked of a scene whose light reaches none.
@@ -46,9 +53,17 @@ def draw_viewpoints(
         for index in indices:
             key = (list(VIEW_SETS).index(view_set), index)
             rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))
-            light = draw_light(light_domain, scene.up, rng)
-            eye, target = draw[view_set](scene, aspect, light, rng)
-            viewpoints.append(Viewpoint(view_set, index, eye, target, scene.up, FOV, light))
+            most = -np.inf
+            for _ in range(_CANDIDATES):
+                light = draw_light(light_domain, scene.up, rng)
+                eye, target = draw[view_set](scene, aspect, light, rng)
+                view = Viewpoint(view_set, index, eye, target, scene.up, FOV, light)
+                share = _cast_shadow(scene, aspect, view) if least_shadow else 0.0
+                if share > most:
+                    most, chosen = share, view
+                if share >= least_shadow:
+                    break
+            viewpoints.append(chosen)
     return viewpoints
 
 
@@ -72,6 +87,13 @@ def _direction_above(up: np.ndarray, lowest: float, highest: float, rng: np.rand
     azimuth = rng.uniform(0, 2 * np.pi)
     cosine = np.sqrt(1 - sine**2)
     return np.array([cosine * np.cos(azimuth), cosine * np.sin(azimuth), sine]) @ light_basis(up)
+
+
+def _cast_shadow(scene: Scene, aspect: float, view: Viewpoint) -> float:
+    """Share of a view's surface that faces the light and yet lies in shadow."""
+    frame = render_gbuffer(scene, view, round(_PROBE_ROWS * aspect), _PROBE_ROWS)
+    lit = np.count_nonzero(exact_visibility(scene.tracer, frame))
+    return (len(frame.lit_side) - lit) / max(1, len(frame.pixel))
 
 
 def _shares(scene: Scene, aspect: float, eye: np.ndarray, target: np.ndarray, light: np.ndarray):
