@@ -17,7 +17,8 @@ def test_automatic_choices(monkeypatch, native):
     for device in ("cpu", "cuda"):
         wanted = torch.bfloat16 if native else torch.float32
         assert choose_dtype("auto", torch.device(device)) == wanted
-    assert choose_dtype("float32", torch.device("cpu")) == torch.float32
+    for precision in ("float32", "bfloat16", "float16"):
+        assert str(choose_dtype(precision, torch.device("cpu"))) == f"torch.{precision}"
 
 
 def test_a_gpu_that_is_not_there(monkeypatch):

@@ -31,7 +31,10 @@ def thesis_network(width: int, seed: int = 0) -> FrequencyNetwork:
 
 @pytest.mark.parametrize(("width", "count"), [(256, 556_800), (128, 147_328), (64, 40_896)])
 def test_parameter_counts_of_the_thesis(width, count):
-    assert thesis_network(width).parameter_count() == count
+    """In memory each is a float32, beside the encoding's ten factors."""
+    network = thesis_network(width)
+    assert network.parameter_count() == count
+    assert network.resident_bytes() == 4 * (count + 10)
 
 
 def test_encoding_against_float64():

@@ -8,6 +8,7 @@ from rays import ball_batch, ball_rays
 from shapes import bumpy_sphere, prepared, sheet
 
 from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.brick_layout import lay_out
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
 from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
@@ -29,12 +30,8 @@ def made(shape: trimesh.Trimesh, tmp_path, settings):
 def positions(network) -> torch.Tensor:
     """Where the network's values are, (count, 3)."""
     size = network.resolution // 4
-    cells = np.argwhere(network.grid.view(size, size, size).numpy() >= 0)
-    corners = np.stack(np.unravel_index(np.arange(125), (5, 5, 5)), axis=1)
-    places = (4 * cells[:, None] + corners).reshape(-1, 3) / (network.resolution / 2) - 1
-    found = np.full((len(network.values), 3), np.nan)
-    found[network.table.numpy()] = places
-    return torch.from_numpy(found).float()
+    layout = lay_out(network.grid.view(size, size, size).numpy() >= 0, False)
+    return torch.from_numpy(layout.places / (network.resolution / 2) - 1).float()
 
 
 def set_logits(network, function) -> None:
@@ -65,14 +62,15 @@ def test_rays_cross_a_ball_where_it_is(tmp_path, settings):
 
 
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
-@pytest.mark.parametrize("stored", ["int8", "float32"])
-def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored):
+@pytest.mark.parametrize(("stored", "push"), [("int8", 0), ("float32", 0.1), ("sign", -0.1)])
+def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored, push):
     """The CPU's march against the form that looks at every sample, on random logits."""
     settings = settings | {"stored": stored}
     network = made(bumpy_sphere(4), tmp_path, settings)
     set_logits(network, lambda p: 6 * torch.sin(40 * p).prod(1) + 20 * (0.85 - p.norm(dim=1)))
     save_network(tmp_path / "weights.safetensors", network, {"network": settings})
     network, _ = load_network(tmp_path / "weights.safetensors")
+    network.push = push
     rng = np.random.default_rng(0)
     for d in (*rng.normal(size=(6, 3)), [0, 0, 1], [0, -1, 0], [1, 1e-7, 0]):
         d = torch.tensor(d / np.linalg.norm(d), dtype=torch.float32)
@@ -129,3 +127,55 @@ def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
         near = (t - t_lb).abs() < 0.02
         assert near[hit & side].float().mean() > 0.95
         assert (past & side).sum() > 20 and (t[past & side] == LIT).all()
+
+
+@pytest.mark.parametrize("resolution", [32, 64])
+@pytest.mark.parametrize("stored", ["int8", "float32", "sign"])
+def test_untrained_distances_are_a_ball_that_can_be_pushed_out(tmp_path, resolution, stored):
+    """Rays through the centre end where the ball of a radius of 0.5 and so many cells does."""
+    settings = SOLID_32 | {"resolution": resolution, "stored": stored, "start": "distances"}
+    network = made(trimesh.creation.icosphere(5, radius=0.5), tmp_path, settings)
+    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
+    network, _ = load_network(tmp_path / "weights.safetensors")
+    o = torch.nn.functional.normalize(ball_batch(1000)[0], dim=1)
+    assert 0.0 in network.pushes and min(network.pushes) < 0 < max(network.pushes)
+    for push in network.pushes:
+        network.push = push
+        with torch.inference_mode():
+            t = network(o, -o, torch.float32)
+        cells = (0.5 - t) * resolution / 2 - push
+        if stored == "sign":
+            assert cells.abs().max() < 1 and abs(cells.mean()) < 0.15
+        else:
+            # What interpolation cuts off a ball of r cells: x (1 − x) / 2 of the second
+            # derivative, 1 / r on two axes; its mean is 1 / (6 r).
+            assert cells.mean() == pytest.approx(-1 / (6 * resolution / 4), abs=0.005)
+            assert cells.std() < 0.02
+
+
+def test_signs_take_a_bit_each(tmp_path):
+    settings = SOLID_32 | {"stored": "sign", "start": "distances"}
+    network = made(bumpy_sphere(3), tmp_path, settings)
+    values = network.stored()["values"]
+    assert values.dtype == torch.uint8 and len(values) == -(-len(network.values) // 8)
+    inside = positions(network).norm(dim=1) < 0.7
+    assert (network.logits()[inside] > 0).all()
+
+
+@pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
+def test_a_query_on_a_cpu_holds_the_grid_and_the_bricks(tmp_path, settings):
+    network = made(trimesh.creation.icosphere(3, radius=0.5), tmp_path, settings)
+    bricks = int((network.grid >= 0).sum())
+    assert network.resident_bytes() == 4 * 8**3 + 125 * bricks
+
+
+def test_training_from_distances_goes_on_where_they_end(tmp_path):
+    """Its first loss is far below that of undecided values."""
+    losses = []
+    for start in ("distances", "undecided"):
+        shape = trimesh.creation.icosphere(4, radius=0.5)
+        network = made(shape, tmp_path, SOLID_32 | {"start": start})
+        generator = torch.Generator().manual_seed(0)
+        found, _ = network.losses(ball_batch(3000), DeadZone(), torch.float32, generator)
+        losses.append(found.mean().item())
+    assert losses[0] < 0.3 < 0.6 < losses[1] == pytest.approx(np.log(2), abs=0.01)

@@ -45,8 +45,8 @@ class Constant(Oracle):
         return torch.full((len(origins),), self.t)
 
 
-def lit(network, p, light, **settings) -> np.ndarray:
-    return network_lit(network, *tensors(p, light), dtype=torch.float32, **settings).numpy()
+def lit(network, p, light, depth_bias=0.0) -> np.ndarray:
+    return network_lit(network, *tensors(p, light), dtype=torch.float32)(depth_bias).numpy()
 
 
 def tensors(p: np.ndarray, light: np.ndarray) -> tuple[torch.Tensor, torch.Tensor]:

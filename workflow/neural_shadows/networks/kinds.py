@@ -20,6 +20,7 @@ def make_network(settings: dict[str, Any]) -> ShadowNetwork:
     encoding = arguments.pop("encoding")
     if not str(encoding).isidentifier() or not kind_module(encoding).is_file():
         raise KeyError(f"encoding {encoding!r}")
-    module = import_module(f"neural_shadows.networks.object_space.{kind_module(encoding).stem}")
-    words = kind_module(encoding).stem.split("_")
+    path = kind_module(encoding)
+    module = import_module(f"neural_shadows.networks.{path.parent.name}.{path.stem}")
+    words = path.stem.split("_")
     return getattr(module, "".join(word.capitalize() for word in words))(**arguments)

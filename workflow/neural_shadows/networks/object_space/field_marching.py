@@ -42,7 +42,7 @@ def _value(values, x, y, z):
 
 
 @njit(cache=True, nogil=True)
-def first_crossings(origins, d, grid, bricks, steps, sheet):
+def first_crossings(origins, d, grid, bricks, steps, sheet, level):
     """t_pred (k,) float32 of parallel rays; `LIT` where there is no crossing.
 
     Args:
@@ -51,7 +51,8 @@ def first_crossings(origins, d, grid, bricks, steps, sheet):
         grid: (B, B, B) int32, see `occupancy_field_network.BrickLayout`.
         bricks: (bricks, 125), values of each brick's vertices on any one scale.
         steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
-        sheet: whether any change of sign counts, or a positive value.
+        sheet: whether any change of sign counts, or a value above the level.
+        level: float32, the value at the surface, on the scale of `bricks`.
     """
     t_pred = np.empty(len(origins), np.float32)
     size = len(grid)
@@ -106,13 +107,13 @@ def first_crossings(origins, d, grid, bricks, steps, sheet):
                     min(max((y - by) * brick_cells, zero), brick_cells),
                     min(max((z - bz) * brick_cells, zero), brick_cells),
                 )
-                crossed = value > 0
+                crossed = value > level
                 if sheet:
-                    crossed = known == i - 1 and crossed != (before > 0)
+                    crossed = known == i - 1 and crossed != (before > level)
                 if crossed:
                     found = t
                     if known == i - 1:
-                        found -= step * value / (value - before)
+                        found -= step * (value - level) / (value - before)
                     break
                 before, known = value, i
                 i += 1

@@ -5,7 +5,7 @@ from numba import njit
 from scipy import ndimage
 
 # Cells are tested as if this much larger, so that rounding leaves none out that is touched.
-_SLACK = 1.001
+SLACK = 1.001
 
 
 def surface_cells(vertices: np.ndarray, faces: np.ndarray, resolution: int) -> np.ndarray:
@@ -36,7 +36,7 @@ def enclosed_cells(surface: np.ndarray) -> np.ndarray:
 def _mark(vertices, faces, touched):
     n = len(touched)
     size = 2.0 / n
-    half = size / 2 * _SLACK
+    half = size / 2 * SLACK
     first = np.empty(3, np.int64)
     last = np.empty(3, np.int64)
     centre = np.empty(3)
@@ -53,11 +53,11 @@ def _mark(vertices, faces, touched):
                 for z in range(first[2], last[2] + 1):
                     centre[2] = (z + 0.5) * size - 1
                     if not touched[x, y, z]:
-                        touched[x, y, z] = _touches(corners - centre, half)
+                        touched[x, y, z] = touches(corners - centre, half)
 
 
 @njit(cache=True, nogil=True)
-def _touches(corners, half):
+def touches(corners, half):
     """Whether a triangle (3, 3) meets the cube of this half side around the origin.
 
     The cube's own axes are settled by the triangle's bounding box.

@@ -1,6 +1,7 @@
 """What every shadow network can do, whatever it is made of [3.1, 3.3]."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
@@ -8,6 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+from neural_shadows.networks.object_space.sphere_rays import SphereRays
 
 # Rays per forward pass: on a CPU one layer's activations of 256 × bfloat16 are then 2 MiB and
 # stay in the cache; on a GPU a whole frame goes at once.
@@ -40,7 +42,7 @@ def hits(batch: LabelledBatch) -> Tensor:
 
 
 class ShadowNetwork(nn.Module, ABC):
-    """A function t_pred(o, d) with trained weights: behind that depth, all is in shadow.
+    """A function t_pred(o, d), of trained weights or not: behind that depth, all is in shadow.
 
     A kind of network is a subclass in a module of its own, see `networks/kinds.py`; its
     arguments are a model in `config/networks.py`.
@@ -53,6 +55,12 @@ class ShadowNetwork(nn.Module, ABC):
     # Whether the losses have the same shapes whatever the batch, draw nothing, and read nothing
     # back from a GPU, so that a GPU can record a training step and repeat it.
     recordable: ClassVar[bool] = False
+    # Whether it can be written as ONNX.
+    exportable: ClassVar[bool] = True
+    # By how much of a cell the surface of a distance grid may be moved out before it is asked;
+    # held-out views say which is best. Where there is no such surface, not at all.
+    pushes: tuple[float, ...] = (0.0,)
+    push: float = 0.0  # one of `pushes`
 
     def prepare(self, mesh_ply: Path) -> None:
         """Lay out what depends on the prepared mesh and is not trained; called before training."""
@@ -97,6 +105,25 @@ class ShadowNetwork(nn.Module, ABC):
         with torch.inference_mode():
             chunks = origins.split(self.query_chunks[self.device.type])
             return torch.cat([self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks])
+
+    def lit(self, rays: SphereRays, d: Tensor, dtype: torch.dtype) -> Callable[[float], Tensor]:
+        """Which points at the ends of rays along one d (3,) are lit, of any depth bias [3.6.2].
+
+        shadowed ⟺ min(s, ℓ) > t_pred(o, d) + depth_bias. The clamp of s to the chord ℓ is
+        essential: a ray that misses the object is only ever trained to t ≥ ℓ, so that without
+        it every receiver behind the sphere would be in shadow.
+
+        Returns:
+            a function of the depth bias, in sphere radii, that gives (k,) bool.
+        """
+        t_pred = self.depths(rays.origins, d, dtype)
+        s = torch.minimum(rays.s, rays.chord)
+        return lambda depth_bias: s <= t_pred + depth_bias
+
+    def resident_bytes(self) -> int:
+        """Memory that a query on its present device reads; here all weights and buffers."""
+        held = (*self.parameters(), *self.buffers())
+        return sum(tensor.numel() * tensor.element_size() for tensor in held)
 
     def parameter_count(self) -> int:
         """Number of trained weights: 556,800 for the thesis's network at width 256 [4.4.2]."""

@@ -1,0 +1,137 @@
+"""The mesh as a network: it answers as the tracer does, and its bytes are what they are."""
+
+import itertools
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import torch
+import trimesh
+from rays import ball_batch
+from shapes import bumpy_sphere, prepared
+
+from neural_shadows.errors import InputError
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.shadow_network import LIT, ShadowNetwork
+from neural_shadows.networks.object_space.sphere_rays import sphere_rays
+from neural_shadows.networks.untrained.decimation import decimated
+from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.running.module_graph import PACKAGE
+
+
+def made(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16):
+    """A network of a shape as it comes back from its file."""
+    settings = {"encoding": "mesh", "triangles": triangles, "bits": bits}
+    shape.export(tmp_path / "mesh.ply")
+    network = make_network(settings)
+    network.prepare(tmp_path / "mesh.ply")
+    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
+    return load_network(tmp_path / "weights.safetensors")[0]
+
+
+@pytest.mark.parametrize(
+    ("triangles", "bits", "error"), [(None, 16, 1e-4), (None, 8, 0.02), (1500, 16, 0.02)]
+)
+def test_rays_end_where_the_mesh_is(tmp_path, triangles, bits, error):
+    shape = bumpy_sphere(4)
+    network = made(shape, tmp_path, triangles, bits)
+    o, d, *_ = ball_batch(5000)
+    t, face = prepared(shape)[1].first_hit(o.numpy(), d.numpy())
+    found = network(o, d, torch.float32).numpy()
+    both = (face >= 0) & (found < LIT)
+    assert 0.5 < both.mean() < 1
+    # Where a ray grazes a bump, one of them may miss it.
+    assert ((face >= 0) == (found < LIT)).mean() > 0.97
+    assert (np.abs(found - t)[both] < error).mean() > 0.97
+
+
+@pytest.mark.parametrize("bias", [0.0, 0.03, -0.02])
+def test_an_occlusion_ray_is_the_depth_test(tmp_path, bias):
+    """`lit` by a ray towards the light against `ShadowNetwork.lit` by the first hit's depth."""
+    network = made(bumpy_sphere(4), tmp_path)
+    light = torch.nn.functional.normalize(torch.tensor([0.3, 1.0, -0.5]), dim=0)
+    p = torch.randn(20_000, 3, generator=torch.Generator().manual_seed(0))
+    rays = sphere_rays(p, light)
+    found, expected = (
+        asked(rays, -light, torch.float32)(bias)
+        for asked in (network.lit, lambda *of: ShadowNetwork.lit(network, *of))
+    )
+    assert 0.1 < expected.float().mean() < 0.9
+    # Edges of triangles and the sphere's rim, where either may be right.
+    assert (found == expected).float().mean() > 0.999
+
+
+def test_bytes(tmp_path):
+    """Of an icosphere of 642 vertices and 1,280 faces."""
+    network = made(trimesh.creation.icosphere(3), tmp_path, bits=14)
+    stored = {name: tensor.nbytes for name, tensor in network.stored().items()}
+    # ⌈log₂ 642⌉ = 10 bits an index.
+    assert stored == {"counts": 8, "vertices": -(-642 * 3 * 14 // 8), "faces": 1280 * 3 * 10 // 8}
+
+
+MEASURE = """
+import ctypes, sys
+import numpy as np
+from neural_shadows.running.process_memory import held_bytes
+from neural_shadows.scenes.tracing import Tracer
+
+vertices, faces = (np.load(path) for path in sys.argv[1:])
+Tracer(vertices[:3], np.array([[0, 1, 2]], np.int32))
+give_back = ctypes.CDLL(None).malloc_trim
+give_back(0)
+before = held_bytes()
+tracers = [Tracer(vertices, faces) for _ in range(4)]
+give_back(0)
+print((held_bytes() - before) / 4)
+"""
+
+
+def test_resident_bytes_are_what_embree_holds(tmp_path):
+    shape = trimesh.creation.icosphere(5)
+    network = made(shape, tmp_path)
+    np.save(tmp_path / "vertices.npy", shape.vertices.astype(np.float32))
+    np.save(tmp_path / "faces.npy", shape.faces.astype(np.int32))
+    command = [sys.executable, "-c", MEASURE, tmp_path / "vertices.npy", tmp_path / "faces.npy"]
+    environment = os.environ | {"PYTHONPATH": str(PACKAGE.parent)}
+    out = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    assert float(out.stdout) == pytest.approx(network.resident_bytes(), rel=0.15)
+
+
+@pytest.mark.parametrize("triangles", [4, 200, 1279, 1280, 5000])
+def test_no_more_triangles_than_asked(triangles):
+    shape = trimesh.creation.icosphere(3)
+    vertices, faces = decimated(shape.vertices, shape.faces, triangles)
+    asked = min(triangles, 1280)
+    assert asked - 2 <= len(faces) <= asked
+    radii = np.linalg.norm(vertices[faces], axis=2)
+    # A regular polyhedron of so many faces has at least this edge.
+    assert np.abs(radii - 1).max() < 8 / asked
+
+
+def test_a_decimation_that_cannot_go_on_says_so(capsys):
+    """All triangles between eight points: each edge is of six."""
+    corners = np.random.default_rng(1).uniform(-1, 1, (8, 3))
+    faces = np.array(list(itertools.combinations(range(8), 3)), np.int32)
+    _, left = decimated(corners, faces, 4)
+    assert f"to 4 triangles ends at {len(left)}:" in capsys.readouterr().out
+
+
+def test_a_decimation_that_leaves_nothing_is_refused():
+    """Twelve triangles round one edge."""
+    angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+    rim = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    faces = np.stack([np.zeros(12), np.ones(12), np.arange(2, 14)], axis=1).astype(np.int32)
+    with pytest.raises(InputError, match="triangles: 4: the decimated mesh has none left"):
+        decimated(np.concatenate([[[0, 0, 0], [0, 0, 1]], rim]), faces, 4)
+
+
+def test_a_file_whose_faces_have_no_vertices_is_refused(tmp_path):
+    network = made(trimesh.creation.icosphere(1), tmp_path)
+    tensors = network.stored()
+    tensors["faces"].fill_(255)
+    with pytest.raises(ValueError, match="other than its 42 vertices"):
+        network.restore(tensors)
+    with pytest.raises(ValueError, match="packed bits"):
+        network.restore(network.stored() | {"counts": torch.tensor([42, 81])})

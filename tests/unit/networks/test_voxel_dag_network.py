@@ -1,0 +1,102 @@
+"""Voxel DAGs: against voxels marched through one by one, a sphere, and the octree."""
+
+import numpy as np
+import pytest
+import torch
+import trimesh
+from rays import ball_batch, ball_rays
+from shapes import bumpy_sphere
+
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.occupancy import enclosed_cells, surface_cells
+from neural_shadows.networks.object_space.shadow_network import LIT, hits
+from neural_shadows.networks.untrained.voxel_bricks import surface_bricks
+from neural_shadows.networks.untrained.voxel_dag import merged, octree, words_of
+from neural_shadows.networks.untrained.voxel_inside import inside_of
+from neural_shadows.networks.weight_file import load_network, save_network
+
+
+def made(shape: trimesh.Trimesh, tmp_path, resolution: int, surface: str):
+    """A network of a shape as it comes back from its file."""
+    shape.export(tmp_path / "mesh.ply")
+    settings = {"encoding": "voxel_dag", "resolution": resolution, "surface": surface}
+    network = make_network(settings)
+    network.prepare(tmp_path / "mesh.ply")
+    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
+    return load_network(tmp_path / "weights.safetensors")[0]
+
+
+def holed_sphere() -> trimesh.Trimesh:
+    """A bumpy sphere that lacks a face of a voxel's size, which does not open it."""
+    shape = bumpy_sphere(4)
+    return trimesh.Trimesh(shape.vertices, shape.faces[1:], process=False)
+
+
+def march(cells: np.ndarray, o: np.ndarray, d: np.ndarray) -> np.ndarray:
+    """Where rays enter their first cell, by every border that they cross, in float64."""
+    n = len(cells)
+    borders = np.linspace(-1, 1, n + 1)
+    found = np.full(len(o), LIT)
+    for i, (start, way) in enumerate(zip(o.astype(float), d.astype(float))):
+        end = -2 * start @ way
+        t = np.concatenate([(borders - start[k]) / way[k] for k in range(3) if way[k]])
+        t = np.sort(np.append(t[(t > 0) & (t < end)], [0, end]))
+        middles = start + (t[:-1] + t[1:])[:, None] / 2 * way
+        x, y, z = np.clip((middles + 1) / 2 * n, 0, n - 1).astype(int).T
+        met = np.flatnonzero(cells[x, y, z])
+        if len(met):
+            found[i] = t[met[0]]
+    return found
+
+
+@pytest.mark.parametrize("surface", ["solid", "sheet"])
+def test_rays_end_in_the_first_voxel_that_brute_force_finds(tmp_path, surface):
+    shape = holed_sphere()
+    network = made(shape, tmp_path, 32, surface)
+    cells = surface_cells(shape.vertices, shape.faces, 32)
+    if surface == "solid":
+        cells = enclosed_cells(cells)
+    o, d = ball_rays(2000)[:2]
+    d[:300, 0] = 0  # along planes of the grid, and some along an axis
+    d[:100, 1] = 0
+    d[:300] /= np.linalg.norm(d[:300], axis=1, keepdims=True)
+    inward = (o * d).sum(1) < 0
+    o, d = o[inward], d[inward]
+    t = network(torch.from_numpy(o), torch.from_numpy(d), torch.float32).numpy()
+    expected = march(cells, o, d)
+    assert 0.3 < (expected < LIT).mean() < 1
+    # A ray along an edge of voxels may be counted to either side.
+    assert (np.abs(t - expected) < 1e-5).mean() > 0.999
+
+
+@pytest.mark.parametrize(("surface", "nearest", "farthest"), [("solid", -1, 0), ("sheet", 0, 1)])
+def test_rays_end_within_a_voxel_of_a_balls_surface(tmp_path, surface, nearest, farthest):
+    network = made(trimesh.creation.icosphere(6, radius=0.5), tmp_path, 128, surface)
+    batch = ball_batch(3000)
+    o, d, t_lb, t_ub = batch
+    t = network(o, d, torch.float32)
+    assert (t[hits(batch) & (t_ub - t_lb > 0.4)] < LIT).all()
+    ends = (o + t[:, None] * d)[t < LIT]
+    diagonal = 3**0.5 * 2 / 128
+    above = (ends.norm(dim=1) - 0.5) / diagonal
+    # The faces are up to 1e-4 inside the ball.
+    assert nearest - 0.02 < above.min() < above.max() < farthest + 0.02
+    assert above.max() - above.min() > 0.7
+
+
+def test_an_open_shell_has_no_inside(tmp_path):
+    shape = bumpy_sphere(3)
+    shell = trimesh.Trimesh(shape.vertices, shape.faces[: len(shape.faces) // 2], process=False)
+    network = made(shell, tmp_path, 64, "solid")
+    assert network.resident_bytes() == 4
+    assert (network(*ball_batch(100)[:2], torch.float32) == LIT).all()
+
+
+def test_equal_parts_are_stored_once():
+    shape = bumpy_sphere(4)
+    tree = octree(surface_bricks(shape.vertices, shape.faces, 8), 8)
+    for voxels in (tree, inside_of(tree)):
+        dag = merged(voxels)
+        assert words_of(dag).nbytes < 0.9 * words_of(voxels).nbytes
+        for level in (*dag.levels, dag.bricks[:, None]):
+            assert len(np.unique(level, axis=0)) == len(level)

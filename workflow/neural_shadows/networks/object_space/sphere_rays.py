@@ -1,0 +1,39 @@
+"""Rays from a light to points, on the unit sphere that a shadow network knows [3.6.1]."""
+
+from dataclasses import dataclass
+
+from torch import Tensor
+
+
+@dataclass(frozen=True, eq=False)
+class SphereRays:
+    """The k of m shading points whose line to the light passes the sphere on the light's side."""
+
+    index: Tensor  # (k,) int64, into the m points
+    origins: Tensor  # (k, 3) float32, entry points o on the unit sphere
+    s: Tensor  # (k,) float32, distance from o to p along d = −l, > 0
+    chord: Tensor  # (k,) float32, ℓ = −2 o·d in (0, 2]
+
+
+def sphere_rays(p: Tensor, light: Tensor) -> SphereRays:
+    """Rays from the light to points, entering the unit sphere; the others are culled [3.6.1].
+
+    Points p (m, 3) and the unit vector l towards the light (3,) are float32. A point is culled,
+    and is lit, if its line p + s l misses the sphere or if it lies between the light and the
+    sphere (s ≤ 0).
+    """
+    along = p @ light
+    # The part of p across the light and not |p|² − (p·l)², which would lose a ground point's
+    # digits: at |p| = 20, the ground's rim, the square is 400 times the sphere's.
+    across = p - along[:, None] * light
+    half_chord_squared = 1 - across.square().sum(1)
+    half_chord = half_chord_squared.clamp(min=0).sqrt()
+    s = half_chord - along
+    index = ((half_chord_squared > 0) & (s > 0)).nonzero().squeeze(1)
+    half_chord = half_chord.index_select(0, index)
+    return SphereRays(
+        index=index,
+        origins=across.index_select(0, index) + half_chord[:, None] * light,
+        s=s.index_select(0, index),
+        chord=2 * half_chord,
+    )

@@ -1,0 +1,1 @@
+"""Rivals of the networks: what answers the same query without any training."""

@@ -1,0 +1,61 @@
+"""Voxel DAG: a ray ends in the first voxel that is inside the object. Nothing is trained.
+
+The closest relatives of the fields that are: Kämpe et al. 2013, "High resolution sparse voxel
+DAGs", and Sintorn et al. 2014, "Compact precomputed voxelized shadows", whose voxels are those
+that one light does not reach; here they are the object's, for all lights.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.networks.untrained.untrained_network import UntrainedNetwork
+from neural_shadows.networks.untrained.voxel_bricks import surface_bricks
+from neural_shadows.networks.untrained.voxel_dag import first_voxels, merged, octree, words_of
+from neural_shadows.networks.untrained.voxel_inside import inside_of
+
+
+class VoxelDagNetwork(UntrainedNetwork):
+    """t_pred(o, d), where the ray enters the first voxel.
+
+    Args:
+        resolution: voxels along an axis of [−1, 1]³, a power of two from 8 to 4096.
+        surface: `solid`, the voxels that the surface encloses without touching them; or `sheet`,
+            those that it touches. The latter stand out from the object by up to a voxel, so that
+            it shadows itself: on the Stanford dragon at 512³, 27.7 dB with the best depth bias
+            for the former's 32.4 dB with none. Both together are to a ray from outside the latter.
+    """
+
+    def __init__(self, *, resolution: int, surface: str):
+        super().__init__()
+        self.levels = resolution.bit_length() - 1
+        self.surface = surface
+        self.words = np.zeros(1, np.uint32)
+
+    def prepare(self, mesh_ply: Path) -> None:
+        """Build the DAG of the mesh's voxels."""
+        mesh = read_prepared(mesh_ply)
+        tree = octree(surface_bricks(mesh.vertices, mesh.faces, self.levels), self.levels)
+        if self.surface == "solid":
+            tree = inside_of(tree)
+        self.words = words_of(merged(tree))
+
+    def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
+        """See `ShadowNetwork.forward`; `LIT` for rays that meet no voxel."""
+        rays = origins.contiguous().numpy(), directions.contiguous().numpy()
+        return torch.from_numpy(first_voxels(*rays, self.words, self.levels))
+
+    def resident_bytes(self) -> int:
+        """See `ShadowNetwork.resident_bytes`; the file's words are what a query reads."""
+        return self.words.nbytes
+
+    def stored(self) -> dict[str, Tensor]:
+        """See `ShadowNetwork.stored`; one word of 32 bits for each node and each child."""
+        return {"words": torch.from_numpy(self.words.view(np.int32))}
+
+    def restore(self, tensors: dict[str, Tensor]) -> None:
+        """See `ShadowNetwork.restore`."""
+        self.words = tensors["words"].numpy().view(np.uint32)
