@@ -11,19 +11,18 @@ import torch
 import trimesh
 from rays import ball_batch, write_ball_rays
 
-from neural_shadows.errors import InputError
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.weight_file import load_network
-from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.training import cuda_graph
 from neural_shadows.training import train as stage
 from neural_shadows.training.batches import HostRays
 from neural_shadows.training.loss_curve import read_loss
 
-GATHER = RaySet.gather
+GATHER = HostRays.gather
 RAYS = 20_000
 TRAINING = {
+    "optimiser": "adam",
     "steps": 400,
     "batch_size": 512,
     "learning_rate": 5e-3,
@@ -65,7 +64,7 @@ def run_training(folder: Path, *, stop_after=None, interval=stage.CHECKPOINT_SEC
         return GATHER(self, indices)
 
     with (
-        mock.patch.object(RaySet, "gather", gather),
+        mock.patch.object(HostRays, "gather", gather),
         mock.patch.object(stage, "CHECKPOINT_SECONDS", interval),
     ):
         stage.train(
@@ -115,6 +114,8 @@ def test_files_of_a_run(tmp_path):
     record = json.loads((tmp_path / "ball" / "training.json").read_text())
     expected = header | {"samples": 20 * 32, "parameters": 8 * 18 + 8 * 8 + 8, "threads": 1}
     assert record.items() >= expected.items()
+    assert record["died_at_step"] is None
+    assert record["no_shadow_loss"] == pytest.approx(0.376, abs=0.005)  # see test_no_shadow.py
     assert record["samples_per_second"] > 0 and record["machine"]["cpu"]
     curve = read_loss(tmp_path / "ball" / "loss.csv")
     assert list(curve["step"]) == list(range(1, 21))
@@ -143,13 +144,17 @@ KINDS = [
 
 
 @pytest.mark.parametrize(
-    "network", KINDS, ids=lambda network: f"{network['encoding']}-{network.get('surface')}"
+    ("network", "optimiser"),
+    [(KINDS[0], "muon"), *((kind, "adam") for kind in KINDS)],
+    ids=lambda value: value if isinstance(value, str) else value["encoding"],
 )
-def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network):
+def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network, optimiser):
     """What their losses draw depends on the seed, the step and the chunk, and on nothing else."""
     trimesh.creation.icosphere(3, radius=0.5).export(tmp_path / "mesh.ply")
     settings = TINY | {"network": network, "training": TINY["training"] | {"batch_size": 128}}
-    if network["encoding"] != "frequency":
+    if network["encoding"] == "frequency":  # each optimiser has a state of its own
+        settings["training"] |= {"optimiser": optimiser, "adam_rate": 1e-3}
+    else:
         settings["mesh_ply"] = tmp_path / "mesh.ply"
     run_training(tmp_path / "whole", **settings)
     interrupt(tmp_path / "killed", **settings)
@@ -161,14 +166,9 @@ def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network):
     assert contents(tmp_path / "other") != whole
 
 
-@pytest.mark.parametrize(
-    ("value", "layer", "reason"),
-    [
-        (0, "output", r"the network answers the same for every ray \(its output died\)"),
-        (math.inf, "layers.0", "the loss is nan"),
-    ],
-)
-def test_a_run_that_can_learn_nothing_stops(tmp_path, monkeypatch, value, layer, reason):
+@pytest.mark.parametrize(("value", "layer"), [(0, "output"), (math.inf, "layers.0")])
+def test_a_run_that_dies_is_a_result(tmp_path, monkeypatch, capsys, value, layer):
+    """Its output is the same for every ray, or its loss is no number: it ends, and is written."""
     initialise = FrequencyNetwork.initialise
 
     def changed(self, seed):
@@ -176,9 +176,44 @@ def test_a_run_that_can_learn_nothing_stops(tmp_path, monkeypatch, value, layer,
         dict(self.named_parameters())[layer].data.fill_(value)
 
     monkeypatch.setattr(FrequencyNetwork, "initialise", changed)
-    with pytest.raises(InputError, match=f"^training ball: {reason} at step 1; lower its `learn"):
-        run_training(tmp_path, **TINY)
-    assert not (tmp_path / "ball" / "weights.safetensors").exists()
+    assert run_training(tmp_path, interval=0.0, **TINY) == 1
+    record = json.loads((tmp_path / "ball" / "training.json").read_text())
+    assert (record["died_at_step"], record["samples"]) == (1, 32)
+    assert "warning: training ball died at step 1: " in capsys.readouterr().err
+    curve = read_loss(tmp_path / "ball" / "loss.csv")
+    assert curve["step"].tolist() == [1]
+    if value == 0:  # t = 0 everywhere costs the mean t_lb
+        assert record["final_loss"] == curve["loss"].item() > 0.5
+    else:
+        assert record["final_loss"] is None and curve["loss"].isna().all()
+    network, _ = load_network(tmp_path / "ball" / "weights.safetensors")
+    assert not network(*ball_batch(4)[:2], torch.float32).nan_to_num().any()
+    # Asked again, it dies again.
+    assert run_training(tmp_path, interval=0.0, **TINY) == 1
+
+
+def test_a_network_that_is_not_trained_is_only_built(tmp_path, monkeypatch):
+    """What `make_network` and `initialise` give is written; no rays are needed."""
+    folder = tmp_path / "ball"
+    stage.train(
+        mesh_ply=None,
+        weights=folder / "weights.safetensors",
+        loss_csv=folder / "loss.csv",
+        training_json=folder / "training.json",
+        **{key: SETTINGS[key] for key in ("network", "seed", "experiment", "device")},
+        training=None,
+    )
+    network, header = load_network(folder / "weights.safetensors")
+    expected = FrequencyNetwork(frequencies=3, width=64, hidden_layers=2)
+    expected.initialise(SETTINGS["seed"])
+    for ours, theirs in zip(network.parameters(), expected.parameters(), strict=True):
+        assert torch.equal(ours, theirs)
+    assert (header["training"], header["data"]) == (None, None)
+    record = json.loads((folder / "training.json").read_text())
+    assert record["samples"] == 0 and record["seconds"] >= 0
+    nothing = ("training", "samples_per_second", "final_loss", "no_shadow_loss", "died_at_step")
+    assert [record[key] for key in nothing] == [None] * 5
+    assert list(read_loss(folder / "loss.csv")) == ["step", "samples", "learning_rate", "loss"]
 
 
 def test_a_recorded_step_gives_the_same_bytes(tmp_path, monkeypatch):

@@ -1,15 +1,19 @@
 """A step's loss, gradient and weights; a saved state is the restored one."""
 
+import math
+
 import pytest
 import torch
 from rays import ball_rays
 
+from neural_shadows.errors import InputError
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
-from neural_shadows.training.training_run import TrainingRun
+from neural_shadows.training.training_run import TrainingRun, gradient_pool
 
 RAYS = [torch.from_numpy(part) for part in ball_rays(1000)]
 SETTINGS = {
+    "optimiser": "adam",
     "steps": 100,
     "batch_size": 1000,
     "learning_rate": 1e-3,
@@ -82,3 +86,60 @@ def test_steps_are_those_of_torch_s_adam():
         (losses.sum() / 100).backward()
         adam.step()
     assert_same_weights(ours, theirs)
+
+
+def test_muon_moves_the_hidden_layers_and_adam_the_others():
+    """As torch's own optimisers do, over a schedule; the same in a pool's threads to the bit."""
+    changes = {"optimiser": "muon", "adam_rate": 1e-3, "learning_rate": 2e-2, "schedule": "cosine"}
+    ours, pooled, theirs = new_run(**changes), new_run(**changes), new_run()
+    hidden = [theirs.weights[f"layers.{number}"] for number in (1, 2)]
+    others = [theirs.weights[name] for name in ("layers.0", "output")]
+    muon = torch.optim.Muon(hidden, lr=2e-2, weight_decay=0.0)
+    adam = torch.optim.Adam(others, lr=1e-3, fused=True)
+    for step in range(4):
+        rays = slice(100 * step, 100 * step + 100)
+        take_step(ours, rays)
+        with gradient_pool(2) as pool:
+            pooled.train_step(LabelledBatch(*(part[rays] for part in RAYS)), pool)
+        batch = LabelledBatch(*(part[rays] for part in RAYS))
+        losses, _ = theirs.network.losses(batch, theirs.dead_zone, torch.float32, None)
+        share = 0.5 * (1 + math.cos(math.pi * step / 100))
+        for optimiser, rate in ((muon, 2e-2), (adam, 1e-3)):
+            optimiser.param_groups[0]["lr"] = rate * share
+            optimiser.zero_grad()
+        (losses.sum() / 100).backward()
+        muon.step()
+        adam.step()
+    assert_same_weights(pooled, ours)
+    before = new_run().weights
+    for name, weight in ours.weights.items():
+        torch.testing.assert_close(weight, theirs.weights[name], rtol=1e-5, atol=1e-6)
+        assert (weight - before[name]).abs().max() > 1e-3
+
+
+def test_muon_is_refused_where_nothing_is_hidden():
+    network = FrequencyNetwork(frequencies=3, width=16, hidden_layers=2)
+    network.layers = network.layers[:1]
+    settings = SETTINGS | {"optimiser": "muon", "adam_rate": 1e-3}
+    with pytest.raises(InputError, match="muon is for hidden layers.*set optimiser: adam"):
+        TrainingRun(network, settings)
+
+
+def test_the_loss_scale_keeps_small_gradients_in_float16():
+    """One ray of 100,000 has a loss: its gradient, 1e-6, is next to float16's end at 6e-8."""
+    parts = [part[:1].expand(100_000, *part.shape[1:]).clone() for part in RAYS]
+    parts[2].fill_(0).index_fill_(0, torch.tensor([0]), 0.01)
+    parts[3].fill_(math.inf).index_fill_(0, torch.tensor([0]), 0.01)
+
+    def gradient(precision: str, scale: float) -> torch.Tensor:
+        run = new_run(precision=precision)
+        run.chunk, run.loss_scale = 100_000, scale
+        run.train_step(LabelledBatch(*parts))
+        return run.weights["layers.0"].grad
+
+    assert new_run(precision="float16").loss_scale == 128.0
+    assert new_run(precision="bfloat16").loss_scale == new_run().loss_scale == 1.0
+    exact = gradient("float32", 1.0)
+    assert torch.equal(gradient("float32", 128.0), exact)
+    error = {scale: (gradient("float16", scale) - exact).norm() for scale in (1.0, 128.0)}
+    assert error[128.0] < 0.005 * exact.norm() < error[1.0]  # 0.0006 and 0.022 of it

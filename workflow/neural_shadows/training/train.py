@@ -1,17 +1,21 @@
-"""Stage: train a shadow network on a ray set, resumable and reproducible from its seed [3.5, 4.1]."""
+"""Stage: train a shadow network on a ray set, resumable and reproducible from its seed [3.5, 4.1].
+
+One that is not trained, such as a decimated mesh, is only built.
+"""
 
 import math
+import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import torch
 
-from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import read_json, write_json, write_text
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import save_network
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.running.hardware import describe_machine
@@ -20,6 +24,8 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.training.batches import DeviceRays, batch_indices, batch_source
 from neural_shadows.training.checkpoints import STATE, checkpoint_folder
 from neural_shadows.training.cuda_graph import recorded
+from neural_shadows.training.loss_curve import COLUMNS
+from neural_shadows.training.no_shadow import no_shadow_loss
 from neural_shadows.training.training_run import TrainingRun, gradient_pool
 
 # Points of the loss curve, each the mean loss since the point before.
@@ -31,83 +37,107 @@ CHECKPOINT_SECONDS = 30.0
 
 def train(
     *,
-    directions_npy: Path,
-    origins: list[Path],
-    bounds: list[Path],
-    rays_json: Path,
     mesh_ply: Path | None,
     weights: Path,
     loss_csv: Path,
     training_json: Path,
     network: Mapping[str, Any],
-    training: Mapping[str, Any],
+    training: Mapping[str, Any] | None,
     seed: int,
     experiment: str,
+    directions_npy: Path | None = None,
+    origins: list[Path] = (),
+    bounds: list[Path] = (),
+    rays_json: Path | None = None,
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Train one network with Adam on its loss, the thesis's on the dead-zone loss [3.5, 4.1].
+    """Train one network on its loss, the thesis's with Adam on the dead-zone loss [3.5, 4.1].
 
     A run that was killed continues from its checkpoint when it is called again with the same
     arguments, and on a CPU ends in the same weights as an undisturbed one (a GPU adds the
     gradients of grids in any order). A run that saved a checkpoint leaves that of its end: see
     `checkpoints.remove_finished`.
 
+    A run that can learn nothing any more, see `TrainingRun.died_at_step`, ends there with a
+    warning. Its weights are written as they are: that a rate kills a network is a result.
+
     Args:
-        rays_json: the ray set's description, which goes into the weights' header.
         mesh_ply: prepared mesh of the object, for a network that needs it; None for others.
         weights: in a folder of the experiment's, with `checkpoints` beside it.
+        training_json: gets the settings and what came of them: `samples`, `seconds` (laying out
+            included), `final_loss`, `died_at_step` and `no_shadow_loss`, what the loss of
+            answering no shadow at all would be.
         network: what `make_network` makes it from.
-        training: `steps`, `batch_size`, `learning_rate`, `schedule` (`constant` or `cosine`) and
-            `loss`, the weights of `DeadZone`.
+        training: `optimiser` and its rates (`learning_rate`, and muon's `adam_rate`), `steps`,
+            `batch_size`, `schedule` (`constant` or `cosine`) and `loss`, the weights of
+            `DeadZone`; None for a network that is not trained, which needs no rays.
+        directions_npy, origins, bounds, rays_json: of the ray set; its description goes into the
+            weights' header.
+        precision: of the matrix products, see `choose_dtype`.
         threads: chunks of a batch computed side by side; the weights do not depend on it.
 
     Raises:
-        InputError: the loss is not finite or the output is constant; or a file is missing or
-            damaged.
+        InputError: a file is missing or damaged, or the optimiser is not for this network.
     """
     torch.set_num_threads(1)  # the pool's threads work side by side
     started = time.monotonic()  # what is laid out before training counts too
     chosen = choose_device(device)
-    header = {
-        "name": experiment,
-        "network": dict(network),
-        "training": {
-            **training,
-            "seed": seed,
-            "device": chosen.type,
-            "precision": str(choose_dtype(precision, chosen)).removeprefix("torch."),
-        },
-        "data": read_json(rays_json),
-    }
-    checkpoint = checkpoint_folder(weights, header)
+    header = {"name": experiment, "network": dict(network), "training": None, "data": None}
+    if training is not None:
+        dtype = str(choose_dtype(precision, chosen)).removeprefix("torch.")
+        made = {"seed": seed, "device": chosen.type, "precision": dtype}
+        header |= {"training": {**training, **made}, "data": read_json(rays_json)}
     model = make_network(network)
     if mesh_ply is not None:
         model.prepare(mesh_ply)
     model.initialise(seed)
+    if training is not None:
+        rays = RaySet(directions_npy, origins, bounds)
+        result, curve = _trained(model, header, rays, weights, threads, started)
+    else:
+        seconds = round(time.monotonic() - started, 1)
+        result = {"samples": 0, "seconds": seconds, "samples_per_second": None}
+        result |= {"final_loss": None, "no_shadow_loss": None, "died_at_step": None}
+        curve = ",".join(COLUMNS) + "\n"
+
+    save_network(weights, model, header)
+    write_text(loss_csv, curve)
+    about = {"parameters": model.parameter_count(), **result}
+    machine = {"machine": describe_machine(), "threads": threads}
+    write_json(training_json, {**header, **about, **machine})
+
+
+def _trained(
+    model: ShadowNetwork,
+    header: Mapping[str, Any],
+    rays: RaySet,
+    weights: Path,
+    threads: int,
+    started: float,
+) -> tuple[dict[str, Any], str]:
+    """Train a network; gives what came of it, and the loss curve as CSV."""
     run = TrainingRun(model, header["training"])
+    checkpoint = checkpoint_folder(weights, header)
     if (checkpoint / STATE).exists():
         run.restore(checkpoint / STATE)
-    rays = RaySet(directions_npy, origins, bounds)
-    train_to_end(run, rays, experiment, checkpoint, threads, started)
+    train_to_end(run, rays, header["name"], checkpoint, threads, started)
+    return outcome(run, rays), run.curve_csv()
 
-    samples = training["steps"] * training["batch_size"]
-    save_network(weights, model, header)
-    write_text(loss_csv, run.curve_csv())
-    write_json(
-        training_json,
-        {
-            **header,
-            "parameters": model.parameter_count(),
-            "samples": samples,
-            "seconds": round(run.seconds, 1),
-            "samples_per_second": round(samples / run.seconds),
-            "final_loss": run.curve[-1][2],
-            "machine": describe_machine(),
-            "threads": threads,
-        },
-    )
+
+def outcome(run: TrainingRun, rays: RaySet) -> dict[str, Any]:
+    """What came of a training that is at its end, or dead; see `train`'s `training_json`."""
+    samples = int(run.step) * run.settings["batch_size"]
+    final_loss = run.curve[-1][2]
+    return {
+        "samples": samples,
+        "seconds": round(run.seconds, 1),
+        "samples_per_second": round(samples / run.seconds),
+        "final_loss": final_loss if math.isfinite(final_loss) else None,
+        "no_shadow_loss": no_shadow_loss(rays, run.dead_zone),
+        "died_at_step": run.died_at_step,
+    }
 
 
 def train_to_end(
@@ -115,14 +145,42 @@ def train_to_end(
 ) -> None:
     """Do the steps that are left; the run's seconds count from `started` on the monotonic clock."""
     steps, batch_size = run.settings["steps"], run.settings["batch_size"]
-    source = batch_source(rays, run.device)
-    point_interval = max(1, steps // CURVE_POINTS)
     seconds_before, last_saved = run.seconds, started
     step = saved_step = int(run.step)
-    with (
-        progress_bar(steps * batch_size, "samples", f"train {name}", step * batch_size) as bar,
-        gradient_pool(threads) as pool,
-    ):
+    with progress_bar(steps * batch_size, "samples", f"train {name}", step * batch_size) as bar:
+        # Checkpoints are written at points of the curve only, so that a restored run has no
+        # half-summed loss to carry along; and only there a GPU is waited for.
+        for step in curve_points(run, rays, threads, bar.update):
+            bar.set_postfix(loss=f"{run.curve[-1][2]:.4g}", refresh=False)
+            run.seconds = seconds_before + time.monotonic() - started
+            if time.monotonic() - last_saved > CHECKPOINT_SECONDS:
+                run.save(checkpoint / STATE)
+                write_text(checkpoint / "loss.csv", run.curve_csv())
+                last_saved, saved_step = time.monotonic(), step
+    if run.died_at_step is not None:
+        print(
+            f"warning: training {name} died at step {run.died_at_step}: its loss is not finite, "
+            "or it answers the same for every ray; its weights are written as they are. A lower "
+            "`learning_rate` in the config, or another `seed`, may keep it alive",
+            file=sys.stderr,
+        )
+    elif 0 < saved_step < steps:
+        run.save(checkpoint / STATE)
+
+
+def curve_points(
+    run: TrainingRun, rays: RaySet, threads: int, after_step: Callable[[int], object]
+) -> Iterator[int]:
+    """Do the steps that are left, and give the number of steps at each point of the loss curve.
+
+    Args:
+        after_step: told of the samples of each step.
+    """
+    steps, batch_size = run.settings["steps"], run.settings["batch_size"]
+    source = batch_source(rays, run.device)
+    point_interval = max(1, steps // CURVE_POINTS)
+    step = int(run.step)
+    with gradient_pool(threads) as pool:
         # A GPU is given its work by one thread, whose stream can be recorded.
         workers = pool if run.device.type == "cpu" else None
 
@@ -134,40 +192,13 @@ def train_to_end(
 
         if run.network.recordable and isinstance(source, DeviceRays):
             advance = recorded(advance)
-        while step < steps:
+        while step < steps and run.died_at_step is None:
             advance()
             step += 1
-            bar.update(batch_size)
-            # Checkpoints are written at points of the curve only, so that a restored run has no
-            # half-summed loss to carry along; and only there a GPU is waited for.
+            after_step(batch_size)
             if step % point_interval == 0 or step == steps:
-                mean_loss = run.add_point()
-                check_learning(name, step, mean_loss, run.spread.item())
-                bar.set_postfix(loss=f"{mean_loss:.4g}", refresh=False)
-                run.seconds = seconds_before + time.monotonic() - started
-                if time.monotonic() - last_saved > CHECKPOINT_SECONDS:
-                    run.save(checkpoint / STATE)
-                    write_text(checkpoint / "loss.csv", run.curve_csv())
-                    last_saved, saved_step = time.monotonic(), step
-    if 0 < saved_step < steps:
-        run.save(checkpoint / STATE)
-
-
-def check_learning(name: str, step: int, loss: float, spread: float) -> None:
-    """Stop a run that can learn nothing any more.
-
-    Raises:
-        InputError: the loss is not finite, or all predictions are the same.
-    """
-    if math.isfinite(loss) and spread > 0:
-        return
-    problem = "the network answers the same for every ray (its output died)"
-    if not math.isfinite(loss):
-        problem = f"the loss is {loss}"
-    raise InputError(
-        f"training {name}: {problem} at step {step}; lower its `learning_rate` in the "
-        "config, or change the `seed`"
-    )
+                run.add_point()
+                yield step
 
 
 if "snakemake" in globals():

@@ -10,35 +10,41 @@ import numpy as np
 import pandas as pd
 import torch
 from torch import Tensor
-from torch.optim.adam import adam
 
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch, ShadowNetwork
 from neural_shadows.networks.weight_file import load_tensors, save_tensors
+from neural_shadows.training.optimisers import make_optimisers
 
-# Adam's running means, beside the weights in a checkpoint.
-ADAM_STATE = ("exp_avg", "exp_avg_sq")
+# Losses are multiplied by it before the backward pass and gradients divided by it after: float16
+# ends at 6e-8, which the gradients of a mean over 65,536 samples reach. That of tiny-cuda-nn.
+LOSS_SCALE = {torch.float16: 128.0}
 
 
-def learning_rate_at(step: Tensor, settings: Mapping[str, Any]) -> Tensor:
-    """Learning rate of a step: `constant`, or `cosine` from `learning_rate` down to zero.
+def learning_rate_at(
+    step: Tensor, settings: Mapping[str, Any], key: str = "learning_rate"
+) -> Tensor:
+    """A rate of a step: `constant`, or `cosine` from the setting's down to zero.
 
     Without dimensions, in float64, on the step's device: a recorded step needs it there.
     """
-    rate = torch.full_like(step, settings["learning_rate"], dtype=torch.float64)
+    rate = torch.full_like(step, settings[key], dtype=torch.float64)
     if settings["schedule"] == "cosine":
         rate = rate * 0.5 * (1 + torch.cos(math.pi * step.double() / settings["steps"]))
     return rate
 
 
 class TrainingRun:
-    """The changing state of one run: weights, Adam's means, step, loss curve, seconds.
+    """The changing state of one run: weights, optimisers, step, loss curve, seconds.
 
     Args:
         network: with the weights to start from; goes to the device.
-        settings: as in a weight file's header: `steps`, `batch_size`, `learning_rate`,
+        settings: as in a weight file's header: `optimiser` and its rates, `steps`, `batch_size`,
             `schedule`, `loss`, `seed`, `device` and `precision`.
+
+    Raises:
+        InputError: an optimiser that is not for this network.
     """
 
     def __init__(self, network: ShadowNetwork, settings: Mapping[str, Any]):
@@ -54,18 +60,16 @@ class TrainingRun:
         self.spread = torch.zeros((), device=self.device)  # max − min of the last step's outputs
         self.seconds = 0.0
         self.curve: list[list[float]] = []  # [step, learning rate, mean loss since the last]
-        self.means = {
-            mean: {name: torch.zeros_like(weight) for name, weight in self.weights.items()}
-            for mean in ADAM_STATE
-        }
-        # Adam counts for each weight.
-        self._adam_steps = [torch.zeros((), device=self.device) for _ in self.weights]
+        # Of the first point at which the loss was not finite, or all outputs were the same.
+        self.died_at_step: int | None = None
+        self.loss_scale = LOSS_SCALE.get(self.dtype, 1.0)
+        self.optimisers = make_optimisers(self.weights, settings)
 
     def _places(self) -> dict[str, Tensor]:
         """All tensors of the state, by their names in a checkpoint."""
         places = {name: weight.data for name, weight in self.weights.items()}
-        for mean, values in self.means.items():
-            places |= {f"{mean}.{name}": value for name, value in values.items()}
+        for optimiser in self.optimisers.values():
+            places |= optimiser.state()
         return places
 
     def save(self, path: Path) -> None:
@@ -78,18 +82,24 @@ class TrainingRun:
         tensors, header = load_tensors(path)
         for name, place in self._places().items():
             place.copy_(tensors[name])
-        for count in (self.step, *self._adam_steps):
-            count.fill_(header["step"])
+        self.step.fill_(header["step"])
+        for optimiser in self.optimisers.values():
+            optimiser.continue_at(header["step"])
         self.seconds, self.curve = header["seconds"], header["curve"]
 
-    def add_point(self) -> float:
-        """A point of the loss curve: gives the mean loss of the steps since the point before."""
+    def add_point(self) -> None:
+        """A point of the loss curve: the mean loss of the steps since the point before.
+
+        A run whose loss is no number, or that answers the same for every ray, can learn nothing
+        any more: it has died.
+        """
         step, before = int(self.step), self.curve[-1][0] if self.curve else 0
         mean_loss = self.loss_sum.item() / (step - before)
         rate = learning_rate_at(self.step - 1, self.settings).item()
         self.curve.append([step, rate, mean_loss])
         self.loss_sum.zero_()
-        return mean_loss
+        if not (math.isfinite(mean_loss) and self.spread.item() > 0):
+            self.died_at_step = step
 
     def curve_csv(self) -> str:
         """The loss curve as CSV: step, samples, learning_rate, loss."""
@@ -98,7 +108,7 @@ class TrainingRun:
         return curve.to_csv(index=False, lineterminator="\n")
 
     def train_step(self, batch: LabelledBatch, pool: Executor | None = None) -> None:
-        """One step of Adam on the batch's mean loss.
+        """One step on the batch's mean loss.
 
         Gradients of chunks are computed in the pool's threads and added in the chunks' order,
         so that the result does not depend on the number of threads. Nothing is read back from
@@ -114,7 +124,8 @@ class TrainingRun:
             generator = None if self.network.recordable else self._generator(number)
             losses, outputs = self.network.losses(part, self.dead_zone, self.dtype, generator)
             loss = losses.sum() / count
-            return loss.detach(), outputs.detach(), torch.autograd.grad(loss, weights)
+            parts = torch.autograd.grad(self.loss_scale * loss, weights)
+            return loss.detach(), outputs.detach(), parts
 
         compute = pool.map if pool else map
         losses, outputs, parts = zip(*compute(gradients, range(len(chunks)), chunks))
@@ -122,7 +133,10 @@ class TrainingRun:
             weight.grad = terms[0]
             for term in terms[1:]:
                 weight.grad += term
-        self._adam(learning_rate_at(self.step, self.settings))
+            if self.loss_scale != 1:
+                weight.grad /= self.loss_scale
+        for key, optimiser in self.optimisers.items():
+            optimiser.step(learning_rate_at(self.step, self.settings, key), compute)
         self.step += 1
         self.loss_sum += torch.stack(losses).sum()
         outputs = torch.cat(outputs)
@@ -131,30 +145,6 @@ class TrainingRun:
             self.spread.copy_(high - low)
         else:  # no ray of the batch needed the network: that is not its death
             self.spread.fill_(math.inf)
-
-    def _adam(self, rate: Tensor) -> None:
-        """Change the weights by torch's Adam in its functional form.
-
-        `torch.optim.Adam` does the same to the bit, but its first step loads torch's compiler,
-        1.7 to 2.5 s in each training job, and its bookkeeping takes 0.1 to 0.5 ms a step.
-        """
-        weights = list(self.weights.values())
-        with torch.no_grad():
-            adam(
-                weights,
-                [weight.grad for weight in weights],
-                *(list(values.values()) for values in self.means.values()),
-                [],
-                self._adam_steps,
-                fused=True,
-                amsgrad=False,
-                beta1=0.9,
-                beta2=0.999,
-                lr=rate.float(),  # what a GPU takes
-                weight_decay=0.0,
-                eps=1e-8,
-                maximize=False,
-            )
 
     def _generator(self, number: int) -> torch.Generator:
         state = np.random.SeedSequence([self.settings["seed"], int(self.step), number])
