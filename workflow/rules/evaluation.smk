@@ -52,39 +52,69 @@ rule render_references:
 rule find_depth_bias:
     input:
         references=of(LAYOUT.held_out_views),
-        weights=PATHS.network("weights.safetensors"),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        weights=of(LAYOUT.weights),
         code=lambda wildcards: code(
-            "evaluation/find_depth_bias", LAYOUT.encodings([wildcards.experiment])
+            "evaluation/find_depth_bias", LAYOUT.method_encodings(wildcards.method)
         ),
     output:
         depth_bias_json=PATHS.depth_bias(),
     log:
-        PATHS.log("find_depth_bias", "experiment"),
+        PATHS.log("find_depth_bias", "scene", "method"),
     benchmark:
-        PATHS.benchmark("find_depth_bias", "experiment")
+        PATHS.benchmark("find_depth_bias", "scene", "method")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=60),
+        # None for a shadow map.
+        gpu=lambda wildcards: GPUS * len(LAYOUT.weights(wildcards.method)),
+    params:
+        scene=setting("scenes/{scene}/scene"),
+        device=COMPUTE["device"],
+        precision=COMPUTE["precision"],
+    message:
+        "Finding the depth bias of {wildcards.method} on {wildcards.scene}"
+    script:
+        "../neural_shadows/evaluation/find_depth_bias.py"
+
+
+rule query_network:
+    input:
+        references=PATHS.reference("safetensors"),
+        weights=of(LAYOUT.weights),
+        depth_bias_json=of(LAYOUT.bias_file),
+        mesh_ply=PATHS.scene("mesh.ply"),
+        code=lambda wildcards: code(
+            "evaluation/query_network", LAYOUT.method_encodings(wildcards.method)
+        ),
+    output:
+        answers=PATHS.answers(),
+    log:
+        PATHS.log("query_network", "scene", "method", "batch"),
+    benchmark:
+        PATHS.benchmark("query_network", "scene", "method", "batch")
     conda:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=60),
         gpu=GPUS,
     params:
+        bias=of(LAYOUT.bias),
         device=COMPUTE["device"],
+        precision=COMPUTE["precision"],
     message:
-        "Finding the depth bias of {wildcards.experiment}"
+        "Querying {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
     script:
-        "../neural_shadows/evaluation/find_depth_bias.py"
+        "../neural_shadows/evaluation/query_network.py"
 
 
 rule evaluate:
     input:
+        unpack(of(LAYOUT.evaluated_files)),
         references=PATHS.reference("safetensors"),
-        mesh_ply=PATHS.scene("mesh.ply"),
-        weights=of(LAYOUT.weights),
-        depth_bias_json=of(LAYOUT.bias_file),
         lpips_json=PATHS.lpips,
-        code=lambda wildcards: code(
-            "evaluation/evaluate", LAYOUT.method_encodings(wildcards.method)
-        ),
+        code=code("evaluation/evaluate"),
     output:
         metrics_csv=PATHS.evaluation("csv"),
         pictures_npz=PATHS.evaluation("npz"),
@@ -96,11 +126,8 @@ rule evaluate:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=120),
-        gpu=GPUS,
     params:
         scene=setting("scenes/{scene}/scene"),
-        bias=of(LAYOUT.bias),
-        device=COMPUTE["device"],
     message:
         "Evaluating {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
     script:
@@ -134,6 +161,7 @@ rule measure_frame_times:
         frames=setting("scenes/{scene}/frames"),
         frame_times=setting("frame_times"),
         device=COMPUTE["device"],
+        precision=COMPUTE["precision"],
     message:
         "Timing frames of {wildcards.scene} for {wildcards.table}"
     script:

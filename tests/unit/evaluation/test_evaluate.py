@@ -2,11 +2,14 @@ import numpy as np
 import pytest
 from evaluated import SCENE, make_evaluated
 
+from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate import evaluate
 from neural_shadows.evaluation.first_frames import read_first_frames
 from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.evaluation.query_network import query_network
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import network_method, open_network, traced_method
+from neural_shadows.evaluation.shadow_methods import classic_method, network_method, open_network
+from neural_shadows.evaluation.violations import Violations
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.metrics.psnr_ssim import psnr
 from neural_shadows.rendering.shading import shade
@@ -18,21 +21,22 @@ def files(tmp_path_factory):
     return make_evaluated(tmp_path_factory.mktemp("evaluated"))
 
 
-def evaluated(files, folder, method, weights=None, depth_bias_json=None, **settings):
+def evaluated(files, folder, method, answers=None, depth_bias_json=None):
     """Metrics by view set, view and metric; and the paths of metrics and pictures."""
     outputs = folder / f"{method}.000.csv", folder / f"{method}.000.npz"
-    inputs = files.references, files.mesh_ply, weights, depth_bias_json, files.lpips_json
-    evaluate(*inputs, *outputs, method=method, scene=SCENE, device="cpu", **settings)
+    mesh_ply = None if answers else files.mesh_ply
+    inputs = files.references, answers, mesh_ply, depth_bias_json, files.lpips_json
+    evaluate(*inputs, *outputs, method=method, scene=SCENE)
     metrics = read_metrics(outputs[:1])
     return metrics.set_index(["view_set", "view", "metric"])["value"], *outputs
 
 
 def test_metrics_are_those_of_each_view(files, tmp_path):
     values, metrics_csv, pictures_npz = evaluated(files, tmp_path, "shadow_map_64")
-    answer = traced_method("shadow_map_64", open_scene(files.mesh_ply, **SCENE))
+    answer = classic_method("shadow_map_64", open_scene(files.mesh_ply, **SCENE))
     for frame, truth in References(files.references):
         view = (frame.view.view_set, frame.view.index)
-        visibility = answer(frame)
+        visibility = answer(frame)(0.0)
         image, reference = shade(frame, visibility), shade(frame, truth)
         assert values[*view, "psnr"] == psnr(image, reference) < 100
         assert values[*view, "shadow_error"] == pytest.approx(np.mean(visibility != truth))
@@ -50,14 +54,50 @@ def test_metrics_are_those_of_each_view(files, tmp_path):
 
 
 def test_a_network_is_asked_with_its_bias(files, tmp_path):
-    write_json(tmp_path / "net.json", {"depth_bias": 0.3})
-    frame, truth = References(files.references)[2]
+    write_json(tmp_path / "net.json", {"depth_bias": 0.3, "push": 0.0})
+    answers = tmp_path / "answers.npz"
+    queried = {"mesh_ply": files.mesh_ply, "answers": answers, "method": "net", "device": "cpu"}
+    answer = network_method(*open_network(files.weights, "cpu", 1))
+    batch = list(References(files.references))
     errors = {}
     for bias in (0.0, 0.3):
-        values, *_ = evaluated(files, tmp_path, "net", files.weights, bias=bias)
-        errors[bias] = values["surface", 0, "shadow_error"]
-        answer = network_method(*open_network(files.weights, "cpu", 1), bias)
-        assert errors[bias] == pytest.approx(np.mean(answer(frame) != truth))
-    found = {"bias": "held_out", "depth_bias_json": tmp_path / "net.json"}
-    values, *_ = evaluated(files, tmp_path, "net", files.weights, **found)
-    assert errors[0.0] != errors[0.3] == values["surface", 0, "shadow_error"]
+        query_network(files.references, files.weights, None, **queried, bias=bias)
+        values, *_ = evaluated(files, tmp_path, "net", answers)
+        errors[bias] = values[:, :, "shadow_error"].tolist()
+        wrong = [np.mean(answer(frame)(bias) != truth) for frame, truth in batch]
+        assert errors[bias] == pytest.approx(wrong)
+        for name in Violations._fields:
+            assert (values[:, :, name] >= 0).all()
+        assert values["surface", 0, "queries"] > 0
+    query_network(
+        files.references, files.weights, tmp_path / "net.json", **queried, bias="held_out"
+    )
+    values, *_ = evaluated(files, tmp_path, "net", answers)
+    assert errors[0.0] != errors[0.3] == values[:, :, "shadow_error"].tolist()
+
+
+def test_a_map_has_the_bias_that_was_found_for_it(files, tmp_path):
+    write_json(tmp_path / "map.json", {"depth_bias": -0.05, "push": 0.0})
+    errors = {}
+    for method, file in {"shadow_map_64": None, "shadow_map_64_biased": "map.json"}.items():
+        bias_json = file and tmp_path / file
+        values, metrics_csv, _ = evaluated(files, tmp_path, method, None, bias_json)
+        errors[method] = values["surface", 0, "false_shadow"]
+        assert set(read_metrics([metrics_csv])["method"]) == {method}
+    assert errors["shadow_map_64_biased"] > errors["shadow_map_64"] + 0.01
+
+
+def test_null_predictors_err_to_one_side_each(files, tmp_path):
+    shares = {}
+    for method, never in {"no_shadow": "false_shadow", "all_dark": "light_leak"}.items():
+        values, *_ = evaluated(files, tmp_path, method)
+        assert (values[:, :, never] == 0).all()
+        shares[method] = values[:, :, "shadow_error"].to_numpy()
+    lit = [frame.visibility(np.ones(len(frame.p))) for frame, _ in References(files.references)]
+    np.testing.assert_allclose(sum(shares.values()), [points.mean() for points in lit])
+
+
+def test_answers_of_another_version_are_named(files, tmp_path):
+    np.savez(tmp_path / "answers.npz", lit=np.ones(3))
+    with pytest.raises(InputError, match="answers.npz: damaged"):
+        evaluated(files, tmp_path, "net", tmp_path / "answers.npz")

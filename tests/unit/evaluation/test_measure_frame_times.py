@@ -3,20 +3,22 @@ from evaluated import FRAMES, SCENE, make_evaluated
 
 from neural_shadows.evaluation import measure_frame_times as stage
 from neural_shadows.evaluation.measure_frame_times import measure_frame_times
+from neural_shadows.evaluation.shadow_methods import open_network
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.shadow_maps import rasterise
 
 
 def test_frame_times(tmp_path, monkeypatch):
-    """By a clock in whose seconds rendering takes 1, a network's query 2 and shading 4."""
+    """By a clock in whose seconds rendering takes 1, a query 2, shading 4 and a map 8."""
     clock = [0.0]
 
     def slow(owner, name, seconds):
         function = getattr(owner, name)
 
-        def taking(*arguments):
+        def taking(*arguments, **settings):
             clock[0] += seconds
-            return function(*arguments)
+            return function(*arguments, **settings)
 
         monkeypatch.setattr(owner, name, taking)
 
@@ -25,16 +27,24 @@ def test_frame_times(tmp_path, monkeypatch):
     slow(stage, "render_gbuffer", 1)
     slow(ShadowNetwork, "depths", 2)
     slow(stage, "shade", 4)
-    methods = ["ray_traced", "shadow_map_32", "net", "net_biased"]
+    slow(rasterise, "rasterised_heights", 8)
+    maps = ["shadow_map_32", "shadow_map_pcf_16bit_32_biased"]
+    methods = ["ray_traced", "no_shadow", *maps, "net", "net_biased"]
     size = {"width": 120, "height": 80, "repeats": 5}
     given = {"scene": SCENE, "frames": FRAMES, "frame_times": size, "device": "cpu"}
     times_json = tmp_path / "ball.json"
     measure_frame_times(files.mesh_ply, [files.weights], times_json, methods=methods, **given)
     times = read_json(times_json)
     assert times["scene"] == "ball" and times["views"] == 5 and times["machine"]["cpu"]
-    seconds = {method: values["ms"] for method, values in times["methods"].items()}
-    assert seconds == {method: 5 * [7000 if "net" in method else 5000] for method in methods}
+    own = {name: values["own_ms"] for name, values in times["methods"].items()}
+    seconds = dict(zip(methods, [0, 0, 8, 8, 2, 2]))
+    assert own == {name: 5 * [1000 * value] for name, value in seconds.items()}
+    for name, values in times["methods"].items():
+        assert values["ms"] == 5 * [5000 + 1000 * seconds[name]] and values["device"] == "cpu"
+    weights = open_network(files.weights, "cpu", 1)[0].resident_bytes()
+    resident = [values["resident_bytes"] for values in times["methods"].values()]
+    assert resident == [None, None, 4 * 32**2, 2 * 32**2, weights, weights]
     assert 0 < times["sphere_rays"] <= 120 * 80
-    for method in methods[2:]:
-        assert np.median(times["rays_per_second"][method]) == times["sphere_rays"] / 2
-        assert len(times["rays_per_second"][method]) == 5
+    assert list(times["rays_per_second"]) == methods[4:]
+    for rates in times["rays_per_second"].values():
+        assert np.median(rates) == times["sphere_rays"] / 2 and len(rates) == 5

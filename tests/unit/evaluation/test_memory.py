@@ -1,6 +1,6 @@
 import pytest
 
-from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes
+from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes, stored_bytes
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.weight_file import save_network
 
@@ -13,9 +13,29 @@ def test_network_takes_the_bytes_that_the_thesis_prints(tmp_path, width, size, k
     settings = {"frequencies": 10, "width": width, "hidden_layers": 8}
     network, path = FrequencyNetwork(**settings), tmp_path / "weights.safetensors"
     save_network(path, network, {"network": {"encoding": "frequency"} | settings})
-    assert network_bytes(path) == 4 * network.parameter_count() == size == 1024 * kib
+    assert (
+        stored_bytes(path)
+        == network_bytes(path)
+        == 4 * network.parameter_count()
+        == size
+        == 1024 * kib
+    )
 
 
-def test_shadow_map_takes_four_bytes_a_texel():
-    assert shadow_map_bytes("shadow_map_2048") == 16 * 2**20
-    assert shadow_map_bytes("shadow_map_128") == 0.0625 * 2**20
+@pytest.mark.parametrize(
+    ("method", "mib"),
+    [
+        ("shadow_map_2048", 16),
+        ("shadow_map_128", 0.0625),
+        ("shadow_map_pcf_2048", 16),
+        ("shadow_map_16bit_2048", 8),
+        ("shadow_map_pcf_16bit_1024", 2),
+    ],
+)
+def test_shadow_map_takes_four_bytes_a_texel_or_two(method, mib):
+    assert stored_bytes(method) == shadow_map_bytes(method) == mib * 2**20
+
+
+@pytest.mark.parametrize("method", ["ray_traced", "no_shadow", "all_dark"])
+def test_others_store_nothing_of_their_own(method):
+    assert stored_bytes(method) is None

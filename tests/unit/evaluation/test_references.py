@@ -6,6 +6,7 @@ from evaluated import FRAMES, make_evaluated
 from shapes import bumpy_sphere, scene_of
 
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation.answers import Answers
 from neural_shadows.evaluation.first_frames import read_first_frames
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.evaluation.references import References, write_references
@@ -43,7 +44,12 @@ def test_a_batch_holds_the_views_of_each_set(tmp_path, reference):
 
 @pytest.mark.parametrize(
     "read",
-    [References, lambda path: read_metrics([path]), lambda path: read_first_frames([path], [])],
+    [
+        References,
+        Answers,
+        lambda path: read_metrics([path]),
+        lambda path: read_first_frames([path], []),
+    ],
 )
 def test_a_damaged_file_is_named(tmp_path, read):
     path = tmp_path / "map.000"

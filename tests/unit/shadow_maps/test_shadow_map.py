@@ -7,12 +7,10 @@ from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
-from neural_shadows.shadow_maps.shadow_map import (
-    receivers_of,
-    shadow_map_lit,
-    shadow_map_square,
-    texel_heights,
-)
+from neural_shadows.shadow_maps.depth_test import depth_test, unorm16
+from neural_shadows.shadow_maps.rasterise import rasterised_heights
+from neural_shadows.shadow_maps.shadow_map import receivers_of, shadow_map_square
+from neural_shadows.shadow_maps.trace import looked_up_heights, texel_heights
 
 W, H = 300, 200
 LIGHTS = [unit(0, 1, 0), unit(1, 1, 0.5), unit(-3, 1.5, 1), unit(0, 1, 1)]
@@ -23,10 +21,15 @@ def bumpy():
     return scene_of(bumpy_sphere(5))
 
 
-def lit_by(scene, frame, resolution, **whole):
-    """What a map says of the points on a frame's lit side, (m,) bool."""
+def lit_by(scene, frame, resolution, depth_bias=0.0, **kind):
+    """What a map says of the points on a frame's lit side, (m,) float32 in [0, 1]."""
     square = shadow_map_square(scene.objects[0].vertices, frame.view.light)
-    return shadow_map_lit(scene.tracer, receivers_of(square, frame), resolution, **whole)
+    receivers = receivers_of(square, frame)
+
+    def heights_at(texels):
+        return looked_up_heights(scene.tracer, square, resolution, texels)
+
+    return depth_test(receivers, resolution, heights_at, **kind)(depth_bias)
 
 
 def points_at(p, light, cosine):
@@ -47,15 +50,95 @@ def test_bias_is_the_stated_one(cosine, resolution):
         # The second is off the map.
         points = points_at([[0.31, 0.5 - depth, 0.17], [0.61, 0, 0]], Y_UP, cosine)
         assert lit_by(scene, points, resolution).tolist() == [lit, True]
+    # A depth bias adds to it, or takes away.
+    for depth, lit in [(bias - 0.01 - 1e-6, True), (bias - 0.01 + 1e-6, False)]:
+        points = points_at([[0.31, 0.5 - depth, 0.17]], Y_UP, cosine)
+        assert lit_by(scene, points, resolution, -0.01).tolist() == [lit]
 
 
-# Of 23,000 and more receivers: the first is looked up in a table, the second traced singly.
-@pytest.mark.parametrize("resolution", [256, 1024])
-def test_a_whole_map_answers_as_the_texels_in_use_do(bumpy, resolution):
-    frame = render_gbuffer(bumpy, looking((1, 2, 2), unit(1, 1, 0.5)), W, H)
-    lazy = lit_by(bumpy, frame, resolution)
-    assert 0.01 < lazy.mean() < 0.99
-    np.testing.assert_array_equal(lit_by(bumpy, frame, resolution, whole=True), lazy)
+# The first asks for more texels than there are, the second for a hundredth of them.
+@pytest.mark.parametrize("resolution", [64, 700])
+def test_texels_are_found_alike_whether_one_or_all_are_asked_for(bumpy, resolution):
+    square = shadow_map_square(bumpy.objects[0].vertices, unit(1, 1, 0.5))
+    whole = texel_heights(bumpy.tracer, square, resolution, np.arange(resolution**2))
+    texels = np.random.default_rng(0).integers(resolution**2, size=5000)
+    found = looked_up_heights(bumpy.tracer, square, resolution, texels)
+    np.testing.assert_array_equal(found, whole[texels])
+
+
+@pytest.mark.parametrize("light", LIGHTS[1:])
+@pytest.mark.parametrize("resolution", [100, 700])
+def test_a_rasterised_map_is_the_traced_one(bumpy, light, resolution):
+    (mesh,) = bumpy.objects
+    square = shadow_map_square(mesh.vertices, light)
+    traced = texel_heights(bumpy.tracer, square, resolution, np.arange(resolution**2))
+    found = rasterised_heights(mesh.vertices, mesh.faces, square, resolution).ravel()
+    covered = np.isfinite(traced)
+    np.testing.assert_array_equal(np.isfinite(found), covered)
+    difference = np.abs(found[covered] - traced[covered])
+    # A traced ray starts a rounding beside its texel's centre, and faces may be steep.
+    assert difference.max() < 1e-5 and np.quantile(difference, 0.999) < 1e-6
+
+
+def test_a_texel_on_an_edge_is_covered_whichever_way_the_faces_turn():
+    """Centres of 4² texels fall on the diagonal of the square's two triangles."""
+    for winding in (1, -1):
+        mesh = scene_of(sheet(0.25, 0.5, winding)).objects[0]
+        square = shadow_map_square(mesh.vertices, Y_UP)
+        found = rasterised_heights(mesh.vertices, mesh.faces, square, 4)
+        np.testing.assert_allclose(found, 0.25, rtol=1e-6)
+
+
+def test_pcf_weighs_the_four_nearest_texels():
+    """A sheet over half of the map, and points below the middle of it on their way across."""
+    both = trimesh.util.concatenate([sheet(0.5, 0.25), sheet(-0.9, 1.0)])
+    scene, n = scene_of(both), 64
+    h = 2 / n  # the upper sheet's rim, at −0.25 and 0.25, is that of texels
+    way = np.linspace(-0.6, 0.6, 25) * h
+    # Along both axes: whichever of the map's is which.
+    for axis in (0, 2):
+        p = np.full((len(way), 3), [0.0, -0.5, 0.0])
+        p[:, axis] = 0.25 + way
+        found = lit_by(scene, points_at(p, Y_UP, 1.0), n, pcf=True)
+        np.testing.assert_allclose(found, np.clip(0.5 + way / h, 0, 1), atol=1e-4)
+        np.testing.assert_array_equal(lit_by(scene, points_at(p, Y_UP, 1.0), n), way >= 0)
+    corner = points_at([[0.25, -0.5, 0.25]], Y_UP, 1.0)
+    np.testing.assert_allclose(lit_by(scene, corner, n, pcf=True), 0.75, atol=1e-4)
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_pcf_is_the_nearest_test_but_around_edges(bumpy, light):
+    frame = render_gbuffer(bumpy, looking((1, 2, 2), light), W, H)
+    nearest, soft = lit_by(bumpy, frame, 256), lit_by(bumpy, frame, 256, pcf=True)
+    assert 0 <= soft.min() and soft.max() <= 1
+    between = (soft > 0) & (soft < 1)
+    assert 0.002 < between.mean() < 0.3
+    assert np.mean((nearest != soft)[~between]) < 0.02
+
+
+def test_sixteen_bits_round_to_a_65534th_of_the_extent(bumpy):
+    square = shadow_map_square(bumpy.objects[0].vertices, unit(1, 1, 0.5))
+    step = (square.highest - square.lowest) / 65534
+    heights = np.linspace(square.lowest, square.highest, 200_001, dtype=np.float32)
+    found = unorm16(heights, square)
+    assert np.abs(found - heights).max() == pytest.approx(step / 2, rel=0.02)
+    assert len(np.unique(found)) == 65_535
+    assert unorm16(np.float32([-np.inf]), square) == -np.inf
+
+
+def test_points_are_compared_with_heights_of_sixteen_bits():
+    both = trimesh.util.concatenate([sheet(-0.9, 0.6), sheet(0.30001, 0.6), sheet(0.5, 0.1)])
+    scene, n = scene_of(both), 128
+    stored = -0.9 + np.round(1.20001 / 1.4 * 65534) * 1.4 / 65534
+    assert abs(stored - 0.30001) > 5e-6
+    for beside, lit in [(2e-6, 1), (-2e-6, 0)]:
+        points = points_at([[0.4, stored - 0.5 * 1.2 / n - 1e-4 + beside, 0.4]], Y_UP, 1.0)
+        for pcf in (False, True):
+            assert lit_by(scene, points, n, pcf=pcf, sixteen_bit=True).tolist() == [lit]
+    # An object all at one height has but one code.
+    flat = scene_of(sheet(0.5, 0.6))
+    points = points_at([[0.31, 0.4, 0.17], [0.31, 0.6, 0.17]], Y_UP, 1.0)
+    assert lit_by(flat, points, 128, sixteen_bit=True).tolist() == [0, 1]
 
 
 def test_depth_is_that_of_texel_centres():

@@ -32,6 +32,7 @@ KINDS = [
     GRID | {"encoding": "hash_grid", "occupancy": 16, "table_size": 64},
     FIELD | {"surface": "solid"},
     FIELD | {"surface": "sheet"},
+    FIELD | {"surface": "solid", "start": "distances"},
 ]
 
 
@@ -40,14 +41,14 @@ def export(tmp_path):
     shape = bumpy_sphere(4)
     shape.export(tmp_path / "mesh.ply")
     (tmp_path / "mesh.json").write_text(json.dumps({"centre": [1, 2, 3], "radius": 4}))
-    (tmp_path / "bias.json").write_text(json.dumps({"depth_bias": 0.02}))
+    (tmp_path / "bias.json").write_text(json.dumps({"depth_bias": 0.02, "push": 0.1}))
 
     def export(settings, biased=True):
         network = make_network(settings)
         if settings["encoding"] != "frequency":
             network.prepare(tmp_path / "mesh.ply")
         network.initialise(3)
-        if settings["encoding"] == "occupancy_field":
+        if settings["encoding"] == "occupancy_field" and "start" not in settings:
             network.values.data.normal_(generator=torch.Generator().manual_seed(0))
         if "head" in settings:
             network.output.bias.data = torch.tensor([0.8, 1.0])  # shadow, behind the front
@@ -66,13 +67,14 @@ def export(tmp_path):
     return export
 
 
-@pytest.mark.parametrize("settings", KINDS, ids=lambda s: f"{s['encoding']}-{s.get('surface')}")
+@pytest.mark.parametrize("settings", KINDS, ids=lambda s: "-".join(map(str, s.values())))
 def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
     """The query as network.json words it, with ONNX Runtime, against `network_lit`."""
     biased = settings is not KINDS[0]
     conventions = export(settings, biased)
     assert conventions["query"]["depth_bias"] == (0.02 if biased else 0.125)
     network, _ = load_network(tmp_path / "weights.safetensors")
+    network.push = 0.1 if biased else 0.0
     session = onnxruntime.InferenceSession(tmp_path / "network.onnx")
     scene = open_scene(tmp_path / "mesh.ply", up="y", ground=True, light={})
     frame = render_gbuffer(scene, looking((0, 1, 3), unit(1, 1, 0.3)), 90, 60)
@@ -92,7 +94,7 @@ def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
     lit[asked] = np.minimum(s[asked], 2 * h[asked]) <= t_pred + bias
 
     tensors = on_device(frame.p, frame.view.light, network.device)
-    expected = network_lit(network, *tensors, dtype=torch.float32, depth_bias=bias).numpy()
+    expected = network_lit(network, *tensors, dtype=torch.float32)(bias).numpy()
     assert 0 < (~expected).sum() < len(p)
     assert (lit == expected).mean() > 0.995  # rounding turns points on the border
     assert conventions["sphere"].items() >= {"centre": [1, 2, 3], "radius": 4}.items()
@@ -110,3 +112,9 @@ def test_an_export_that_answers_otherwise_is_not_kept(tmp_path, export, monkeypa
     with pytest.raises(InputError, match=r"network\.onnx: ONNX Runtime's depths differ"):
         export(KINDS[0])
     assert not (tmp_path / "network.onnx").exists() and not (tmp_path / "network.json").exists()
+
+
+def test_what_is_no_network_is_refused(tmp_path, export):
+    with pytest.raises(InputError, match=r"weights\.safetensors: 'mesh' is no network and has no"):
+        export({"encoding": "mesh", "triangles": None, "bits": 16})
+    assert not (tmp_path / "network.onnx").exists()

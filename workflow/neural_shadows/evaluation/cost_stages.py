@@ -25,7 +25,8 @@ SAMPLING = {
     "silhouette_resolution": 128,
     "min_quad": 1,
 }
-TRAINING = dict(steps=200, batch_size=1024, learning_rate=1e-4, schedule="constant", loss={})
+TRAINING = dict(optimiser="adam", steps=200, batch_size=1024, loss={})
+TRAINING |= dict(learning_rate=1e-4, schedule="constant")
 
 # Sizes of the run that warms a stage up: libraries loaded, kernels compiled.
 TINY = dict(subdivisions=2, samples=POINTS_PER_DIRECTION, width=16, views=1, frame_width=48)
@@ -116,6 +117,7 @@ class Stages:
     def evaluation(self) -> Work:
         """The reference, a shadow map and an untrained network on one thread, as each job has."""
         from neural_shadows.evaluation.evaluate import evaluate
+        from neural_shadows.evaluation.query_network import query_network
         from neural_shadows.evaluation.render_references import render_references
         from neural_shadows.networks.kinds import make_network
         from neural_shadows.networks.weight_file import save_network
@@ -130,13 +132,16 @@ class Stages:
         frames = {"width": width, "height": width * 2 // 3, "view_sets": ["surface"]}
         frames["seed"] = self.settings["seed"]
         batch = {"scene": SCENE, "frames": frames, "first": 0, "last": self.sizes["views"]}
+        answers, device = self.folder / "answers.npz", self.settings["device"]
+        queried = references, weights, None, mesh_ply, answers
 
         def work() -> None:
             render_references(mesh_ply, references, self.folder / "reference.npz", **batch)
-            for method, file in {"shadow_map_512": None, "network": weights}.items():
+            query_network(*queried, method="network", device=device)
+            for method, file in {"shadow_map_512": None, "network": answers}.items():
                 outputs = (self.folder / f"{method}.{ending}" for ending in ("csv", "npz"))
-                settings = {"method": method, "scene": SCENE, "device": self.settings["device"]}
-                evaluate(references, mesh_ply, file, None, lpips_json, *outputs, **settings)
+                inputs = references, file, mesh_ply, None, lpips_json
+                evaluate(*inputs, *outputs, method=method, scene=SCENE)
 
         return work
 

@@ -6,24 +6,30 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.evaluation.answers import Answers
 from neural_shadows.evaluation.first_frames import write_first_frames
+from neural_shadows.evaluation.method_names import unbiased
 from neural_shadows.evaluation.per_view_metrics import write_metrics
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import network_method, open_network, traced_method
+from neural_shadows.evaluation.shadow_methods import classic_method
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
 from neural_shadows.metrics.shadow_error import shadow_error
+from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
+# Of a frame by its number in the batch: its visibility (n,), and what else is counted of it.
+Answer = Callable[[int, GBuffer], tuple[np.ndarray, Mapping[str, float]]]
+
 
 def evaluate(
     references: Path,
-    mesh_ply: Path,
-    weights: Path | None,
+    answers: Path | None,
+    mesh_ply: Path | None,
     depth_bias_json: Path | None,
     lpips_json: Path,
     metrics_csv: Path,
@@ -31,45 +37,42 @@ def evaluate(
     *,
     method: str,
     scene: Mapping[str, Any],
-    bias: float | str | None = None,
-    device: str = "auto",
     threads: int = 1,
 ) -> None:
     """Shade the batch's frames by one method, and measure them.
 
-    Writes tidy metrics (a row per view and metric) and, for people to look at, the picture of
-    each view set's first frame, see `write_first_frames`.
+    Writes tidy metrics (a row per view and metric), of a network with the numbers of
+    `Violations`; and, for people to look at, the picture of each view set's first frame, see
+    `write_first_frames`.
 
     Args:
         references: what `render_references` wrote.
-        weights: of a network; None for `shadow_map_N`.
-        depth_bias_json: what `find_depth_bias` wrote, where `bias` is `held_out`.
+        answers: what `query_network` wrote; None for a method that needs no network.
+        mesh_ply: prepared, for such a method.
+        depth_bias_json: what `find_depth_bias` wrote for it, if it is one with a bias.
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
-        method: the method's key, `shadow_map_N` or the name that a network goes by.
+        method: the method's key.
         scene: `up`, `ground` and `light`, see `open_scene`.
-        bias: of a network's depth test, in sphere radii, or `held_out`.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    if weights:
-        if depth_bias_json:
-            bias = read_json(depth_bias_json)["depth_bias"]
-        network, dtype = open_network(weights, device, threads)
-        answer = network_method(network, dtype, bias or 0.0)
+    if answers:
+        answer = _of_network(Answers(answers))
     else:
-        answer = traced_method(method, open_scene(mesh_ply, **scene))
-    metrics = {"psnr": psnr, "ssim": ssim, "flip": flip} | _lpips(lpips_json, device, threads)
+        bias = read_json(depth_bias_json)["depth_bias"] if depth_bias_json else 0.0
+        answer = _of_classic(unbiased(method), mesh_ply, scene, bias)
+    metrics = {"psnr": psnr, "ssim": ssim, "flip": flip} | _lpips(lpips_json, threads)
     batch = References(references)
     rows: list[dict[str, Any]] = []
     pictures: dict[str, np.ndarray] = {}
     with progress_bar(len(batch), "views", f"evaluate {method}") as bar:
-        for frame, truth in batch:
-            visibility = answer(frame)
+        for number, (frame, truth) in enumerate(batch):
+            visibility, counted = answer(number, frame)
             image, reference = shade(frame, visibility), shade(frame, truth)
             pictures.setdefault(frame.view.view_set, image)
             values = {name: metric(image, reference) for name, metric in metrics.items()}
-            values |= shadow_error(visibility, truth)._asdict()
+            values |= {**shadow_error(visibility, truth)._asdict(), **counted}
             key = {"view": frame.view.index, "view_set": frame.view.view_set, "method": method}
             rows += [key | {"metric": name, "value": value} for name, value in values.items()]
             bar.update()
@@ -77,7 +80,19 @@ def evaluate(
     write_metrics(metrics_csv, rows)
 
 
-def _lpips(lpips_json: Path, device: str, threads: int) -> dict[str, Callable[..., float]]:
+def _of_network(answers: Answers) -> Answer:
+    return lambda number, frame: (
+        answers.visibility(number, frame),
+        answers.violations(number)._asdict(),
+    )
+
+
+def _of_classic(method: str, mesh_ply: Path, scene: Mapping[str, Any], bias: float) -> Answer:
+    asked = classic_method(method, open_scene(mesh_ply, **scene))
+    return lambda number, frame: (asked(frame)(bias), {})
+
+
+def _lpips(lpips_json: Path, threads: int) -> dict[str, Callable[..., float]]:
     found = read_json(lpips_json)
     if not found["available"]:
         return {}
@@ -85,11 +100,10 @@ def _lpips(lpips_json: Path, device: str, threads: int) -> dict[str, Callable[..
     import torch
 
     from neural_shadows.metrics.lpips_distance import make_lpips
-    from neural_shadows.networks.compute import choose_device
 
     torch.set_num_threads(threads)
     trunk = Path(found["trunk"]) if found["trunk"] else None
-    return {"lpips": make_lpips(found["net"], trunk, choose_device(device).type)}
+    return {"lpips": make_lpips(found["net"], trunk)}
 
 
 if "snakemake" in globals():

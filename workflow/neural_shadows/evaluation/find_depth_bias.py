@@ -1,61 +1,112 @@
-"""The stage that finds the depth bias with which a network errs least, on views no table shows.
+"""The stage that finds the depth bias with which a method errs least, on views no table shows.
 
-Shadow maps have one for the same reason: a depth that is a little short puts lit points in the
-shadow of the very surface they lie on.
+A depth that is a little short puts lit points in the shadow of the very surface they lie on: a
+bias mends that, and light leaks where it is too large. A distance, whose surface lies where it is
+best on average, may want less than none. Networks and shadow maps have the same chance.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import open_network
+from neural_shadows.evaluation.shadow_methods import (
+    OfBias,
+    ShadowMethod,
+    classic_method,
+    network_method,
+    open_network,
+)
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.metrics.shadow_error import shadow_error
-from neural_shadows.networks.object_space.shadow_query import lit_points, on_device, sphere_rays
+from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.scene import open_scene
 
-# In sphere radii: none, and three an octave from half the shading offset to an eighth.
-BIASES = (0.0, *(float(b) for b in np.round(0.0005 * 2 ** (np.arange(25) / 3), 5)))
+# In sphere radii, three an octave from half the shading offset: down to −1/60, none, up to 1/8.
+_OCTAVES = np.round(0.0005 * 2 ** (np.arange(25) / 3), 5)
+BIASES = tuple(float(b) for b in (*-_OCTAVES[15::-1], 0.0, *_OCTAVES))
 
 
 def find_depth_bias(
     references: Path,
-    weights: Path,
+    mesh_ply: Path,
+    weights: Path | None,
     depth_bias_json: Path,
     *,
+    method: str,
+    scene: Mapping[str, Any],
     device: str = "auto",
+    precision: str = "auto",
     threads: int = 1,
 ) -> None:
     """Write the bias of `BIASES` with the least shadow error over a batch, and all errors.
 
+    Of a network that has `pushes`, the best pair of one and a bias. `at_end` says that the bias
+    is the first or the last of `BIASES`, so that a better one may lie beyond; so does the log.
+
     Args:
         references: what `render_references` wrote of views that no evaluation uses.
+        mesh_ply: prepared, for a shadow map.
+        weights: of a network; None for a shadow map.
+        method: the method's key, without a bias.
+        scene: `up`, `ground` and `light`, see `open_scene`.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    network, dtype = open_network(weights, device, threads)
+    if weights:
+        methods = _pushed(weights, device, threads, precision)
+    else:
+        methods = {0.0: classic_method(method, open_scene(mesh_ply, **scene))}
     batch = References(references)
-    # Sums over views of (false shadow, light leak) by bias.
-    sums = np.zeros((len(BIASES), 2))
-    with progress_bar(len(batch), "views", f"find depth bias of {weights.parent.name}") as bar:
+    # Sums over views of (false shadow, light leak) by push and bias.
+    sums = np.zeros((len(methods), len(BIASES), 2))
+    with progress_bar(len(batch), "views", f"find depth bias of {method}") as bar:
         for frame, truth in batch:
-            p, light = on_device(frame.p, frame.view.light, network.device)
-            rays = sphere_rays(p, light)
-            t_pred = network.depths(rays.origins, -light, dtype)
-            for i, bias in enumerate(BIASES):
-                lit = lit_points(rays, t_pred, len(p), bias).cpu().numpy()
-                error = shadow_error(frame.visibility(lit), truth)
-                sums[i] += error.false_shadow, error.light_leak
+            for i, ask in enumerate(methods.values()):
+                visibility = ask(frame)
+                for j, bias in enumerate(BIASES):
+                    error = shadow_error(visibility(bias), truth)
+                    sums[i, j] += error.false_shadow, error.light_leak
             bar.update()
+    tried = [(push, bias) for push in methods for bias in BIASES]
+    means = (sums / len(batch)).reshape(-1, 2).tolist()
     errors = [
-        {"depth_bias": bias, "false_shadow": false_shadow, "light_leak": light_leak}
-        for bias, (false_shadow, light_leak) in zip(BIASES, (sums / len(batch)).tolist())
+        {"depth_bias": bias, "push": push, "false_shadow": false_shadow, "light_leak": light_leak}
+        for (push, bias), (false_shadow, light_leak) in zip(tried, means)
     ]
-    best = BIASES[int(sums.sum(1).argmin())]
-    write_json(depth_bias_json, {"depth_bias": best, "views": len(batch), "errors": errors})
+    best = min(errors, key=_rank)
+    found = {"depth_bias": best["depth_bias"], "push": best["push"]}
+    at_end = found["depth_bias"] in (BIASES[0], BIASES[-1])
+    if at_end:
+        print(f"warning: {method}: the best depth bias, {found['depth_bias']}, ends the search")
+    found |= {"at_end": at_end, "views": len(batch), "errors": errors}
+    write_json(depth_bias_json, found)
+
+
+def _rank(error: Mapping[str, float]) -> tuple[float, float, float]:
+    """Of the same shadow error the smallest bias, then the smallest push."""
+    shadow = error["false_shadow"] + error["light_leak"]
+    return shadow, abs(error["depth_bias"]), abs(error["push"])
+
+
+def _pushed(weights: Path, device: str, threads: int, precision: str) -> dict[float, ShadowMethod]:
+    """A network with each of its pushes."""
+    network, dtype = open_network(weights, device, threads, precision)
+    method = network_method(network, dtype)
+
+    def pushed(push: float) -> ShadowMethod:
+        def ask(frame: GBuffer) -> OfBias:
+            network.push = push
+            return method(frame)
+
+        return ask
+
+    return {push: pushed(push) for push in network.pushes}
 
 
 if "snakemake" in globals():

@@ -1,50 +1,73 @@
 """The stage that times a frame by each way of shadowing it, on one machine [4.4.1]."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import torch
-from torch import Tensor
 
-from neural_shadows.evaluation.method_names import experiment_of
-from neural_shadows.evaluation.shadow_methods import (
-    ShadowMethod,
-    network_method,
-    open_network,
-    traced_method,
-)
+from neural_shadows.evaluation.memory import shadow_map_bytes
+from neural_shadows.evaluation.method_names import experiment_of, is_map, unbiased
+from neural_shadows.evaluation.shadow_methods import classic_method, open_network
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
-from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
-from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.sphere_rays import sphere_rays
+from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.running.hardware import describe_machine
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.scene import open_scene
+from neural_shadows.scenes.scene import Scene, open_scene
 
 WARM_UP = 2  # frames of each method before the timed ones
 
 
-def record_rates(network: ShadowNetwork, rates: list[float]) -> ShadowNetwork:
-    """The network, each of whose queries now adds its rays a second to `rates`."""
-    depths = network.depths
+@dataclass(frozen=True)
+class TimedMethod:
+    """A method that says how long its own part of a frame takes."""
 
-    def timed(origins: Tensor, d: Tensor, dtype: torch.dtype) -> Tensor:
+    # Of a frame: its visibility (n,), on the CPU, and the seconds of the method's answer alone.
+    answer: Callable[[GBuffer], tuple[np.ndarray, float]]
+    device: str  # that it answers on: `cpu` or `cuda`
+    resident_bytes: int | None  # in memory while it answers; None if nothing of its own is
+
+
+def timed_classic(method: str, scene: Scene) -> TimedMethod:
+    """A method that needs no network; a shadow map is rasterised whole for each frame."""
+    ask = classic_method(method, scene, whole_map=True)
+
+    def answer(frame: GBuffer) -> tuple[np.ndarray, float]:
         started = time.perf_counter()
-        answer = depths(origins, d, dtype)
-        if answer.is_cuda:
-            torch.cuda.synchronize()
-        rates.append(len(origins) / (time.perf_counter() - started))
-        return answer
+        visibility = ask(frame)(0.0)
+        return visibility, time.perf_counter() - started
 
-    network.depths = timed
-    return network
+    return TimedMethod(answer, "cpu", shadow_map_bytes(method) if is_map(method) else None)
+
+
+def timed_network(network: ShadowNetwork, dtype: torch.dtype) -> TimedMethod:
+    """A network; its own part is from points to a mask, both on its device."""
+
+    def answer(frame: GBuffer) -> tuple[np.ndarray, float]:
+        p, light = on_device(frame.p, frame.view.light, network.device)
+        started = _finished(network.device)
+        lit = network_lit(network, p, light, dtype=dtype)(0.0)
+        seconds = _finished(network.device) - started
+        return frame.visibility(lit.cpu().numpy()), seconds
+
+    return TimedMethod(answer, network.device.type, network.resident_bytes())
+
+
+def _finished(device: torch.device) -> float:
+    """The time, once a GPU has done what it was asked."""
+    if device.type == "cuda":
+        torch.cuda.synchronize(device)
+    return time.perf_counter()
 
 
 def measure_frame_times(
@@ -57,17 +80,19 @@ def measure_frame_times(
     frames: Mapping[str, Any],
     frame_times: Mapping[str, int],
     device: str = "auto",
+    precision: str = "auto",
 ) -> None:
     """Time frames of a scene by each method: rays, whole shadow maps, networks [4.4.1].
 
     The frames are the first of the scene's evaluation viewpoints. CPU work has one thread,
-    whatever the method, so that times compare; networks run on a GPU where there is one.
+    whatever the method, so that times compare; networks run on a GPU where there is one, and then
+    compare with each other alone: primary visibility, maps and shading stay on the CPU.
 
     Args:
         weights: of the networks, in the folder of their experiment each.
-        times_json: named for the scene.
-        methods: keys, `ray_traced`, `shadow_map_N` and of networks. A depth bias, one addition,
-            is left out.
+        times_json: named for the scene. Of each method `ms` of whole frames, `own_ms` without
+            primary visibility and shading, and what else `TimedMethod` says.
+        methods: keys. A depth bias, one addition, is left out.
         scene: `up`, `ground` and `light`, see `open_scene`.
         frames: `view_sets` and `seed` of the evaluation's frames; they have another size.
         frame_times: `width`, `height` (pixels) and `repeats`, timed frames of each method.
@@ -79,23 +104,22 @@ def measure_frame_times(
     opened = open_scene(mesh_ply, **scene)
     chosen = choose_device(device)
     files = {path.parent.name: path for path in weights}
-    rates: dict[str, list[float]] = {}
-    timed: dict[str, ShadowMethod] = {}
-    for method in methods:
-        if file := files.get(experiment_of(method)):
-            network, dtype = open_network(file, device, 1)
-            rates[method] = []
-            timed[method] = network_method(record_rates(network, rates[method]), dtype)
-        else:
-            timed[method] = traced_method(method, opened, whole_map=True)
+    networks = [method for method in methods if experiment_of(method) in files]
+    timed = {
+        method: timed_network(*open_network(files[experiment_of(method)], device, 1, precision))
+        if method in networks
+        else timed_classic(unbiased(method), opened)
+        for method in methods
+    }
 
     width, height, repeats = (frame_times[key] for key in ("width", "height", "repeats"))
-    view_sets, seed = frames["view_sets"], frames["seed"]
+    view_sets, drawn = frames["view_sets"], (frames["seed"], frames.get("least_shadow", 0.0))
     per_set = range(-(-repeats // len(view_sets)))
-    viewpoints = draw_viewpoints(opened, view_sets, per_set, width / height, seed)
+    viewpoints = draw_viewpoints(opened, view_sets, per_set, width / height, *drawn)
     viewpoints = sorted(viewpoints, key=lambda view: view.index)[:repeats]  # the sets in turn
 
-    milliseconds: dict[str, list[float]] = {method: [] for method in timed}
+    whole: dict[str, list[float]] = {method: [] for method in timed}
+    own: dict[str, list[float]] = {method: [] for method in timed}
     rays = []
     with progress_bar(WARM_UP + repeats, "frames", f"measure times of {times_json.stem}") as bar:
         for i in range(-WARM_UP, repeats):
@@ -105,13 +129,15 @@ def measure_frame_times(
             # The same work for every method, so timed once and counted for each.
             primary = time.perf_counter() - started
             # In turn, which spreads a disturbance of the machine over all methods.
-            for method, answer in timed.items():
+            for name, method in timed.items():
                 started = time.perf_counter()
-                shade(frame, answer(frame))  # the answer is on the CPU, so that a GPU is done
-                seconds = primary + time.perf_counter() - started
-                milliseconds[method].append(1000 * seconds)
+                visibility, seconds = method.answer(frame)
+                shade(frame, visibility)
+                whole[name].append(primary + time.perf_counter() - started)
+                own[name].append(seconds)
             rays.append(len(sphere_rays(*on_device(frame.p, view.light, chosen)).index))
             bar.update()
+    rays = np.array(rays[WARM_UP:])
     write_json(
         times_json,
         {
@@ -120,12 +146,20 @@ def measure_frame_times(
             "views": len(viewpoints),
             "warm_up": WARM_UP,
             "device": chosen.type,
-            "precision": str(choose_dtype("auto", chosen)).removeprefix("torch."),
+            "precision": str(choose_dtype(precision, chosen)).removeprefix("torch."),
             "machine": describe_machine(),
-            "sphere_rays": float(np.median(rays[WARM_UP:])),  # those that a network answers
-            "methods": {name: {"ms": values[WARM_UP:]} for name, values in milliseconds.items()},
-            # of a network's query alone, by frame
-            "rays_per_second": {method: found[WARM_UP:] for method, found in rates.items()},
+            "sphere_rays": float(np.median(rays)),  # those that a network answers
+            "methods": {
+                name: {
+                    "ms": [1000 * seconds for seconds in whole[name][WARM_UP:]],
+                    "own_ms": [1000 * seconds for seconds in own[name][WARM_UP:]],
+                    "device": method.device,
+                    "resident_bytes": method.resident_bytes,
+                }
+                for name, method in timed.items()
+            },
+            # of a network's own time, by frame
+            "rays_per_second": {name: (rays / own[name][WARM_UP:]).tolist() for name in networks},
         },
     )
 

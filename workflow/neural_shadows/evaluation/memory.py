@@ -2,9 +2,7 @@
 
 from pathlib import Path
 
-from neural_shadows.evaluation.method_names import resolution_of
-
-FLOAT_BYTES = 4
+from neural_shadows.evaluation.method_names import family_of, is_map, resolution_of
 
 
 def network_bytes(weights: Path) -> int:
@@ -16,5 +14,20 @@ def network_bytes(weights: Path) -> int:
 
 
 def shadow_map_bytes(method: str) -> int:
-    """4 N² bytes of the map `shadow_map_N`: a float32 depth in each texel."""
-    return FLOAT_BYTES * resolution_of(method) ** 2
+    """Bytes of the N² heights of a map FAMILY_N, stored as while it answers."""
+    return family_of(method).texel_bytes * resolution_of(method) ** 2
+
+
+def stored_bytes(stored: str | Path) -> int | None:
+    """Bytes that a method's file holds.
+
+    Args:
+        stored: weights of a network, or the key of another method, without a bias.
+
+    Returns:
+        None for what stores nothing of its own: a null predictor, and ray tracing, whose mesh the
+        others need as well.
+    """
+    if isinstance(stored, Path):
+        return network_bytes(stored)
+    return shadow_map_bytes(stored) if is_map(stored) else None

@@ -8,7 +8,7 @@ import numpy as np
 
 from neural_shadows.evaluation.first_frames import write_first_frames
 from neural_shadows.evaluation.references import write_references
-from neural_shadows.evaluation.shadow_methods import REFERENCES, traced_method
+from neural_shadows.evaluation.shadow_methods import REFERENCES, classic_method
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
@@ -34,24 +34,32 @@ def render_references(
         references: for the G-buffers and the visibilities, see `References`.
         pictures_npz: for the picture of each set's first view, see `write_first_frames`.
         scene: `up`, `ground` and `light`, see `open_scene`.
-        frames: `width`, `height` (pixels), `view_sets` and `seed`, see `draw_viewpoints`.
+        frames: `width`, `height` (pixels), and what `draw_viewpoints` is told: `view_sets`, `seed`,
+            `least_shadow`.
         reference: `exact`, or the thesis's `shadow_map` of 32768² texels.
 
     Raises:
         InputError: the mesh cannot be read, or a setting does not fit the scene.
     """
     opened = open_scene(mesh_ply, **scene)
-    answer = traced_method(REFERENCES[reference], opened)
+    answer = classic_method(REFERENCES[reference], opened)
     width, height, view_sets, seed = (
         frames[key] for key in ("width", "height", "view_sets", "seed")
     )
-    views = draw_viewpoints(opened, view_sets, range(first, last), width / height, seed)
+    views = draw_viewpoints(
+        opened,
+        view_sets,
+        range(first, last),
+        width / height,
+        seed,
+        frames.get("least_shadow", 0.0),
+    )
     rendered: list[tuple[GBuffer, np.ndarray]] = []
     pictures: dict[str, np.ndarray] = {}
     with progress_bar(len(views), "views", f"render references of {mesh_ply.parent.name}") as bar:
         for view in views:
             frame = render_gbuffer(opened, view, width, height)
-            visibility = answer(frame)
+            visibility = answer(frame)(0.0)
             rendered.append((frame, visibility))
             pictures.setdefault(view.view_set, shade(frame, visibility))
             bar.update()

@@ -8,6 +8,7 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation.shadow_methods import take_found
 from neural_shadows.files.whole_files import read_json, whole_file, write_json
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import load_network
@@ -89,14 +90,21 @@ def export_network(
 
     Args:
         mesh_json: description of the mesh that it was trained on.
-        depth_bias_json: the depth bias that was found for it, where `bias` is `held_out`.
+        depth_bias_json: the depth bias and the push that were found for it, where `bias` is
+            `held_out`.
 
     Raises:
-        InputError: an input file is damaged, or ONNX Runtime answers otherwise than PyTorch.
+        InputError: an input file is damaged; its kind has no ONNX form; or ONNX Runtime answers
+            otherwise than PyTorch.
     """
     network, header = load_network(weights)
+    if not network.exportable:
+        raise InputError(
+            f"{weights}: {header['network']['encoding']!r} is no network and has no ONNX form; "
+            "export one of another encoding"
+        )
     mesh = read_json(mesh_json)
-    depth_bias = read_json(depth_bias_json)["depth_bias"] if depth_bias_json else bias
+    depth_bias = take_found(network, depth_bias_json) if depth_bias_json else bias
     export_onnx(network, network_onnx)
     difference = largest_difference(network, network_onnx)
     if difference > TOLERANCE:

@@ -1,0 +1,71 @@
+"""Networks of a known depth, of which it is known how often they break a bound."""
+
+import numpy as np
+import pytest
+import torch
+import trimesh
+from evaluated import make_evaluated
+
+from neural_shadows.evaluation import query_network as stage
+from neural_shadows.evaluation.answers import Answers
+from neural_shadows.evaluation.query_network import query_network
+from neural_shadows.evaluation.references import References
+from neural_shadows.evaluation.violations import Violations, count_violations
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+
+BALL = 0.5
+
+
+def test_counts():
+    t_lb = np.float32([0.5, 0.5, 0.5, 0.5, 0.5, 1.2])
+    t_ub = np.float32([1.0, 1.0, 1.0, 1.0, 1.0, np.inf])
+    #           rounding  short, seen  short  leak  far, lit rightly  short of a miss, unseen
+    t = np.float32([0.49995, 0.4, 0.3, 1.5, 1.1, 1.0])
+    lit = np.array([False, False, False, True, True, True])
+    truth = np.float32([1, 1, 0, 0, 1, 1])
+    assert count_violations(t, t_lb, t_ub, lit, truth) == Violations(6, 3, 1, 2, 1)
+
+
+class Ball(ShadowNetwork):
+    """A ball's first hit, moved on by a share of the way to its second; ℓ for rays that miss."""
+
+    def __init__(self, share: float):
+        super().__init__()
+        self.share = torch.nn.Parameter(torch.tensor(share))
+
+    initialise = None
+
+    def forward(self, origins, directions, dtype):
+        b = (origins * directions).sum(1)
+        root = (b**2 - (1 - BALL**2)).clamp(min=0).sqrt()
+        return torch.where(root > 0, -b - root + 2 * self.share * root, -2 * b + 1e-4)
+
+
+@pytest.mark.parametrize(
+    ("share", "lower", "upper"), [(-0.2, True, False), (0.5, False, False), (1.2, False, True)]
+)
+def test_a_ball_that_is_short_or_far_breaks_the_bound_on_that_side(
+    tmp_path, monkeypatch, share, lower, upper
+):
+    ball = trimesh.creation.icosphere(5, radius=BALL)
+    files = make_evaluated(tmp_path, ball)
+    monkeypatch.setattr(stage, "open_network", lambda *_: (Ball(share), torch.float32))
+    path = tmp_path / "answers.npz"
+    query_network(files.references, tmp_path / "w", None, files.mesh_ply, path, method="ball")
+    answers, shown_anywhere = Answers(path), np.zeros(2)
+    for number, (frame, truth) in enumerate(References(files.references)):
+        found, visibility = answers.violations(number), answers.visibility(number, frame)
+        # The line of a point meets the ball if it passes its centre within the radius.
+        light = frame.view.light
+        across = np.linalg.norm(frame.p - np.outer(frame.p @ light, light), axis=1)
+        hitting = np.count_nonzero(across < BALL)
+        assert found.queries > hitting > 100
+        rim = 0.02 * hitting  # where the facets are within the ball that they stand for
+        assert found.lower_violations == pytest.approx(hitting * lower, abs=rim)
+        assert found.upper_violations == pytest.approx(hitting * upper, abs=rim)
+        # All false shadow and all light leaks come of these violations.
+        shares = np.sum(visibility < truth) * lower, np.sum(visibility > truth) * upper
+        shown = found.false_shadow_of_lower, found.light_leak_of_upper
+        assert shown == pytest.approx(shares, abs=rim)
+        shown_anywhere += shown
+    assert (shown_anywhere > 100).tolist() == [lower, upper]

@@ -1,0 +1,73 @@
+"""The stage that asks a network which points of a batch of frames are lit.
+
+Apart from `evaluate`, so that metrics, which take most of the time and a CPU, hold no GPU.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.evaluation.answers import write_answers
+from neural_shadows.evaluation.references import References
+from neural_shadows.evaluation.shadow_methods import open_network, take_found
+from neural_shadows.evaluation.violations import Violations, count_violations
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.sphere_rays import sphere_rays
+from neural_shadows.rays.labels import dual_bounds
+from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.tracing import Tracer
+
+
+def query_network(
+    references: Path,
+    weights: Path,
+    depth_bias_json: Path | None,
+    mesh_ply: Path,
+    answers: Path,
+    *,
+    method: str,
+    bias: float | str | None = None,
+    device: str = "auto",
+    precision: str = "auto",
+    threads: int = 1,
+) -> None:
+    """Write which points a network calls lit, and how its depths keep to the labels' bounds.
+
+    Args:
+        references: what `render_references` wrote.
+        depth_bias_json: what `find_depth_bias` wrote, where `bias` is `held_out`.
+        mesh_ply: prepared, for the labels.
+        answers: see `Answers`.
+        method: the name that the network goes by.
+        bias: of the depth test, in sphere radii, or `held_out`.
+
+    Raises:
+        InputError: an input file cannot be read.
+    """
+    network, dtype = open_network(weights, device, threads, precision)
+    depth_bias = take_found(network, depth_bias_json) if depth_bias_json else bias or 0.0
+    mesh = read_prepared(mesh_ply)
+    tracer = Tracer(mesh.vertices, mesh.faces)
+    batch = References(references)
+    answered: list[np.ndarray] = []
+    violations: list[Violations] = []
+    with progress_bar(len(batch), "views", f"query {method}") as bar:
+        for frame, truth in batch:
+            p, light = on_device(frame.p, frame.view.light, network.device)
+            lit = network_lit(network, p, light, dtype=dtype)(depth_bias).cpu().numpy()
+            # Asked for again: not every kind finds which points are lit by a depth.
+            rays = sphere_rays(p, light)
+            t = network.depths(rays.origins, -light, dtype) + depth_bias
+            bounds = dual_bounds(tracer, rays.origins.cpu().numpy(), -light.cpu().numpy())
+            index = rays.index.cpu().numpy()
+            true = truth[frame.lit_side][index]
+            violations.append(count_violations(t.cpu().numpy(), *bounds, lit[index], true))
+            answered.append(lit)
+            bar.update()
+    write_answers(answers, answered, violations)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, query_network)

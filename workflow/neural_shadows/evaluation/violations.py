@@ -1,0 +1,36 @@
+"""How often a network's depth breaks the bounds of its labels, and what shows of it [5.1]."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+TOLERANCE = 1e-4  # sphere radii, a tenth of the shading offset: less is rounding
+
+
+class Violations(NamedTuple):
+    """Numbers of a frame's sphere rays, one for each shading point that a network is asked of.
+
+    The thesis says that a violated lower bound always shows, as false shadow, and an upper one
+    only where another surface lies between, as a light leak: shares of the violations.
+    """
+
+    queries: int
+    lower_violations: int  # the depth is before the first hit, or short of a miss's chord
+    false_shadow_of_lower: int  # of those, points wrongly in shadow
+    upper_violations: int  # it is behind the second hit
+    light_leak_of_upper: int  # of those, points wrongly lit
+
+
+def count_violations(
+    t: np.ndarray, t_lb: np.ndarray, t_ub: np.ndarray, lit: np.ndarray, truth: np.ndarray
+) -> Violations:
+    """Compare depths t (k,), a depth bias among them, with the bounds of the same rays (k,).
+
+    Args:
+        t_lb, t_ub: as `dual_bounds` gives them.
+        lit: (k,) bool, what the network says of the points; truth: (k,) the reference's
+            visibility of them.
+    """
+    lower, upper = t < t_lb - TOLERANCE, t > t_ub + TOLERANCE
+    counted = len(t), lower, lower & ~lit & (truth == 1), upper, upper & lit & (truth == 0)
+    return Violations(*(int(np.sum(of)) for of in counted))
