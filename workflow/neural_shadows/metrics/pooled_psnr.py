@@ -1,0 +1,30 @@
+"""PSNR of several views as one number: of the mean of their squared errors.
+
+The mean of PSNRs is driven by frames that are identical to the reference, whose PSNR is 100 dB by
+agreement: a 1024² map on the landscape has 47.6 dB on average, without its two identical frames of
+24 42.8, and 42.0 pooled.
+"""
+
+import numpy as np
+
+IDENTICAL = 100.0  # dB: the most that `psnr_ssim.psnr` gives
+
+
+def mse_of(psnr: np.ndarray) -> np.ndarray:
+    """Mean squared errors of PSNRs in dB for peak 1, of any shape; 100 dB count as 1e-10."""
+    return 10 ** (-np.asarray(psnr, dtype=np.float64) / 10)
+
+
+def psnr_of(mse: np.ndarray) -> np.ndarray:
+    """PSNRs in dB for peak 1 of mean squared errors > 0, of any shape."""
+    return -10 * np.log10(mse)
+
+
+def pooled_psnr(psnr: np.ndarray) -> float:
+    """PSNR in dB of the mean squared error of all views, whose own PSNRs are of any shape."""
+    return float(psnr_of(mse_of(psnr).mean()))
+
+
+def identical(psnr: np.ndarray) -> int:
+    """How many of the views equal their reference."""
+    return int(np.count_nonzero(np.asarray(psnr) >= IDENTICAL))
