@@ -12,7 +12,7 @@ from markdown_it import MarkdownIt
 from markupsafe import Markup
 from PIL import Image
 
-from neural_shadows.reports.claims import VERDICTS
+from neural_shadows.reports.verdicts import VERDICTS, css_class
 
 LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
 
@@ -38,19 +38,27 @@ class Block:
 
 
 def table_block(path: Path) -> Block:
-    """A Markdown twin as HTML; the thesis's columns and verdicts get classes of their own."""
+    """A Markdown twin as HTML; the thesis's columns and verdicts get classes of their own.
+
+    What stands before the table stays there, outside its scrolled box; evidence is folded up.
+    """
     markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
     tokens = markdown.parse(path.read_text(encoding="utf-8"))
-    title, end = tokens[1].content, [token.type for token in tokens].index("table_close") + 1
+    title, kinds = tokens[1].content, [token.type for token in tokens]
+    start, end = kinds.index("table_open"), kinds.index("table_close") + 1
     pairs = zip(tokens[:end], tokens[1:])
     cells = [(cell, text.content) for cell, text in pairs if cell.type in ("th_open", "td_open")]
     headings = [text for cell, text in cells if cell.type == "th_open"]
     for (cell, text), heading in zip(cells, itertools.cycle(headings)):
         if heading.startswith("thesis"):
             cell.attrSet("class", "thesis")
+        elif heading == "evidence" and cell.type == "td_open":
+            cell.attrSet("class", "evidence")
         elif text.strip("*") in VERDICTS:
-            cell.attrSet("class", text.strip("*"))
-    html = markdown.renderer.render(tokens[3:end], markdown.options, {})
+            cell.attrSet("class", css_class(text.strip("*")))
+    lead = Markup(markdown.renderer.render(tokens[3:start], markdown.options, {}))
+    html = markdown.renderer.render(tokens[start:end], markdown.options, {})
+    html = re.sub(r'(<td[^>]* class="evidence">)(.*?)</td>', _folded, html)
     # An interval stands below its value, so that twelve columns fit on a screen.
     html = re.sub(r"(<td[^>]*>[^<\[]+) (\[[^<\]]+\])</td>", r"\1 <small>\2</small></td>", html)
     # It scrolls: Chromium lets the keyboard reach it by itself, Safari needs the tabindex.
@@ -60,7 +68,14 @@ def table_block(path: Path) -> Block:
         for token in tokens[end:]
         if token.type == "inline"
     )
-    return Block("table", path.stem, title, Markup(f"{box}{html}</div>"), notes=notes)
+    return Block("table", path.stem, title, Markup(f"{lead}{box}{html}</div>"), notes=notes)
+
+
+def _folded(cell: re.Match) -> str:
+    """A cell's list, parted by semicolons, that opens when asked for."""
+    items = cell[2].split("; ")
+    listed = "".join(f"<li>{item}</li>" for item in items)
+    return f"{cell[1]}<details><summary>{len(items)}</summary><ul>{listed}</ul></details></td>"
 
 
 def figure_blocks(paths: Sequence[Path], titles: Mapping[str, str]) -> list[Block]:

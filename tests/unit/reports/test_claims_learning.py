@@ -1,0 +1,109 @@
+import numpy as np
+import pytest
+from claim_samples import VIEWS, better, loss_curve, measured, pairs, points, scene, views
+
+from neural_shadows.reports import verdicts
+from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.claims.measured import THESIS_SAMPLES
+
+SHARES = np.array([1 / 81, 1 / 27, 1 / 9, 1 / 3, 1])  # of the largest budget
+
+
+def followed(a, b, most, *, seeds=3, noise=0.002, metric="lpips", as_loss=False):
+    """A claim that `a` is better than `b`, on curves whose errors are functions of the share.
+
+    `most`: the largest budget as a share of the thesis's samples. Each training's error is off by
+    a factor of its own.
+    """
+    rng = np.random.default_rng(7)
+    budgets = [int(share * most * THESIS_SAMPLES) for share in SHARES]
+    curves = {name: points(name, budgets, seeds) for name in ("a", "b")}
+    errors = {
+        point["experiment"]: law(point["samples"] / budgets[-1]) * np.exp(rng.normal(0, noise))
+        for name, law in (("a", a), ("b", b))
+        for point in curves[name]
+    }
+    if as_loss:
+        losses = {name: loss_curve(error) for name, error in errors.items()}
+        claim = {"kind": "lower_loss", "pairs": pairs(("a", "b")), "needs": {"budget": 0.1}}
+        return judge(claim, measured(curves=curves, losses=losses))
+    if metric == "psnr":
+        errors = {name: np.full(VIEWS, -10 * np.log10(error)) for name, error in errors.items()}
+    methods = {name: {metric: views(e) if np.ndim(e) == 0 else e} for name, e in errors.items()}
+    claim = better(("a", "b"), metrics=[metric], budget=0.1)
+    return judge(claim, measured({"dragon": scene(methods)}, curves))
+
+
+def power_law(floor, fall, exponent=0.5):
+    return lambda share: floor + fall * share**-exponent
+
+
+# Behind at the largest budget (0.05 against 0.045) and ahead at 20 times it (0.02 against 0.041).
+AHEAD_LATER = power_law(0.0112, 0.0388), power_law(0.04, 0.005)
+
+
+@pytest.mark.parametrize("as_loss", [False, True])
+def test_a_licensed_extrapolation_decides(as_loss):
+    found = followed(*AHEAD_LATER, most=0.05, as_loss=as_loss)
+    assert found["verdict"] == "supported"
+    assert "at the thesis's samples, extrapolated" in found["reason"]
+    assert (found["direction"], found["trend"] > 0) == ("towards", True)
+    at = float(found["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
+    assert at == pytest.approx(0.04 + 0.005 / 20**0.5 - 0.0112 - 0.0388 / 20**0.5, abs=0.002)
+    ahead_no_more = followed(*AHEAD_LATER[::-1], most=0.05, as_loss=as_loss)
+    assert (ahead_no_more["verdict"], ahead_no_more["direction"]) == ("contradicted", "away")
+
+
+def test_an_extrapolation_of_psnr_is_one_of_squared_errors():
+    # A factor of two of the errors is 3.01 dB at all budgets.
+    found = followed(power_law(0, 1e-3), power_law(0, 2e-3), 0.05, metric="psnr")
+    assert found["verdict"] == "supported"
+    at = found["evidence"].split("at the thesis's samples ")[1].split(" ")[0]
+    assert float(at) == pytest.approx(3.01, abs=0.05)
+    assert found["trend"] == pytest.approx(0, abs=0.05)
+
+
+def test_more_than_thirtyfold_is_not_licensed():
+    found = followed(*AHEAD_LATER, most=0.02)
+    assert found["verdict"] == verdicts.TOO_SMALL
+    assert "2 % of the thesis's samples, 10 % are needed (2.2 billion a network)" in found["reason"]
+    assert "no extrapolation: 50 times the largest budget" in found["reason"]
+    assert found["reason"].endswith("moving towards the claim")
+    assert "at the thesis's samples" not in found["evidence"]
+
+
+def test_a_curve_that_bends_is_not_licensed():
+    def bending(share):
+        return 0.1 * share**-0.1 if share < 0.9 else 0.05
+
+    found = followed(bending, AHEAD_LATER[1], most=0.05)
+    assert found["verdict"] == verdicts.TOO_SMALL
+    assert "no extrapolation: the hold-out is missed by" in found["reason"]
+
+
+def test_one_seed_has_a_trend_without_an_interval():
+    found = followed(*AHEAD_LATER, most=0.05, seeds=1)
+    assert found["verdict"] == verdicts.TOO_SMALL
+    assert found["reason"].startswith("1 seed of 2; ")
+    assert np.isfinite(found["trend"]) and np.isnan(found["trend_low"])
+    assert found["direction"] == ""
+
+
+def test_a_gap_that_closes_only_since_both_errors_fall_moves_neither_way():
+    found = followed(power_law(0, 0.05), power_law(0, 0.04), most=0.02, as_loss=True)
+    assert found["trend_low"] > 0
+    assert found["direction"] == "neither"
+    assert found["reason"].endswith("moving neither towards the claim nor away")
+
+
+def test_a_map_does_not_learn():
+    curve = points("net", [int(s * 0.05 * THESIS_SAMPLES) for s in SHARES], 3)
+    law, rng = AHEAD_LATER[0], np.random.default_rng(7)
+    errors = [law(p["samples"] / curve[-1]["samples"]) * np.exp(rng.normal(0, 0.01)) for p in curve]
+    methods = {p["experiment"]: {"lpips": views(e)} for p, e in zip(curve, errors)}
+    methods["shadow_map_512"] = {"lpips": views(0.03)}
+    data = measured({"dragon": scene(methods)}, {"net": curve})
+    found = judge(better(("net", "shadow_map_512"), budget=0.1), data)
+    assert found["verdict"] == "supported"
+    at = float(found["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
+    assert at == pytest.approx(0.03 - law(20), abs=0.003)

@@ -1,0 +1,112 @@
+import pandas as pd
+import pytest
+from claim_samples import better, loss_curve, pairs, points
+from report_samples import (
+    SCENES,
+    TRAINING,
+    cells_of,
+    write_mesh,
+    write_metrics,
+    write_record,
+    written_table,
+)
+
+from neural_shadows.reports.claims.write_claims import COLUMNS, write_claims
+from neural_shadows.reports.page_blocks import table_block
+from neural_shadows.reports.tables.quality import METRICS
+
+CURVE = points("net", [20_480_000], 3)
+CLAIMS = {
+    "quality": better(("net", "shadow_map_256"), metrics=["lpips", "psnr"], seeds=3, budget=0.03),
+    "own_mesh": better(("net", "shadow_map_256"), mesh="thesis"),
+    "loss": {"kind": "lower_loss", "pairs": pairs(("net", "other"))},
+    "time": {"kind": "frame_time", "table": "t", "pairs": pairs(("net", "shadow_map_256"))}
+    | {"at_least": 1, "at_most": None, "needs": {"device": "cpu"}},
+    "printed": {"kind": "printed", "table": "4.4", "pairs": [["network", "shadow_map_128"]]}
+    | {"metrics": ["psnr"]},
+}
+
+
+@pytest.fixture
+def written(tmp_path):
+    """The claims of a network of three seeds, a map, and another network that is not trained on."""
+    runs = [point["experiment"] for point in CURVE]
+    quality = dict.fromkeys(METRICS, 0.2) | {"psnr": 20.0, "ssim": 0.9}
+    means = dict.fromkeys(runs, quality)
+    means["shadow_map_256"] = {name: value / 2 for name, value in quality.items()}
+    means["no_shadow"] = quality | {"lpips": 0.5, "psnr": 10.0}
+    counts = {"lower_violations": 9.0, "false_shadow_of_lower": 1.0}
+    counts |= {"upper_violations": 9.0, "light_leak_of_upper": 1.0}
+    means[runs[0]] = means[runs[0]] | counts
+    folder = tmp_path / "networks"
+    losses, trainings = [], []
+    for seed, name in enumerate([*runs, "other"]):
+        training = TRAINING["training"] | {"seed": seed}
+        known = {"training": training, "samples": 20_480_000, "no_shadow_loss": 0.7}
+        trainings.append(write_record(folder / name / "training.json", TRAINING | known))
+        losses.append(trainings[-1].with_name("loss.csv"))
+        curve = loss_curve(0.6 if name == "other" else 0.1).rename_axis("step").reset_index()
+        curve.assign(samples=1, learning_rate=0.1).to_csv(losses[-1], index=False)
+    frames = {"own_ms": [2.0] * 15, "ms": [3.0] * 15, "device": "cpu"}
+    timed = {"net": frames, "shadow_map_256": frames | {"own_ms": [1.0] * 15}}
+    times = write_record(tmp_path / "frame_times" / "t" / "dragon.json", {"methods": timed})
+    return written_table(
+        write_claims,
+        tmp_path,
+        metrics=[write_metrics(tmp_path, means, views=24)],
+        losses=losses,
+        trainings=trainings,
+        times=[times],
+        meshes=[write_mesh(tmp_path)],
+        claims={name: {"section": "4", "statement": "So."} | one for name, one in CLAIMS.items()},
+        learning_curves={"net": CURVE},
+    )
+
+
+def test_claims_are_written_with_verdict_reason_and_scale(written):
+    found, _ = written
+    assert list(found) == COLUMNS
+    verdicts = found.set_index("claim")["verdict"]
+    assert verdicts.to_dict() == {
+        "quality": "undecided (scale)",
+        "own_mesh": "not comparable",
+        "loss": "undecided (scale)",
+        "time": "supported",
+        "printed": "contradicted",
+    }
+    first = found.iloc[0]
+    assert (first["metric"], first["seeds"], first["null_verdict"]) == (
+        "lpips, psnr",
+        3,
+        "contradicted",
+    )
+    assert first["budget_fraction"] == pytest.approx(1 / 3200)
+    assert (first["samples"], first["thesis_samples"]) == (20_480_000, 65_536_000_000)
+    assert found["samples"].isna().tolist() == [False, False, False, True, True]
+
+
+def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(written):
+    _, md = written
+    text = md.read_text()
+    lead = text.split("| claim")[0]
+    assert "saw at most 20,480,000 training samples each, the thesis's 65,536,000,000" in lead
+    assert "3.2e+03 times as many" not in lead and "3,200 times as many" in lead
+    assert "- **not learned** (0): a network of the claim is not better than" in lead
+    assert "- **contradicted** (1): " in lead
+    cells = cells_of(md, 0)
+    assert (cells["verdict"], cells["why"][:32]) == (
+        "**undecided (scale)**",
+        "0.031 % of the thesis's samples,",
+    )
+    assert f"Mesh of dragon: {SCENES['dragon']['mesh_name']} (a procedural stand-in" in text
+
+
+def test_the_page_shows_verdicts_in_classes_and_folds_their_evidence(written):
+    _, md = written
+    block = table_block(md)
+    before, table = block.html.split('<div class="scroll"')
+    assert "<li><strong>vacuous</strong> (0): drawing no shadow" in before
+    assert 'class="undecided-scale"><strong>undecided (scale)</strong>' in table
+    assert 'class="not-comparable"><strong>not comparable</strong>' in table
+    assert "<details><summary>2</summary><ul><li>LPIPS of net 0.2 against" in table
+    assert pd.Series(block.notes).str.contains("Scale: test").any()

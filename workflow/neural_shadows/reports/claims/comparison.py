@@ -1,0 +1,90 @@
+"""One comparison of a claim, and what all of a claim's comparisons say together."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from neural_shadows.metrics.holm import holm
+from neural_shadows.reports.claims.learning import Learning
+from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, UNDECIDED
+
+LEVEL = 0.05
+NAMES = {
+    "lpips": "LPIPS",
+    "psnr": "PSNR",
+    "ssim": "SSIM",
+    "flip": "FLIP",
+    "shadow_error": "shadow error",
+    "loss": "loss",
+}
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How one comparison of a claim came out.
+
+    Args:
+        metric: what is compared.
+        text: the methods and their values.
+        numbers: the advantage and its interval, as text.
+        supports: its interval lies wholly on the claim's side.
+        against: p-value of its lying on the claim's side in truth; 1 if it does as measured.
+        seeds, samples: of the trainings that it compares; None if nothing is trained.
+        learning: over the learning curves, if there are any.
+    """
+
+    metric: str
+    text: str
+    numbers: str
+    supports: bool
+    against: float
+    seeds: int | None = None
+    samples: int | None = None
+    learning: Learning | None = None
+
+    @property
+    def evidence(self) -> str:
+        """The comparison in words and numbers."""
+        learnt = f", {self.learning.text}" if self.learning else ""
+        return f"{self.text}: {self.numbers}{learnt}"
+
+    @property
+    def extrapolated(self) -> "Comparison | None":
+        """The same at the thesis's samples; None if the learning curves do not license it."""
+        if self.learning is None or self.learning.extrapolated is None:
+            return None
+        return replace(self, **judged(*self.learning.extrapolated))
+
+
+def judged(value: float, low: float, high: float, p: float) -> dict[str, object]:
+    """What an advantage, its 95 % interval and its two-sided p-value say, as a `Comparison` has it.
+
+    0 itself is neither side: methods that are alike in every view decide nothing.
+    """
+    return {
+        "numbers": interval_text(value, low, high),
+        "supports": low > 0,
+        "against": p if value < 0 else 1.0,
+    }
+
+
+def interval_text(value: float, low: float, high: float) -> str:
+    """An advantage with three digits and its interval; without one where none can be had."""
+    if not low > -float("inf"):
+        return f"{value:+.3g}"
+    return f"{value:+.3g} [{low:+.3g}, {high:+.3g}]"
+
+
+def verdict_of(comparisons: Sequence[Comparison]) -> str:
+    """Supported if each comparison supports the claim, contradicted if Holm leaves one against it.
+
+    All must hold for a support, so that none needs a correction (intersection-union test).
+    """
+    if all(comparison.supports for comparison in comparisons):
+        return SUPPORTED
+    return CONTRADICTED if against(comparisons) else UNDECIDED
+
+
+def against(comparisons: Sequence[Comparison]) -> list[Comparison]:
+    """The comparisons that contradict a claim, by Holm's correction over all of them."""
+    adjusted = holm([comparison.against for comparison in comparisons])
+    return [one for one, p in zip(comparisons, adjusted) if p <= LEVEL]

@@ -1,0 +1,56 @@
+"""Pairs (slower, faster) of a scene by the ratio of the methods' own times, within bounds."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.stats import quantile_test
+
+from neural_shadows.reports.claims.comparison import Comparison
+from neural_shadows.reports.claims.measured import Measured, Row, labels
+
+
+def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
+    """A comparison for each pair, by the median over frames of the ratio of own milliseconds.
+
+    Each frame is answered by all methods in turn, so that a disturbance of the machine meets both,
+    and a median does not see it. Interval and p-values are exact (sign test).
+    """
+    return [_compared(claim, pair, data) for pair in claim["pairs"]]
+
+
+def devices(claim: Mapping[str, Any], data: Measured) -> dict[str, str]:
+    """The class of device of each method, by label."""
+    return {
+        label: data.times[claim["table"], row["scene"]]["methods"][row["method"]]["device"]
+        for pair in claim["pairs"]
+        for label, row in zip(labels(pair), pair)
+    }
+
+
+def _compared(claim: Mapping[str, Any], pair: Sequence[Row], data: Measured) -> Comparison:
+    timed = data.times[claim["table"], pair[0]["scene"]]["methods"]
+    found = [timed[row["method"]] for row in pair]
+    own = [np.array(one["own_ms"]) for one in found]
+    texts = [
+        f"{label} {np.median(ms):.3g} ms (frame {np.median(one['ms']):.3g} ms)"
+        for label, ms, one in zip(labels(pair), own, found)
+    ]
+    asked = {key: claim[key] for key in ("at_least", "at_most") if claim[key] is not None}
+    limits = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in asked.items())
+    least, most = asked.get("at_least", 0.0), asked.get("at_most", np.inf)
+
+    ratios = own[0] / own[1]
+    low, high = quantile_test(ratios).confidence_interval(0.95)
+    numbers = f"ratio {np.median(ratios):.3g} [{low:.3g}, {high:.3g}] ({limits})"
+    if np.isnan([low, high]).any():  # of five frames or fewer
+        numbers = f"ratio ({limits}): {len(ratios)} frames are too few"
+    below = quantile_test(ratios, q=least, alternative="less").pvalue
+    above = quantile_test(ratios, q=most, alternative="greater").pvalue
+    return Comparison(
+        metric="own milliseconds",
+        text=f"own time of {' against '.join(texts)}",
+        numbers=numbers,
+        supports=bool(low > least and high < most),
+        against=min(1.0, 2 * min(below, above)),
+    )

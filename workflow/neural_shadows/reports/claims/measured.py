@@ -1,0 +1,144 @@
+"""What claims are tested on: measured values by method, budget and seed."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.metrics.pooled_psnr import mse_of
+
+THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
+LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
+NO_SHADOW = {"method": "no_shadow", "label": "No shadow", "experiment": None, "bias": None}
+
+Row = Mapping[str, Any]  # as `config.rows_of` gives it
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Trainings of the same length: of each experiment those of the same seeds, in their order.
+
+    `samples` is None, and there are no runs, if no method of a comparison is trained.
+    """
+
+    samples: int | None
+    runs: Mapping[str, Sequence[str]]
+
+    @property
+    def seeds(self) -> int:
+        """How many trainings there are of each experiment; 1 if none is trained."""
+        return min(map(len, self.runs.values()), default=1)
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Everything that claims are tested on.
+
+    Args:
+        metrics: a row a view, with its view set, and a column a (method, metric), by scene.
+        losses: of `read_loss`, by experiment; trainings: training.json, by experiment.
+        times: what `measure_frame_times` wrote, by table and scene; meshes: mesh.json, by scene.
+        published: the thesis's numbers as config/published.csv has them; margins: of each metric
+            what the thesis's own trainings differ by.
+        curves: the points of each learning curve: `experiment`, `samples` and `seed` each.
+        scenes: `procedural` of each: a mesh made to the thesis's description stands in for its own.
+        seed: of the resampling of views.
+    """
+
+    metrics: Mapping[str, pd.DataFrame]
+    losses: Mapping[str, pd.DataFrame]
+    trainings: Mapping[str, Mapping[str, Any]]
+    times: Mapping[tuple[str, str], Mapping[str, Any]]
+    meshes: Mapping[str, Mapping[str, Any]]
+    scenes: Mapping[str, Mapping[str, Any]]
+    published: pd.DataFrame
+    margins: Mapping[str, float]
+    curves: Mapping[str, Sequence[Mapping[str, Any]]]
+    seed: int
+
+    def trained(self, row: Row) -> bool:
+        """Whether a method is a network that learns, not a map, a null predictor or only built."""
+        name = row["experiment"]
+        if name is None or name in self.curves:
+            return name is not None
+        return self.trainings[name]["training"] is not None
+
+    def budgets(self, rows: Iterable[Row]) -> list[Budget]:
+        """The budgets, growing, at which all trained methods among the rows share a seed.
+
+        Methods that share none, each trained once in its own way, have one: of the least samples.
+        """
+        arms = {row["experiment"]: {} for row in rows if self.trained(row)}
+        if not arms:
+            return [Budget(None, {})]
+        for name, found in arms.items():
+            for point in self._points(name):
+                found.setdefault(point["samples"], {})[point["seed"]] = point["experiment"]
+        shared = []
+        for samples in sorted(set.intersection(*map(set, arms.values()))):
+            seeds = sorted(set.intersection(*(set(found[samples]) for found in arms.values())))
+            runs = {name: [found[samples][s] for s in seeds] for name, found in arms.items()}
+            shared += [Budget(samples, runs)] * bool(seeds)
+        if shared:
+            return shared
+        last = {name: max(found) for name, found in arms.items()}
+        runs = {name: list(arms[name][most].values())[:1] for name, most in last.items()}
+        return [Budget(min(last.values()), runs)]
+
+    def methods(self, row: Row, budget: Budget) -> list[str]:
+        """The keys of a method's trainings at a budget; the same one for each if it has none."""
+        name, method = row["experiment"], row["method"]
+        if name not in budget.runs:
+            return [method] * budget.seeds
+        bias = method.removeprefix(name)  # the end of a key that has a bias found for it
+        return [run + bias for run in budget.runs[name]]
+
+    def metric(self, row: Row, metric: str) -> str:
+        """The metric, or FLIP for LPIPS where a scene has none for want of its trunk."""
+        known = self.metrics[row["scene"]].columns.get_level_values(1)
+        return "flip" if metric == "lpips" and metric not in known else metric
+
+    def errors(self, row: Row, metric: str, budget: Budget) -> pd.DataFrame:
+        """Errors of a method: a row a view, with its view set, and a column a training.
+
+        LPIPS, FLIP and shares as they are, PSNR as the squared error (peak 1), SSIM as 1 − SSIM.
+        """
+        found = self.metrics[row["scene"]]
+        methods = self.methods(row, budget)
+        values = pd.concat([found[method, metric] for method in methods], axis=1)
+        if metric == "psnr":
+            return values.apply(mse_of)
+        return 1 - values if metric == "ssim" else values
+
+    def end_losses(self, row: Row, budget: Budget) -> np.ndarray:
+        """The mean loss of the last tenth of each training (S,); of a dead one before it died."""
+        ends = []
+        for run in budget.runs[row["experiment"]]:
+            loss = self.losses[run]["loss"].to_numpy()
+            loss = loss[np.isfinite(loss)]
+            ends.append(loss[-max(1, round(LOSS_SHARE * len(loss))) :].mean())
+        return np.array(ends)
+
+    def _points(self, experiment: str) -> Sequence[Mapping[str, Any]]:
+        """The trainings of an experiment: those of its learning curve, or its own alone."""
+        if points := self.curves.get(experiment):
+            return points
+        record = self.trainings[experiment]
+        alone = {"samples": record["samples"], "seed": record["training"]["seed"]}
+        return [{"experiment": experiment, **alone}]
+
+
+def labels(rows: Sequence[Row]) -> list[str]:
+    """What reports call the methods of a comparison, with their scenes if these differ."""
+    if len({row["scene"] for row in rows}) == 1:
+        return [row["label"] for row in rows]
+    return [f"{row['label']} ({row['scene']})" for row in rows]
+
+
+def rows_of(claim: Mapping[str, Any]) -> list[Row]:
+    """The methods of a claim; none of one on printed numbers."""
+    if claim["kind"] == "printed":
+        return []
+    return [*claim.get("methods", ()), *(row for pair in claim.get("pairs", ()) for row in pair)]

@@ -1,0 +1,145 @@
+"""What the thesis concludes from its data, judged by ours [4, 5.1]."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports import phrases
+from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured
+from neural_shadows.reports.claims.violations import counts_by_view
+from neural_shadows.reports.inputs import by_folder, read_meshes
+from neural_shadows.reports.learned import margins
+from neural_shadows.reports.published import read_published
+from neural_shadows.reports.tables.quality import values_by_view
+from neural_shadows.reports.tables.writing import write_twins
+from neural_shadows.reports.verdicts import MEANINGS, VERDICTS
+from neural_shadows.running.stage import run_stage
+from neural_shadows.training.loss_curve import read_loss
+
+COLUMNS = [
+    *("claim", "section", "statement", "verdict", "reason", "metric", "seeds", "budget_fraction"),
+    *("trend", "trend_low", "trend_high", "direction", "null_verdict", "evidence"),
+    *("scale", "samples", "thesis_samples"),
+]
+
+
+def write_claims(
+    *,
+    metrics: list[Path],
+    losses: list[Path],
+    trainings: list[Path],
+    times: list[Path],
+    meshes: list[Path],
+    published_csv: Path,
+    csv: Path,
+    md: Path,
+    claims: Mapping[str, Mapping[str, Any]],
+    learning_curves: Mapping[str, Sequence[Mapping[str, Any]]],
+    run: Mapping[str, Any],
+    scenes: Mapping[str, Mapping[str, Any]],
+) -> None:
+    """Write the thesis's claims with our verdicts, as CSV and Markdown.
+
+    Args:
+        metrics: per-view metrics of all methods that claims name, of `no_shadow` on their scenes,
+            and of all points of their learning curves.
+        losses, trainings: of the networks among them; times: frame times; meshes: mesh.json of
+            their scenes. The folders say of which scene, experiment or table a file is.
+        published_csv: the numbers that the thesis prints.
+        claims: by name, as `judge` takes them, with `section` and `statement`.
+        learning_curves: `experiment`, `steps`, `seed` and `samples` of each training, by
+            experiment; the budgets grow.
+
+    Raises:
+        InputError: a file is missing, or a method lacks a value of a view that others have.
+    """
+    data = Measured(
+        metrics={scene: _by_view(paths) for scene, paths in by_folder(metrics).items()},
+        losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
+        trainings={name: read_json(path) for name, [path] in by_folder(trainings).items()},
+        times={(path.parent.name, path.stem): read_json(path) for path in times},
+        meshes=read_meshes(meshes),
+        scenes=scenes,
+        published=pd.read_csv(published_csv, dtype={"table": str, "value": float}),
+        margins=margins(read_published(published_csv)),
+        curves=learning_curves,
+        seed=run["seed"],
+    )
+    found = pd.DataFrame(
+        {"claim": name, "section": claim["section"], "statement": claim["statement"]}
+        | judge(claim, data)
+        for name, claim in claims.items()
+    ).assign(scale=run["scale"], thesis_samples=THESIS_SAMPLES)
+    found = found[COLUMNS].astype({"seeds": "Int64", "samples": "Int64"})  # with gaps
+    columns = {
+        "claim": found["statement"],
+        "verdict": "**" + found["verdict"] + "**",
+        "why": found["reason"],
+        "section": found["section"],
+        "evidence": found["evidence"],
+    }
+    title = "What the thesis claims, and what this run can say of it"
+    write_twins(
+        found,
+        columns,
+        csv,
+        md,
+        title=title,
+        lead=_lead(found["verdict"], data),
+        notes=_notes(data, run, scenes),
+        text_columns=len(columns),
+    )
+
+
+def _by_view(paths: Sequence[Path]) -> pd.DataFrame:
+    """All metrics of a scene and the counts of violations: a row a view, a column each."""
+    found = read_metrics(paths)
+    quality = values_by_view(found, found["method"].unique())
+    return pd.concat([quality, counts_by_view(found)], axis=1)
+
+
+def _lead(verdicts: pd.Series, data: Measured) -> str:
+    """What a reader must know before the first verdict: the scale, and what verdicts mean."""
+    seen = [record["samples"] for record in data.trainings.values() if record["training"]]
+    counts = verdicts.value_counts()
+    scale = "No network was trained for these claims."
+    if seen:
+        scale = (
+            f"The networks of this run saw at most {max(seen):,} training samples each, the "
+            f"thesis's {THESIS_SAMPLES:,}: {THESIS_SAMPLES / max(seen):,.0f} times as many."
+        )
+    meanings = [f"- **{name}** ({counts.get(name, 0)}): {MEANINGS[name]}" for name in VERDICTS]
+    first = (
+        f"{scale} A verdict says what these data can carry about a claim, and nothing more: the "
+        "first of the following that applies."
+    )
+    return "\n".join([first, "", *meanings])
+
+
+def _notes(
+    data: Measured, run: Mapping[str, Any], scenes: Mapping[str, Mapping[str, Any]]
+) -> list[str]:
+    notes = [
+        "An advantage is counted so that positive is in the claim's favour; of PSNR it is of "
+        "pooled PSNR, that of the mean squared error over views. Its 95 % interval is over seeds "
+        "(Student's t) and views (resampled within their view set) together, of losses over seeds "
+        "(the last tenth of each curve is one value), of times over frames (exact, of the "
+        "median of the frames' ratios of own milliseconds, without primary visibility and "
+        "shading).",
+        "Networks are compared at their largest common budget, and by the same seeds; a trend is "
+        "over the budgets of a learning curve. Of one seed there is no interval over trainings.",
+        "Printed: claims decided by the thesis's own tables; a difference counts beyond what it "
+        "prints for the same configuration trained twice (tables 4.1 and 4.2).",
+    ]
+    for scene, mesh in data.meshes.items():
+        notes.append(phrases.describe_scene(scene, mesh, scenes[scene]))
+    return [*notes, phrases.describe_run(run)]
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write_claims)

@@ -1,0 +1,30 @@
+"""What is said of a claim: the verdicts, and what each of them means."""
+
+NOT_COMPARABLE = "not comparable"
+NOT_LEARNED = "not learned"
+VACUOUS = "vacuous"
+TOO_SMALL = "undecided (scale)"
+UNDECIDED = "undecided"
+SUPPORTED = "supported"
+CONTRADICTED = "contradicted"
+
+# In the order of the tests: a claim gets the first verdict that applies.
+MEANINGS = {
+    NOT_COMPARABLE: "what was measured is not what the claim is about: another mesh than the "
+    "thesis's, or times of another class of device.",
+    NOT_LEARNED: "a network of the claim is not better than drawing no shadow at all, so that it "
+    "says nothing of networks that have learned.",
+    VACUOUS: "drawing no shadow at all in the networks' place passes the same test.",
+    TOO_SMALL: "too few training samples or seeds for what is claimed, and the learning curves do "
+    "not license an extrapolation to the thesis's samples.",
+    UNDECIDED: "the data suffice, but chance explains the difference as well as the claim does.",
+    SUPPORTED: "the 95 % interval lies on the claim's side in each of its comparisons.",
+    CONTRADICTED: "one comparison or more lies on the other side, at a level of 5 % for all of "
+    "the claim's comparisons together (Holm).",
+}
+VERDICTS = tuple(MEANINGS)
+
+
+def css_class(verdict: str) -> str:
+    """The page's class of a verdict: `undecided-scale`."""
+    return verdict.replace(" (", "-").replace(" ", "-").strip(")")
