@@ -17,24 +17,39 @@ LPIPS = {"net": "alex", "available": True}
 MACHINE = {"cpu": "a CPU", "cores": 2, "gpu": None}
 ON_CPU = {"device": "cpu", "precision": "float32"}
 SETTINGS = {"steps": 10, "batch_size": 64, "learning_rate": 0.1, "schedule": "constant"}
-NETWORK = {"name": "dragon", "network": {"encoding": "frequency"}, "parameters": 100}
+SETTINGS |= {"optimiser": "adam"}
+NETWORK = {
+    "name": "dragon",
+    "died_at_step": None,
+    "network": {"encoding": "frequency"},
+    "parameters": 100,
+}
 SPENT = {"samples": 640, "seconds": 1.5, "machine": MACHINE, "threads": 2}
 TRAINING = {"training": SETTINGS | ON_CPU} | NETWORK | SPENT
 FRAMES = {"width": 60, "height": 40, "views": 4, "repeats": 2, "warm_up": 1, "sphere_rays": 123.0}
 TIMES = {"scene": "dragon", "machine": MACHINE} | ON_CPU | FRAMES
+NULL = ("no_shadow", "all_dark")
+CLASSIC = ("shadow_map_", "ray_traced", *NULL)
 
 
 def row(method, label=None, *, scene="dragon", published=None, bias=0.0):
     """A row as `config.rows` gives it."""
-    network = not method.startswith(("shadow_map_", "ray_traced"))
+    network = not method.startswith(CLASSIC)
+    given = network or method.endswith("_biased")
     return {
         "method": method,
         "label": label or method,
         "published": published or method,
         "scene": scene,
         "experiment": method.removesuffix("_biased") if network else None,
-        "bias": bias if network else None,
+        "bias": bias if given else None,
     }
+
+
+def timed(ms, own_ms=None, device="cpu", resident_bytes=None):
+    """The times of a method as `measure_frame_times` gives them."""
+    own = own_ms or [one / 2 for one in ms]
+    return {"ms": ms, "own_ms": own, "device": device, "resident_bytes": resident_bytes}
 
 
 def metrics_of(means, views=8):
@@ -87,6 +102,8 @@ def written_table(write, folder, **given):
         "md": folder / "table.md",
         "title": "Title",
         "published": None,
+        "against": None,
+        "durations": {},
         "run": RUN,
         "scenes": SCENES,
     } | given

@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image
 
 from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
-from neural_shadows.evaluation.method_names import is_classic
+from neural_shadows.evaluation.method_names import is_classic, unbiased
 from neural_shadows.metrics.flip import flip_map
 from neural_shadows.reports.inputs import by_folder
 from neural_shadows.reports.page_blocks import webp_uri
@@ -38,7 +38,7 @@ def frame_comparisons(
         if not frames or REFERENCE not in frames[0].images:
             continue
         methods = sorted(frames[0].images, key=lambda method: method != REFERENCE)
-        networks = [name for name in methods[1:] if not is_classic(name)]
+        networks = [name for name in methods[1:] if not is_classic(unbiased(name))]
         labels = {row["method"]: row["label"] for row in rows if row["scene"] == scene}
         names = {REFERENCE: "Reference"} | labels
         counts = Counter(labels.values())  # two methods of one label bear their keys

@@ -4,9 +4,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.evaluation.memory import network_bytes, shadow_map_bytes
-from neural_shadows.evaluation.method_names import RAY_TRACED
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.memory import stored_bytes
+from neural_shadows.evaluation.method_names import unbiased
 from neural_shadows.files.whole_files import read_json
+
+Record = Mapping[str, Any]
 
 
 def by_folder(paths: Iterable[Path]) -> dict[str, list[Path]]:
@@ -22,21 +27,37 @@ def read_meshes(paths: Iterable[Path]) -> dict[str, dict[str, Any]]:
     return {path.parent.name: read_json(path) for path in paths}
 
 
-def read_biases(rows: Sequence[Mapping[str, Any]], paths: Iterable[Path]) -> dict[str, float]:
-    """The depth bias of each network among the rows, by method."""
-    found = {path.stem: read_json(path)["depth_bias"] for path in paths}
+def read_biases(
+    rows: Sequence[Record], paths: Iterable[Path]
+) -> dict[tuple[str, str], dict[str, Any]]:
+    """The depth bias of each row that has one, by scene and method.
+
+    Returns: `depth_bias` (sphere radii), `push` (cells), and `at_end`, whether a found one is the
+        first or the last that was tried.
+    """
+    found = {(path.parent.name, path.stem): read_json(path) for path in paths}
     return {
-        row["method"]: found[row["experiment"]] if row["bias"] == "held_out" else row["bias"]
+        (row["scene"], row["method"]): found[row["scene"], unbiased(row["method"])]
+        if row["bias"] == "held_out"
+        else {"depth_bias": row["bias"], "push": 0.0, "at_end": False}
         for row in rows
-        if row["experiment"]
+        if row["bias"] is not None
     }
 
 
-def read_sizes(rows: Sequence[Mapping[str, Any]], weights: Iterable[Path]) -> dict[str, int]:
-    """Bytes of each network and shadow map among the rows, by method."""
-    stored = {path.parent.name: network_bytes(path) for path in weights}
-    return {
-        method: stored[experiment] if experiment else shadow_map_bytes(method)
-        for method, experiment in ((row["method"], row["experiment"]) for row in rows)
-        if method != RAY_TRACED
+def read_sizes(rows: Sequence[Record], weights: Iterable[Path]) -> dict[str, float]:
+    """Bytes that each method of the rows stores; NaN for one that stores nothing of its own."""
+    files = {path.parent.name: path for path in weights}
+    sizes = {
+        row["method"]: stored_bytes(files.get(row["experiment"], unbiased(row["method"])))
+        for row in rows
     }
+    return {method: np.nan if size is None else size for method, size in sizes.items()}
+
+
+def read_seconds(benchmarks: Iterable[Path]) -> float:
+    """Seconds of some jobs, one after another, from their benchmarks; NaN if one is missing."""
+    try:
+        return sum(pd.read_csv(path, sep="\t")["s"].sum() for path in benchmarks)
+    except FileNotFoundError:  # a result that was copied here, or made before a benchmark was kept
+        return np.nan

@@ -4,6 +4,10 @@ import datetime
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import pandas as pd
+
+AT_END = "the first or last that was tried: a better one may lie beyond"
+
 
 def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = None) -> str:
     """A table's heading: what it shows, on which mesh, and whether the thesis has the same.
@@ -43,38 +47,101 @@ def describe_scene(name: str, mesh: Mapping[str, Any], scene: Mapping[str, Any])
     return f"Mesh of {name}: {describe_mesh(mesh, scene)}; seed {scene['seed']}."
 
 
+def describe_shadows(scene: str, leaks: pd.DataFrame) -> str:
+    """One sentence on how much there is to get wrong; `leaks`: the views' light leak of no shadow.
+
+    `leaks` has a row a view, with its `view_set` in the index, and one column.
+    """
+    shares = leaks.groupby("view_set").mean().iloc[:, 0]
+    sets = ", ".join(f"{100 * share:.2g} % in {name} views" for name, share in shares.items())
+    return f"Cast shadow on {scene}, of the points that are seen: {sets}."
+
+
 def describe_training(record: Mapping[str, Any]) -> str:
-    """One sentence on how a network was trained, and on what machine."""
+    """One sentence on how a network was trained or built, and on what machine."""
     training, machine, threads = record["training"], record["machine"], record["threads"]
-    device = machine["gpu"] if training["device"] == "cuda" else f"{machine['cpu']} CPU"
+    device = f"{machine['cpu']} CPU"
+    made = "built without training"
+    if training:
+        device = machine["gpu"] if training["device"] == "cuda" else device
+        made = (
+            f"{training['steps']:,} steps of {training['batch_size']:,} samples "
+            f"({training['optimiser'].capitalize()}, {training['schedule']} learning rate "
+            f"{training['learning_rate']:g}, {training['precision']})"
+        )
+    died = record.get("died_at_step")
+    end = "" if died is None else f" It died at step {died:,}, and is shown as it was then."
     return (
-        f"Network {record['name']}: {record['parameters']:,} parameters, {training['steps']:,} "
-        f"steps of {training['batch_size']:,} samples ({training['schedule']} learning rate "
-        f"{training['learning_rate']:g}, {training['precision']}) in {record['seconds']:.0f} s on "
-        f"{device}, {threads} thread{'s' if threads > 1 else ''}."
+        f"Network {record['name']}: {record['parameters']:,} parameters, {made} in "
+        f"{record['seconds']:.0f} s on {device}, {_threads(threads)}.{end}"
     )
+
+
+def describe_budgets(records: Sequence[Mapping[str, Any]]) -> list[str]:
+    """One sentence on what each kind of network learned from, where several kinds stand together."""
+    trained = [record for record in records if record["training"]]
+    kinds = {record["network"]["encoding"] for record in trained}
+    if not {"frequency", "occupancy_field"} <= kinds:
+        return []
+    samples = {
+        kind: max(one["samples"] for one in trained if one["network"]["encoding"] == kind) / 1e6
+        for kind in kinds
+    }
+    return [
+        "The networks of a scene learn from the same labelled rays, but not from the same data: a "
+        "field also takes from the mesh which bricks hold a surface, which are solid, and the "
+        f"normals of sheets; it trains on up to {samples['occupancy_field']:.3g} M samples of 8 "
+        f"points each, the thesis's network on {samples['frequency']:.3g} M."
+    ]
+
+
+def describe_printed(scenes: Sequence[str]) -> list[str]:
+    """One sentence on rows of the thesis's own values, if there are some."""
+    if not scenes:
+        return []
+    return [
+        "as printed: by the thesis, with its own views, machine and LPIPS network; its equal map is "
+        "of its own shadow maps."
+    ]
+
+
+def describe_devices(devices: Sequence[str]) -> list[str]:
+    """One sentence where times do not compare, since methods ran on several devices."""
+    if len(devices) < 2:
+        return []
+    return [
+        f"**Not comparable**: some methods ran on {devices[0]}, others on {devices[1]}; compare "
+        "times of one device only."
+    ]
 
 
 def describe_times(times: Mapping[str, Any]) -> str:
     """One sentence on how the frame times of a scene were measured."""
-    machine = times["machine"]
-    device = machine["gpu"] if times["device"] == "cuda" else "the same thread"
+    machine, ran = times["machine"], {one["device"] for one in times["methods"].values()}
+    where = {"cpu": f"one thread of {machine['cpu']}", "cuda": machine["gpu"]}
     return (
         f"Times of {times['scene']}: {times['repeats']} frames of {times['width']} × "
         f"{times['height']} from {times['views']} viewpoints after {times['warm_up']} to warm up, "
-        f"one thread of {machine['cpu']}, networks on {device} in {times['precision']}; a network "
-        f"answers {times['sphere_rays']:,.0f} rays a frame."
+        f"on {' and '.join(where[device] for device in sorted(ran))}, networks in "
+        f"{times['precision']}; a network answers {times['sphere_rays']:,.0f} rays a frame."
     )
 
 
-def describe_biases(rows: Sequence[Mapping[str, Any]], biases: Mapping[str, float]) -> list[str]:
-    """A sentence for each row whose network is given a depth bias; `biases` by method."""
-    return [
-        f"{row['label']}: a depth bias of {biases[row['method']]:g} sphere radii"
-        + (", the best on held-out views." if row["bias"] == "held_out" else ".")
-        for row in rows
-        if biases.get(row["method"])
-    ]
+def describe_biases(
+    rows: Sequence[Mapping[str, Any]], biases: Mapping[tuple[str, str], Mapping[str, Any]]
+) -> list[str]:
+    """A sentence for each row that is given a depth bias; `biases` as `read_biases` gives them."""
+    sentences = []
+    for row in rows:
+        bias = biases.get((row["scene"], row["method"]), {"depth_bias": 0})
+        if row["bias"] == "held_out" or bias["depth_bias"]:
+            push = f", its surface pushed out by {bias['push']:g} cells" if bias["push"] else ""
+            sentences.append(
+                f"{row['label']}: a depth bias of {bias['depth_bias']:g} sphere radii{push}"
+                + (", the best on held-out views" if row["bias"] == "held_out" else "")
+                + (f" ({AT_END})." if bias["at_end"] else ".")
+            )
+    return sentences
 
 
 def describe_lpips(lpips: Mapping[str, Any]) -> str:
@@ -88,3 +155,7 @@ def describe_lpips(lpips: Mapping[str, Any]) -> str:
         "LPIPS is missing (`lpips.json` among the results says why), FLIP takes its place. Once "
         "solved, add `--forcerun find_lpips`."
     )
+
+
+def _threads(count: int) -> str:
+    return f"{count} thread{'s' if count > 1 else ''}"

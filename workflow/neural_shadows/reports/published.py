@@ -7,7 +7,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from neural_shadows.reports.equivalent_maps import equivalent_maps
+
 OF_ANY_MESH = ("size_kib", "memory_mib")
+
+# What the thesis measures on the scenes of chapter 4: its table, and what its networks are called.
+TABLE_OF_SCENE = {"dragon": "4.3", "fence": "4.4", "landscape": "4.5"}
+NETWORKS = {
+    "network": "Thesis's network, as printed",
+    "network_general": "Thesis's network, as printed",
+    "network_single_axis": "Thesis's network, single axis, as printed",
+}
+SIZE = ("4.6", "dragon_256", "size_kib")  # of each of these networks
 
 
 def read_published(path: Path) -> pd.Series:
@@ -18,6 +29,23 @@ def read_published(path: Path) -> pd.Series:
     """
     published = pd.read_csv(path, dtype={"table": str, "value": float})
     return published.set_index(["table", "row", "column"])["value"]
+
+
+def printed_table(published: pd.Series, number: str) -> pd.DataFrame:
+    """A table as the thesis prints it: a row a method, by key, and a column a value."""
+    return published.unstack("column").loc[number]
+
+
+def printed_networks(published: pd.Series, scene: str) -> pd.DataFrame:
+    """The thesis's networks on a scene of `TABLE_OF_SCENE`, as printed.
+
+    Columns `method` (a label), `lpips`, `psnr` (a mean), `ssim`, `stored_bytes`, and those of
+    `equivalent_maps`, of its own shadow maps.
+    """
+    table = printed_table(published, TABLE_OF_SCENE[scene])[["lpips", "psnr", "ssim"]]
+    table = table.assign(**equivalent_maps(table, table.index, "psnr"))
+    table = table.assign(method=table.index.map(NETWORKS), stored_bytes=1024 * published[SIZE])
+    return table.dropna(subset="method")
 
 
 def add_printed(

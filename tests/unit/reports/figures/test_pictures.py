@@ -1,9 +1,12 @@
 import numpy as np
 import pytest
+import report_samples as samples
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from neural_shadows.evaluation.first_frames import FirstFrame
+from neural_shadows.evaluation.first_frames import FirstFrame, write_first_frames
+from neural_shadows.reports.figures import pictures
 from neural_shadows.reports.figures.pictures import choose_crop, picture_strip
+from neural_shadows.reports.tables.quality import METRICS
 
 
 def discs(first, second):
@@ -46,3 +49,34 @@ def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():
     boxes = [axes.title.get_window_extent(canvas.get_renderer()) for axes in shown]
     boxes = [box for box in boxes if box.width > 1]
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_a_network_that_has_not_learned_says_so_under_its_name(tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(pictures, "write_figure", lambda figure, *paths: drawn.append(figure))
+    labels = {"dragon": "Network", "shadow_map_512": "512² shadow map"}
+    images = {"dragon": discs(20, 0), "shadow_map_512": discs(20, 12), "reference": discs(20, 12)}
+    files = [tmp_path / f"{method}.000.npz" for method in images]
+    for path, (method, image) in zip(files, images.items()):
+        write_first_frames(path, method, {"shadow": image, "surface": image})
+    worse, better = (0.2, 15.0, 0.8), (0.1, 30.0, 0.9)
+    quality = {"dragon": worse, "no_shadow": worse, "shadow_map_512": better}
+    means = {
+        method: dict.fromkeys(METRICS, 0.1) | dict(zip(("lpips", "psnr", "ssim"), values))
+        for method, values in quality.items()
+    }
+    mesh = {"name": "wyrm", "faces": 4, "watertight": True, "thesis_mesh": False}
+    pictures.draw(
+        metrics=[samples.write_metrics(tmp_path, means)],
+        pictures=files,
+        mesh_json=samples.write_record(tmp_path / "mesh.json", mesh),
+        published_csv=samples.PUBLISHED,
+        png=tmp_path / "f.png",
+        svg=tmp_path / "f.svg",
+        title="Pictures",
+        rows=[samples.row(method, label) for method, label in labels.items()],
+        view_sets=["shadow"],
+        run=samples.RUN,
+    )
+    heads = [axes.get_title() for axes in drawn[0].axes if axes.get_title()]
+    assert heads == ["Network\n(not learned)", "512² shadow map", "Reference"]

@@ -70,7 +70,7 @@ def test_each_kind_is_drawn(files, tmp_path, kind):
     if kind is not field_slice and not opengl.available():
         pytest.skip("no OpenGL")
     weights, bias_json = files / "field" / "weights.safetensors", tmp_path / "field.json"
-    write_json(bias_json, {"depth_bias": 0.01})
+    write_json(bias_json, {"depth_bias": 0.01, "push": 0.0})
     given = {"mesh_ply": files / "mesh.ply", "png": tmp_path / "f.png", "svg": tmp_path / "f.svg"}
     given |= {"title": "Title", "scene": SCENE}
     if kind is scene_3d:
@@ -105,8 +105,9 @@ def test_the_slice_of_a_ball_is_held_at_its_surface_and_enclosed_inside(files):
 def test_wrong_points_are_where_the_visibility_differs(files):
     batch = References(files / "000.safetensors")
     frame, truth = next(iter(batch))
-    assert errors_3d.wrong_points(lambda frame: truth, batch)[2] == 0
-    _, sign, share = errors_3d.wrong_points(lambda frame: 0 * truth, batch)  # all dark
+    assert errors_3d.wrong_points(lambda frame: lambda bias: truth, 0.0, batch)[2] == 0
+    dark = errors_3d.wrong_points(lambda frame: lambda bias: bias * truth, 0.0, batch)
+    _, sign, share = dark
     assert share == pytest.approx(truth.sum() / len(frame.lit_side))
     np.testing.assert_array_equal(np.unique(sign), [-1])
 

@@ -3,15 +3,16 @@ import pytest
 from report_samples import metrics_of, row
 
 from neural_shadows.errors import InputError
-from neural_shadows.reports.tables.quality import METRICS, quality_table
+from neural_shadows.reports.tables.quality import METRICS, quality_table, values_by_view
 
 ROWS = [row("shadow_map_128", "128²"), row("network", "Network")]
+METHODS = [row["method"] for row in ROWS]
 MEANS = {"network": dict.fromkeys(METRICS, 0.2), "shadow_map_128": dict.fromkeys(METRICS, 0.4)}
 
 
 def test_means_and_intervals_in_the_order_of_the_rows():
     metrics = metrics_of(MEANS)
-    table = quality_table(metrics, ROWS, seed=1)
+    table = quality_table(values_by_view(metrics, METHODS), ROWS, seed=1)
     assert table["method"].tolist() == ["128²", "Network"]
     assert (table["views"] == 8).all()
     values = metrics.query("method == 'network' and metric == 'psnr'")["value"]
@@ -21,7 +22,20 @@ def test_means_and_intervals_in_the_order_of_the_rows():
         low, high = table[f"{metric}_low"][1], table[f"{metric}_high"][1]
         assert low < 0.2 < high and high - low == pytest.approx(2 * half, rel=0.1)
     # The order of files changes nothing.
-    assert quality_table(metrics.sample(frac=1, random_state=1), ROWS, seed=1).equals(table)
+    shuffled = values_by_view(metrics.sample(frac=1, random_state=1), METHODS)
+    assert quality_table(shuffled, ROWS, seed=1).equals(table)
+
+
+def test_identical_frames_do_not_drive_the_pooled_psnr():
+    metrics = metrics_of(MEANS)
+    # Errors of 1e-2 in six views of eight; two views equal the reference.
+    chosen = metrics.eval("method == 'network' and metric == 'psnr'")
+    metrics.loc[chosen, "value"] = [20.0] * 6 + [100.0] * 2
+    found = quality_table(values_by_view(metrics, METHODS), ROWS, seed=1).iloc[1]
+    assert (found["psnr"], found["psnr_median"], found["identical"]) == (40, 20, 2)
+    assert found["psnr_pooled"] == pytest.approx(20 - 10 * np.log10(0.75))
+    # No draw of views has an error above 1e-2.
+    assert 20 <= found["psnr_pooled_low"] < found["psnr_pooled"] < found["psnr_pooled_high"] < 30
 
 
 @pytest.mark.parametrize("gone", ["lpips", "flip"])
@@ -29,4 +43,4 @@ def test_a_value_that_others_have_is_missed(gone):
     metrics = metrics_of(MEANS)
     missing = metrics.eval("method == 'network' and metric == @gone and view == 3")
     with pytest.raises(InputError, match=f"network has no finite {gone} of shadow view 3"):
-        quality_table(metrics[~missing], ROWS, seed=1)
+        values_by_view(metrics[~missing], METHODS)

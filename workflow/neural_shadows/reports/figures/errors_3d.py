@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.evaluation import shadow_methods
+from neural_shadows.evaluation.method_names import unbiased
 from neural_shadows.evaluation.references import References
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.figures import space
@@ -45,17 +46,20 @@ def draw(
     """
     opened = open_scene(mesh_ply, **scene)
     networks = {path.parent.name: path for path in weights}
-    held_out = {path.stem: read_json(path)["depth_bias"] for path in depth_biases}
+    held_out = {path.stem: path for path in depth_biases}
     shown = {}
     for row in rows:
+        name = unbiased(row["method"])
+        found = held_out[name] if row["bias"] == "held_out" else None
         if row["experiment"] is None:
-            method = shadow_methods.traced_method(row["method"], opened)
+            bias = read_json(found)["depth_bias"] if found else 0.0
+            method = shadow_methods.classic_method(name, opened)
         else:
             path = networks[row["experiment"]]
             network, dtype = shadow_methods.open_network(path, "auto", threads)
-            bias = held_out[row["experiment"]] if row["bias"] == "held_out" else row["bias"]
-            method = shadow_methods.network_method(network, dtype, bias or 0.0)
-        p, error, share = wrong_points(method, References(references))
+            bias = shadow_methods.take_found(network, found) if found else row["bias"]
+            method = shadow_methods.network_method(network, dtype)
+        p, error, share = wrong_points(method, bias, References(references))
         plotter = space.new_plotter(hero_view(opened.up, 4.1))
         space.add_object(plotter, opened)
         space.add_ground(plotter, opened)
@@ -68,15 +72,15 @@ def draw(
 
 
 def wrong_points(
-    method: shadow_methods.ShadowMethod, batch: References
+    method: shadow_methods.ShadowMethod, bias: float, batch: References
 ) -> tuple[np.ndarray, np.ndarray, float]:
-    """Points (k, 3) where a method errs, the sign of the error (k,), and the share of all points.
+    """Points (k, 3) where a method with a depth bias errs, the sign of the error (k,), and the share of all points.
 
     At most `MOST_POINTS` near the object; the share is of all points that face the light.
     """
     points, errors = [], []
     for frame, truth in islice(batch, 0, None, 1 + (len(batch) - 1) // MOST_VIEWS):
-        errors.append(np.sign(np.round(method(frame)) - np.round(truth))[frame.lit_side])
+        errors.append(np.sign(np.round(method(frame)(bias)) - np.round(truth))[frame.lit_side])
         points.append(frame.p)
     p, error = np.concatenate(points), np.concatenate(errors)
     near = (error != 0) & (np.linalg.norm(p, axis=1) < 1.1 * space.REACH)

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.figures import style
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
@@ -16,6 +17,7 @@ PARTS = 60  # of a curve that is drawn as means
 
 def draw(
     losses: list[Path],
+    trainings: list[Path],
     png: Path,
     svg: Path,
     *,
@@ -27,14 +29,20 @@ def draw(
 
     Args:
         losses: `loss.csv` of each experiment, in a folder of its name.
+        trainings: `training.json` of each.
         curves: `experiment` and `label`, in the legend's order.
 
     Raises:
         InputError: a loss curve is missing or not whole.
     """
     files = {path.parent.name: path for path in losses}
-    frames = {curve["label"]: read_loss(files[curve["experiment"]]) for curve in curves}
-    style.write_figure(loss_figure(frames, title=f"{title} ({run['scale']} scale)"), png, svg)
+    died = {record["name"]: record["died_at_step"] for record in map(read_json, trainings)}
+    frames, ends = {}, {}
+    for curve in curves:
+        frames[curve["label"]] = read_loss(files[curve["experiment"]])
+        ends[curve["label"]] = died[curve["experiment"]]
+    figure = loss_figure(frames, ends, title=f"{title} ({run['scale']} scale)")
+    style.write_figure(figure, png, svg)
 
 
 def smoothed(values: np.ndarray) -> np.ndarray:
@@ -43,24 +51,35 @@ def smoothed(values: np.ndarray) -> np.ndarray:
     return np.add.reduceat(values, starts) / np.diff(starts, append=len(values))
 
 
-def loss_figure(curves: Mapping[str, pd.DataFrame], *, title: str) -> Figure:
+def loss_figure(
+    curves: Mapping[str, pd.DataFrame], died: Mapping[str, int | None], *, title: str
+) -> Figure:
     """Draw loss over samples, both logarithmic; the points pale, and their means.
 
     Args:
         curves: as `read_loss` gives them, by label in the legend's order.
+        died: the step at which a training could learn nothing any more, by label; its curve ends
+            there with a cross.
     """
     figure = style.new_figure(title, 9, 5.4)
     axes = figure.subplots()
-    for i, (label, curve) in enumerate(curves.items()):
+    drawn = {label: curve[np.isfinite(curve["loss"])] for label, curve in curves.items()}
+    for i, (label, curve) in enumerate(drawn.items()):
         points = curve[["samples", "loss"]].to_numpy(float).T
         colour = style.COLOURS[i % len(style.COLOURS)]
+        step = died[label]
+        end = f"at the end {points[1, -1]:.3g}" if step is None else f"died at step {step:,}"
+        if not len(curve):  # it died before the first point
+            axes.plot([], [], color=colour, label=f"{label} ({end})")
+            continue
         axes.plot(*points, color=colour, alpha=0.25, linewidth=0.8)
-        text = f"{label} (at the end {points[1, -1]:.3g})"
-        axes.plot(*map(smoothed, points), color=colour, linewidth=1.8, label=text)
+        axes.plot(*map(smoothed, points), color=colour, linewidth=1.8, label=f"{label} ({end})")
+        if step is not None:
+            axes.plot(*points[:, -1:], color=colour, marker="X", markersize=10)
     axes.set(xscale="log", yscale="log", xlabel="training samples", ylabel="dead-zone loss")
     # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
-    settled = max(curve["loss"].iloc[len(curve) // 100 :].max() for curve in curves.values())
-    axes.set_ylim(top=min(axes.get_ylim()[1], 3 * settled))
+    settled = [curve["loss"].iloc[len(curve) // 100 :].max() for curve in drawn.values()]
+    axes.set_ylim(top=min(axes.get_ylim()[1], 3 * np.nanmax(settled)))
     style.plain_numbers(axes.yaxis)
     axes.grid(which="both", **style.GRID)
     axes.legend()

@@ -12,8 +12,12 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter, minimum_filter
 
 from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
+from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.reports.figures.style import ORANGE, Section, new_figure, write_figure
+from neural_shadows.reports.learned import margins
+from neural_shadows.reports.published import read_published
+from neural_shadows.reports.tables.quality import NULL, learned_methods, values_by_view
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
 
@@ -28,6 +32,7 @@ WIDTH = 13.6  # inches, 2040 px
 LETTERS = 160  # of the bold names, across the figure
 TEXT = 0.9  # inches of a line's names and scores
 
+NOT_LEARNED = "\n(not learned)"  # under the name
 SCORES = {"psnr": "PSNR {:.2f} dB", "lpips": "LPIPS {:.4f}"}
 
 
@@ -35,6 +40,7 @@ def draw(
     metrics: list[Path],
     pictures: list[Path],
     mesh_json: Path,
+    published_csv: Path,
     png: Path,
     svg: Path,
     *,
@@ -46,13 +52,19 @@ def draw(
     """Draw the first frame of each view set by every method, whole and as a crop.
 
     Args:
-        metrics: of each method's first batch.
-        pictures: of the same batches, and the reference's.
+        metrics: of all batches of each method and of no shadow.
+        pictures: of their first batches, and the reference's.
 
     Raises:
         InputError: a file is missing or not whole.
     """
+    measured = dict.fromkeys([NULL, *(row["method"] for row in rows)])
+    wide = values_by_view(read_metrics(metrics), [*measured])
+    networks = [row for row in rows if row["experiment"]]
+    chance = margins(read_published(published_csv))
+    found = learned_methods(wide, networks, chance, run["seed"])
     labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
+    labels |= {method: labels[method] + NOT_LEARNED for method in found if not found[method]}
     captions = [VIEW_SETS[view_set] for view_set in view_sets]
     frames = [f for f in read_first_frames(pictures, metrics) if f.caption in captions]
     mesh = read_mesh_report(mesh_json)["name"]
@@ -111,7 +123,9 @@ def picture_strip(frames: Sequence[FirstFrame], labels: Mapping[str, str], title
             axes.spines[:].set_visible(False)
         for j, method in enumerate(methods):
             whole, crop = panels[2 * (j // columns) :, j % columns][:2]
-            name = textwrap.fill(labels[method], LETTERS // columns)  # names must not run together
+            # Names must not run together.
+            heads = labels[method].split("\n")
+            name = "\n".join(textwrap.fill(head, LETTERS // columns) for head in heads)
             whole.set_title(name, fontsize=10, weight="bold")
             style = {"cmap": "gray", "vmin": 0, "vmax": 1}
             whole.imshow(images[method], **style)

@@ -1,13 +1,16 @@
 """What all figures share: colours, resolution, title, legend, writing."""
 
 from collections.abc import Iterable, Mapping
+from math import ceil
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 from matplotlib import rc_context
 from matplotlib.artist import Artist
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from neural_shadows.files.whole_files import whole_file
@@ -17,6 +20,7 @@ DPI = 150
 # Okabe and Ito's colours, which readers with any colour vision tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 BLUE, ORANGE = COLOURS[:2]
+MOST_IN_LINE = 8  # entries of a legend below panels
 GRID = {"linewidth": 0.4, "alpha": 0.4}
 
 
@@ -36,10 +40,18 @@ def plain_numbers(axis: Axis) -> None:
 
 
 def legend_below(figure: Figure, entries: Iterable[Artist] = ()) -> None:
-    """One legend for all panels, in a line below them: what is labelled in them, and entries."""
+    """One legend for all panels, in lines below them: what is labelled in them, and entries."""
     labelled = [handle for axes in figure.axes for handle in axes.get_legend_handles_labels()[0]]
     handles = {artist.get_label(): artist for artist in (*labelled, *entries)}
-    figure.legend(handles=[*handles.values()], loc="outside lower center", ncols=len(handles))
+    columns = ceil(len(handles) / ceil(len(handles) / MOST_IN_LINE))
+    figure.legend(handles=[*handles.values()], loc="outside lower center", ncols=columns)
+
+
+def hollow(table: pd.DataFrame) -> list[Line2D]:
+    """The legend's entry of hollow markers, if a row of a table's CSV has not `learned`."""
+    look = {"color": "#555555", "marker": "o", "linestyle": "", "markerfacecolor": "none"}
+    some = table["learned"].eq("False").any()
+    return [Line2D([], [], label="not learned", **look)] if some else []
 
 
 def write_figure(figure: Figure, png: Path, svg: Path) -> None:

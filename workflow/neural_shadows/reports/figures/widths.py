@@ -1,17 +1,20 @@
-"""Quality and frame time of networks over their layer width [figure 4.8]."""
+"""Quality and time of networks over their layer width [figure 4.8]."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from neural_shadows.reports.figures import style
+from neural_shadows.reports.tables.quality import with_ends
+from neural_shadows.reports.tables.timing import FRAME_MS, OWN_MS
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
-# What is drawn, and between what it is spread.
-SPREADS = {"lpips": ("lpips_low", "lpips_high"), "frame_ms": ("frame_ms_q1", "frame_ms_q3")}
+THEIRS = ("thesis_lpips", "thesis_frame_ms")
+GREY, MARKERS = "#777777", "os^v"
 
 
 def draw(
@@ -32,9 +35,8 @@ def draw(
     Raises:
         InputError: the table is missing or not whole.
     """
-    spreads = [column for pair in SPREADS.values() for column in pair]
-    theirs = [f"thesis_{column}" for column in SPREADS]
-    times = read_table(table, ("method", "scene"), (*SPREADS, *spreads, *theirs))
+    numbers = (*with_ends("lpips"), *FRAME_MS, *OWN_MS, *THEIRS)
+    times = read_table(table, ("method", "scene", "lpips_net", "learned"), numbers)
     widths = {(row["scene"], row["label"]): row["width"] for row in rows if row["width"]}
     figure = width_figure(times, widths, title=f"{title} ({run['scale']} scale)")
     style.write_figure(figure, png, svg)
@@ -43,7 +45,10 @@ def draw(
 def width_figure(
     table: pd.DataFrame, widths: Mapping[tuple[str, str], int], *, title: str
 ) -> Figure:
-    """Draw LPIPS and frame time over width, a line per scene, the thesis's numbers dashed.
+    """Draw LPIPS and times over width, a line per scene, the thesis's numbers dashed and grey.
+
+    Its LPIPS has axes of its own: it is of another network, and the two do not compare. Networks
+    that have not learned are hollow.
 
     Args:
         table: of frame times, a row for each method and scene.
@@ -51,31 +56,50 @@ def width_figure(
     """
     width = [widths.get(key) for key in zip(table["scene"], table["method"])]
     shown = table.assign(width=width).dropna(subset="width").sort_values("width")
-    figure = style.new_figure(title, 11, 4.8)
-    quality, speed = figure.subplots(1, 2)
-    for axes, (column, (low, high)) in zip((quality, speed), SPREADS.items()):
-        for colour, (scene, rows) in zip(style.COLOURS, shown.groupby("scene", sort=False)):
-            at, value, theirs = rows["width"], rows[column], rows[f"thesis_{column}"]
-            spread = [value - rows[low], rows[high] - value]
-            axes.errorbar(at, value, spread, color=colour, marker="o", capsize=3, label=scene)
-            if theirs.notna().any():
-                look = {"color": colour, "marker": "s", "linestyle": "--"}
-                axes.plot(at, theirs, label=f"{scene}, thesis", **look)
+    printed = shown["thesis_lpips"].notna().any()
+    figure = style.new_figure(title, 15 if printed else 11, 4.8)
+    quality, *theirs, speed = figure.subplots(1, 3 if printed else 2)
+    for i, (scene, rows) in enumerate(shown.groupby("scene", sort=False)):
+        colour = style.COLOURS[i % len(style.COLOURS)]
+        _draw_line(quality, rows, with_ends("lpips"), color=colour, label=scene)
+        _draw_line(speed, rows, FRAME_MS, color=colour, label=scene)
+        own = "own time, without the rest of the frame" if i == 0 else ""  # once in the legend
+        _draw_line(speed, rows, OWN_MS, color=colour, linestyle=":", label=own)
+        look = {"color": GREY, "linestyle": "--", "marker": MARKERS[i % len(MARKERS)]}
+        for axes, column in zip((*theirs, speed), THEIRS if printed else THEIRS[1:]):
+            if rows[column].notna().any():
+                axes.plot(rows["width"], rows[column], label=f"{scene}, thesis", **look)
+    ticks = sorted(set(shown["width"].astype(int)))
+    for axes in (quality, *theirs, speed):
         axes.set_xscale("log", base=2)
-        ticks = sorted(set(shown["width"].astype(int)))
         axes.set_xticks(ticks, ticks)
         axes.set_xlabel("neurons per layer")
         axes.grid(**style.GRID)
-    quality.set_ylabel("LPIPS, mean [95 % interval]")
-    quality.set_ylim(bottom=0)
-    if shown["thesis_lpips"].notna().any():
-        note = "the thesis does not say which network its LPIPS is of: compare slopes"
-        quality.set_title(note, fontsize=9)
+    for axes in (quality, *theirs):
+        axes.set_ylim(bottom=0)
+    quality.set_ylabel(f"LPIPS ({_net(shown)}), mean [95 % interval]")
+    for axes in theirs:
+        axes.set_ylabel("LPIPS as the thesis prints it", color=GREY)
+        axes.set_title("another LPIPS network: compare slopes only", fontsize=9, color=GREY)
     speed.set_ylabel("frame time, ms, median [quartiles]")
     speed.set_yscale("log")  # ours and the thesis's machine may be far apart
     style.plain_numbers(speed.yaxis)
-    style.legend_below(figure)
+    style.legend_below(figure, style.hollow(shown))
     return figure
+
+
+def _draw_line(axes: Axes, rows: pd.DataFrame, columns: Sequence[str], **look: str) -> None:
+    """A value and the ends of its interval over width, hollow where nothing was learned."""
+    value, low, high = (rows[column] for column in columns)
+    axes.errorbar(rows["width"], value, [value - low, high - value], capsize=3, **look)
+    for row in rows.assign(value=value).itertuples():
+        face = "none" if row.learned == "False" else look["color"]
+        axes.plot(row.width, row.value, marker="o", color=look["color"], markerfacecolor=face)
+
+
+def _net(table: pd.DataFrame) -> str:
+    """The LPIPS network of the run."""
+    return str(table["lpips_net"].iloc[0]) if table["lpips_net"].notna().any() else "missing"
 
 
 if "snakemake" in globals():

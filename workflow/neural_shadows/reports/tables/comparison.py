@@ -1,15 +1,20 @@
 """Methods on the same views, beside the numbers that the thesis prints [4.2, 4.3]."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
+from neural_shadows.evaluation.method_names import is_null
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
+from neural_shadows.reports.equivalent_maps import equivalent_maps
 from neural_shadows.reports.inputs import read_biases
-from neural_shadows.reports.published import add_printed
-from neural_shadows.reports.tables import quality
+from neural_shadows.reports.learned import margins
+from neural_shadows.reports.published import add_printed, printed_table, read_published
+from neural_shadows.reports.tables import quality, quality_cells
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -28,45 +33,94 @@ def write(
     md: Path,
     title: str,
     published: str | None,
+    against: str | None,
     rows: Sequence[Mapping[str, Any]],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
     """Write a comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
 
-    CSV: the columns of `quality_table`, those of `add_printed`, and the context.
+    The null predictors come last. CSV: the columns of `scene_quality`, those of `add_printed` and
+    `add_printed_maps`, and the context.
+
+    Args:
+        against: the method that the others' paired differences are to; None for no differences.
     """
     name = rows[0]["scene"]
     scene, mesh, lpips = scenes[name], read_json(mesh_json), read_json(lpips_json)
-    table = quality.quality_table(read_metrics(metrics), rows, scene["seed"])
+    records, printed = [read_json(path) for path in trainings], read_published(published_csv)
+    table = quality.scene_quality(
+        metrics, rows, quality.trained(records), margins(printed), against, scene["seed"]
+    )
     table = add_printed(table, rows, PRINTED, published, published_csv, {name: mesh})
+    table = add_printed_maps(table, rows, printed, published if mesh["thesis_mesh"] else None)
     table = table.assign(**quality.context_columns(mesh, lpips, run, scene["seed"]))
     order = "lpips" if table["lpips"].notna().any() else "flip"
-    table = table.sort_values(order, kind="stable", ignore_index=True)
+    last = pd.Series([is_null(row["method"]) for row in rows])
+    table = table.assign(last=last).sort_values(["last", order], kind="stable", ignore_index=True)
+    table = table.drop(columns="last")
 
-    columns = {"method": table["method"]}
-    for metric, (heading, _, decimals) in quality.READING.items():
-        if table[metric].isna().all():  # LPIPS without its trunk
-            continue
-        columns[heading] = quality.quality_cells(table, metric)
-        if published and metric in PRINTED:
-            cells = number_cells(table[f"thesis_{metric}"], f"{{:.{decimals}f}}")
-            columns[f"thesis {metric.upper()}"] = cells
-
+    labels = {row["method"]: row["label"] for row in rows}
     notes = [f"Mean over {table['views'].iloc[0]} views [95 % bootstrap interval]."]
     if published and mesh["thesis_mesh"]:
         notes.append("*thesis*: the number that it prints.")
     elif published:
         notes.append(f"*thesis*: empty, since it did not measure the mesh {mesh['name']}.")
     notes += [
+        *quality_cells.describe_quality(table, labels.get(against)),
+        phrases.describe_shadows(name, quality.null_leaks(read_metrics(metrics))),
         *phrases.describe_biases(rows, read_biases(rows, depth_biases)),
         phrases.describe_scene(name, mesh, scene),
-        *(phrases.describe_training(read_json(path)) for path in trainings),
+        *map(phrases.describe_training, records),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=phrases.titled(title, published, mesh), notes=notes)
+    title = phrases.titled(title, published, mesh)
+    write_twins(table, cells(table, published), csv, md, title=title, notes=notes)
+
+
+def add_printed_maps(
+    frame: pd.DataFrame,
+    rows: Sequence[Mapping[str, Any]],
+    published: pd.Series,
+    number: str | None,
+) -> pd.DataFrame:
+    """The frame with `thesis_map_lpips` and `thesis_map_psnr`: `equivalent_maps` of a printed table.
+
+    Empty without a table (`number` is None) and for methods that it does not print.
+    """
+    known: dict[str, pd.Series] = {}
+    if number is not None:
+        printed = printed_table(published, number)
+        maps = equivalent_maps(printed, printed.index, "psnr")
+        known = {name: pd.Series(texts, printed.index) for name, texts in maps.items()}
+    columns = {
+        f"thesis_{name}": [known.get(name, {}).get(row["published"], "") for row in rows]
+        for name in ("map_lpips", "map_psnr")
+    }
+    return frame.assign(**columns)
+
+
+def cells(table: pd.DataFrame, published: str | None) -> dict[str, Iterable[str]]:
+    """The Markdown's columns: those that the thesis prints, and what judges them."""
+    columns: dict[str, Iterable[str]] = {"method": quality_cells.method_cells(table)}
+    measured = [metric for metric in PRINTED if table[metric].notna().any()]
+    for metric in ["flip"] * ("lpips" not in measured) + measured:
+        heading, _, decimals = quality_cells.READING[metric]
+        columns[heading] = quality_cells.quality_cells(table, metric)
+        if published and metric in PRINTED:
+            printed = number_cells(table[f"thesis_{metric}"], f"{{:.{decimals}f}}")
+            columns[f"thesis {metric.upper()}"] = printed
+    columns["pooled PSNR ↑"] = number_cells(table["psnr_pooled"], "{:.2f}")
+    if table["psnr_difference"].notna().any():
+        columns["difference, dB"] = quality_cells.difference_cells(table)
+    for by in ("", "thesis "):  # empty without maps, and where the thesis says nothing
+        names = [f"{by.replace(' ', '_')}map_{metric}" for metric in ("lpips", "psnr")]
+        maps = quality_cells.map_cells(*(table[name] for name in names))
+        columns |= {f"{by}equal map": maps} if any(maps) else {}
+    columns["shadow error % ↓"] = number_cells(table["shadow_error"], "{:.2f}", 100)
+    return columns
 
 
 if "snakemake" in globals():

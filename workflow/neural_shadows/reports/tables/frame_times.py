@@ -7,13 +7,14 @@ from typing import Any
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.inputs import read_meshes
-from neural_shadows.reports.published import add_printed
-from neural_shadows.reports.tables.quality import quality_cells, timed_quality, with_ends
+from neural_shadows.reports.learned import margins
+from neural_shadows.reports.published import add_printed, read_published
+from neural_shadows.reports.tables import quality_cells, timing
+from neural_shadows.reports.tables.quality import scenes_quality, with_ends
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 PRINTED = ("frame_ms", "lpips", "size_kib")  # what the thesis prints, in its order
-FRAME_MS = ["frame_ms", "frame_ms_q1", "frame_ms_q3"]
 
 
 def write(
@@ -33,30 +34,46 @@ def write(
 ) -> None:
     """Write a table of frame times, in the order of `rows`.
 
-    CSV: `method, scene, frame_ms, frame_ms_q1, frame_ms_q3, repeats, lpips, lpips_low, lpips_high,
-    size_kib`, then the columns of `add_printed` of the three that the thesis prints.
+    CSV: `method, scene`, `FRAME_MS`, `OWN_MS`, `repeats, device, lpips, lpips_low, lpips_high,
+    learned, size_kib, resident_kib`, the columns of `add_printed` of the three that the thesis
+    prints, and the context.
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
-    table = timed_quality(timed, metrics, weights, rows, run["seed"])
-    table["size_kib"] = table["bytes"] / 1024
-    table = table[["method", "scene", *FRAME_MS, "repeats", *with_ends("lpips"), "size_kib"]]
-    described = read_meshes(meshes)
+    networks = {row["experiment"] for row in rows if row["experiment"]}
+    chance = margins(read_published(published_csv))
+    scored = scenes_quality(metrics, rows, networks, chance, {}, run["seed"])
+    table = timing.timing_table(timed, rows, weights).merge(
+        scored, on=["scene", "method"], how="left"
+    )
+    sizes = {f"{name}_kib": table[f"{name}_bytes"] / 1024 for name in ("stored", "resident")}
+    table = table.assign(**sizes).rename(columns={"stored_kib": "size_kib"})
+    times_ms = [*timing.FRAME_MS, *timing.OWN_MS]
+    first = ["method", "scene", *times_ms, "repeats", "device", *with_ends("lpips"), "learned"]
+    table = table[[*first, "size_kib", "resident_kib"]]
+    described, lpips = read_meshes(meshes), read_json(lpips_json)
     table = add_printed(table, rows, PRINTED, published, published_csv, described)
-    table = table.assign(scale=run["scale"])
+    network = lpips["net"] if lpips["available"] else None
+    table = table.assign(lpips_net=network, scale=run["scale"])
 
     columns = {
         "scene": table["scene"],
-        "method": table["method"],
-        "frame ms ↓": interval_cells(table, FRAME_MS, 1),
+        "method": quality_cells.method_cells(table),
+        "own ms ↓": interval_cells(table, timing.OWN_MS, 1),
+        "frame ms ↓": interval_cells(table, timing.FRAME_MS, 1),
         "thesis ms": number_cells(table["thesis_frame_ms"], "{:.1f}"),
-        "LPIPS ↓": quality_cells(table, "lpips"),
+        "LPIPS ↓": quality_cells.quality_cells(table, "lpips"),
         "thesis LPIPS": number_cells(table["thesis_lpips"], "{:.4f}"),
         "size KiB": number_cells(table["size_kib"], "{:.0f}"),
         "thesis KiB": number_cells(table["thesis_size_kib"], "{:.0f}"),
     }
+    ran = timing.devices(timed)
+    if len(ran) > 1:
+        columns["device"] = table["device"]
+        title = f"{title}: not comparable, on {' and '.join(ran)}"
     notes = [
-        "Frame time: median [quartiles] of whole frames, primary visibility and shading "
-        "included; LPIPS: mean over views [95 % bootstrap interval].",
+        *phrases.describe_devices(ran),
+        "Median [quartiles]; own: the method's answer alone; frame: whole frames, primary "
+        "visibility and shading included. LPIPS: mean over views [95 % bootstrap interval].",
     ]
     if published:
         notes.append("*thesis*: the number that it prints, its times from another machine.")
@@ -68,10 +85,11 @@ def write(
     else:
         columns = {name: cells for name, cells in columns.items() if not name.startswith("thesis")}
     notes += [
-        *(phrases.describe_times(values) for values in timed.values()),
+        *quality_cells.describe_learned(table),
+        *map(phrases.describe_times, timed.values()),
         "A shadow map is rendered whole in each frame and its size is 4 N² bytes; ray tracing "
         "sends a shadow ray from each pixel that faces the light.",
-        phrases.describe_lpips(read_json(lpips_json)),
+        phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
     write_twins(

@@ -39,7 +39,7 @@ def write(
     }
     notes = [
         "A network: what its weight file stores, 4 bytes for each weight of the thesis's. A shadow "
-        "map of N² texels: 4 N² bytes.",
+        "map of N² texels: 4 N² bytes, of 16 bit 2 N².",
         phrases.describe_run(run),
     ]
     write_twins(table, columns, csv, md, title=phrases.titled(title, published), notes=notes)

@@ -1,23 +1,29 @@
-"""Networks beside shadow maps: quality, bytes, training and speed in one table [5.4.1]."""
+"""Networks and their rivals beside shadow maps: quality, bytes, building and speed [5.4.1]."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
+from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
-from neural_shadows.reports.inputs import read_biases, read_meshes
-from neural_shadows.reports.tables import quality
+from neural_shadows.reports.inputs import by_folder, read_biases, read_meshes, read_seconds
+from neural_shadows.reports.learned import margins
+from neural_shadows.reports.published import TABLE_OF_SCENE, printed_networks, read_published
+from neural_shadows.reports.tables import quality, quality_cells, timing
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 # What a method is, beside its quality; empty where it does not apply.
-FACTS = ("encoding", "bytes", "parameters", "training_seconds", "samples", "depth_bias")
-SPEEDS = ("rays_per_second", "frame_ms", "frame_ms_q1", "frame_ms_q3")
+FACTS = ("encoding", "parameters", "stored_bytes", "resident_bytes", "build_seconds")
+FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end")
+SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
+
+Row = Mapping[str, Any]
 
 
 def write(
@@ -29,64 +35,69 @@ def write(
     depth_biases: list[Path],
     meshes: list[Path],
     lpips_json: Path,
+    published_csv: Path,
     csv: Path,
     md: Path,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
+    against: Mapping[str, str],
+    durations: Mapping[str, Sequence[str]],
+    rows: Sequence[Row],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
     """Write the table in the order of `rows`, scenes kept together.
 
-    CSV: `scene`, `method`, the metrics with their intervals, `FACTS`, `SPEEDS`, `views` and
-    the context.
+    Below the methods of a scene that the thesis prints, on a mesh as it describes it, stand its
+    own values; the null predictors come last.
+
+    CSV: `scene`, `method`, the columns of `scene_quality`, `FACTS`, `SPEEDS`, and the context.
+
+    Args:
+        against: by scene, the method that the others' paired differences are to.
+        durations: of each experiment, the benchmarks of the jobs between its mesh's file and its
+            training. They need not be there.
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
     records = {record["name"]: record for record in map(read_json, trainings)}
     biases = read_biases(rows, depth_biases)
     reports, lpips = read_meshes(meshes), read_json(lpips_json)
-    facts = []
-    for row in rows:
-        scene, method = row["scene"], row["method"]
-        facts.append({"scene": scene, "method": row["label"]})
-        if method != RAY_TRACED:
-            facts[-1] |= quality.context_columns(reports[scene], lpips, run, scenes[scene]["seed"])
-        if row["experiment"]:
-            record = records[row["experiment"]]
-            facts[-1] |= {
-                "encoding": record["network"]["encoding"],
-                "parameters": record["parameters"],
-                "training_seconds": record["seconds"],
-                "samples": record["samples"],
-                "depth_bias": biases[method],
-                "rays_per_second": np.median(timed[scene]["rays_per_second"][method]),
-            }
-    table = quality.timed_quality(timed, metrics, weights, rows, run["seed"])
-    table = table.merge(pd.DataFrame(facts), on=["scene", "method"])
-    scores = [name for metric in quality.METRICS for name in quality.with_ends(metric)]
-    first = ["scene", "method", *scores, *FACTS, *SPEEDS, "views"]
-    table = table[[*first, *table.columns.difference([*first, "repeats"], sort=False)]]
+    printed = read_published(published_csv)
 
-    columns = {
-        "scene": table["scene"],
-        "method": table["method"],
-        **{quality.READING[m][0]: quality.quality_cells(table, m) for m in quality.METRICS[:4]},
-        "false shadow % ↓": number_cells(table["false_shadow"], "{:.3f}", 100),
-        "light leak % ↓": number_cells(table["light_leak"], "{:.3f}", 100),
-        "size KiB ↓": number_cells(table["bytes"], "{:,.0f}", 1 / 1024),
-        "training s ↓": number_cells(table["training_seconds"], "{:.0f}"),
-        "samples M": number_cells(table["samples"], "{:.3g}", 1e-6),
-        "bias": number_cells(table["depth_bias"], "{:.4g}"),
-        "M rays/s ↑": number_cells(table["rays_per_second"], "{:.3g}", 1e-6),
-        "frame ms ↓": number_cells(table["frame_ms"], "{:.0f}"),
+    context = {
+        scene: quality.context_columns(mesh, lpips, run, scenes[scene]["seed"])
+        for scene, mesh in reports.items()
     }
+    facts = [facts_of(row, records, biases, timed, durations, context) for row in rows]
+    table = pd.concat([timing.timing_table(timed, rows, weights), pd.DataFrame(facts)], axis=1)
+    scored = quality.scenes_quality(
+        metrics, rows, quality.trained(records.values()), margins(printed), against, run["seed"]
+    )
+    table = table.merge(scored, on=["scene", "method"], how="left")
+    same = [
+        name for name, mesh in reports.items() if mesh["thesis_mesh"] and name in TABLE_OF_SCENE
+    ]
+    table = with_printed(table, [is_null(row["method"]) for row in rows], same, printed)
+    first = ["scene", "method", *scored.columns.drop(["scene", "method"]), *FACTS, *SPEEDS]
+    rest = table.columns.difference([*first, "repeats"], sort=False)
+    table = table.reindex(columns=[*first, *rest])  # maps alone have none of some facts
+
+    labels = {(row["scene"], row["method"]): row["label"] for row in rows}
+    others = [f"{labels[pair]} ({pair[0]})" for pair in against.items()]
+    leaks = {s: quality.null_leaks(read_metrics(files)) for s, files in by_folder(metrics).items()}
     notes = [
-        "Mean over a scene's views [95 % bootstrap interval]; size: what the weight file stores, "
-        "which may be more once it is laid out for queries, and 4 N² bytes for a shadow map; "
-        "training: preparation included; rays/s: of the network alone; frame: median of whole "
-        "frames, primary visibility and shading included.",
-        "bias: of the depth test, in sphere radii; each network's best on held-out views, unless it "
-        "is 0. Shadow maps keep their slope-scaled bias, which is not tuned.",
+        "Over a scene's views [95 % bootstrap interval]; stored: what the weight file holds, 4 N² "
+        "bytes for a shadow map, of 16 bit 2 N²; resident: what is in memory while it answers; "
+        "build: from the mesh's file to a network that can answer, the jobs of its mesh, rays and "
+        "labels one after another and its training; own: median of the method's answer alone; "
+        "frame: of whole frames, primary visibility and shading included.",
+        *quality_cells.describe_quality(table, ", ".join(others)),
+        *phrases.describe_devices(timing.devices(timed)),
+        "bias: of the depth test, in sphere radii: each one's best on held-out views, unless it is "
+        "0; of shadow maps on top of their slope-scaled one, where it was looked for."
+        + (f" †: {phrases.AT_END}." if table["bias_at_end"].eq(True).any() else ""),
+        *phrases.describe_printed(same),
+        *phrases.describe_budgets([*records.values()]),
+        *(phrases.describe_shadows(scene, leak) for scene, leak in leaks.items()),
         *(phrases.describe_scene(name, mesh, scenes[name]) for name, mesh in reports.items()),
         *(phrases.describe_times(values) for values in timed.values()),
         *(phrases.describe_training(record) for record in records.values()),
@@ -94,7 +105,78 @@ def write(
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
+    write_twins(table, cells(table), csv, md, title=title, notes=notes, text_columns=2)
+
+
+def facts_of(
+    row: Row,
+    records: Mapping[str, Row],
+    biases: Mapping[tuple[str, str], Row],
+    timed: Mapping[str, Row],
+    durations: Mapping[str, Sequence[str]],
+    context: Mapping[str, Row],
+) -> dict[str, Any]:
+    """What is known of a row's method beside its quality, its bytes and its times."""
+    scene, method = row["scene"], row["method"]
+    facts: dict[str, Any] = {} if method == RAY_TRACED else dict(context[scene])
+    if bias := biases.get((scene, method)):
+        facts |= {"depth_bias": bias["depth_bias"], "push": bias["push"]}
+        facts["bias_at_end"] = bias["at_end"]
+    if row["experiment"]:
+        record = records[row["experiment"]]
+        rates = timed[scene]["rays_per_second"].get(method)
+        facts |= {
+            "encoding": record["network"]["encoding"],
+            "parameters": record["parameters"],
+            "build_seconds": read_seconds(map(Path, durations[row["experiment"]]))
+            + record["seconds"],
+            "training_seconds": record["seconds"] if record["training"] else np.nan,
+            "samples": record["samples"],
+            "rays_per_second": np.nan if rates is None else np.median(rates),
+        }
+    return facts
+
+
+def with_printed(
+    table: pd.DataFrame, null: Sequence[bool], scenes: Sequence[str], published: pd.Series
+) -> pd.DataFrame:
+    """The table with the thesis's printed networks below those of each of `scenes`; `null` last."""
+    parts = []
+    for scene, part in table.assign(null=null).groupby("scene", sort=False):
+        printed = printed_networks(published, scene) if scene in scenes else pd.DataFrame()
+        last = part["null"]
+        parts += [part[~last], printed.assign(scene=scene), part[last]]
+    return pd.concat([part for part in parts if len(part)], ignore_index=True).drop(columns="null")
+
+
+def cells(table: pd.DataFrame) -> dict[str, Iterable[str]]:
+    """The Markdown's columns; a scene is named in its first row."""
+    measured = table["lpips_low"].notna().any()  # what is printed has no interval
+    perceived = "lpips" if measured else "flip"
+    # Of the thesis's networks the mean is printed, and no views to pool.
+    means = number_cells(table["psnr"], "{:.2f} (mean)")
+    pooled = [
+        cell or mean for cell, mean in zip(quality_cells.quality_cells(table, "psnr_pooled"), means)
+    ]
+    ends = ["" if end is not True else " †" for end in table["bias_at_end"]]
+    biases = number_cells(table["depth_bias"], "{:.4g}")
+    columns = {
+        "scene": table["scene"].where(~table["scene"].duplicated(), ""),
+        "method": quality_cells.method_cells(table),
+        "pooled PSNR ↑": pooled,
+        "difference, dB": quality_cells.difference_cells(table),
+        quality_cells.READING[perceived][0]: quality_cells.quality_cells(table, perceived),
+        "equal map": quality_cells.map_cells(table["map_lpips"], table["map_psnr"]),
+        "stored KiB ↓": number_cells(table["stored_bytes"], "{:,.0f}", 1 / 1024),
+        "resident KiB ↓": number_cells(table["resident_bytes"], "{:,.0f}", 1 / 1024),
+        "build s ↓": number_cells(table["build_seconds"], "{:,.0f}"),
+        "own ms ↓": number_cells(table["own_ms"], "{:.3g}"),
+        "frame ms ↓": number_cells(table["frame_ms"], "{:.0f}"),
+        "bias": [f"{bias}{end}" for bias, end in zip(biases, ends)],
+    }
+    if table["device"].nunique() > 1:
+        columns["device"] = table["device"].fillna("")
+    return {name: texts for name, texts in columns.items() if any(texts)}
 
 
 if "snakemake" in globals():

@@ -1,6 +1,6 @@
-"""Quality of methods, as means over views with bootstrap intervals, and their time and size."""
+"""Quality of methods on the same views: averages with bootstrap intervals, and paired comparisons."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,23 +10,14 @@ import pandas as pd
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.evaluation.per_view_metrics import read_metrics
-from neural_shadows.metrics.intervals import mean_interval
-from neural_shadows.reports.inputs import by_folder, read_sizes
-from neural_shadows.reports.tables.writing import interval_cells
+from neural_shadows.metrics.intervals import mean_interval, pooled_psnr_interval
+from neural_shadows.metrics.pooled_psnr import identical
+from neural_shadows.reports.equivalent_maps import equivalent_maps
+from neural_shadows.reports.inputs import by_folder
+from neural_shadows.reports.learned import advantage, has_learned, learned
 
 METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
-QUARTILES = ("frame_ms_q1", "frame_ms", "frame_ms_q3")
-
-# Markdown: heading, factor, decimals. The thesis prints LPIPS and SSIM with four, PSNR with two.
-READING = {
-    "lpips": ("LPIPS ↓", 1, 4),
-    "psnr": ("PSNR ↑", 1, 2),
-    "ssim": ("SSIM ↑", 1, 4),
-    "flip": ("FLIP ↓", 1, 4),
-    "shadow_error": ("shadow error % ↓", 100, 2),
-    "false_shadow": ("false shadow % ↓", 100, 2),
-    "light_leak": ("light leak % ↓", 100, 2),
-}
+NULL = "no_shadow"  # what a network that has learned is better than
 
 
 def with_ends(metric: str) -> list[str]:
@@ -34,27 +25,123 @@ def with_ends(metric: str) -> list[str]:
     return [metric, f"{metric}_low", f"{metric}_high"]
 
 
-def quality_table(
-    metrics: pd.DataFrame, rows: Sequence[Mapping[str, Any]], seed: int
+def scene_quality(
+    metrics: Sequence[Path],
+    rows: Sequence[Mapping[str, Any]],
+    networks: Collection[str],
+    margins: Mapping[str, float],
+    against: str | None,
+    seed: int,
 ) -> pd.DataFrame:
-    """A row per method: means over all views of a scene, and bootstrap intervals.
+    """A row for each method of a scene but ray tracing, which is the reference itself.
 
-    Columns `method` (the label), the metrics, `<metric>_low` and `<metric>_high` (95 %), `views`.
-    Shares and FLIP are in [0, 1], PSNR in dB. Without LPIPS its columns are empty. `metrics` is as
-    `read_metrics` gives it, `seed` of the bootstrap.
+    Columns: those of `quality_table`, `learned`, those of `differences` and of `equivalent_maps`.
+
+    Args:
+        metrics: of all methods of the rows.
+        networks: the experiments among them that are trained, which may have learned or not.
+        margins: see `learned`.
+        against: the method, among the rows, that others are compared with.
 
     Raises:
-        InputError: a method lacks a finite value of a view that others have.
+        InputError: a file cannot be read, or a method lacks a value of a view that others have.
     """
-    wide = values_by_view(metrics, [row["method"] for row in rows])
+    rows = [row for row in rows if row["method"] != RAY_TRACED]
+    wide = values_by_view(read_metrics(metrics), [row["method"] for row in rows])
+    table = quality_table(wide, rows, seed)
+    network_rows = [row for row in rows if row["experiment"] in networks]
+    found = learned_methods(wide, network_rows, margins, seed)
+    table["learned"] = pd.Series([found.get(row["method"]) for row in rows], dtype=object)
+    table = table.assign(**equivalent_maps(table, [row["method"] for row in rows]))
+    return pd.concat([table, differences(wide, rows, against, seed)], axis=1)
+
+
+def scenes_quality(
+    metrics: Sequence[Path],
+    rows: Sequence[Mapping[str, Any]],
+    networks: Collection[str],
+    margins: Mapping[str, float],
+    against: Mapping[str, str],
+    seed: int,
+) -> pd.DataFrame:
+    """`scene_quality` of each scene of the rows, and their `scene`; `against` by scene."""
+    parts = []
+    for scene, files in by_folder(metrics).items():
+        here = [row for row in rows if row["scene"] == scene]
+        table = scene_quality(files, here, networks, margins, against.get(scene), seed)
+        parts.append(table.assign(scene=scene))
+    return pd.concat(parts, ignore_index=True)
+
+
+def trained(records: Iterable[Mapping[str, Any]]) -> set[str]:
+    """The experiments, by what `train` wrote of them, whose networks learn from samples."""
+    return {record["name"] for record in records if record["training"]}
+
+
+def null_leaks(metrics: pd.DataFrame) -> pd.DataFrame:
+    """The light leak of no shadow by `view_set` and `view`: the share of points in cast shadow."""
+    leaks = metrics[metrics["method"].eq(NULL) & metrics["metric"].eq("light_leak")]
+    return leaks.set_index(["view_set", "view"])[["value"]]
+
+
+def quality_table(wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], seed: int) -> pd.DataFrame:
+    """A row per method: averages over all views of a scene, and bootstrap intervals.
+
+    Columns `method` (the label), means of the metrics, `<metric>_low` and `<metric>_high` (95 %),
+    `psnr_pooled` with its ends, `psnr_median`, `identical` (how many views equal the reference),
+    `views`. Shares and FLIP are in [0, 1], PSNR in dB. Without LPIPS its columns are empty.
+    `wide` is as `values_by_view` gives it, `seed` of the bootstrap.
+    """
     records = []
     for row in rows:
         record = {"method": row["label"], "views": len(wide)}
         for metric, values in wide[row["method"]].items():
             record |= dict(zip(with_ends(metric), mean_interval(values.to_numpy(), seed)))
+        psnr = wide[row["method"], "psnr"].to_numpy()
+        record |= dict(zip(with_ends("psnr_pooled"), pooled_psnr_interval(psnr, seed)))
+        record |= {"psnr_median": np.median(psnr), "identical": identical(psnr)}
         records.append(record)
     ends = [end for metric in METRICS for end in with_ends(metric)[1:]]
-    return pd.DataFrame(records, columns=["method", *METRICS, *ends, "views"])
+    robust = [*with_ends("psnr_pooled"), "psnr_median", "identical"]
+    return pd.DataFrame(records, columns=["method", *METRICS, *ends, *robust, "views"])
+
+
+def learned_methods(
+    wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], margins: Mapping[str, float], seed: int
+) -> dict[str, bool]:
+    """Whether the network of each row is better than no shadow, in all that the thesis prints.
+
+    In LPIPS, or without it in FLIP, in pooled PSNR and in SSIM.
+    """
+    perceived = "lpips" if (NULL, "lpips") in wide else "flip"
+    metrics = (perceived, "psnr", "ssim")
+    return {
+        row["method"]: has_learned(learned(wide[row["method"]], wide[NULL], metrics, margins, seed))
+        for row in rows
+    }
+
+
+def differences(
+    wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], against: str | None, seed: int
+) -> pd.DataFrame:
+    """A row per method: how much it differs from one of them on the same views.
+
+    Columns `lpips_difference` (a mean) and `psnr_difference` (of pooled PSNRs, dB), the method's
+    less the other's, with `_low` and `_high` (95 %); empty for the other itself or without one.
+    """
+    columns = [*with_ends("lpips_difference"), *with_ends("psnr_difference")]
+    records = []
+    for row in rows:
+        record = dict.fromkeys(columns, np.nan)
+        if against is not None and row["method"] != against:
+            pair = wide[row["method"]], wide[against]
+            if "lpips" in pair[0]:
+                better, low, high = advantage(*(one["lpips"] for one in pair), "lpips", seed)
+                record |= dict(zip(columns[:3], (-better, -high, -low)))
+            found = advantage(*(one["psnr"] for one in pair), "psnr", seed)
+            record |= dict(zip(columns[3:], found))
+        records.append(record)
+    return pd.DataFrame(records, columns=columns)
 
 
 def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFrame:
@@ -80,34 +167,6 @@ def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFram
     return wide
 
 
-def timed_quality(
-    times: Mapping[str, Mapping[str, Any]],
-    metrics: Sequence[Path],
-    weights: Sequence[Path],
-    rows: Sequence[Mapping[str, Any]],
-    seed: int,
-) -> pd.DataFrame:
-    """A row per method, those of a scene together; `times` by scene.
-
-    Columns `scene`, `method` (the label), `QUARTILES`, `repeats`, `bytes`, and those of
-    `quality_table`; NaN where a column does not apply: a ray-traced frame is the reference itself.
-    """
-    sizes, files = read_sizes(rows, weights), by_folder(metrics)
-    parts = []
-    for scene, timed in times.items():
-        here = [row for row in rows if row["scene"] == scene]
-        known = []
-        for row in here:
-            ms, size = timed["methods"][row["method"]]["ms"], sizes.get(row["method"], np.nan)
-            quartiles = dict(zip(QUARTILES, np.quantile(ms, (0.25, 0.5, 0.75))))
-            names = {"scene": scene, "method": row["label"]}
-            known.append({**names, **quartiles, "repeats": len(ms), "bytes": size})
-        measured = [row for row in here if row["method"] != RAY_TRACED]
-        quality = quality_table(read_metrics(files[scene]), measured, seed)
-        parts.append(pd.DataFrame(known).merge(quality, on="method", how="left"))
-    return pd.concat(parts, ignore_index=True)
-
-
 def context_columns(
     mesh: Mapping[str, Any], lpips: Mapping[str, Any], run: Mapping[str, Any], seed: int
 ) -> dict[str, Any]:
@@ -115,9 +174,3 @@ def context_columns(
     size = {name: run[name] for name in ("scale", "width", "height")}
     network = lpips["net"] if lpips["available"] else None
     return {"mesh": mesh["name"], **size, "lpips_net": network, "seed": seed}
-
-
-def quality_cells(table: pd.DataFrame, metric: str) -> list[str]:
-    """The Markdown's cells of a metric: mean [low, high]."""
-    _, factor, decimals = READING[metric]
-    return interval_cells(table, with_ends(metric), decimals, factor)

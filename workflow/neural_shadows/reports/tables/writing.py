@@ -32,12 +32,14 @@ def write_twins(
     *,
     title: str,
     notes: Sequence[str],
+    lead: str = "",
     text_columns: int = 1,
 ) -> None:
     """Write a table as CSV (`frame`, all digits) and as its Markdown twin for reading.
 
     Args:
         columns: the Markdown's cells by heading.
+        lead: Markdown between the title and the table: what must be known to read it.
         text_columns: how many columns from the left hold text; the others are aligned right.
         notes: one a line, below the table.
     """
@@ -50,7 +52,8 @@ def write_twins(
         colalign=["left"] * text_columns + ["right"] * (len(columns) - text_columns),
     )
     items = "\n".join(f"- {note}" for note in notes)
-    write_text(md, f"# {title}\n\n{table}\n\n{items}\n")
+    parts = [f"# {title}", lead, table, items]
+    write_text(md, "\n\n".join(part for part in parts if part) + "\n")
 
 
 def number_cells(values: Iterable[float], form: str, factor: float = 1) -> list[str]:
@@ -61,7 +64,9 @@ def number_cells(values: Iterable[float], form: str, factor: float = 1) -> list[
 def interval_cells(
     table: pd.DataFrame, columns: Sequence[str], decimals: int, factor: float = 1
 ) -> list[str]:
-    """Cells of a value and the ends of its interval, three columns; empty for NaN."""
+    """Cells of a value and the ends of its interval, three columns, if it has one; empty for NaN."""
     triples = table[list(columns)].to_numpy(float) * factor
-    form = "{:.#f} [{:.#f}, {:.#f}]".replace("#", str(decimals))
-    return ["" if np.isnan(triple[0]) else form.format(*triple) for triple in triples]
+    values = number_cells(triples[:, 0], f"{{:.{decimals}f}}")
+    form = f" [{{:.{decimals}f}}, {{:.{decimals}f}}]"
+    ends = ["" if np.isnan(pair).any() else form.format(*pair) for pair in triples[:, 1:]]
+    return [value + interval for value, interval in zip(values, ends)]

@@ -1,0 +1,70 @@
+import numpy as np
+import pandas as pd
+import pytest
+from report_samples import RUN, row
+
+from neural_shadows.reports.claims.measured import THESIS_SAMPLES
+from neural_shadows.reports.figures.learning_curves import curves_figure, draw
+
+BUDGETS = 1e6 * np.array([1, 2, 4, 8])
+
+
+def lines_of(label, metric, values, *, null, thesis=np.nan):
+    """The lines of a method in the table: two trainings at each budget, no extrapolation."""
+    seeds = [f"{0.99 * value:.6g} {1.01 * value:.6g}" for value in values]
+    budgets = pd.DataFrame({"samples": BUDGETS, "mean": values, "by_seed": seeds})
+    predicted = pd.DataFrame({"predicted": [0.2], "predicted_low": 0.18, "predicted_high": 0.23})
+    budgets.loc[3, predicted.columns] = predicted.iloc[0]
+    end = pd.DataFrame({"samples": [THESIS_SAMPLES], "thesis": [thesis]})
+    named = {"scene": "dragon", "method": label, "metric": metric, "no_shadow": null}
+    return pd.concat([budgets, end], ignore_index=True).assign(**named)
+
+
+@pytest.fixture
+def table():
+    falling = 0.4 * (BUDGETS / BUDGETS[0]) ** -0.3
+    return pd.concat(
+        [
+            lines_of("A", "loss", falling, null=0.7),
+            lines_of("B", "loss", 1.2 * falling, null=0.3),
+            lines_of("A", "ssim", 1 - falling, null=0.5, thesis=0.97),
+            lines_of("B", "ssim", 1 - 1.2 * falling, null=0.5),
+        ],
+        ignore_index=True,
+    )
+
+
+def test_trainings_law_prediction_and_null(table):
+    figure = curves_figure(table, ["A", "B"], title="Curves")
+    loss, ssim = figure.axes[:2]
+    points = next(line for line in loss.lines if line.get_marker() == "o").get_xydata()
+    assert points[0].tolist() == pytest.approx([BUDGETS[0], 0.99 * 0.4])
+    dotted = [line for line in loss.lines if line.get_linestyle() == ":"]
+    assert [line.get_ydata()[0] for line in dotted] == [0.3, 0.7]
+    assert len({line.get_color() for line in dotted}) == 2  # of each method's own rays
+    # The law of the first three budgets goes on to the fourth, dashed.
+    dashed = next(line for line in loss.lines if line.get_linestyle() == "--")
+    assert dashed.get_xdata()[[0, -1]].tolist() == pytest.approx(BUDGETS[-2:])
+    assert dashed.get_ydata()[-1] == pytest.approx(0.4 * 8**-0.3, rel=1e-3)
+    # SSIM is drawn as the error that falls to 0: its interval and the thesis's value, too.
+    assert ssim.get_yscale() == "log"
+    bars = ssim.containers[0].lines[2][0].get_segments()[0]
+    assert bars[:, 1].tolist() == pytest.approx([1 - 0.23, 1 - 0.18])
+    star = next(line for line in ssim.lines if line.get_marker() == "*")
+    assert star.get_xydata()[0].tolist() == pytest.approx([THESIS_SAMPLES, 0.03])
+    assert len([line for line in ssim.lines if line.get_linestyle() == ":"]) == 1
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert names[:2] == ["A", "B"] and "as the thesis prints it" in names
+    assert "extrapolated, 90 %" not in names
+
+
+def test_a_scene_of_a_table_is_drawn(table, tmp_path):
+    other = table.assign(scene="fence", method="C")
+    pd.concat([table, other]).to_csv(tmp_path / "table.csv", index=False)
+    rows = [row("a", "A"), row("b", "B")]
+    png, svg = tmp_path / "figure.png", tmp_path / "figure.svg"
+    draw(tmp_path / "table.csv", png, svg, title="Curves", rows=rows, run=RUN)
+    assert png.stat().st_size
+    said = svg.read_text()  # Matplotlib says in a comment what a text's outlines spell
+    assert "<!-- B -->" in said and "<!-- C -->" not in said
+    assert "<!-- Curves (test scale) -->" in said

@@ -1,0 +1,158 @@
+"""Loss and quality over training samples, and what the smaller budgets predict of the largest."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
+from matplotlib.transforms import ScaledTranslation, Transform
+
+from neural_shadows.metrics import power_law
+from neural_shadows.metrics.error_scale import error_of, value_of
+from neural_shadows.metrics.power_law import Curve
+from neural_shadows.reports.claims.measured import THESIS_SAMPLES
+from neural_shadows.reports.figures import style
+from neural_shadows.reports.tables.learning_curves import PREDICTED, READING
+from neural_shadows.reports.tables.writing import read_table
+from neural_shadows.running.stage import run_stage
+
+GREY = "#777777"
+DECIBELS = "psnr"  # already a logarithm: its axis is linear
+NUMBERS = ("samples", "mean", *PREDICTED, "no_shadow", "thesis")
+
+
+def draw(
+    table: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    rows: Sequence[style.Section],
+    run: style.Section,
+) -> None:
+    """Draw the learning curves of a scene.
+
+    Args:
+        table: CSV of a table of learning curves.
+        rows: those of the table's rows that are drawn, all of one scene.
+
+    Raises:
+        InputError: the table is missing or not whole.
+    """
+    curves = read_table(table, ("scene", "method", "metric", "by_seed"), NUMBERS)
+    labels = [row["label"] for row in rows]
+    curves = curves[(curves["scene"] == rows[0]["scene"]) & curves["method"].isin(labels)]
+    figure = curves_figure(curves, labels, title=f"{title} ({run['scale']} scale)")
+    style.write_figure(figure, png, svg)
+
+
+def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> Figure:
+    """Draw a panel for each metric; PSNR in dB and the others' errors logarithmic.
+
+    Args:
+        table: of `curve_table`, of one scene.
+        labels: the methods, in the legend's order.
+    """
+    colours = dict(zip(labels, style.COLOURS))
+    figure = style.new_figure(title, 11, 8.2)
+    for axes, (metric, panel) in zip(
+        figure.subplots(2, 2).flat, table.groupby("metric", sort=False)
+    ):
+        for i, label in enumerate(labels):
+            # Beside the trainings of their budget, and beside each other.
+            aside = ScaledTranslation((8 + 8 * i) / 72, 0, figure.dpi_scale_trans)
+            part = panel[panel["method"] == label]
+            _draw_curve(axes, metric, part, colours[label], axes.transData + aside)
+        for level, part in panel.groupby("no_shadow"):
+            # One line for all methods, but for losses on rays of their own.
+            methods = part["method"].unique()
+            alone = len(methods) == 1 and len(labels) > 1
+            colour = colours[methods[0]] if alone else GREY
+            axes.axhline(_height(metric, level), color=colour, linewidth=1.2, linestyle=":")
+        _dress(axes, metric)
+        if metric == "lpips" and panel["thesis"].notna().any():
+            axes.set_title("LPIPS ↓ (the thesis's may be of another network)")
+    shapes = {
+        "a training": {"marker": "o", "markersize": 4},
+        "power law of all but the largest budget": {"linestyle": "-"},
+        "what it predicts there, 90 %": {"marker": "D", "markerfacecolor": "white"},
+        "no shadow at all": {"linestyle": ":"},
+    }
+    if table["thesis"].notna().any():
+        shapes["as the thesis prints it"] = {"marker": "*", "markersize": 11}
+    if table.loc[table["samples"] == THESIS_SAMPLES, "predicted"].notna().any():
+        shapes["extrapolated, 90 %"] = {"marker": "s", "markerfacecolor": "white"}
+    lines = [Line2D([], [], color=colours[label], linewidth=3, label=label) for label in labels]
+    looks = [
+        {"linestyle": "", "color": GREY, "label": name} | look for name, look in shapes.items()
+    ]
+    figure.legend(
+        handles=[*lines, *(Line2D([], [], **look) for look in looks)],
+        loc="outside lower center",
+        ncols=4,
+    )
+    return figure
+
+
+def _draw_curve(axes: Axes, metric: str, part: pd.DataFrame, colour: str, aside: Transform) -> None:
+    """Draw a method's trainings, the law of all budgets but the largest, and its predictions.
+
+    These stand `aside`, which is where data lie in the panel and a little further.
+    """
+    measured, beyond = part.iloc[:-1], part.iloc[-1]
+    samples = measured["samples"].to_numpy()
+    values = np.array([[float(value) for value in one.split()] for one in measured["by_seed"]])
+    at = np.repeat(samples[:, None], values.shape[1], axis=1)
+    axes.plot(at, _height(metric, values), "o", color=colour, markersize=4, alpha=0.7)
+    curve = Curve(samples, error_of(metric, values))
+    if power_law.can_hold_out(curve):
+        law = power_law.fit(Curve(samples[:-1], curve.values[:-1]))
+        for ends, line in ((samples[[0, -2]], "-"), (samples[-2:], "--")):
+            along = np.geomspace(*ends, 50)
+            heights = _height(metric, value_of(metric, law(along)))
+            axes.plot(along, heights, line, color=colour, linewidth=1.6)
+        _draw_prediction(axes, metric, measured.iloc[-1], marker="D", color=colour, transform=aside)
+    _draw_prediction(axes, metric, beyond, marker="s", color=colour, transform=aside)
+    if np.isfinite(beyond["thesis"]):
+        axes.plot(THESIS_SAMPLES, _height(metric, beyond["thesis"]), "*", color=colour, ms=11)
+
+
+def _draw_prediction(axes: Axes, metric: str, line: pd.Series, **look: Any) -> None:
+    value, *ends = _height(metric, line[PREDICTED].to_numpy(float))
+    spread = np.abs(np.array(ends) - value)[:, None]
+    spread = spread if metric != "ssim" else spread[::-1]  # 1 − SSIM: the ends change places
+    look |= {"markerfacecolor": "white", "markersize": 6, "capsize": 3, "zorder": 4}
+    axes.errorbar(line["samples"], value, spread, **look)
+
+
+def _height(metric: str, values: float | np.ndarray) -> float | np.ndarray:
+    """Where a value is drawn: PSNR in dB, others as the error that falls to 0."""
+    return values if metric == DECIBELS else error_of(metric, values)
+
+
+def _dress(axes: Axes, metric: str) -> None:
+    """Scales, names and grid of a panel."""
+    name, _ = READING[metric]
+    name = "1 − SSIM ↓" if metric == "ssim" else name
+    axes.set(xscale="log", xlabel="training samples", title=name)
+    axes.margins(x=0.12)  # room for what stands aside
+    axes.xaxis.set(
+        major_locator=LogLocator(numticks=12),
+        major_formatter=EngFormatter(sep=" "),
+        minor_formatter=NullFormatter(),
+    )
+    if metric == DECIBELS:
+        axes.set_ylabel("dB")
+    else:
+        axes.set_yscale("log")
+        style.plain_numbers(axes.yaxis)
+    axes.grid(which="both", **style.GRID)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

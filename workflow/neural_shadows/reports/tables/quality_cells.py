@@ -1,0 +1,74 @@
+"""The Markdown's cells of quality, and what their columns mean."""
+
+import pandas as pd
+
+from neural_shadows.reports.tables.quality import with_ends
+from neural_shadows.reports.tables.writing import interval_cells
+
+# Markdown: heading, factor, decimals. The thesis prints LPIPS and SSIM with four, PSNR with two.
+READING = {
+    "lpips": ("LPIPS ↓", 1, 4),
+    "psnr": ("PSNR ↑", 1, 2),
+    "psnr_pooled": ("pooled PSNR ↑", 1, 2),
+    "ssim": ("SSIM ↑", 1, 4),
+    "flip": ("FLIP ↓", 1, 4),
+    "shadow_error": ("shadow error % ↓", 100, 2),
+    "false_shadow": ("false shadow % ↓", 100, 2),
+    "light_leak": ("light leak % ↓", 100, 2),
+}
+
+
+def describe_quality(table: pd.DataFrame, against: str | None) -> list[str]:
+    """Sentences on the columns of `scene_quality`; `against`: the label of the other method."""
+    most = table["identical"].max()
+    notes = [
+        "pooled PSNR: of the mean squared error of all views, which identical frames (100 dB by "
+        "agreement) do not drive as they do the mean; "
+        + (f"a method has up to {most:.0f} of them." if most else "there are none here."),
+        *describe_learned(table),
+    ]
+    if table["map_psnr"].fillna("").any():
+        notes.append(
+            "equal map: texels along a side of the shadow map that would be as good, by LPIPS / by "
+            "pooled PSNR."
+        )
+    if against:
+        notes.append(f"difference: of pooled PSNR, from {against}, on the same views.")
+    return notes
+
+
+def describe_learned(table: pd.DataFrame) -> list[str]:
+    """One sentence on what it is not to have learned, if a network has not."""
+    if not table["learned"].eq(False).any():
+        return []
+    return [
+        "**not learned**: not better than drawing no shadow at all, in LPIPS (without it FLIP), "
+        "pooled PSNR and SSIM, by the interval of paired differences and the thesis's own "
+        "difference from run to run."
+    ]
+
+
+def method_cells(table: pd.DataFrame) -> list[str]:
+    """The Markdown's names of methods, of a network with whether it has learned nothing."""
+    return [
+        f"{name} (**not learned**)" if found is False else name
+        for name, found in zip(table["method"], table["learned"])
+    ]
+
+
+def difference_cells(table: pd.DataFrame) -> list[str]:
+    """The Markdown's cells of the difference of pooled PSNRs, with its sign."""
+    cells = interval_cells(table, with_ends("psnr_difference"), 2)
+    return [cell if cell[:1] in ("", "-") else f"+{cell}" for cell in cells]
+
+
+def map_cells(lpips: pd.Series, psnr: pd.Series) -> list[str]:
+    """The Markdown's cells of `equivalent_maps`: by LPIPS / by PSNR, or once what both say."""
+    pairs = zip(lpips.fillna(""), psnr.fillna(""))
+    return [" / ".join(f"{size}²" for size in dict.fromkeys(pair) if size) for pair in pairs]
+
+
+def quality_cells(table: pd.DataFrame, metric: str) -> list[str]:
+    """The Markdown's cells of a metric: mean [low, high]."""
+    _, factor, decimals = READING[metric]
+    return interval_cells(table, with_ends(metric), decimals, factor)
