@@ -21,8 +21,8 @@ def test_rules_exist():
 
 
 def test_what_is_not_grouped_is_long_or_local():
-    long = {"describe_rays", "train", "render_references", "evaluate", "find_depth_bias"}
-    long |= {"export_network"}
+    long = {"describe_rays", "train", "render_references", "query_network", "evaluate"}
+    long |= {"find_depth_bias", "export_network"}
     timed = {"measure_frame_times", "measure_cost"}
     local = {name for name, rule in RULES.items() if "localrule: True" in rule}
     assert local == {"find_lpips", "download_mesh"}

@@ -32,6 +32,10 @@ def test_in_an_overlay(fresh, tmp_path):
     edit = {"experiments": {"dragon": {"scene": "dragno"}}}
     said = refused(fresh, overlays=[write_overlay(tmp_path / "wrong.yaml", **edit)])
     assert "config: experiments.dragon.scene: 'dragno' (did you mean 'dragon'?)" in said
+    curves = {"experiments": ["dragon"], "steps": [50, 200], "seeds": 3}
+    few = write_overlay(tmp_path / "few.yaml", learning_curves=curves)
+    said = refused(fresh, overlays=[few])
+    assert "config: learning_curves.steps: [50, 200] are fewer than 3 budgets" in said
     twice = tmp_path / "twice.yaml"
     twice.write_text("networks:\n  small: {frequencies: 1}\n  small: {frequencies: 2}\n")
     said = refused(fresh, overlays=[twice])

@@ -27,7 +27,8 @@ def test_scene_of_an_overlay(finished, tmp_path):
     assert "| 512² shadow map" in said and "Open reports/smoke/table_torus.md" in said
     reports = finished.reports
     table = pd.read_csv(reports / "table_torus.csv")
-    assert sorted(table["method"]) == ["20 steps", "512² shadow map"]
+    methods = ["20 steps", "512² shadow map", "All dark", "No shadow"]
+    assert sorted(table["method"]) == methods
     assert (reports / "scenes" / "torus.png").is_file()
     # The mesh was given by an absolute path.
     text = (reports / "table_torus.md").read_text(encoding="utf-8")

@@ -7,17 +7,19 @@ from checkout import SMOKE, write_overlay
 
 # What shows the networks' pictures, and all that is made of a network.
 SHOWN = {"table", "figure", "claims", "page"}
-TRAINED = SHOWN | {"evaluate", "find_depth_bias", "measure_frame_times"}
+ANSWERED = SHOWN | {"query_network", "evaluate"}
+TRAINED = ANSWERED | {"find_depth_bias", "measure_frame_times"}
 
 
 @pytest.mark.parametrize(
     ("module", "rules"),
     [
         ("reports/tables/comparison.py", {"table", "page"}),
-        ("reports/claims.py", {"claims", "page"}),
+        ("reports/claims/write_claims.py", {"claims", "page"}),
         # The table asks for the preview, so that one target makes all that belongs to it.
         ("reports/figures/preview.py", {"preview_scene", "table", "page"}),
         ("evaluation/evaluate.py", SHOWN | {"evaluate"}),
+        ("evaluation/query_network.py", ANSWERED),
         ("shadow_maps/shadow_map.py", TRAINED | {"render_references"}),
         ("training/training_run.py", TRAINED | {"train"}),
         ("running/stage.py", set()),
@@ -41,7 +43,7 @@ def test_edited_kind_of_network(finished):
     ("edit", "rules"),
     [
         ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "page"}),
-        ({"experiments": {"dragon": {"bias": 0.01}}}, SHOWN | {"evaluate"}),
+        ({"experiments": {"dragon": {"bias": 0.01}}}, ANSWERED),
         ({"experiments": {"dragon": {"label": "Another"}}}, SHOWN),
         ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train"}),
     ],

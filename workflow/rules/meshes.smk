@@ -51,6 +51,8 @@ rule prepare_mesh:
         mesh_json=PATHS.scene("mesh.json"),
     log:
         PATHS.log("prepare_mesh", "scene"),
+    benchmark:
+        PATHS.benchmark("prepare_mesh", "scene")
     conda:
         ENVIRONMENT
     resources:

@@ -27,6 +27,7 @@ rule train:
         training=setting("experiments/{experiment}/training"),
         seed=setting("experiments/{experiment}/seed"),
         device=COMPUTE["device"],
+        precision=COMPUTE["precision"],
     message:
         "Training {wildcards.experiment}"
     script:

@@ -8,6 +8,8 @@ rule draw_directions:
         directions_npy=PATHS.rays("directions.npy"),
     log:
         PATHS.log("draw_directions", "scene", "sampling"),
+    benchmark:
+        PATHS.benchmark("draw_directions", "scene", "sampling")
     conda:
         ENVIRONMENT
     resources:

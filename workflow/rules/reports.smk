@@ -90,7 +90,7 @@ rule preview_scene:
 rule claims:
     input:
         **claims.files(LAYOUT),
-        code=code("reports/claims"),
+        code=code("reports/claims/write_claims"),
     output:
         csv=report(
             PATHS.report("claims.csv"),
@@ -110,7 +110,7 @@ rule claims:
     message:
         "Testing the thesis's claims"
     script:
-        "../neural_shadows/reports/claims.py"
+        "../neural_shadows/reports/claims/write_claims.py"
 
 
 rule page:

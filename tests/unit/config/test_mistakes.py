@@ -28,7 +28,36 @@ figures.figure_beyond_dragon.table | table_4_6 | 'table_4_6' is not among beyond
 figures.figure_beyond_slice.experiment | dragon | experiment: 'dragon' (did you mean 'dragon_fi
 claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | one of them should be an experiment
 claims.learning_rate.pairs | [[dragon, dragon]] | 'dragon' is compared with itself
-claims.lower_bound_costs_more.less | false_shadow | more = 'false_shadow': must be another
+claims.learning_rate.pairs | [[dragon, dragn]] | learning_rate.pairs.0.1: 'dragn' (did you mean
+claims.sampling.pairs | [[no_shadow_biased, dragon]] | has no depth bias; write 'no_shadow'
+claims.sampling.metrics | [lpips, lpips] | claims.sampling.metrics: 'lpips' is there twice
+claims.sampling.needs | {device: tpu} | needs.device = 'tpu': Input should be 'cuda' or 'cpu'
+claims.sampling.needs | {seeds: many} | needs.seeds = 'many': Input should be a valid integer
+claims.sampling.needs | {seeds: 0} | needs.seeds = 0: Input should be greater than or equal to 1
+claims.sampling.needs | {budget: 3} | needs.budget = 3: Input should be less than or equal to 1
+claims.sampling.needs | {mesh: bunny} | needs.mesh = 'bunny': Input should be 'thesis'
+claims.sampling.needs | {seed: 3} | needs: unknown key: 'seed' (did you mean 'seeds'?) is not among
+claims.printed_comparable_to_512.row | nothing | rows of table 4.3: 'nothing' is not among
+claims.printed_comparable_to_512.equivalent_to | 64 | 'shadow_map_64' (did you mean
+claims.printed_comparable_to_512.equivalent_to | null | needs `pairs`, or `row` and `equivalent
+claims.printed_wider_is_worse_on_the_landscape.metrics | [psnr] | metrics of table 4.6: 'psnr' is
+learning_curves | {experiments: [dragon], steps: [500, 1000], seeds: 3} | learning_curves.steps: [500, 1000] are fewer than 3 budgets
+learning_curves | {experiments: [dragon], steps: [1, 3, 2], seeds: 3} | steps: [1, 3, 2]: must grow
+learning_curves | {experiments: [dragn], steps: [1, 2, 3], seeds: 3} | experiments.0: 'dragn' (did you
+learning_curves | {experiments: [fence, fence], steps: [1, 2, 3], seeds: 3} | 'fence' is there twice
+tables.curves | {kind: learning_curves, title: x, rows: {dragon: [dragon]}} | tables.curves.kind: 'learning_curves' needs the section `learning_curves`
+tables.table_4_3.rows.0 | {method: no_shadow, bias: held_out} | tables.table_4_3.rows of dragon: 'no_shadow' with a bias: a null predictor has no depth bias
+tables.table_4_3.rows.0 | {method: ray_traced, bias: held_out} | 'ray_traced' is not among shadow_map_N
+tables.table_4_3.rows.0 | shadow_map_512_biased | 'shadow_map_512_biased' (did you mean
+tables.table_4_3.against | dragon_64 | table_4_3.against: 'dragon_64' (did you mean
+tables.beyond.against | {fence: dragon} | tables.beyond.against: 'dragon' is not among ray_traced
+experiments.tiny | {scene: dragon, network: {encoding: mesh, triangles: 3}} | experiments.tiny.network.triangles = 3: Input should be greater than or equal to 4
+experiments.tiny | {scene: dragon, network: {encoding: mesh}, training: base} | experiments.tiny: a network of the kind 'mesh' is built and not trained
+networks.sheet_256.start | distances | start: distances needs an inside
+experiments.dragon_field.training | null | experiments.dragon_field.training: this key is missing
+experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tables has a name like
+experiments.dragon.training | null | experiments.dragon.training: this key is missing; a network
+experiments.dragon.sampling | null | experiments.dragon.sampling: this key is missing; a network
 claims.slower_than_shadow_maps.pairs | [[dragon, shadow_map_8]] | 'shadow_map_8' (did you me
 """
 

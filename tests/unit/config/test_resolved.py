@@ -29,6 +29,7 @@ def test_scenes_and_experiments(values):
     assert scenes["landscape"]["mesh"] == {"generate": "landscape", "cells": 256}
     assert scenes["landscape"]["scene"] == {"up": "y", "ground": False, "light": light}
     frames = {"width": 600, "height": 400, "view_sets": ["centre"], "seed": 2026}
+    frames["least_shadow"] = 0.08
     assert scenes["landscape"]["frames"] == frames
     names = ("fence", "dragon", "ablation_seed_1")
     assert [experiments[name]["seed"] for name in names] == [2026, 0, 1]
@@ -36,7 +37,8 @@ def test_scenes_and_experiments(values):
         "scene": "dragon",
         "sampling": "poisson_quadtree",
         "network": values["networks"]["thesis"] | {"encoding": "frequency"},
-        "training": values["trainings"]["low_rate"] | {"loss": {"false_shadow": 1.0}},
+        "training": values["trainings"]["low_rate"]
+        | {"optimiser": "adam", "loss": {"false_shadow": 1.0}},
         "seed": 0,
         "bias": 0.0,
         "label": "Learning rate 0.0001",
@@ -51,6 +53,8 @@ def test_rows_of_tables(settings, changed):
     assert rows[5:] == [
         row("dragon", "Thesis's network", "network", "dragon", 0.0),
         row("dragon_field", "256³ occupancy field", *["dragon_field"] * 2, "held_out"),
+        row("no_shadow", "No shadow", "no_shadow"),
+        row("all_dark", "All dark", "all_dark"),
     ]
     rows = settings["tables"]["beyond"]["rows"]
     assert list(dict.fromkeys(r["scene"] for r in rows)) == ["dragon", "fence", "landscape"]
@@ -58,9 +62,23 @@ def test_rows_of_tables(settings, changed):
     own, found = (r for r in rows if r["experiment"] == "dragon")
     assert (own["method"], own["bias"]) == ("dragon", 0.0)
     assert (found["method"], found["bias"]) == ("dragon_biased", "held_out")
-    values = changed("tables.maps", {"title": "x", "scene": "fence", "rows": ["shadow_map_64"]})
-    maps = resolved(read_config(values))["tables"]["maps"]["rows"]
-    assert maps == [row("shadow_map_64", "64² shadow map", scene="fence")]
+    given = ["all_dark", {"method": "shadow_map_pcf_64", "bias": "held_out"}]
+    values = changed("tables.maps", {"title": "x", "scene": "fence", "rows": given})
+    assert resolved(read_config(values))["tables"]["maps"]["rows"] == [
+        row("all_dark", "All dark", scene="fence"),  # where it is asked for
+        row(
+            "shadow_map_pcf_64_biased",
+            "64² shadow map, 2 × 2 PCF, with bias",
+            scene="fence",
+            bias="held_out",
+        ),
+        row("no_shadow", "No shadow", scene="fence"),
+    ]
+    # Each scene has its own; what has no quality has none.
+    null = [(r["scene"], r["method"]) for r in settings["tables"]["beyond"]["rows"]][-2:]
+    assert null == [("landscape", "no_shadow"), ("landscape", "all_dark")]
+    assert "no_shadow" in [r["method"] for r in settings["tables"]["table_4_6"]["rows"]]
+    assert "no_shadow" not in [r["method"] for r in settings["tables"]["table_4_7"]["rows"]]
 
 
 def test_figures_and_claims(settings):
@@ -71,7 +89,61 @@ def test_figures_and_claims(settings):
     assert widths[:3] == [("dragon_64", 64), ("dragon_128", 128), ("dragon", 256)]
     assert len(widths) == 6  # ray tracing and shadow maps have no width
     methods = [r["method"] for r in figures["figure_beyond_pictures_fence"]["rows"]]
-    assert methods[:3] == ["shadow_map_2048", "shadow_map_512", "fence_field_512"]
-    assert methods[3:] == ["fence_field", "fence_occupancy_grid", "fence_biased"]
+    assert methods[:3] == ["shadow_map_2048", "shadow_map_512", "fence_mesh_20k"]
+    assert methods[3:] == ["fence_distances_256", "fence_field_512", "fence_biased"]
     ((_, shadow_map),) = settings["claims"]["fence_better_than_128"]["pairs"]
     assert shadow_map == row("shadow_map_128", "128² shadow map", scene="fence")
+
+
+def test_claims_on_methods_without_a_network_and_on_what_is_printed(changed):
+    pairs = [["dragon_biased", "shadow_map_64_biased"], ["no_shadow", "fence"]]
+    claims = resolved(read_config(changed("claims.sampling.pairs", pairs)))["claims"]
+    methods = [
+        (r["scene"], r["method"], r["bias"]) for pair in claims["sampling"]["pairs"] for r in pair
+    ]
+    assert methods == [
+        ("dragon", "dragon_biased", "held_out"),
+        ("dragon", "shadow_map_64_biased", "held_out"),
+        ("fence", "no_shadow", None),
+        ("fence", "fence", 0.0),
+    ]
+    needs = {"device": None, "seeds": 3, "budget": 0.03, "mesh": "thesis"}
+    assert claims["dragon_better_than_256"]["needs"] == needs
+    assert claims["dragon_better_than_256"]["metrics"] == ["lpips"]
+    (pair,) = claims["printed_fence_better_than_128"]["pairs"]
+    assert pair == ["network", "shadow_map_128"]
+
+
+def test_learning_curves(settings, changed):
+    assert settings["learning_curves"] == {}
+    given = {"experiments": ["dragon", "dragon_64"], "steps": [10, 100, 20000], "seeds": 2}
+    values = changed("learning_curves", given)
+    values["scenes"]["dragon"]["seed"] = 5
+    found = resolved(read_config(values))
+    names = ["dragon_10_steps_seed_5", "dragon_10_steps_seed_6", "dragon_100_steps_seed_5"]
+    names += ["dragon_100_steps_seed_6", "dragon", "dragon_20000_steps_seed_6"]
+    points = found["learning_curves"]["dragon"]
+    assert [point["experiment"] for point in points] == names
+    assert points[2] == {"experiment": names[2], "steps": 100, "seed": 5, "samples": 102400}
+    dragon, point = found["experiments"]["dragon"], found["experiments"][names[3]]
+    assert point == dragon | {"seed": 6, "training": dragon["training"] | {"steps": 100}}
+    assert point["training"]["schedule"] == "cosine"  # of its own length
+    assert len(found["experiments"]) == len(settings["experiments"]) + 10
+
+
+def test_a_network_that_is_built_and_not_trained(changed, message):
+    built = {"scene": "dragon", "network": {"encoding": "mesh", "bits": 9}, "label": "{bits} bits"}
+    field = {"encoding": "occupancy_field", "start": "distances", "resolution": 32}
+    values = changed("experiments.built", built)
+    values["experiments"]["distances"] = built | {"network": field, "label": "Distances"}
+    experiments = resolved(read_config(values))["experiments"]
+    for name, label in (("built", "9 bits"), ("distances", "Distances")):
+        section = experiments[name]
+        assert section["sampling"] is section["training"] is None and section["label"] == label
+    curves = {"experiments": ["built"], "steps": [1, 2, 3], "seeds": 1}
+    pair = {"kind": "lower_loss", "section": "4", "statement": "x", "pairs": [["built", "dragon"]]}
+    for wrong, words in (
+        ({"learning_curves": curves}, "learning_curves.experiments: 'built' is not trained"),
+        ({"claims": {"loss": pair}}, "claims.loss.pairs: 'built' is not trained, and has no loss"),
+    ):
+        assert words in message(values | wrong)

@@ -6,7 +6,7 @@ from shipped import shipped
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.layout import claims, tables, targets
+from neural_shadows.layout import claims, figures, tables, targets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
 
@@ -46,21 +46,44 @@ def test_sources_of_meshes_and_folders_of_scales():
 
 def test_files_of_a_training(desk):
     thesis, field = map(desk.training_files, ("dragon", "dragon_field"))
+    assert thesis["rays_json"] == "results/rays/dragon/poisson_quadtree/rays.json"
     # An edited mesh of a network that needs none reaches it through its rays.
     assert thesis["mesh_ply"] == [] and field["mesh_ply"] == ["results/scenes/dragon/mesh.ply"]
     shards = [f"results/rays/dragon/poisson_quadtree/bounds.{i:03d}.npy" for i in range(4)]
     assert thesis["bounds"] == shards
+    # One that is only built is made of no rays: a stage is told so by the same names.
+    built = {**desk.settings["experiments"]["dragon_field"], "sampling": None, "training": None}
+    made = Layout({**desk.settings, "experiments": {"built": built}}).training_files("built")
+    assert made["mesh_ply"] == field["mesh_ply"] and made.keys() == field.keys()
+    assert made["origins"] == made["bounds"] == made["directions_npy"] == made["rays_json"] == []
 
 
 def test_files_of_methods(desk):
     assert desk.bias("shadow_map_512") is None and desk.bias("dragon") == 0
-    assert desk.weights("shadow_map_512") == desk.bias_file("shadow_map_512") == []
+    assert desk.bias_file("dragon", "dragon") == desk.bias_file("dragon", "shadow_map_512") == []
+    for method in ("shadow_map_512", "shadow_map_pcf_512_biased", "no_shadow"):
+        assert desk.weights(method) == [] and desk.method_encodings(method) == set()
     assert desk.weights("dragon_biased") == ["results/networks/dragon/weights.safetensors"]
-    assert desk.bias_file("dragon") == []
-    for method in ("dragon_biased", "dragon_field"):
+    assert desk.method_encodings("dragon_biased") == {"frequency"}
+    for method in ("dragon_biased", "dragon_field", "shadow_map_512_biased"):
         assert desk.bias(method) == HELD_OUT
         name = method.removesuffix("_biased")
-        assert desk.bias_file(method) == [f"results/depth_biases/{name}.json"]
+        found = [f"results/depth_biases/dragon/{name}.json"]
+        assert desk.bias_file("dragon", method) == found
+        if name != "shadow_map_512":
+            assert desk.export_files(name)["depth_bias_json"] == desk.bias_file("dragon", name)
+
+
+def test_files_that_methods_are_evaluated_from(desk):
+    """Networks from their answers alone, whatever their bias; others from the mesh."""
+    network = desk.evaluated_files("dragon", "dragon_biased", "000")
+    answers = "results/answers/dragon/dragon_biased.000.npz"
+    assert network == {"answers": answers, "mesh_ply": [], "depth_bias_json": []}
+    for method, bias in {"shadow_map_512_biased": "shadow_map_512", "no_shadow": None}.items():
+        files = desk.evaluated_files("dragon", method, "000")
+        assert files["answers"] == [] and files["mesh_ply"] == "results/scenes/dragon/mesh.ply"
+        found = [f"results/depth_biases/dragon/{bias}.json"] if bias else []
+        assert files["depth_bias_json"] == found
 
 
 def test_tables_and_claims_are_made_of_their_rows(desk):
@@ -68,14 +91,60 @@ def test_tables_and_claims_are_made_of_their_rows(desk):
     assert "results/evaluations/dragon/shadow_map_512.001.csv" in made["metrics"]
     networks = ["dragon", "dragon_field"]
     assert made["trainings"] == [f"results/networks/{name}/training.json" for name in networks]
-    assert made["depth_biases"] == ["results/depth_biases/dragon_field.json"]
+    assert made["depth_biases"] == ["results/depth_biases/dragon/dragon_field.json"]
+    assert "results/evaluations/dragon/all_dark.000.csv" in made["metrics"]
     assert "reports/scenes/dragon.png" in made["beside"]
     # An edited network's code leaves a table alone that reads none of its files.
     encodings = [tables.encodings(desk, name) for name in ("table_4_3", "table_4_7")]
     assert encodings == [set(), {"frequency"}]
-    assert "results/networks/dragon_high_rate/loss.csv" in claims.files(desk)["losses"]
+    judged = claims.files(desk)
+    assert "results/networks/dragon_high_rate/loss.csv" in judged["losses"]
+    # Not timed, but in a pair: its record says how long it was trained.
+    assert "results/networks/landscape_axis_128/training.json" in judged["trainings"]
+    for scene in ("dragon", "fence", "landscape"):
+        assert f"results/evaluations/{scene}/no_shadow.000.csv" in judged["metrics"]
+        assert f"results/scenes/{scene}/mesh.json" in judged["meshes"]
+    assert judged["published_csv"] == "config/published.csv"
+    assert claims.arguments(desk)["learning_curves"] == {}
     with pytest.raises(InputError, match="tables: .*did you mean 'table_4_3'"):
         tables.files(desk, "table_4_33")
+
+
+def test_files_of_learning_curves():
+    layout = layout_of("claims")
+    names = [point["experiment"] for point in layout.settings["learning_curves"]["dragon_uniform"]]
+    assert len(names) == 15 and names[-3] == "dragon_uniform"
+    made, judged = tables.files(layout, "learning_sampling"), claims.files(layout)
+    for found in (made, judged):
+        for name in names:
+            assert f"results/claims/evaluations/dragon/{name}.000.csv" in found["metrics"]
+            assert f"results/claims/networks/{name}/training.json" in found["trainings"]
+        assert "results/claims/evaluations/dragon/no_shadow.000.csv" in found["metrics"]
+    for name in names:
+        assert f"results/claims/networks/{name}/loss.csv" in made["losses"]
+    told = tables.arguments(layout, "learning_sampling")
+    assert [*told["curves"]] == [row["method"] for row in told["rows"]]
+    assert [*told["curves"]] == ["dragon", "dragon_uniform_quadtree", "dragon_uniform"]
+    assert "fence" in claims.arguments(layout)["learning_curves"]
+    biased = {**told["rows"][0], "method": "dragon_biased"}
+    methods = [row["method"] for row in tables.with_curves(layout, [biased])]
+    assert methods[:2] == ["dragon_biased", "dragon_500_steps_seed_2026_biased"]
+    assert figures.files(layout, "figure_learning_fence") == {
+        "table": "reports/claims/learning_networks.csv"
+    }
+    told = figures.arguments(layout, "figure_learning_fence")
+    assert [row["method"] for row in told["rows"]] == ["fence"]
+    assert "figure_learning_fence" not in targets.beyond(layout)
+
+
+def test_durations_are_of_what_comes_before_a_training(desk):
+    told = tables.arguments(desk, "beyond")["durations"]["landscape_field_axis"]
+    assert told[:2] == [
+        "results/benchmarks/prepare_mesh/landscape.tsv",
+        "results/benchmarks/draw_directions/landscape.single_axis.tsv",
+    ]
+    assert told[-1] == "results/benchmarks/label_rays/landscape.single_axis.003.tsv"
+    assert len(told) == 2 + 2 * 4
 
 
 def test_what_is_made_by_default(desk):

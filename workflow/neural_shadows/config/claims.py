@@ -1,15 +1,42 @@
 """`claims`: what the thesis concludes, and the data that tests it."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in
 from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
-from neural_shadows.evaluation.method_names import experiment_of, is_classic
+from neural_shadows.evaluation.method_names import (
+    is_classic,
+    is_null,
+    shadow_map_key,
+    unbiased,
+)
+from neural_shadows.reports.published import read_published
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
+
+PUBLISHED_CSV = Path(__file__).parents[3] / "config" / "published.csv"
+
+
+def _no_twins(values: list[Any]) -> list[Any]:
+    for value in values:
+        if values.count(value) > 1:
+            raise ValueError(f"{value!r} is there twice; should be there once")
+    return values
+
+
+class Needs(Model):
+    """What a run needs to decide a claim; with less it is not comparable or undecided."""
+
+    device: Literal["cuda", "cpu"] | None = Field(None, description="that all methods are timed on")
+    seeds: int | None = Field(None, ge=1, le=100, description="trainings of each network")
+    budget: float | None = Field(None, gt=0, le=1, description="share of the thesis's samples")
+    mesh: Literal["thesis"] | None = Field(
+        None, description="`thesis`: the thesis's meshes, and no others in their place"
+    )
 
 
 class AnyClaim(Model):
@@ -17,6 +44,7 @@ class AnyClaim(Model):
 
     section: str = Field(pattern=r"^[1-9](\.[1-9])*$", description="of the thesis, as 4.2.1")
     statement: str = Field(min_length=1, description="one sentence, as the thesis draws it")
+    needs: Needs = Field(Needs(), description="what a run needs to decide it")
 
 
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
@@ -24,28 +52,24 @@ Pairs = Annotated[list[Pair], Field(min_length=1)]
 
 
 class BetterClaim(AnyClaim):
-    """Methods compared by the mean over views of an image metric."""
+    """Methods compared by image metrics, in all of which the claim is to hold."""
 
     kind: Literal["better"] = Field(description="`better`")
     pairs: Pairs = Field(description="methods, one of them a network; the claimed winner first")
-    metric: Literal["lpips", "psnr", "ssim", "flip", "shadow_error"] = Field(
-        "lpips", description="an image metric; FLIP takes LPIPS's place where its trunk is missing"
+    metrics: Annotated[
+        list[Literal["lpips", "psnr", "ssim", "flip", "shadow_error"]], AfterValidator(_no_twins)
+    ] = Field(
+        ["lpips"],
+        min_length=1,
+        description="image metrics; FLIP takes LPIPS's place where its trunk is missing",
     )
 
 
-class LargerErrorClaim(AnyClaim):
-    """More of one kind of error than of another, for each network."""
+class ViolationsClaim(AnyClaim):
+    """Of each network, a violation of the lower bound shows more often than one of the upper."""
 
-    kind: Literal["larger_error"] = Field(description="`larger_error`")
+    kind: Literal["violations"] = Field(description="`violations`")
     methods: list[str] = Field(min_length=1, description="networks")
-    more: Literal["false_shadow", "light_leak"] = Field(description="the larger error")
-    less: Literal["false_shadow", "light_leak"] = Field(description="the smaller error")
-
-    @model_validator(mode="after")
-    def _check_errors(self):
-        if self.more == self.less:
-            raise ValueError(f"more = {self.more!r}: must be another error than `less`")
-        return self
 
 
 class LowerLossClaim(AnyClaim):
@@ -58,7 +82,7 @@ class LowerLossClaim(AnyClaim):
 
 
 class FrameTimeClaim(AnyClaim):
-    """The ratio of two methods' median frame times, within bounds."""
+    """The ratio of two methods' own median times, within bounds."""
 
     kind: Literal["frame_time"] = Field(description="`frame_time`")
     table: Name = Field(description="a table of `frame_times` in `tables`")
@@ -73,17 +97,47 @@ class FrameTimeClaim(AnyClaim):
         return self
 
 
-Claim = by_kind("kind", BetterClaim, LargerErrorClaim, LowerLossClaim, FrameTimeClaim)
+class PrintedClaim(AnyClaim):
+    """What the thesis's own tables say, without a run: of pairs of rows, or of a row's equal."""
+
+    kind: Literal["printed"] = Field(description="`printed`")
+    table: str = Field(pattern=r"^4\.[1-7]$", description="the thesis's number of a table")
+    pairs: Pairs | None = Field(None, description="rows of published.csv, the winner first")
+    row: str | None = Field(None, description="a row of published.csv, for `equivalent_to`")
+    equivalent_to: int | None = Field(
+        None, ge=2, le=32768, description="texels of a side of the map that it is as good as"
+    )
+    metrics: Annotated[list[Literal["lpips", "psnr", "ssim"]], AfterValidator(_no_twins)] = Field(
+        min_length=1, description="columns of published.csv, in all of which it is to hold"
+    )
+
+    @model_validator(mode="after")
+    def _check_parts(self):
+        parts = self.pairs is not None, self.row is not None, self.equivalent_to is not None
+        if parts not in ((True, False, False), (False, True, True)):
+            raise ValueError("a printed claim needs `pairs`, or `row` and `equivalent_to`")
+        return self
+
+    def rows(self) -> list[str]:
+        """The rows of published.csv that it is tested on."""
+        if self.pairs is None:
+            return [self.row, shadow_map_key(self.equivalent_to)]
+        return [row for pair in self.pairs for row in pair]
+
+
+Claim = by_kind("kind", BetterClaim, ViolationsClaim, LowerLossClaim, FrameTimeClaim, PrintedClaim)
 
 
 def compared(claim: AnyClaim) -> list[list[str]]:
     """The methods of a claim that are compared with each other, or each alone."""
+    if isinstance(claim, PrintedClaim):
+        return []
     return getattr(claim, "pairs", None) or [[method] for method in claim.methods]
 
 
 def rows_of_claim(config: "Config", methods: list[str]) -> list[Row]:
-    """Methods that a claim compares as rows: a shadow map's scene is the network's beside it."""
-    names = [experiment_of(method) for method in methods]
+    """Methods that a claim compares as rows: one that is no network is on the network's scene."""
+    names = [unbiased(method) for method in methods]
     scenes = [config.experiments[name].scene for name in names if name in config.experiments]
     rows = []
     for name, method in zip(names, methods):
@@ -94,22 +148,43 @@ def rows_of_claim(config: "Config", methods: list[str]) -> list[Row]:
 
 
 def check(config: "Config") -> None:
-    """Check names in claims: methods are networks, or shadow maps compared with one."""
+    """Check names in claims: methods are networks or compared with one, printed rows are there."""
     timed = [name for name, table in config.tables.items() if table.kind == "frame_times"]
     for name, claim in config.claims.items():
         if isinstance(claim, FrameTimeClaim):
             check_among(f"claims.{name}.table", claim.table, timed)
+        if isinstance(claim, PrintedClaim):
+            _check_printed(f"claims.{name}", claim)
         key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
-            for method in methods:
-                if not is_classic(method):
-                    check_among(key, experiment_of(method), config.experiments)
-            if all(map(is_classic, methods)):
-                raise ValueError(f"{key}: {methods}: one of them should be an experiment")
-            if len(set(methods)) < len(methods):
-                raise ValueError(f"{key}: {methods[0]!r} is compared with itself")
+            _check_methods(config, key, methods, claim)
             if isinstance(claim, FrameTimeClaim):
                 scene = rows_of_claim(config, methods)[0]["scene"]
                 rows = [row for row in rows_of(config, claim.table) if row["scene"] == scene]
                 for method in methods:
                     check_among(key, method, [row["method"] for row in rows])
+
+
+def _check_methods(config: "Config", key: str, methods: list[str], claim: AnyClaim) -> None:
+    names = [unbiased(method) for method in methods]
+    for name, method in zip(names, methods):
+        if is_null(name) and name != method:
+            raise ValueError(
+                f"{key}: {method!r}: a null predictor has no depth bias; write {name!r}"
+            )
+        if not is_classic(name):
+            check_among(key, name, config.experiments)
+        if isinstance(claim, LowerLossClaim) and config.experiments[method].training is None:
+            raise ValueError(f"{key}: {method!r} is not trained, and has no loss")
+    if all(map(is_classic, names)):
+        raise ValueError(f"{key}: {methods}: one of them should be an experiment")
+    if len(set(methods)) < len(methods):
+        raise ValueError(f"{key}: {methods[0]!r} is compared with itself")
+
+
+def _check_printed(key: str, claim: PrintedClaim) -> None:
+    printed = read_published(PUBLISHED_CSV).loc[claim.table].unstack()
+    for row in claim.rows():
+        check_among(f"{key}: rows of table {claim.table}", row, printed.index)
+    for metric in claim.metrics:
+        check_among(f"{key}.metrics of table {claim.table}", metric, printed.columns)

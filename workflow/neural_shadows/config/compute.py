@@ -14,3 +14,6 @@ class Compute(Model):
         "auto", description="`auto`: a GPU if there is one"
     )
     threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")
+    precision: Literal["auto", "float32", "bfloat16", "float16"] = Field(
+        "auto", description="of matrix products; `auto`: bfloat16 where the processor has it"
+    )

@@ -7,19 +7,23 @@ from pydantic import Field
 from neural_shadows.config.base import Model, Seed, Text, name_in, text_or
 from neural_shadows.config.networks import Network
 from neural_shadows.config.trainings import Training
-from neural_shadows.evaluation.method_names import BIASED_SUFFIX, CLASSIC, RAY_TRACED
+from neural_shadows.evaluation.method_names import BIASED_SUFFIX, CLASSIC, NULL, RAY_TRACED
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
 
 
 class Experiment(Model):
-    """One trained network: scene + sampling + network + training."""
+    """One network: scene + network, and sampling + training of one that is trained."""
 
     scene: name_in("scenes") = Field(description="a name in `scenes`")
-    sampling: name_in("samplings") = Field(description="a name in `samplings`")
+    sampling: name_in("samplings") | None = Field(
+        None, description="a name in `samplings`; none for a network that is only built"
+    )
     network: text_or(name_in("networks"), Network) = Field(description="a name, or a section")
-    training: text_or(name_in("trainings"), Training) = Field(description="a name, or a section")
+    training: text_or(name_in("trainings"), Training) | None = Field(
+        None, description="a name, or a section; none for a network that is only built"
+    )
     seed: Seed | None = Field(None, description="seed of this training; without it the scene's")
     bias: text_or(Literal["held_out"], Annotated[float, Field(ge=0, le=1)]) = Field(
         0.0, description="added to t_pred, in radii; `held_out`: the best on views in no table"
@@ -35,8 +39,8 @@ def network_of(config: "Config", experiment: str) -> Any:
     return config.networks[network] if isinstance(network, str) else network
 
 
-def training_of(config: "Config", experiment: str) -> Training:
-    """The section of an experiment's training."""
+def training_of(config: "Config", experiment: str) -> Training | None:
+    """The section of an experiment's training; None for a network that is only built."""
     training = config.experiments[experiment].training
     return config.trainings[training] if isinstance(training, str) else training
 
@@ -55,8 +59,9 @@ def formatted(config: "Config", experiment: str, label: str | None = None) -> st
         ValueError: it names a setting that the experiment's network and training do not have.
     """
     label = label or config.experiments[experiment].label or experiment
-    parts = training_of(config, experiment), network_of(config, experiment)
-    settings = parts[0].model_dump() | parts[1].model_dump()
+    training = training_of(config, experiment)
+    settings = training.model_dump() if training else {}
+    settings |= network_of(config, experiment).model_dump()
     try:
         return label.format(**settings)
     except (LookupError, ValueError, TypeError, AttributeError) as error:
@@ -72,7 +77,7 @@ def check(config: "Config") -> None:
     for name, experiment in config.experiments.items():
         key = f"experiments.{name}"
         families = tuple(f"{family}_" for family in CLASSIC)
-        if name in ("reference", RAY_TRACED) or name.startswith(families):
+        if name in ("reference", RAY_TRACED, *NULL) or name.startswith(families):
             raise ValueError(f"{key}: a method of tables has a name like this; choose another")
         if name.endswith(BIASED_SUFFIX):
             raise ValueError(
@@ -84,4 +89,23 @@ def check(config: "Config") -> None:
                 f"{key}: is the same as experiments.{same}, and would train the same network "
                 "twice; use that one, or change the seed"
             )
+        _check_training(config, name)
         formatted(config, name)
+
+
+def _check_training(config: "Config", name: str) -> None:
+    """Check that a network has rays and a training if it learns, and none if it cannot."""
+    network, key = network_of(config, name), f"experiments.{name}"
+    given = {part: getattr(config.experiments[name], part) for part in ("sampling", "training")}
+    missing = [part for part, value in given.items() if value is None]
+    if not network.trained:
+        if len(missing) < 2:
+            raise ValueError(
+                f"{key}: a network of the kind {network.encoding!r} is built and not trained; "
+                "leave out its sampling and training"
+            )
+    elif missing and (len(missing) == 1 or getattr(network, "start", None) != "distances"):
+        raise ValueError(
+            f"{key}.{missing[0]}: this key is missing; a network that is trained needs a sampling "
+            "and a training"
+        )

@@ -16,7 +16,7 @@ from neural_shadows.config.base import (
 from neural_shadows.config.experiments import formatted, network_of
 from neural_shadows.config.scenes import ViewSet
 from neural_shadows.config.tables import Row, rows_of
-from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -63,7 +63,7 @@ class LossFigure(AnyFigure):
 
 
 class TableFigure(AnyFigure):
-    """A table drawn: LPIPS and frame time over layer width [figure 4.8], or costs over sizes."""
+    """A table drawn: quality and times over layer width [figure 4.8], or costs over sizes."""
 
     kind: Literal["widths", "cost"] = Field(description="what is drawn")
     table: Name = Field(description="a table of `frame_times` in `tables`, or of `cost`")
@@ -90,11 +90,19 @@ class SamplingFigure(SceneFigure):
 
 
 class ParetoFigure(AnyFigure):
-    """LPIPS over bytes, frame time and training time, with the best of each trade-off joined."""
+    """Quality over bytes, own time and building, with the best of each trade-off joined."""
 
     kind: Literal["pareto"] = Field(description="`pareto`")
     table: Name = Field(description="a table of `networks` in `tables`")
     scene: Name = Field(description="a scene of that table")
+
+
+class LearningCurvesFigure(AnyFigure):
+    """Loss and quality over training samples, with what the smaller budgets predict."""
+
+    kind: Literal["learning_curves"] = Field(description="`learning_curves`")
+    table: Name = Field(description="a table of `learning_curves` in `tables`")
+    scene: Name | None = Field(None, description="which scene of a table of several")
 
 
 class NetworkFigure(AnyFigure):
@@ -112,6 +120,7 @@ Figure = by_kind(
     LossFigure,
     TableFigure,
     ParetoFigure,
+    LearningCurvesFigure,
     NetworkFigure,
     MethodsFigure,
     DirectionsFigure,
@@ -123,11 +132,14 @@ KINDS_OF_TABLE = {
     "errors_3d": ("comparison", "networks"),
     "widths": ("frame_times",),
     "pareto": ("networks",),
+    "learning_curves": ("learning_curves",),
     "cost": ("cost",),
 }
 
 
-def scene_of(config: "Config", figure: MethodsFigure | ParetoFigure) -> str:
+def scene_of(
+    config: "Config", figure: "MethodsFigure | ParetoFigure | LearningCurvesFigure"
+) -> str:
     """The scene of a figure of a table: the one that it names, or the table's first."""
     return figure.scene or rows_of(config, figure.table)[0]["scene"]
 
@@ -141,10 +153,10 @@ def rows_of_figure(config: "Config", figure: AnyFigure) -> list[Row]:
         return [row | {"width": width} for row, width in zip(networks, widths) if width]
     rows = [row for row in rows if row["scene"] == scene_of(config, figure)]
     if isinstance(figure, MethodsFigure):
-        # Ray tracing's pictures are the reference, which is shown anyway.
-        rows = [row for row in rows if row["method"] != RAY_TRACED]
-        if figure.methods:
-            rows = [row for row in rows if row["method"] in figure.methods]
+        # Ray tracing's pictures are the reference, which is shown anyway; those of no shadow and
+        # of nothing else need no picture.
+        drawn = [row for row in rows if row["method"] != RAY_TRACED and not is_null(row["method"])]
+        rows = [row for row in drawn if not figure.methods or row["method"] in figure.methods]
     return rows
 
 
@@ -160,11 +172,16 @@ def check(config: "Config") -> None:
             case LossFigure():
                 for curve in figure.curves:
                     formatted(config, curve.experiment, curve.label)
+                    if config.experiments[curve.experiment].training is None:
+                        raise ValueError(
+                            f"{key}.curves: {curve.experiment!r} is built without training and has "
+                            "no loss; leave it out"
+                        )
             case NetworkFigure(kind="field_slice" | "field_3d"):
                 encodings = {name: network_of(config, name).encoding for name in config.experiments}
                 fields = [name for name, one in encodings.items() if one == "occupancy_field"]
                 check_among(f"{key}.experiment", figure.experiment, fields)
-            case ParetoFigure() | MethodsFigure():
+            case ParetoFigure() | LearningCurvesFigure() | MethodsFigure():
                 rows = rows_of(config, figure.table)
                 scenes = list(dict.fromkeys(row["scene"] for row in rows))
                 if figure.scene is not None or len(scenes) > 1:

@@ -1,16 +1,22 @@
-"""`networks`: what is trained, by encoding."""
+"""`networks`: what is trained, and what answers in its place without a training, by encoding."""
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from neural_shadows.config.base import Model, PowerOfTwo, by_kind
 
 
-class FrequencyNetwork(Model):
+class NetworkModel(Model):
+    """What the graph must know of a kind."""
+
+    trained: ClassVar[bool] = True  # else an experiment of it has no sampling and no training
+    needs_mesh: ClassVar[bool] = False
+
+
+class FrequencyNetwork(NetworkModel):
     """The thesis's fully connected network [3.3, 4.1]."""
 
-    needs_mesh: ClassVar[bool] = False
     encoding: Literal["frequency"] = Field("frequency", description="`frequency`, the default")
     frequencies: int = Field(ge=0, le=30, description="L of the frequency encoding; 0 is identity")
     width: int = Field(ge=8, le=4096, description="neurons per layer")
@@ -20,10 +26,9 @@ class FrequencyNetwork(Model):
 Stored = Literal["float32", "float16", "int8"]
 
 
-class RayGrid(Model):
+class RayGrid(NetworkModel):
     """Features of points along the ray, from dense 3-D grids, into a small network."""
 
-    needs_mesh: ClassVar[bool] = False
     encoding: Literal["ray_grid"] = Field(description="`ray_grid`: points on the whole chord")
     points: int = Field(8, ge=1, le=256, description="K, points along the ray")
     grids: list[Annotated[int, Field(ge=2, le=512)]] = Field(
@@ -53,7 +58,7 @@ class HashGrid(OccupancyRayGrid):
     table_size: PowerOfTwo = Field(65536, ge=16, le=1 << 24, description="of a grid's, in entries")
 
 
-class OccupancyField(Model):
+class OccupancyField(NetworkModel):
     """One trained logit at each grid vertex near the surface; a ray marches through them."""
 
     needs_mesh: ClassVar[bool] = True
@@ -64,7 +69,58 @@ class OccupancyField(Model):
     surface: Literal["solid", "sheet"] = Field(
         "solid", description="`solid`: the object has an inside; `sheet`: one open surface"
     )
-    stored: Stored = Field("int8", description="how the weight file holds the logits")
+    start: Literal["undecided", "distances"] = Field(
+        "undecided",
+        description="the first logits: next to zero, or signed distances to the mesh, which "
+        "answer without a training too",
+    )
+    stored: Stored | Literal["sign"] = Field(
+        "int8", description="how the weight file holds the logits; `sign`: a bit each"
+    )
+
+    @model_validator(mode="after")
+    def _check_inside(self):
+        if self.start == "distances" and self.surface == "sheet":
+            raise ValueError(
+                "start: distances needs an inside, which surface: sheet has not; "
+                "set start: undecided or surface: solid"
+            )
+        return self
+
+
+class Mesh(NetworkModel):
+    """The mesh itself, decimated and quantised, asked by a shadow ray a point."""
+
+    trained: ClassVar[bool] = False
+    needs_mesh: ClassVar[bool] = True
+    encoding: Literal["mesh"] = Field(description="`mesh`: traced exactly, without a training")
+    triangles: Annotated[int, Field(ge=4)] | None = Field(
+        None, description="the most it is decimated to; all of them by default"
+    )
+    bits: int = Field(16, ge=4, le=24, description="of a vertex's coordinate")
+
+
+class VoxelDag(NetworkModel):
+    """Voxels of the object, as an octree whose equal parts are stored once; not trained."""
+
+    trained: ClassVar[bool] = False
+    needs_mesh: ClassVar[bool] = True
+    encoding: Literal["voxel_dag"] = Field(description="`voxel_dag`: voxels, not trained")
+    resolution: PowerOfTwo = Field(1024, ge=8, le=4096, description="voxels of an axis")
+    surface: Literal["solid", "sheet"] = Field(
+        "solid", description="the voxels inside the object, or for an open surface those it touches"
+    )
+
+
+class HeightMap(NetworkModel):
+    """Heights of a landscape over a grid; not trained."""
+
+    trained: ClassVar[bool] = False
+    needs_mesh: ClassVar[bool] = True
+    encoding: Literal["height_map"] = Field(description="`height_map`: heights, not trained")
+    up: Literal["x", "y", "z"] = Field("y", description="the axis of the heights, the scene's `up`")
+    resolution: int = Field(257, ge=2, le=4097, description="heights along a side")
+    bits: int = Field(16, ge=8, le=16, multiple_of=8, description="of a height")
 
 
 Network = by_kind(
@@ -74,5 +130,8 @@ Network = by_kind(
     OccupancyRayGrid,
     HashGrid,
     OccupancyField,
+    Mesh,
+    VoxelDag,
+    HeightMap,
     default="frequency",
 )

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 from neural_shadows.config.claims import compared, rows_of_claim
 from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
 from neural_shadows.config.figures import LossFigure, TableFigure, rows_of_figure, scene_of
+from neural_shadows.config.learning_curves import points_of
 from neural_shadows.config.scenes import mesh_name
 from neural_shadows.config.tables import rows_of
 
@@ -19,12 +20,23 @@ def resolved(config: "Config") -> Section:
 
     Sections are as in config.yaml, with every default, but: a scene has its `mesh_name`, `scene`
     (what `open_scene` takes beside the mesh) and `frames` (how its viewpoints are drawn and
-    rendered); an experiment's `network` and `training` are sections; seeds and labels are what
-    holds; rows, curves, pairs and methods are as `rows_of` gives them.
+    rendered); an experiment's `network` and `training` are sections, and the points of learning
+    curves are experiments, too; `learning_curves` has those of each (`points_of`); seeds and
+    labels are what holds; rows, curves, pairs and methods are as `rows_of` gives them.
     """
+    names = config.learning_curves.experiments if config.learning_curves else []
+    curves = {name: points_of(config, name) for name in names}
     return config.model_dump() | {
         "scenes": {name: _scene(config, name) for name in config.scenes},
-        "experiments": {name: _experiment(config, name) for name in config.experiments},
+        "experiments": {
+            **{
+                point["experiment"]: _experiment_at(config, name, point)
+                for name, points in curves.items()
+                for point in points
+            },
+            **{name: _experiment(config, name) for name in config.experiments},
+        },
+        "learning_curves": curves,
         "tables": {
             name: table.model_dump() | {"rows": rows_of(config, name)}
             for name, table in config.tables.items()
@@ -41,17 +53,25 @@ def _scene(config: "Config", name: str) -> Section:
     return scene | {
         "mesh_name": mesh_name(config.scenes[name]),
         "scene": {key: scene[key] for key in ("up", "ground", "light")},
-        "frames": size | {key: scene[key] for key in ("view_sets", "seed")},
+        "frames": size | {key: scene[key] for key in ("view_sets", "least_shadow", "seed")},
     }
 
 
 def _experiment(config: "Config", name: str) -> Section:
+    training = training_of(config, name)
     return config.experiments[name].model_dump() | {
         "network": network_of(config, name).model_dump(),
-        "training": training_of(config, name).model_dump(),
+        "training": training and training.model_dump(),
         "seed": seed_of(config, name),
         "label": formatted(config, name),
     }
+
+
+def _experiment_at(config: "Config", name: str, point: Section) -> Section:
+    """An experiment as it is trained for a point of its learning curve."""
+    section = _experiment(config, name)
+    training = section["training"] | {"steps": point["steps"]}
+    return section | {"training": training, "seed": point["seed"]}
 
 
 def _figure(config: "Config", name: str) -> Section:
@@ -70,6 +90,9 @@ def _figure(config: "Config", name: str) -> Section:
 def _claim(config: "Config", name: str) -> Section:
     claim = config.claims[name]
     rows = [rows_of_claim(config, methods) for methods in compared(claim)]
-    if claim.kind == "larger_error":
-        return claim.model_dump() | {"methods": [row for (row,) in rows]}
+    match claim.kind:
+        case "printed":
+            return claim.model_dump()
+        case "violations":
+            return claim.model_dump() | {"methods": [row for (row,) in rows]}
     return claim.model_dump() | {"pairs": rows}

@@ -111,6 +111,9 @@ class Scene(Model):
         default_factory=lambda scene: ["shadow", "surface"] if scene["ground"] else ["centre"],
         description="where cameras look: by default [shadow, surface] on a ground, else [centre]",
     )
+    least_shadow: float = Field(
+        0.0, ge=0, le=0.5, description="of each viewpoint's surface, that is in cast shadow"
+    )
     seed: Seed | None = Field(None, description="without it the configuration's")
 
 

@@ -9,10 +9,13 @@ from neural_shadows.config.base import Model, Text, by_kind, check_among, name_i
 from neural_shadows.config.experiments import formatted
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
+    CLASSIC,
+    NULL,
     RAY_TRACED,
     biased_key,
     classic_label,
     is_classic,
+    is_null,
 )
 
 if TYPE_CHECKING:
@@ -22,11 +25,13 @@ if TYPE_CHECKING:
 class RowSettings(Model):
     """A row of a table that is more than a name."""
 
-    method: str = Field(description="an experiment, `shadow_map_N`, or `ray_traced` where timed")
-    bias: Literal["held_out"] | None = Field(
-        None, description="the depth bias that is best on held-out views, for the experiment's own"
+    method: str = Field(
+        description="an experiment, a map (`shadow_map_N`), `no_shadow`, or `ray_traced` if timed"
     )
-    label: Text | None = Field(None, description="without it the experiment's label")
+    bias: Literal["held_out"] | None = Field(
+        None, description="the depth bias that is best on held-out views, for the method's own"
+    )
+    label: Text | None = Field(None, description="without it the method's own label")
     published: str | None = Field(None, description="its key in published.csv, if not `method`")
 
 
@@ -54,13 +59,21 @@ class TableOfOneScene(AnyTable):
     kind: Literal["comparison", "memory"] = Field(
         "comparison", description="`comparison`, the default, on the same viewpoints; or `memory`"
     )
+    against: str | None = Field(
+        None, description="the row whose paired differences to all others are given"
+    )
 
 
 class TableByScene(AnyTable):
     """A table of methods on several scenes."""
 
     rows: dict[name_in("scenes"), Rows] = Field(min_length=1, description="methods, by scene")
-    kind: Literal["frame_times", "networks"] = Field(description="speed [4.4.1], or everything")
+    kind: Literal["frame_times", "networks", "learning_curves"] = Field(
+        description="speed [4.4.1], everything, or what each budget of `learning_curves` reaches"
+    )
+    against: dict[name_in("scenes"), str] = Field(
+        {}, description="the row whose paired differences to all others are given, by scene"
+    )
 
 
 class CostTable(AnyTable):
@@ -80,19 +93,30 @@ class CostTable(AnyTable):
 
 Table = by_kind("kind", TableOfOneScene, TableByScene, CostTable, default="comparison")
 
+# What stands in each table of a kind beside its methods: a network that is not better than no
+# shadow at all has learned nothing that such a table could show.
+NULL_ROWS = {"comparison": tuple(NULL), "networks": tuple(NULL), "frame_times": ("no_shadow",)}
+
 
 Row = dict[str, Any]  # method, label, published, scene, experiment, bias
 
 
 def settings_by_scene(config: "Config", table: AnyTable) -> dict[str, list[RowSettings]]:
-    """The rows of a table as they are given, by scene; none of a table of costs."""
+    """The rows of a table by scene, null predictors among them; none of a table of costs."""
     if isinstance(table, CostTable):
         return {}
-    if isinstance(table, TableByScene):
-        return table.rows
-    experiments = [config.experiments.get(row.method) for row in table.rows]
-    scenes = {experiment.scene for experiment in experiments if experiment}
-    return {table.scene or min(scenes, default=""): table.rows}
+    rows = table.rows
+    if isinstance(table, TableOfOneScene):
+        experiments = [config.experiments.get(row.method) for row in rows]
+        scenes = {experiment.scene for experiment in experiments if experiment}
+        rows = {table.scene or min(scenes, default=""): rows}
+    return {scene: [*given, *_null_rows(table, given)] for scene, given in rows.items()}
+
+
+def _null_rows(table: AnyTable, given: list[RowSettings]) -> list[RowSettings]:
+    named = {row.method for row in given}
+    missing = [method for method in NULL_ROWS.get(table.kind, ()) if method not in named]
+    return [RowSettings(method=method) for method in missing]
 
 
 def rows_of(config: "Config", name: str) -> list[Row]:
@@ -100,7 +124,7 @@ def rows_of(config: "Config", name: str) -> list[Row]:
 
     Returns: of each row `method`, the method's key; `label`; `published`, its key in
         published.csv or None if the table is not the thesis's; `scene`; `experiment`, or None
-        if it is no network; `bias`, a number, `held_out`, or None if it is no network.
+        if it is no network; `bias`, a number, `held_out`, or None if it has none.
     """
     table = config.tables[name]
     return [
@@ -113,17 +137,17 @@ def rows_of(config: "Config", name: str) -> list[Row]:
 
 def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
     """A row of `rows_of` that is not the thesis's."""
-    method, bias, label = row.method, None, row.label
+    method, own, label = row.method, None, row.label
     if experiment := config.experiments.get(row.method):
-        label = formatted(config, row.method, row.label)
-        bias = row.bias or experiment.bias
-        if bias != experiment.bias:  # of a network whose own depth bias the row changes
-            method = biased_key(row.method)
-            label = label if row.label else f"{label}, with bias"
+        label, own = formatted(config, row.method, row.label), experiment.bias
     elif method == RAY_TRACED:
         label = label or "Ray traced"
     else:
         label = label or classic_label(method)
+    bias = row.bias or own
+    if bias != own:  # of a method whose own depth bias the row changes
+        method = biased_key(method)
+        label = label if row.label else f"{label}, with bias"
     return {
         "method": method,
         "label": label,
@@ -135,7 +159,7 @@ def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
 
 
 def check(config: "Config") -> None:
-    """Check that each row of a scene has a method and label of its own."""
+    """Check that each row of a scene is a method there, with a key and a label of its own."""
     for name, table in config.tables.items():
         key = f"tables.{name}"
         if name in ("claims", "index"):
@@ -144,17 +168,13 @@ def check(config: "Config") -> None:
             for size in STAGES:
                 if (values := getattr(table, size)) != sorted(set(values)):
                     raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
-        timed = [RAY_TRACED] if isinstance(table, TableByScene) else []
+        if table.kind == "learning_curves" and config.learning_curves is None:
+            raise ValueError(f"{key}.kind: {table.kind!r} needs the section `learning_curves`")
         for scene, rows in settings_by_scene(config, table).items():
             if not scene:
                 raise ValueError(f"{key}: has shadow maps alone and needs a `scene`")
-            here = [name for name, other in config.experiments.items() if other.scene == scene]
             for row in rows:
-                if row.bias is not None:
-                    check_among(f"{key}.rows with a bias", row.method, here)
-                elif not is_classic(row.method):
-                    allowed = ["shadow_map_N", *timed, *here]
-                    check_among(f"{key}.rows of {scene}", row.method, allowed)
+                _check_method(config, f"{key}.rows of {scene}", table, scene, row)
             made = [row_of(config, scene, row) for row in rows]
             for part in ("method", "label"):
                 for value, count in Counter(row[part] for row in made).items():
@@ -162,3 +182,25 @@ def check(config: "Config") -> None:
                         raise ValueError(
                             f"{key}.rows of {scene}: {value!r} is there twice; should be there once"
                         )
+            against = getattr(table, "against", None)
+            against = against.get(scene) if isinstance(against, dict) else against
+            if against is not None:
+                check_among(f"{key}.against", against, [row["method"] for row in made])
+
+
+def _check_method(
+    config: "Config", key: str, table: AnyTable, scene: str, row: RowSettings
+) -> None:
+    if row.bias is not None and is_null(row.method):
+        raise ValueError(
+            f"{key}: {row.method!r} with a bias: a null predictor has no depth bias; leave it out"
+        )
+    curves = table.kind == "learning_curves"
+    names = config.learning_curves.experiments if curves else config.experiments
+    allowed = [name for name in names if config.experiments[name].scene == scene]
+    if not curves:
+        if is_classic(row.method):
+            return
+        timed = [RAY_TRACED] * (isinstance(table, TableByScene) and row.bias is None)
+        allowed = [*(f"{family}_N" for family in CLASSIC), *NULL, *timed, *allowed]
+    check_among(key, row.method, allowed)

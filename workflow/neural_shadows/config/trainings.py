@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model
+from neural_shadows.config.base import Model, by_kind
 
 
 class Loss(Model):
@@ -15,14 +15,27 @@ class Loss(Model):
     )
 
 
-class Training(Model):
+class Adam(Model):
     """Adam on the network's loss [3.5, 4.1]."""
 
+    optimiser: Literal["adam"] = Field("adam", description="`adam`, the default: the thesis's")
     steps: int = Field(ge=1, description="optimiser steps")
     # From 16: in a batch of a few rays, equal predictions do not yet mean a dead network.
     batch_size: int = Field(ge=16, le=1 << 24, description="samples per step")
-    learning_rate: float = Field(gt=0, le=1, description="Adam's learning rate (at its start)")
+    learning_rate: float = Field(gt=0, le=1, description="the optimiser's rate (at its start)")
     schedule: Literal["constant", "cosine"] = Field(
         "constant", description="of the rate: constant (thesis) or cosine to zero"
     )
     loss: Loss = Field(Loss(), description="of depths, which an occupancy_field has none of")
+
+
+class Muon(Adam):
+    """Muon for the hidden layers, Adam for all else."""
+
+    optimiser: Literal["muon"] = Field(description="`muon`: for networks with hidden layers")
+    adam_rate: float = Field(
+        0.001, gt=0, le=1, description="Adam's rate, of the first layer, the last and grids"
+    )
+
+
+Training = by_kind("optimiser", Adam, Muon, default="adam")

@@ -8,13 +8,14 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from neural_shadows.config import claims, experiments, figures, scenes, tables
+from neural_shadows.config import claims, experiments, figures, learning_curves, scenes, tables
 from neural_shadows.config.base import Model, Name, Seed
 from neural_shadows.config.claims import Claim
 from neural_shadows.config.compute import Compute
 from neural_shadows.config.experiments import Experiment
 from neural_shadows.config.figures import Figure
 from neural_shadows.config.frame_times import FrameTimes
+from neural_shadows.config.learning_curves import LearningCurves
 from neural_shadows.config.metrics import Metrics
 from neural_shadows.config.networks import Network
 from neural_shadows.config.rendering import Rendering
@@ -26,8 +27,8 @@ from neural_shadows.config.trainings import Training
 # Folders below results/ and reports/, where an overlay's own folder of this name would mix with
 # the default's files.
 RESERVED_SCALES = {
-    *("scenes", "rays", "networks", "references", "evaluations", "depth_biases", "frame_times"),
-    *("cost", "logs", "benchmarks", "reference"),
+    *("scenes", "rays", "networks", "references", "answers", "evaluations", "depth_biases"),
+    *("frame_times", "cost", "logs", "benchmarks", "reference"),
 }
 
 
@@ -44,7 +45,10 @@ class Config(Model):
     samplings: dict[Name, Sampling] = Field(description="ways to draw training rays, by name")
     networks: dict[Name, Network] = Field(description="network shapes, by name")
     trainings: dict[Name, Training] = Field(description="optimiser settings, by name")
-    experiments: dict[Name, Experiment] = Field(description="networks to train, by name")
+    experiments: dict[Name, Experiment] = Field(description="networks, by name")
+    learning_curves: LearningCurves | None = Field(
+        None, description="networks trained anew at several budgets, from several seeds"
+    )
     rendering: Rendering = Field(description="frames and viewpoints of all scenes")
     metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
     frame_times: FrameTimes = Field(FrameTimes(), description="how frame times are measured")
@@ -60,6 +64,6 @@ class Config(Model):
             raise ValueError(
                 f"scale = {self.scale!r}: is the name of a folder of results; choose another"
             )
-        for section in (scenes, experiments, tables, figures, claims):
+        for section in (scenes, experiments, learning_curves, tables, figures, claims):
             section.check(self)
         return self

@@ -7,24 +7,34 @@ from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 
 
-def files(layout: Layout) -> dict[str, list[str]]:
-    """The files of all methods that claims compare: metrics, losses or frame times."""
-    found = {"metrics": [], "losses": [], "times": []}
+def files(layout: Layout) -> dict[str, Any]:
+    """The files of all methods that claims compare, and of all trainings of their networks.
+
+    Methods that are compared in their pictures are so with no shadow, too.
+    """
+    found = {name: [] for name in ("metrics", "losses", "trainings", "times", "meshes")}
     for claim in layout.settings["claims"].values():
         rows = list(methods(claim))
+        scenes = tables.unique(row["scene"] for row in rows)
         match claim["kind"]:
-            case "better" | "larger_error":
-                found["metrics"] += tables.metrics(layout, rows)
+            case "better" | "violations":
+                rows = tables.with_curves(layout, rows)
+                found["metrics"] += tables.metrics(layout, [*rows, *tables.unshadowed(scenes)])
             case "lower_loss":
+                rows = tables.with_curves(layout, rows)
                 found["losses"] += tables.networks(layout, rows, "loss.csv")
             case "frame_time":
-                scenes = [row["scene"] for row in rows]
                 found["times"] += [layout.paths.frame_times(claim["table"], s) for s in scenes]
-    return {name: tables.unique(paths) for name, paths in found.items()}
+        found["trainings"] += tables.networks(layout, rows, "training.json")
+        found["meshes"] += [layout.paths.scene("mesh.json", scene) for scene in scenes]
+    found = {name: tables.unique(paths) for name, paths in found.items()}
+    return found | {"published_csv": layout.source("config/published.csv")}
 
 
 def methods(claim: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
-    """The methods of a claim, as rows."""
+    """The methods of a claim, as rows; none of one on what is printed."""
+    if claim["kind"] == "printed":
+        return
     yield from claim.get("methods", ())
     for pair in claim.get("pairs", ()):
         yield from pair
@@ -33,11 +43,9 @@ def methods(claim: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
 def arguments(layout: Layout) -> dict[str, Any]:
     """What `write_claims` is told beside its files."""
     rows = [row for claim in layout.settings["claims"].values() for row in methods(claim)]
-    names = tables.experiments_of(rows)
-    trainings = [layout.entry("experiments", name)["training"] for name in names]
     return {
         "claims": layout.settings["claims"],
+        "learning_curves": tables.curves(layout, rows),
         "run": layout.run(),
-        "samples": max((t["steps"] * t["batch_size"] for t in trainings), default=0),
         "scenes": layout.scenes(row["scene"] for row in rows),
     }

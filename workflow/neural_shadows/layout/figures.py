@@ -12,6 +12,7 @@ TOLD = {
     "loss": ("curves", "run"),
     "widths": ("rows", "run"),
     "pareto": ("scene", "rows", "run"),
+    "learning_curves": ("rows", "run"),
     "cost": ("run",),
     "view_directions": ("seed",),
     "overview": ("scene", "sampling", "seed"),
@@ -27,14 +28,16 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
     mesh = mesh_ply | {"mesh_json": paths.scene("mesh.json", scene)}
     match kind:
         case "pictures":
-            first = [(scene, row["method"], "000") for row in settings["rows"]]
+            rows = settings["rows"]
+            null = {"scene": scene, "method": "no_shadow"}  # what a network must be better than
             return {
-                "metrics": [paths.evaluation("csv", *names) for names in first],
+                "metrics": tables.metrics(layout, [*rows, null]),
                 "pictures": [
                     paths.reference("npz", scene, "000"),
-                    *(paths.evaluation("npz", *names) for names in first),
+                    *(paths.evaluation("npz", scene, row["method"], "000") for row in rows),
                 ],
                 "mesh_json": mesh["mesh_json"],
+                "published_csv": layout.source("config/published.csv"),
             }
         case "errors_3d":
             return mesh_ply | {
@@ -47,8 +50,11 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
             return mesh_ply | {"weights": weights}
         case "loss":
             curves = settings["curves"]
-            return {"losses": [paths.network("loss.csv", curve["experiment"]) for curve in curves]}
-        case "widths" | "pareto":
+            return {
+                "losses": tables.networks(layout, curves, "loss.csv"),
+                "trainings": tables.networks(layout, curves, "training.json"),
+            }
+        case "widths" | "pareto" | "learning_curves":
             return {"table": paths.report(f"{settings['table']}.csv")}
         case "cost":
             return {"costs": tables.costs(layout, settings["table"])}

@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 from neural_shadows.config.base import not_among
 from neural_shadows.config.networks import Network
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.method_names import experiment_of, is_classic
+from neural_shadows.evaluation.method_names import experiment_of, is_classic, unbiased
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
 
@@ -96,21 +96,26 @@ class Layout:
         }
 
     def training_files(self, experiment: str) -> dict[str, Any]:
-        """What an experiment trains on: a ray set, and the mesh that its network is laid out by."""
+        """What an experiment trains on, if it does, a ray set; and the mesh that its network is
+        laid out by.
+        """
         settings = self.entry("experiments", experiment)
         names = settings["scene"], settings["sampling"]
         needs_mesh = _NETWORK.validate_python(settings["network"]).needs_mesh
-        return {
-            "directions_npy": self.paths.rays("directions.npy", *names),
-            "rays_json": self.paths.rays("rays.json", *names),
-            "mesh_ply": [self.paths.scene("mesh.ply", names[0])] * needs_mesh,
-            **self.shards(*names),
-        }
+        found = dict.fromkeys(("directions_npy", "rays_json", "origins", "bounds"), [])
+        if settings["training"] is not None:
+            found = {
+                "directions_npy": self.paths.rays("directions.npy", *names),
+                "rays_json": self.paths.rays("rays.json", *names),
+                **self.shards(*names),
+            }
+        return {"mesh_ply": [self.paths.scene("mesh.ply", names[0])] * needs_mesh, **found}
 
     def export_files(self, experiment: str) -> dict[str, Any]:
         """What an export says of its network: the mesh's sphere, and the depth bias if found."""
-        mesh_json = self.paths.scene("mesh.json", self.entry("experiments", experiment)["scene"])
-        return {"mesh_json": mesh_json, "depth_bias_json": self.bias_file(experiment)}
+        scene = self.entry("experiments", experiment)["scene"]
+        mesh_json = self.paths.scene("mesh.json", scene)
+        return {"mesh_json": mesh_json, "depth_bias_json": self.bias_file(scene, experiment)}
 
     def encodings(self, experiments: Iterable[str]) -> set[str]:
         """The kinds of networks of some experiments."""
@@ -121,27 +126,39 @@ class Layout:
         first, last = view_range(self.settings["rendering"], batch)
         return {"first": first, "last": last}
 
-    def held_out_views(self, experiment: str) -> str:
-        """The references of the viewpoints that an experiment's depth bias is found on."""
-        scene = self.entry("experiments", experiment)["scene"]
+    def held_out_views(self, scene: str) -> str:
+        """The references of the viewpoints that the depth biases of a scene are found on."""
         return self.paths.reference("safetensors", scene, HELD_OUT)
 
     def bias(self, method: str) -> float | str | None:
-        """The depth bias of a method that is a network: a number, or `held_out`."""
-        if is_classic(method):
-            return None
-        name = experiment_of(method)
-        return self.entry("experiments", name)["bias"] if method == name else HELD_OUT
+        """A method's depth bias: a number, `held_out`, or None if it has none."""
+        if method != unbiased(method):
+            return HELD_OUT
+        return None if is_classic(method) else self.entry("experiments", method)["bias"]
 
-    def bias_file(self, method: str) -> list[str]:
+    def bias_file(self, scene: str, method: str) -> list[str]:
         """The file of a method's depth bias, if it is one that is found."""
-        return [self.paths.depth_bias(experiment_of(method))] * (self.bias(method) == HELD_OUT)
+        found = self.bias(method) == HELD_OUT
+        return [self.paths.depth_bias(scene, unbiased(method))] * found
 
     def weights(self, method: str) -> list[str]:
         """The weights of a method that is a network."""
-        names = [experiment_of(method)] * (not is_classic(method))
-        return [self.paths.network("weights.safetensors", name) for name in names]
+        file = self.paths.network("weights.safetensors", experiment_of(method))
+        return [file] * _is_network(method)
+
+    def evaluated_files(self, scene: str, method: str, batch: str) -> dict[str, Any]:
+        """What a method's visibility comes from: a network's answers, or the mesh and a bias."""
+        if _is_network(method):
+            answers = self.paths.answers(scene, method, batch)
+            return {"answers": answers, "mesh_ply": [], "depth_bias_json": []}
+        mesh_ply = self.paths.scene("mesh.ply", scene)
+        bias = self.bias_file(scene, method)
+        return {"answers": [], "mesh_ply": mesh_ply, "depth_bias_json": bias}
 
     def method_encodings(self, method: str) -> set[str]:
         """The kind of network of a method that is one."""
-        return self.encodings([experiment_of(method)] * (not is_classic(method)))
+        return self.encodings([experiment_of(method)] * _is_network(method))
+
+
+def _is_network(method: str) -> bool:
+    return not is_classic(unbiased(method))

@@ -42,9 +42,15 @@ class Paths:
         """`csv`, the metrics of a method on a batch; `npz`, its pictures."""
         return f"{self.results}/evaluations/{scene}/{method}.{batch}.{ending}"
 
-    def depth_bias(self, experiment: str = "{experiment}") -> str:
-        """The depth bias found for a network."""
-        return f"{self.results}/depth_biases/{experiment}.json"
+    def answers(
+        self, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
+    ) -> str:
+        """What a network said of the points of a batch."""
+        return f"{self.results}/answers/{scene}/{method}.{batch}.npz"
+
+    def depth_bias(self, scene: str = "{scene}", method: str = "{method}") -> str:
+        """The depth bias found for a method on a scene."""
+        return f"{self.results}/depth_biases/{scene}/{method}.json"
 
     def frame_times(self, table: str = "{table}", scene: str = "{scene}") -> str:
         """The times of a table's methods on a scene."""

@@ -4,16 +4,23 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from neural_shadows.evaluation.costs import STAGES
-from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.method_names import RAY_TRACED, biased_key, unbiased
 from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.parts import HELD_OUT, batches
+from neural_shadows.layout.parts import HELD_OUT, batches, part_names
 
 Row = Mapping[str, Any]
 
 # What a kind's function is made of and told beside its title.
 FILES = {
-    "comparison": ("metrics", "mesh_json", "trainings", "depth_biases", "lpips_json"),
-    "frame_times": ("times", "metrics", "weights", "meshes", "lpips_json"),
+    "comparison": (
+        "metrics",
+        "mesh_json",
+        "trainings",
+        "depth_biases",
+        "lpips_json",
+        "published_csv",
+    ),
+    "frame_times": ("times", "metrics", "weights", "meshes", "lpips_json", "published_csv"),
     "networks": (
         "times",
         "metrics",
@@ -22,14 +29,17 @@ FILES = {
         "depth_biases",
         "meshes",
         "lpips_json",
+        "published_csv",
     ),
-    "memory": ("weights",),
+    "learning_curves": ("metrics", "losses", "trainings", "meshes", "lpips_json", "published_csv"),
+    "memory": ("weights", "published_csv"),
     "cost": ("costs",),
 }
 TOLD = {
-    "comparison": ("published", "rows", "run", "scenes"),
+    "comparison": ("published", "against", "rows", "run", "scenes"),
     "frame_times": ("published", "rows", "run"),
-    "networks": ("rows", "run", "scenes"),
+    "networks": ("against", "durations", "rows", "run", "scenes"),
+    "learning_curves": ("published", "rows", "curves", "run", "scenes"),
     "memory": ("published", "rows", "run"),
     "cost": ("run",),
 }
@@ -41,8 +51,11 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
     kind, rows = settings["kind"], settings["rows"]
     scenes = unique(row["scene"] for row in rows)
     reports = [paths.scene("mesh.json", scene) for scene in scenes]
+    if kind == "learning_curves":
+        rows = [*with_curves(layout, rows), *unshadowed(scenes)]
     values = {
         "metrics": metrics(layout, rows),
+        "losses": networks(layout, rows, "loss.csv"),
         "mesh_json": reports[:1],
         "meshes": reports,
         "trainings": networks(layout, rows, "training.json"),
@@ -50,11 +63,10 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "depth_biases": depth_biases(layout, rows),
         "times": [paths.frame_times(table, scene) for scene in scenes],
         "lpips_json": paths.lpips,
+        "published_csv": layout.source("config/published.csv"),
         "costs": costs(layout, table) if kind == "cost" else [],
     }
     found = {name: values[name] for name in FILES[kind]}
-    if "published" in TOLD[kind]:
-        found["published_csv"] = layout.source("config/published.csv")
     # Not read: asking for a table makes the figures and the previews that belong to it.
     found["beside"] = [paths.report(f"{name}.png") for name in settings["figures"]]
     if kind == "comparison":
@@ -65,8 +77,14 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
 def arguments(layout: Layout, table: str) -> dict[str, Any]:
     """What the function of a table's kind is told beside its files."""
     settings = layout.entry("tables", table)
-    scenes = layout.scenes(row["scene"] for row in settings["rows"])
-    values = {**settings, "run": layout.run(), "scenes": scenes}
+    rows = settings["rows"]
+    values = {
+        **settings,
+        "run": layout.run(),
+        "scenes": layout.scenes(row["scene"] for row in rows),
+        "curves": curves(layout, rows),
+        "durations": {name: before_training(layout, name) for name in experiments_of(rows)},
+    }
     return {key: values[key] for key in ("title", *TOLD[settings["kind"]])}
 
 
@@ -116,9 +134,51 @@ def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:
 
 
 def depth_biases(layout: Layout, rows: Sequence[Row]) -> list[str]:
-    """The depth bias of each network among the rows that has one found, each once."""
-    found = [row["experiment"] for row in rows if row["bias"] == HELD_OUT]
-    return unique(layout.paths.depth_bias(name) for name in found)
+    """The depth bias of each method among the rows that has one found, each once."""
+    found = [(row["scene"], unbiased(row["method"])) for row in rows if row["bias"] == HELD_OUT]
+    return unique(layout.paths.depth_bias(*names) for names in found)
+
+
+def curves(layout: Layout, rows: Sequence[Row]) -> dict[str, list[dict[str, Any]]]:
+    """The points of the learning curve of each network among the rows that has one."""
+    found = layout.settings["learning_curves"]
+    return {name: found[name] for name in experiments_of(rows) if name in found}
+
+
+def with_curves(layout: Layout, rows: Sequence[Row]) -> list[Row]:
+    """The rows, and those of all points of their networks' learning curves."""
+    found = list(rows)
+    for row in rows:
+        for point in layout.settings["learning_curves"].get(row["experiment"], ()):
+            name = point["experiment"]
+            method = name if row["method"] == row["experiment"] else biased_key(name)
+            found.append({**row, "method": method, "experiment": name})
+    return found
+
+
+def unshadowed(scenes: Iterable[str]) -> list[Row]:
+    """What networks have to be better than on each scene, as rows."""
+    row = {"method": "no_shadow", "experiment": None, "bias": None}
+    return [{**row, "scene": scene} for scene in scenes]
+
+
+def before_training(layout: Layout, experiment: str) -> list[str]:
+    """The benchmarks of the jobs between a mesh's file and an experiment's training.
+
+    They are told and are no inputs: nothing is made again for the seconds that it took.
+    """
+    settings, folder = layout.entry("experiments", experiment), layout.paths.benchmarks
+    scene, sampling = settings["scene"], settings["sampling"]
+    jobs = [("prepare_mesh", scene)]
+    if sampling is not None:  # of a network that is only built
+        shards = part_names(layout.entry("samplings", sampling)["shards"])
+        jobs.append(("draw_directions", scene, sampling))
+        jobs += [
+            (rule, scene, sampling, shard)
+            for rule in ("sample_rays", "label_rays")
+            for shard in shards
+        ]
+    return [f"{folder}/{rule}/{'.'.join(names)}.tsv" for rule, *names in jobs]
 
 
 def costs(layout: Layout, table: str) -> list[str]:

@@ -76,7 +76,9 @@ def pictured(layout: Layout) -> list[tables.Row]:
         *(r for name in default_tables(layout) for r in layout.settings["tables"][name]["rows"]),
     ]
     # Of a method that is in several tables, the label of the last.
-    found = {(row["scene"], row["method"]): row for row in rows if row["method"] != RAY_TRACED}
+    # Ray tracing is the reference itself, and all dark shows nothing.
+    unseen = (RAY_TRACED, "all_dark")
+    found = {(row["scene"], row["method"]): row for row in rows if row["method"] not in unseen}
     return list(found.values())
 
 
@@ -113,8 +115,10 @@ def beyond(layout: Layout) -> list[str]:
     """Names of the tables and figures that are not the thesis's: those of other networks."""
     entries = layout.settings["tables"].items()
     found = [name for name, table in entries if table["kind"] == "networks"]
-    figures = layout.settings["figures"]
-    return found + [name for name in figures if not re.fullmatch(r"figure_\d+_\d+", name)]
+    for name, figure in layout.settings["figures"].items():
+        if not re.fullmatch(r"figure_\d+_\d+", name) and figure["kind"] != "learning_curves":
+            found.append(name)
+    return found
 
 
 def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
