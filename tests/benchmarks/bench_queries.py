@@ -15,7 +15,8 @@ from torch import Tensor
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import QUERY_CHUNKS
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device, sphere_rays
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
@@ -126,7 +127,7 @@ def _cuda_rows(frame: GBuffer, rounds: int) -> list[Row]:
     networks = {width: thesis_network(width).to(cuda) for width in WIDTHS}
 
     def mask(width: int) -> None:
-        network_lit(networks[width], points, light, dtype=dtype)
+        network_lit(networks[width], points, light, dtype=dtype)(0.0)
         torch.cuda.synchronize()
 
     works = {str(width): lambda width=width: mask(width) for width in WIDTHS}

@@ -44,20 +44,26 @@ class RandomRays:
 def rows(quick: bool) -> list[Row]:
     """Rates at the desk's batch on the CPU, and at the thesis's where there is a GPU."""
     found = [_cpu_row(width, 7 if quick else 21) for width in WIDTHS]
+    found += _optimiser_rows(21 if quick else 101)
     if torch.cuda.is_available():
         found += [_cuda_row(width, 20 if quick else 200) for width in WIDTHS]
     return found
 
 
-def _new_run(width: int, batch: int, device: torch.device, precision: str) -> TrainingRun:
+def new_run(
+    width: int, batch: int, device: torch.device, precision: str, optimiser: str = "adam"
+) -> TrainingRun:
+    """A training of the thesis's network."""
     network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
     network.initialise(0)
-    settings = {"steps": 1, "batch_size": batch, "learning_rate": 1e-4, "schedule": "constant"}
-    made = {"loss": {}, "seed": 0, "device": device.type, "precision": precision}
+    settings = {"optimiser": optimiser, "learning_rate": 1e-4, "adam_rate": 1e-4, "loss": {}}
+    settings |= {"steps": 1, "batch_size": batch, "schedule": "constant"}
+    made = {"seed": 0, "device": device.type, "precision": precision}
     return TrainingRun(network, settings | made)
 
 
-def _stepper(run: TrainingRun, rays: RandomRays, pool=None):
+def stepper(run: TrainingRun, rays: RandomRays, pool=None):
+    """A function that does one step of a training."""
     batch = run.settings["batch_size"]
 
     def step() -> None:
@@ -92,10 +98,10 @@ def _products(network: FrequencyNetwork, dtype: torch.dtype, rows: int):
 def _cpu_row(width: int, rounds: int) -> Row:
     cpu = torch.device("cpu")
     dtype = choose_dtype("auto", cpu)
-    run, whole = (_new_run(width, DESK_BATCH, cpu, name) for name in ("auto", "float32"))
+    run, whole = (new_run(width, DESK_BATCH, cpu, name) for name in ("auto", "float32"))
     whole.chunk = DESK_BATCH
     rays, pool = RandomRays(cpu), gradient_pool(THREADS)
-    ours, plain = _stepper(run, rays, pool), _stepper(whole, rays)
+    ours, plain = stepper(run, rays, pool), stepper(whole, rays)
     # Each thread multiplies for itself, as in our step: nothing has to be waited for.
     parts = DESK_BATCH // run.chunk
     products = [_products(run.network, dtype, run.chunk) for _ in range(parts)]
@@ -124,13 +130,31 @@ def _cpu_row(width: int, rounds: int) -> Row:
     )
 
 
+def _optimiser_rows(rounds: int) -> list[Row]:
+    """What changing the weights takes of a step, whatever its batch, on one thread."""
+    torch.set_num_threads(1)
+    cpu = torch.device("cpu")
+    rate = torch.tensor(1e-4)
+    works = {}
+    for name in ("adam", "muon"):
+        run = new_run(256, 16, cpu, "auto", name)
+        stepper(run, RandomRays(cpu))()  # which leaves gradients
+        optimisers = run.optimisers.values()
+        works[name] = lambda optimisers=optimisers: [one.step(rate) for one in optimisers]
+    seconds = median_seconds(works, rounds)
+    return [
+        Row(f"{name}'s part of a step, width 256", "cpu x1", 1000 * seconds[name], "ms")
+        for name in works
+    ]
+
+
 def _cuda_row(width: int, rounds: int) -> Row:
     cuda = choose_device("cuda")
     dtype = choose_dtype("auto", cuda)
     rays = RandomRays(cuda)
 
-    run, exact = (_new_run(width, THESIS_BATCH, cuda, name) for name in ("auto", "float32"))
-    ours, plain = recorded(_stepper(run, rays)), _stepper(exact, rays)
+    run, exact = (new_run(width, THESIS_BATCH, cuda, name) for name in ("auto", "float32"))
+    ours, plain = recorded(stepper(run, rays)), stepper(exact, rays)
     products = _products(run.network, dtype, THESIS_BATCH)
     for _ in range(WARM_UP + 1):
         ours()

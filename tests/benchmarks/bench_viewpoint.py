@@ -1,33 +1,40 @@
-"""One evaluated viewpoint and each of its parts, as an evaluation job runs it on one thread.
+"""One evaluated viewpoint and each of its parts, as evaluation jobs run them on one thread.
 
 Five shadow maps, one network of the thesis's, untrained, and the metrics of these six methods.
-An evaluation is many jobs of one thread: two of them at once give the rate of two cores.
+An evaluation is many jobs of one thread: two of them at once give the rate of two cores. And whole
+maps as frames are timed with: rasterised, beside a ray a texel.
 """
 
 import multiprocessing
 import time
 from collections import defaultdict
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import torch
 from bench_queries import HEIGHT, SCENE, SEED, WIDTH, thesis_network
-from measurement import Row
+from measurement import Row, median_seconds
 
-from neural_shadows.evaluation.shadow_methods import network_method, traced_method
+from neural_shadows.evaluation.shadow_methods import ShadowMethod, classic_method, network_method
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.lpips_distance import make_lpips
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.rendering.exact_shadow import exact_visibility
-from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.scenes.scene import open_scene
+from neural_shadows.shadow_maps.rasterise import rasterised_heights
+from neural_shadows.shadow_maps.shadow_map import shadow_map_square
+from neural_shadows.shadow_maps.trace import texel_heights
 
 MAPS = (2048, 1024, 512, 256, 128)
 JOBS = 2  # at once
+RASTERISED, TRACED = "rasterised", "a ray a texel"
 
 
 def rows(mesh_ply: Path, trunk: Path | None, quick: bool) -> list[Row]:
@@ -48,7 +55,32 @@ def rows(mesh_ply: Path, trunk: Path | None, quick: bool) -> list[Row]:
             Row(f"viewpoint: {part}", "cpu x1", float(np.median(seconds)), unit)
             for part, seconds in alone.items()
         ),
+        *whole_maps(mesh_ply, 3 if quick else 9),
     ]
+
+
+def whole_maps(mesh_ply: Path, rounds: int) -> list[Row]:
+    """Whole maps a second, of sizes that frames are timed with: rasterised, and traced."""
+    scene = open_scene(mesh_ply, **SCENE)
+    (mesh,), light = scene.objects, np.array([2, 6, 3]) / 7
+    square = shadow_map_square(mesh.vertices, light)
+    found = []
+    for n in MAPS[:3]:
+        works = {
+            RASTERISED: partial(rasterised_heights, mesh.vertices, mesh.faces, square, n),
+            TRACED: partial(texel_heights, scene.tracer, square, n, np.arange(n * n)),
+        }
+        seconds = median_seconds(works, rounds)
+        rate = {name: 1 / value for name, value in seconds.items()}
+        stage = f"whole map of {n} x {n}, {RASTERISED}"
+        traced = {"peer": TRACED, "peer_rate": rate[TRACED]}
+        found.append(Row(stage, "cpu x1", rate[RASTERISED], "maps/s", **traced))
+    return found
+
+
+def unbiased(method: ShadowMethod) -> Callable[[GBuffer], np.ndarray]:
+    """A method's visibility without a depth bias."""
+    return lambda frame: method(frame)(0.0)
 
 
 def _total(spent: dict[str, list[float]]) -> float:
@@ -68,8 +100,8 @@ def seconds_of_parts(mesh_ply: Path, trunk: Path | None, views: int) -> dict[str
 
     scene = open_scene(mesh_ply, **SCENE)
     dtype = choose_dtype("auto", choose_device("cpu"))
-    maps = [traced_method(f"shadow_map_{resolution}", scene) for resolution in MAPS]
-    network = network_method(thesis_network(256), dtype)
+    maps = [unbiased(classic_method(f"shadow_map_{resolution}", scene)) for resolution in MAPS]
+    network = unbiased(network_method(thesis_network(256), dtype))
     lpips = make_lpips("squeeze", trunk) if trunk else None
 
     parts = ["viewpoint drawn", "primary rays", "reference", "5 shadow maps", "network", "shading"]

@@ -1,6 +1,11 @@
 """What the benchmarks print is right; how fast anything is they measure and no test asserts."""
 
+from types import SimpleNamespace
+
+import numpy as np
+import precision_of_queries
 import pytest
+import torch
 from measurement import COLUMNS, Row, median_seconds, table
 
 
@@ -28,3 +33,22 @@ def test_works_are_done_in_turn_and_the_first_round_does_not_count(monkeypatch):
     found = median_seconds({"a": lambda: work("a"), "b": lambda: work("b")}, 3)
     assert done == ["a", "b"] * 4
     assert found == {"a": pytest.approx(2), "b": pytest.approx(4)}
+
+
+def test_what_a_coarser_format_costs_is_counted():
+    """Depths off by 0.01 and −0.02: of 11 points, those within that of the depth 1 flip."""
+
+    def depths(origins, d, dtype):
+        error = {torch.float32: 0.0, torch.bfloat16: 0.01, torch.float16: -0.02}[dtype]
+        return torch.full((len(origins),), 1.0 + error)
+
+    network = SimpleNamespace(depths=depths, device=torch.device("cpu"))
+    # On the sphere's axis towards the light a point at height z has s = 1 − z; the last is culled.
+    s = np.array([0.5, 0.975, 0.985, 0.995, 1.002, 1.005, 1.015, 1.03, 1.5, 1.6, -1.0])
+    p = np.stack([0 * s, 1 - s, 0 * s], axis=1).astype(np.float32)
+    view = SimpleNamespace(light=np.array([0.0, 1.0, 0.0]))
+    found = precision_of_queries.differences(network, [SimpleNamespace(p=p, view=view)])
+    assert found["precision"].tolist() == ["bfloat16", "float16"]
+    for column in ("median", "share_90", "rms"):
+        assert found[column].tolist() == pytest.approx([0.01, 0.02], abs=1e-6)
+    assert found["flipped"].tolist() == [2 / 11, 2 / 11]

@@ -1,0 +1,174 @@
+"""The learning curves of a configuration, one training after another until the time is up."""
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import torch
+from gpu_data import Data
+
+from neural_shadows.files.whole_files import read_json, write_json, write_text
+from neural_shadows.metrics.psnr_ssim import psnr, ssim
+from neural_shadows.metrics.shadow_error import shadow_error
+from neural_shadows.networks.compute import choose_dtype
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
+from neural_shadows.rendering.gbuffer import GBuffer
+from neural_shadows.rendering.shading import shade
+from neural_shadows.running.hardware import describe_machine
+from neural_shadows.training.train import curve_points, outcome
+from neural_shadows.training.training_run import TrainingRun
+
+Metric = Callable[[np.ndarray, np.ndarray], float]
+
+IMAGE_METRICS: dict[str, Metric] = {"psnr": psnr, "ssim": ssim}
+
+
+def keys_of(settings: Mapping[str, Any]) -> Iterator[str]:
+    """The trainings of all learning curves, those that decide most first.
+
+    Experiments come in the order of the configuration. A curve of one seed says something, and
+    its seeds together decide: so one experiment after another, and seed by seed.
+    """
+    for points in settings["learning_curves"].values():
+        for point in sorted(points, key=lambda point: (point["seed"], point["steps"])):
+            yield point["experiment"]
+
+
+def run_curves(
+    out: Path,
+    device: torch.device,
+    data: Data,
+    deadline: float,
+    metrics: Mapping[str, Metric] = IMAGE_METRICS,
+) -> list[str]:
+    """Train and measure what is not there yet until `deadline` on the monotonic clock.
+
+    Writes, in `out`: `trainings.json`, of each training that is done what the pipeline's
+    `training.json` holds; `losses.csv` and `metrics.csv`, theirs of all; and the state of the
+    training that was stopped.
+
+    Args:
+        metrics: of images, beside the shadow errors.
+
+    Returns: the trainings that are left.
+    """
+    settings = data.settings
+    trainings_json = out / "trainings.json"
+    done = read_json(trainings_json) if trainings_json.exists() else {}
+    left = [key for key in keys_of(settings) if key not in done]
+    scenes: set[str] = set()  # whose null predictor this call has measured
+    while left and time.monotonic() < deadline:
+        key = left[0]
+        experiment = settings["experiments"][key]
+        scene = experiment["scene"]
+        state = out / f"{key}.safetensors"
+        run, header = _opened(key, experiment, device, data)
+        if state.exists():
+            run.restore(state)
+        rays, _ = data.rays(scene, experiment["sampling"])
+        if not _train(run, rays, deadline, data.threads):
+            run.save(state)
+            break
+        rows = measured(key, answers_of(run.network, run.dtype), data, scene, metrics)
+        if scene not in scenes:
+            rows += measured("no_shadow", all_lit, data, scene, metrics)
+            scenes.add(scene)
+        _append(out / "metrics.csv", pd.DataFrame(rows), values=1)
+        losses = pd.read_csv(StringIO(run.curve_csv()))
+        losses.insert(0, "experiment", key)
+        _append(out / "losses.csv", losses, values=2)
+        # Last, for it says that all else is there.
+        about = {"parameters": run.network.parameter_count(), "machine": describe_machine()}
+        done[key] = header | outcome(run, rays) | about | {"threads": data.threads}
+        write_json(trainings_json, done)
+        state.unlink(missing_ok=True)
+        left.remove(key)
+    return left
+
+
+def _opened(key: str, experiment: Mapping[str, Any], device: torch.device, data: Data):
+    """A training at its start, and the header of its weights."""
+    scene = experiment["scene"]
+    dtype = choose_dtype(data.settings["compute"]["precision"], device)
+    made = {"device": device.type, "precision": str(dtype).removeprefix("torch.")}
+    training = experiment["training"] | {"seed": experiment["seed"]} | made
+    network = make_network(experiment["network"])
+    if experiment["network"]["encoding"] != "frequency":
+        network.prepare(data.mesh(scene))
+    network.initialise(experiment["seed"])
+    _, rays_json = data.rays(scene, experiment["sampling"])
+    header = {"name": key, "network": experiment["network"], "training": training}
+    return TrainingRun(network, training), header | {"data": read_json(rays_json)}
+
+
+def _train(run: TrainingRun, rays, deadline: float, threads: int) -> bool:
+    """Do steps until the end or the deadline; gives whether it came to the end."""
+    started, before = time.monotonic(), run.seconds
+    for step in curve_points(run, rays, threads, after_step=lambda samples: None):
+        run.seconds = before + time.monotonic() - started
+        if time.monotonic() > deadline and step < run.settings["steps"]:
+            return False
+    return True
+
+
+def answers_of(network: ShadowNetwork, dtype: torch.dtype) -> Callable[[GBuffer], np.ndarray]:
+    """What a network says of the points of a frame that face the light: lit or not, (m,) bool."""
+
+    def lit(frame: GBuffer) -> np.ndarray:
+        points, light = on_device(frame.p, frame.view.light, network.device)
+        rays = sphere_rays(points, light)
+        reached = torch.minimum(rays.s, rays.chord) <= network.depths(rays.origins, -light, dtype)
+        answer = torch.ones(len(points), dtype=torch.bool, device=points.device)
+        answer[rays.index] = reached
+        return answer.cpu().numpy()
+
+    return lit
+
+
+def all_lit(frame: GBuffer) -> np.ndarray:
+    """The answer of the null predictor."""
+    return np.ones(len(frame.lit_side), bool)
+
+
+def measured(
+    method: str,
+    lit: Callable[[GBuffer], np.ndarray],
+    data: Data,
+    scene: str,
+    metrics: Mapping[str, Metric],
+) -> list[dict[str, Any]]:
+    """Rows of a method's metrics on all frames of a scene, as the pipeline's `metrics.csv`."""
+    frames = data.frames(scene)
+    answers = [frame.visibility(lit(frame)) for frame, _ in frames]
+
+    def rows(pair, answer: np.ndarray) -> list[dict[str, Any]]:
+        frame, truth = pair
+        image, reference = shade(frame, answer), shade(frame, truth)
+        values = {name: metric(image, reference) for name, metric in metrics.items()}
+        values |= shadow_error(answer, truth)._asdict()
+        view = {"scene": scene, "view": frame.view.index, "view_set": frame.view.view_set}
+        view |= {"method": method}
+        return [view | {"metric": name, "value": value} for name, value in values.items()]
+
+    with ThreadPoolExecutor(data.threads) as pool:
+        return [row for part in pool.map(rows, frames, answers) for row in part]
+
+
+def _append(path: Path, rows: pd.DataFrame, values: int) -> None:
+    """Add rows to a CSV file in place of the same ones, which a kill may have left.
+
+    Args:
+        values: the last columns, which do not say what a row is of.
+    """
+    if path.exists():
+        rows = pd.concat([pd.read_csv(path), rows])
+    keys = list(rows.columns[:-values])
+    rows = rows.drop_duplicates(keys, keep="last").sort_values(keys)
+    write_text(path, rows.to_csv(index=False, lineterminator="\n"))
