@@ -122,7 +122,7 @@ def slow_down(checkout: Checkout, seconds: float) -> None:
     """Have a training rest so long after each of its 200 steps; its weights stay the same."""
     train = checkout.module("training/train.py")
     source = train.read_text()
-    slow = source.replace("check_learning(name,", f"time.sleep({seconds}); check_learning(name,")
+    slow = source.replace("run.add_point()", f"time.sleep({seconds}); run.add_point()")
     assert slow != source
     train.write_text(slow)
 
