@@ -23,7 +23,7 @@ def test_counts():
     t = np.float32([0.49995, 0.4, 0.3, 1.5, 1.1, 1.0])
     lit = np.array([False, False, False, True, True, True])
     truth = np.float32([1, 1, 0, 0, 1, 1])
-    assert count_violations(t, t_lb, t_ub, lit, truth) == Violations(6, 3, 1, 2, 1)
+    assert count_violations(t, t_lb, t_ub, lit, truth) == Violations(6, 3, 2, 1, 2, 1, 1)
 
 
 class Ball(ShadowNetwork):
@@ -68,4 +68,7 @@ def test_a_ball_that_is_short_or_far_breaks_the_bound_on_that_side(
         shown = found.false_shadow_of_lower, found.light_leak_of_upper
         assert shown == pytest.approx(shares, abs=rim)
         shown_anywhere += shown
+        # A depth before the ball shows wherever the point is lit, but where it falls short by less
+        # than the shading offset.
+        assert found.false_shadow_of_lower == pytest.approx(found.lit_of_lower, abs=2 * rim)
     assert (shown_anywhere > 100).tolist() == [lower, upper]

@@ -1,7 +1,7 @@
 """What a network answered on a batch of frames, on disk between its query and its metrics.
 
 One npz file: of each frame by number, `NUMBER.lit`, a bit for each point on the lit side; and
-`violations` (frames, 5) int64, a row of `Violations` for each.
+`violations` (frames, 7) int64, a row of `Violations` for each.
 """
 
 from collections.abc import Sequence

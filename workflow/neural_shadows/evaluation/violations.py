@@ -11,13 +11,17 @@ class Violations(NamedTuple):
     """Numbers of a frame's sphere rays, one for each shading point that a network is asked of.
 
     The thesis says that a violated lower bound always shows, as false shadow, and an upper one
-    only where another surface lies between, as a light leak: shares of the violations.
+    only where another surface lies between, as a light leak. False shadow can only be where a point
+    is lit, and a leak where it is not: how many of the violations are there is counted too, or
+    random depths would confirm it, by the share of points that are lit.
     """
 
     queries: int
     lower_violations: int  # the depth is before the first hit, or short of a miss's chord
+    lit_of_lower: int  # of those, points that are lit
     false_shadow_of_lower: int  # of those, points wrongly in shadow
     upper_violations: int  # it is behind the second hit
+    shadowed_of_upper: int  # of those, points in shadow
     light_leak_of_upper: int  # of those, points wrongly lit
 
 
@@ -32,5 +36,6 @@ def count_violations(
             visibility of them.
     """
     lower, upper = t < t_lb - TOLERANCE, t > t_ub + TOLERANCE
-    counted = len(t), lower, lower & ~lit & (truth == 1), upper, upper & lit & (truth == 0)
+    bright, dark = lower & (truth == 1), upper & (truth == 0)
+    counted = len(t), lower, bright, bright & ~lit, upper, dark, dark & lit
     return Violations(*(int(np.sum(of)) for of in counted))
