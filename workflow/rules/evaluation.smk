@@ -67,8 +67,7 @@ rule find_depth_bias:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=60),
-        # None for a shadow map.
-        gpu=lambda wildcards: GPUS * len(LAYOUT.weights(wildcards.method)),
+        gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
     params:
         scene=setting("scenes/{scene}/scene"),
         device=COMPUTE["device"],
@@ -98,9 +97,10 @@ rule query_network:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=60),
-        gpu=GPUS,
+        gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
     params:
         bias=of(LAYOUT.bias),
+        violations=of(claims.counts_violations),
         device=COMPUTE["device"],
         precision=COMPUTE["precision"],
     message:

@@ -21,7 +21,7 @@ rule train:
     resources:
         # Minutes are not more for each attempt: it goes on from its last checkpoint.
         **usual(8000, minutes=600) | {"runtime": 600},
-        gpu=GPUS,
+        gpu=lambda wildcards: GPUS * LAYOUT.is_trained(wildcards.experiment),
     params:
         network=setting("experiments/{experiment}/network"),
         training=setting("experiments/{experiment}/training"),

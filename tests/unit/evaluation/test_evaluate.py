@@ -61,14 +61,18 @@ def test_a_network_is_asked_with_its_bias(files, tmp_path):
     batch = list(References(files.references))
     errors = {}
     for bias in (0.0, 0.3):
-        query_network(files.references, files.weights, None, **queried, bias=bias)
+        counted = bias > 0
+        given = {"bias": bias, "violations": counted}
+        query_network(files.references, files.weights, None, **queried, **given)
         values, *_ = evaluated(files, tmp_path, "net", answers)
         errors[bias] = values[:, :, "shadow_error"].tolist()
         wrong = [np.mean(answer(frame)(bias) != truth) for frame, truth in batch]
         assert errors[bias] == pytest.approx(wrong)
-        for name in Violations._fields:
-            assert (values[:, :, name] >= 0).all()
-        assert values["surface", 0, "queries"] > 0
+        metrics = set(values.index.get_level_values("metric"))
+        assert metrics.isdisjoint(Violations._fields) or counted
+    for name in Violations._fields:
+        assert (values[:, :, name] >= 0).all()
+    assert values["surface", 0, "queries"] > 0
     query_network(
         files.references, files.weights, tmp_path / "net.json", **queried, bias="held_out"
     )

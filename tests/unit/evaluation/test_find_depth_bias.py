@@ -71,7 +71,7 @@ def test_an_end_of_the_search_is_told(find, capsys):
     assert "the best depth bias, 0.128, ends the search" in capsys.readouterr().out
 
 
-def test_a_push_is_found_beside_the_bias(find):
+def test_a_push_is_found_beside_the_bias(find, capsys):
     class Pushed(ShortBall):
         pushes = (0.0, 0.5, 1.0)
 
@@ -82,6 +82,10 @@ def test_a_push_is_found_beside_the_bias(find):
     found = find(Pushed(0.2))
     assert found["push"] == 0.5 and abs(found["depth_bias"]) < 0.02 and not found["at_end"]
     assert len(found["errors"]) == 3 * len(BIASES)
+    # Where the largest is best, a larger one might be better.
+    found = find(Pushed(0.4))
+    assert found["push"] == 1.0 and found["depth_bias"] < 0.02 and found["at_end"]
+    assert "the best push, 1.0, ends the search" in capsys.readouterr().out
 
 
 def test_a_map_that_needs_no_bias_gets_none(find):

@@ -48,7 +48,7 @@ def test_kinds_of_maps_are_told_apart(bumpy):
     assert squares["_pcf"] < squares[""]
 
 
-@pytest.mark.parametrize("kind", ["", "_pcf"])
+@pytest.mark.parametrize("kind", ["", "_pcf", "_16bit", "_pcf_16bit"])
 def test_a_whole_map_answers_as_the_texels_in_use_do(bumpy, kind):
     scene, frame = bumpy
     lazy, whole = (

@@ -50,8 +50,8 @@ def test_a_ball_that_is_short_or_far_breaks_the_bound_on_that_side(
     ball = trimesh.creation.icosphere(5, radius=BALL)
     files = make_evaluated(tmp_path, ball)
     monkeypatch.setattr(stage, "open_network", lambda *_: (Ball(share), torch.float32))
-    path = tmp_path / "answers.npz"
-    query_network(files.references, tmp_path / "w", None, files.mesh_ply, path, method="ball")
+    path, asked = tmp_path / "answers.npz", {"method": "ball", "violations": True}
+    query_network(files.references, tmp_path / "w", None, files.mesh_ply, path, **asked)
     answers, shown_anywhere = Answers(path), np.zeros(2)
     for number, (frame, truth) in enumerate(References(files.references)):
         found, visibility = answers.violations(number), answers.visibility(number, frame)

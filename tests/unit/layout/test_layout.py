@@ -74,6 +74,23 @@ def test_files_of_methods(desk):
             assert desk.export_files(name)["depth_bias_json"] == desk.bias_file("dragon", name)
 
 
+def test_what_reserves_a_gpu(desk):
+    """Networks that compute on one: what is only built trains nothing, and a mesh asks Embree."""
+    methods = ["dragon_biased", "dragon_distances_256", "dragon_mesh_biased", "shadow_map_512"]
+    assert [desk.can_use_gpu(method) for method in methods] == [True, True, False, False]
+    trained = [desk.is_trained(name) for name in ("dragon", "dragon_distances_256", "dragon_mesh")]
+    assert trained == [True, False, False]
+
+
+def test_violations_are_counted_for_the_claims_about_them():
+    claim = {"kind": "violations", "methods": ["fence"], "section": "5.1", "statement": "so"}
+    layout = layout_of("claims", claims={"lower_bound_costs_more": claim})
+    counted = [claims.counts_violations(layout, method) for method in ("fence", "dragon")]
+    assert counted == [True, False]
+    point = layout.settings["learning_curves"]["fence"][0]["experiment"]
+    assert claims.counts_violations(layout, point) and not claims.counts_violations(layout, "x")
+
+
 def test_files_that_methods_are_evaluated_from(desk):
     """Networks from their answers alone, whatever their bias; others from the mesh."""
     network = desk.evaluated_files("dragon", "dragon_biased", "000")

@@ -10,7 +10,7 @@ from shapes import bumpy_sphere, prepared, sheet
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.brick_layout import lay_out
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
+from neural_shadows.networks.object_space.occupancy_field_network import LIMIT, PUSHES
 from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
@@ -151,6 +151,15 @@ def test_untrained_distances_are_a_ball_that_can_be_pushed_out(tmp_path, resolut
             # derivative, 1 / r on two axes; its mean is 1 / (6 r).
             assert cells.mean() == pytest.approx(-1 / (6 * resolution / 4), abs=0.005)
             assert cells.std() < 0.02
+
+
+def test_a_trained_surface_is_not_pushed(tmp_path):
+    settings = SOLID_32 | {"start": "distances"}
+    network = made(bumpy_sphere(3), tmp_path, settings)
+    path = tmp_path / "weights.safetensors"
+    for training, pushes in [(None, PUSHES), ({"steps": 60}, (0.0,))]:
+        save_network(path, network, {"network": settings, "training": training})
+        assert load_network(path)[0].pushes == pushes
 
 
 def test_signs_take_a_bit_each(tmp_path):

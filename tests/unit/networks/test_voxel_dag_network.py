@@ -92,6 +92,24 @@ def test_an_open_shell_has_no_inside(tmp_path):
     assert (network(*ball_batch(100)[:2], torch.float32) == LIT).all()
 
 
+def test_words_that_point_beyond_themselves_are_refused(tmp_path):
+    network = made(bumpy_sphere(3), tmp_path, 64, "solid")
+    words = network.stored()["words"]
+    assert len(words) > 100
+    place = int((words[:40] > 255).nonzero()[0])
+    for bad in (len(words), len(words) - 1, -1):
+        changed = words.clone()
+        changed[place] = bad
+        with pytest.raises(ValueError, match=f"a node beyond its {len(words)} words"):
+            network.restore({"words": changed})
+    for bad in (words[:-1], words[:1], words[:0]):
+        with pytest.raises(ValueError, match="a node beyond its"):
+            network.restore({"words": bad})
+    with pytest.raises(ValueError, match="float32 words"):
+        network.restore({"words": words.float()})
+    network.restore({"words": words})
+
+
 def test_equal_parts_are_stored_once():
     shape = bumpy_sphere(4)
     tree = octree(surface_bricks(shape.vertices, shape.faces, 8), 8)

@@ -7,10 +7,11 @@ from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
-from neural_shadows.shadow_maps.depth_test import depth_test, unorm16
+from neural_shadows.shadow_maps.depth_test import depth_test
 from neural_shadows.shadow_maps.rasterise import rasterised_heights
 from neural_shadows.shadow_maps.shadow_map import receivers_of, shadow_map_square
 from neural_shadows.shadow_maps.trace import looked_up_heights, texel_heights
+from neural_shadows.shadow_maps.unorm16 import from_unorm16, to_unorm16
 
 W, H = 300, 200
 LIGHTS = [unit(0, 1, 0), unit(1, 1, 0.5), unit(-3, 1.5, 1), unit(0, 1, 1)]
@@ -21,15 +22,16 @@ def bumpy():
     return scene_of(bumpy_sphere(5))
 
 
-def lit_by(scene, frame, resolution, depth_bias=0.0, **kind):
+def lit_by(scene, frame, resolution, depth_bias=0.0, pcf=False, sixteen_bit=False):
     """What a map says of the points on a frame's lit side, (m,) float32 in [0, 1]."""
     square = shadow_map_square(scene.objects[0].vertices, frame.view.light)
     receivers = receivers_of(square, frame)
 
     def heights_at(texels):
-        return looked_up_heights(scene.tracer, square, resolution, texels)
+        heights = looked_up_heights(scene.tracer, square, resolution, texels)
+        return from_unorm16(to_unorm16(heights, square), square) if sixteen_bit else heights
 
-    return depth_test(receivers, resolution, heights_at, **kind)(depth_bias)
+    return depth_test(receivers, resolution, heights_at, pcf=pcf)(depth_bias)
 
 
 def points_at(p, light, cosine):
@@ -120,10 +122,17 @@ def test_sixteen_bits_round_to_a_65534th_of_the_extent(bumpy):
     square = shadow_map_square(bumpy.objects[0].vertices, unit(1, 1, 0.5))
     step = (square.highest - square.lowest) / 65534
     heights = np.linspace(square.lowest, square.highest, 200_001, dtype=np.float32)
-    found = unorm16(heights, square)
+    codes = to_unorm16(heights, square)
+    assert codes.dtype == np.uint16 and codes.min() == 1 and codes.max() == 65_535
+    found = from_unorm16(codes, square)
     assert np.abs(found - heights).max() == pytest.approx(step / 2, rel=0.02)
     assert len(np.unique(found)) == 65_535
-    assert unorm16(np.float32([-np.inf]), square) == -np.inf
+    # Exactly those of the levels, however many there are at once.
+    levels = np.arange(65_535)[None] * step + np.float64([[square.lowest], [square.lowest]])
+    again = from_unorm16(to_unorm16(levels.astype(np.float32), square), square)
+    np.testing.assert_array_equal(again, levels.astype(np.float32))
+    none = to_unorm16(np.float32([-np.inf]), square)
+    assert none == 0 and from_unorm16(none, square) == -np.inf
 
 
 def test_points_are_compared_with_heights_of_sixteen_bits():

@@ -13,6 +13,10 @@ from rays import ball_batch, write_ball_rays
 
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.object_space.occupancy_field_network import (
+    PUSHES,
+    OccupancyFieldNetwork,
+)
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.training import cuda_graph
 from neural_shadows.training import train as stage
@@ -188,8 +192,12 @@ def test_a_run_that_dies_is_a_result(tmp_path, monkeypatch, capsys, value, layer
         assert record["final_loss"] is None and curve["loss"].isna().all()
     network, _ = load_network(tmp_path / "ball" / "weights.safetensors")
     assert not network(*ball_batch(4)[:2], torch.float32).nan_to_num().any()
-    # Asked again, it dies again.
-    assert run_training(tmp_path, interval=0.0, **TINY) == 1
+    # Asked again, it is still dead: its checkpoint says so.
+    for name in ("weights.safetensors", "training.json"):
+        (tmp_path / "ball" / name).unlink()
+    assert run_training(tmp_path, interval=0.0, **TINY) == 0
+    record = json.loads((tmp_path / "ball" / "training.json").read_text())
+    assert (record["died_at_step"], record["samples"]) == (1, 32)
 
 
 def test_a_network_that_is_not_trained_is_only_built(tmp_path, monkeypatch):
@@ -214,6 +222,34 @@ def test_a_network_that_is_not_trained_is_only_built(tmp_path, monkeypatch):
     nothing = ("training", "samples_per_second", "final_loss", "no_shadow_loss", "died_at_step")
     assert [record[key] for key in nothing] == [None] * 5
     assert list(read_loss(folder / "loss.csv")) == ["step", "samples", "learning_rate", "loss"]
+
+
+def test_the_seconds_of_building_are_not_those_of_compiling(tmp_path, monkeypatch):
+    """A clock in whose seconds a mesh's first preparation takes 100, and each later one 1."""
+    clock, prepare, before = [0.0], OccupancyFieldNetwork.prepare, []
+
+    def slow(self, mesh_ply):
+        clock[0] += 1.0 if before else 100.0
+        before.append(self)
+        prepare(self, mesh_ply)
+
+    monkeypatch.setattr(OccupancyFieldNetwork, "prepare", slow)
+    monkeypatch.setattr(stage.time, "monotonic", lambda: clock[0])
+    trimesh.creation.icosphere(2, radius=0.5).export(tmp_path / "mesh.ply")
+    settings = {key: SETTINGS[key] for key in ("seed", "experiment")}
+    stage.train(
+        mesh_ply=tmp_path / "mesh.ply",
+        weights=tmp_path / "weights.safetensors",
+        loss_csv=tmp_path / "loss.csv",
+        training_json=tmp_path / "training.json",
+        network=KINDS[1] | {"start": "distances"},
+        training=None,
+        # It takes no GPU, and is none the worse where there is none.
+        device="cuda",
+        **settings,
+    )
+    assert json.loads((tmp_path / "training.json").read_text())["seconds"] == 1
+    assert load_network(tmp_path / "weights.safetensors")[0].pushes == PUSHES
 
 
 def test_a_recorded_step_gives_the_same_bytes(tmp_path, monkeypatch):

@@ -117,6 +117,21 @@ def test_muon_moves_the_hidden_layers_and_adam_the_others():
         assert (weight - before[name]).abs().max() > 1e-3
 
 
+@pytest.mark.parametrize("died_at_step", [None, 1])
+def test_a_state_tells_death(tmp_path, died_at_step):
+    """Its spread is not in the state: without the word a dead run would go on."""
+    ours, theirs = new_run(), new_run(seed=1)
+    if died_at_step:
+        ours.network.output.data.zero_()
+    take_step(ours, slice(100))
+    ours.add_point()
+    assert ours.died_at_step == died_at_step
+    ours.save(tmp_path / "state.safetensors")
+    theirs.restore(tmp_path / "state.safetensors")
+    assert (theirs.died_at_step, theirs.curve) == (died_at_step, ours.curve)
+    assert_same_weights(ours, theirs)
+
+
 def test_muon_is_refused_where_nothing_is_hidden():
     network = FrequencyNetwork(frequencies=3, width=16, hidden_layers=2)
     network.layers = network.layers[:1]

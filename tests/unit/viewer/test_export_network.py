@@ -1,6 +1,7 @@
 """ONNX Runtime answers as PyTorch does, and the written conventions give the pipeline's shadow."""
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -106,9 +107,10 @@ def test_a_renderer_gets_the_pipeline_s_shadow(tmp_path, export, settings):
         assert str(folder).encode() not in content
 
 
-def test_an_export_that_answers_otherwise_is_not_kept(tmp_path, export, monkeypatch):
+@pytest.mark.parametrize("difference", [0.1, math.nan])
+def test_an_export_that_answers_otherwise_is_not_kept(tmp_path, export, monkeypatch, difference):
     monkeypatch.setattr(stage, "export_onnx", lambda network, path: path.write_text("other"))
-    monkeypatch.setattr(stage, "largest_difference", lambda *_: 0.1)
+    monkeypatch.setattr(stage, "largest_difference", lambda *_: difference)
     with pytest.raises(InputError, match=r"network\.onnx: ONNX Runtime's depths differ"):
         export(KINDS[0])
     assert not (tmp_path / "network.onnx").exists() and not (tmp_path / "network.json").exists()

@@ -1,7 +1,7 @@
 """What a network answered on a batch of frames, on disk between its query and its metrics.
 
 One npz file: of each frame by number, `NUMBER.lit`, a bit for each point on the lit side; and
-`violations` (frames, 7) int64, a row of `Violations` for each.
+`violations` (frames, 7) int64, a row of `Violations` for each, or nothing where none are counted.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from neural_shadows.rendering.gbuffer import GBuffer
 
 
 def write_answers(path: Path, lit: Sequence[np.ndarray], violations: Sequence[Violations]) -> None:
-    """Write which points on each frame's lit side, (m,) bool, are lit, and its violations."""
+    """Write which points on each frame's lit side, (m,) bool, are lit, and the violations of each."""
     bits = {f"{number}.lit": np.packbits(one) for number, one in enumerate(lit)}
     with whole_file(path) as part:
         np.savez(part, violations=np.array(violations, np.int64), **bits)
@@ -43,6 +43,8 @@ class Answers:
         bits = self._arrays[f"{number}.lit"]
         return frame.visibility(np.unpackbits(bits, count=len(frame.lit_side)))
 
-    def violations(self, number: int) -> Violations:
-        """Of a frame of the batch."""
+    def violations(self, number: int) -> Violations | None:
+        """Of a frame of the batch; None where they were not counted."""
+        if len(self._violations) == 0:
+            return None
         return Violations(*self._violations[number].tolist())

@@ -41,8 +41,8 @@ def evaluate(
 ) -> None:
     """Shade the batch's frames by one method, and measure them.
 
-    Writes tidy metrics (a row per view and metric), of a network with the numbers of
-    `Violations`; and, for people to look at, the picture of each view set's first frame, see
+    Writes tidy metrics (a row per view and metric), with the numbers of `Violations` where they
+    are counted; and, for people to look at, the picture of each view set's first frame, see
     `write_first_frames`.
 
     Args:
@@ -81,10 +81,11 @@ def evaluate(
 
 
 def _of_network(answers: Answers) -> Answer:
-    return lambda number, frame: (
-        answers.visibility(number, frame),
-        answers.violations(number)._asdict(),
-    )
+    def answer(number: int, frame: GBuffer) -> tuple[np.ndarray, Mapping[str, float]]:
+        counted = answers.violations(number)
+        return answers.visibility(number, frame), counted._asdict() if counted else {}
+
+    return answer
 
 
 def _of_classic(method: str, mesh_ply: Path, scene: Mapping[str, Any], bias: float) -> Answer:

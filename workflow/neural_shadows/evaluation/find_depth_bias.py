@@ -45,8 +45,8 @@ def find_depth_bias(
 ) -> None:
     """Write the bias of `BIASES` with the least shadow error over a batch, and all errors.
 
-    Of a network that has `pushes`, the best pair of one and a bias. `at_end` says that the bias
-    is the first or the last of `BIASES`, so that a better one may lie beyond; so does the log.
+    Of a network that has `pushes`, the best pair of one and a bias. `at_end` says that either is
+    the first or the last that was tried, so that a better one may lie beyond; so does the log.
 
     Args:
         references: what `render_references` wrote of views that no evaluation uses.
@@ -81,10 +81,15 @@ def find_depth_bias(
     ]
     best = min(errors, key=_rank)
     found = {"depth_bias": best["depth_bias"], "push": best["push"]}
-    at_end = found["depth_bias"] in (BIASES[0], BIASES[-1])
-    if at_end:
-        print(f"warning: {method}: the best depth bias, {found['depth_bias']}, ends the search")
-    found |= {"at_end": at_end, "views": len(batch), "errors": errors}
+    searched = {"depth_bias": BIASES, "push": [*methods]}
+    ends = [
+        key
+        for key, values in searched.items()
+        if len(values) > 1 and found[key] in (values[0], values[-1])
+    ]
+    for key in ends:
+        print(f"warning: {method}: the best {key.replace('_', ' ')}, {found[key]}, ends the search")
+    found |= {"at_end": bool(ends), "views": len(batch), "errors": errors}
     write_json(depth_bias_json, found)
 
 

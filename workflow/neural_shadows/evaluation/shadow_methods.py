@@ -26,6 +26,7 @@ from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.depth_test import HeightsAt, depth_test
 from neural_shadows.shadow_maps.shadow_map import ShadowMapSquare, receivers_of, shadow_map_square
 from neural_shadows.shadow_maps.trace import looked_up_heights
+from neural_shadows.shadow_maps.unorm16 import from_unorm16, to_unorm16
 
 if TYPE_CHECKING:  # torch takes seconds to import, which jobs without a network need not wait for
     import torch
@@ -58,14 +59,8 @@ def classic_method(method: str, scene: Scene, *, whole_map: bool = False) -> Sha
 
     def answer(frame: GBuffer) -> OfBias:
         square = shadow_map_square(mesh.vertices, frame.view.light)
-        heights_at = _heights_at(scene, square, resolution, whole_map)
-        lit = depth_test(
-            receivers_of(square, frame),
-            resolution,
-            heights_at,
-            pcf=family.pcf,
-            sixteen_bit=family.sixteen_bit,
-        )
+        heights_at = _heights_at(scene, square, resolution, whole_map, family.sixteen_bit)
+        lit = depth_test(receivers_of(square, frame), resolution, heights_at, pcf=family.pcf)
         return lambda depth_bias: frame.visibility(lit(depth_bias))
 
     return answer
@@ -76,15 +71,23 @@ def _whatever_bias(visibility: np.ndarray) -> OfBias:
 
 
 def _heights_at(
-    scene: Scene, square: ShadowMapSquare, resolution: int, whole_map: bool
+    scene: Scene, square: ShadowMapSquare, resolution: int, whole_map: bool, sixteen_bit: bool
 ) -> HeightsAt:
     if not whole_map:
-        return lambda texels: looked_up_heights(scene.tracer, square, resolution, texels)
+
+        def heights_at(texels: np.ndarray) -> np.ndarray:
+            heights = looked_up_heights(scene.tracer, square, resolution, texels)
+            return from_unorm16(to_unorm16(heights, square), square) if sixteen_bit else heights
+
+        return heights_at
     # Here and not above: numba takes a second to import.
     from neural_shadows.shadow_maps.rasterise import rasterised_heights
 
     (mesh,) = scene.objects
     heights = rasterised_heights(mesh.vertices, mesh.faces, square, resolution).ravel()
+    if sixteen_bit:
+        codes = to_unorm16(heights, square)
+        return lambda texels: from_unorm16(codes[texels], square)
     return lambda texels: heights[texels]
 
 
@@ -110,7 +113,7 @@ def open_network(
     """A network on its device, and the number format of its products there.
 
     Args:
-        device: `auto`, `cpu` or `cuda`.
+        device: `auto`, `cpu` or `cuda`; not asked of a network that is always on the CPU.
         threads: of PyTorch on the CPU, from now on.
         precision: of its products, see `choose_dtype`.
 
@@ -123,8 +126,9 @@ def open_network(
     from neural_shadows.networks.weight_file import load_network
 
     torch.set_num_threads(threads)
-    chosen = choose_device(device)
-    return load_network(weights)[0].to(chosen), choose_dtype(precision, chosen)
+    network, _ = load_network(weights)
+    chosen = choose_device(device if network.on_gpu else "cpu")
+    return network.to(chosen), choose_dtype(precision, chosen)
 
 
 def take_found(network: "ShadowNetwork", depth_bias_json: Path) -> float:

@@ -31,6 +31,16 @@ def files(layout: Layout) -> dict[str, Any]:
     return found | {"published_csv": layout.source("config/published.csv")}
 
 
+def counts_violations(layout: Layout, method: str) -> bool:
+    """Whether a claim is about how often a method's depths break their bounds."""
+    for claim in layout.settings["claims"].values():
+        if claim["kind"] == "violations":
+            rows = tables.with_curves(layout, list(methods(claim)))
+            if method in (row["method"] for row in rows):
+                return True
+    return False
+
+
 def methods(claim: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
     """The methods of a claim, as rows; none of one on what is printed."""
     if claim["kind"] == "printed":

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from neural_shadows.config.base import not_among
-from neural_shadows.config.networks import Network
+from neural_shadows.config.networks import Network, NetworkModel
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import experiment_of, is_classic, unbiased
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
@@ -101,7 +101,6 @@ class Layout:
         """
         settings = self.entry("experiments", experiment)
         names = settings["scene"], settings["sampling"]
-        needs_mesh = _NETWORK.validate_python(settings["network"]).needs_mesh
         found = dict.fromkeys(("directions_npy", "rays_json", "origins", "bounds"), [])
         if settings["training"] is not None:
             found = {
@@ -109,7 +108,23 @@ class Layout:
                 "rays_json": self.paths.rays("rays.json", *names),
                 **self.shards(*names),
             }
-        return {"mesh_ply": [self.paths.scene("mesh.ply", names[0])] * needs_mesh, **found}
+        return {
+            "mesh_ply": [self.paths.scene("mesh.ply", names[0])]
+            * self._kind(experiment).needs_mesh,
+            **found,
+        }
+
+    def _kind(self, experiment: str) -> NetworkModel:
+        """What the graph must know of an experiment's kind of network."""
+        return _NETWORK.validate_python(self.entry("experiments", experiment)["network"])
+
+    def is_trained(self, experiment: str) -> bool:
+        """Whether an experiment's network is not only built."""
+        return self.entry("experiments", experiment)["training"] is not None
+
+    def can_use_gpu(self, method: str) -> bool:
+        """Whether a method is a network of a kind that does; those without weights do not."""
+        return _is_network(method) and self._kind(experiment_of(method)).trained
 
     def export_files(self, experiment: str) -> dict[str, Any]:
         """What an export says of its network: the mesh's sphere, and the depth bias if found."""

@@ -59,6 +59,8 @@ def load_network(path: Path) -> tuple[ShadowNetwork, dict[str, Any]]:
     try:
         network = make_network(header["network"])
         network.restore(tensors)
+        if header.get("training") is not None:
+            network.pushes = (0.0,)  # a training has put the surface where it is
     except (KeyError, TypeError, ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())[:200]
         raise InputError(

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from neural_shadows.shadow_maps.shadow_map import Receivers, ShadowMapSquare
+from neural_shadows.shadow_maps.shadow_map import Receivers
 
 # Heights (t,) float32 of texels (t,), row · resolution + column, in a map of one resolution.
 HeightsAt = Callable[[np.ndarray], np.ndarray]
@@ -16,7 +16,6 @@ def depth_test(
     heights_at: HeightsAt,
     *,
     pcf: bool = False,
-    sixteen_bit: bool = False,
 ) -> Callable[[float], np.ndarray]:
     """Compare receivers with a map of resolution² texels, of any depth bias [4.1].
 
@@ -28,20 +27,16 @@ def depth_test(
         pcf: weight the tests against the four texels round a receiver bilinearly, as graphics
             hardware does (percentage-closer filtering, Reeves et al. 1987); else that of the
             texel that it falls in.
-        sixteen_bit: store heights as `unorm16`.
 
     Returns:
         a function of the depth bias, in sphere radii, that gives the visibility of all m facing
         points, (m,) float32: 0 or 1, with PCF between.
     """
-    square = receivers.square
     texels, shares = (
         texels_round(receivers, resolution) if pcf else (texels_of(receivers, resolution), ())
     )
     heights = heights_at(texels.ravel()).reshape(texels.shape)
-    if sixteen_bit:
-        heights = unorm16(heights, square)
-    bias = receivers.slope * np.float32(square.side / resolution) + np.float32(1e-4)
+    bias = receivers.slope * np.float32(receivers.square.side / resolution) + np.float32(1e-4)
 
     def visibility(depth_bias: float) -> np.ndarray:
         lit = receivers.height + (bias + np.float32(depth_bias)) >= heights
@@ -80,14 +75,3 @@ def texels_round(
         np.clip(np.stack([of, of + 1]).astype(np.int64), 0, resolution - 1) for of in first
     )
     return row[:, None] * resolution + column[None], (along, across)
-
-
-def unorm16(heights: np.ndarray, square: ShadowMapSquare) -> np.ndarray:
-    """Heights (float32, −∞ for none) as a 16-bit map gives them back, in the same shape.
-
-    Code 0 is left to texels without a surface; the others divide the object's extent along the
-    light evenly, 3e-5 apart for the whole sphere: a third of the constant bias.
-    """
-    step = (square.highest - square.lowest) / 65_534 or 1.0  # of an object across the light: any
-    codes = np.round((heights.astype(np.float64) - square.lowest) / step)
-    return (square.lowest + step * np.clip(codes, -np.inf, 65_534)).astype(np.float32)

@@ -75,6 +75,7 @@ class TrainingRun:
     def save(self, path: Path) -> None:
         """Write the whole state."""
         header = {"step": int(self.step), "seconds": self.seconds, "curve": self.curve}
+        header["died_at_step"] = self.died_at_step
         save_tensors(path, self._places(), header)
 
     def restore(self, path: Path) -> None:
@@ -86,6 +87,7 @@ class TrainingRun:
         for optimiser in self.optimisers.values():
             optimiser.continue_at(header["step"])
         self.seconds, self.curve = header["seconds"], header["curve"]
+        self.died_at_step = header["died_at_step"]
 
     def add_point(self) -> None:
         """A point of the loss curve: the mean loss of the steps since the point before.

@@ -107,7 +107,7 @@ def export_network(
     depth_bias = take_found(network, depth_bias_json) if depth_bias_json else bias
     export_onnx(network, network_onnx)
     difference = largest_difference(network, network_onnx)
-    if difference > TOLERANCE:
+    if not difference <= TOLERANCE:  # which NaN is not either
         network_onnx.unlink()
         raise InputError(
             f"{network_onnx}: ONNX Runtime's depths differ from PyTorch's by {difference:.2g} sphere "

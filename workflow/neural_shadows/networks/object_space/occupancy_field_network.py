@@ -61,7 +61,7 @@ START_SHARE = 0.9
 # By how many cells the surface of distances may be moved out, see `ShadowNetwork.pushes`:
 # interpolation cuts off what is convex. On the Stanford dragon 0.05 is best at 256³ (39.5 dB for
 # 37.7), 0.075 at 128³ (34.8 for 30.2), and of signs −0.1 at 256³.
-PUSHES = (-0.2, -0.1, 0.0, 0.025, 0.05, 0.075, 0.1)
+PUSHES = (-0.2, -0.1, 0.0, 0.025, 0.05, 0.075, 0.1, 0.15)
 
 
 class OccupancyFieldNetwork(ShadowNetwork):

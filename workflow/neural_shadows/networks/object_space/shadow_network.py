@@ -55,10 +55,12 @@ class ShadowNetwork(nn.Module, ABC):
     # Whether the losses have the same shapes whatever the batch, draw nothing, and read nothing
     # back from a GPU, so that a GPU can record a training step and repeat it.
     recordable: ClassVar[bool] = False
+    # Whether it computes on a GPU where there is one.
+    on_gpu: ClassVar[bool] = True
     # Whether it can be written as ONNX.
     exportable: ClassVar[bool] = True
-    # By how much of a cell the surface of a distance grid may be moved out before it is asked;
-    # held-out views say which is best. Where there is no such surface, not at all.
+    # By how much of a cell the surface of an untrained distance grid may be moved out before it is
+    # asked; held-out views say which is best. Where there is no such surface, not at all.
     pushes: tuple[float, ...] = (0.0,)
     push: float = 0.0  # one of `pushes`
 
@@ -106,17 +108,23 @@ class ShadowNetwork(nn.Module, ABC):
             chunks = origins.split(self.query_chunks[self.device.type])
             return torch.cat([self(chunk, d.expand(len(chunk), 3), dtype) for chunk in chunks])
 
-    def lit(self, rays: SphereRays, d: Tensor, dtype: torch.dtype) -> Callable[[float], Tensor]:
+    def lit(
+        self, rays: SphereRays, d: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
+    ) -> Callable[[float], Tensor]:
         """Which points at the ends of rays along one d (3,) are lit, of any depth bias [3.6.2].
 
         shadowed ⟺ min(s, ℓ) > t_pred(o, d) + depth_bias. The clamp of s to the chord ℓ is
         essential: a ray that misses the object is only ever trained to t ≥ ℓ, so that without
         it every receiver behind the sphere would be in shadow.
 
+        Args:
+            t_pred: what `depths` gives of these rays, where that is known already.
+
         Returns:
             a function of the depth bias, in sphere radii, that gives (k,) bool.
         """
-        t_pred = self.depths(rays.origins, d, dtype)
+        if t_pred is None:
+            t_pred = self.depths(rays.origins, d, dtype)
         s = torch.minimum(rays.s, rays.chord)
         return lambda depth_bias: s <= t_pred + depth_bias
 

@@ -87,6 +87,28 @@ def words_of(tree: Octree) -> np.ndarray:
     return np.concatenate(words) if len(tree.levels[0]) else np.zeros(1, np.uint32)
 
 
+def check_places(words: np.ndarray, levels: int) -> None:
+    """ValueError if a node, or the place of one, lies beyond the words: the kernels look there."""
+    nodes = np.zeros(1, np.int64)
+    for _ in range(levels - BRICK_LEVELS):
+        _check_within(nodes, words)
+        masks = words[nodes]
+        _check_within(nodes + COUNTS[masks & np.uint32(255)], words)
+        found = []
+        for child in range(8):
+            held = masks >> np.uint32(child) & np.uint32(1) == 1
+            before = COUNTS[masks[held] & np.uint32((1 << child) - 1)]
+            found.append(words[nodes[held] + 1 + before])
+        nodes = np.unique(np.concatenate(found)).astype(np.int64)
+        nodes = nodes[nodes > 0]  # not the place of a full child
+    _check_within(nodes + 1, words)
+
+
+def _check_within(places: np.ndarray, words: np.ndarray) -> None:
+    if (places >= len(words)).any():
+        raise ValueError(f"a node beyond its {len(words)} words")
+
+
 @njit(cache=True, nogil=True)
 def first_voxels(origins, directions, words, levels):
     """t (n,) float32 at which rays enter their first voxel; `LIT` where there is none.

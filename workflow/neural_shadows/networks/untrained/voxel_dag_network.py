@@ -14,7 +14,13 @@ from torch import Tensor
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.untrained.untrained_network import UntrainedNetwork
 from neural_shadows.networks.untrained.voxel_bricks import surface_bricks
-from neural_shadows.networks.untrained.voxel_dag import first_voxels, merged, octree, words_of
+from neural_shadows.networks.untrained.voxel_dag import (
+    check_places,
+    first_voxels,
+    merged,
+    octree,
+    words_of,
+)
 from neural_shadows.networks.untrained.voxel_inside import inside_of
 
 
@@ -58,4 +64,8 @@ class VoxelDagNetwork(UntrainedNetwork):
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
         """See `ShadowNetwork.restore`."""
-        self.words = tensors["words"].numpy().view(np.uint32)
+        words = tensors["words"].numpy()
+        if words.dtype != np.int32 or words.ndim != 1:
+            raise ValueError(f"{words.shape} {words.dtype} words")
+        check_places(words.view(np.uint32), self.levels)
+        self.words = words.view(np.uint32)
