@@ -4,6 +4,7 @@ Each check gives its largest error and the error that is allowed: rounding, and 
 fails or cannot be done does not keep the others from being done.
 """
 
+import math
 import traceback
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -64,11 +65,14 @@ def _checks(device, rays, mesh_ply) -> Iterator[tuple[str, float, Callable[[], f
             0.05,
             lambda optimiser=optimiser: _steps(device, rays, optimiser),
         )
-        yield (
-            f"recorded steps of {optimiser} beside plain ones: weights, over their way",
-            0.01,
-            lambda optimiser=optimiser: _recorded(device, rays, optimiser),
-        )
+        # In the device's own format, which steps run in; and in the thesis's, with its loss scale.
+        for precision in ("auto", "float16"):
+            yield (
+                f"recorded steps of {optimiser} in {precision} beside plain ones: weights, over "
+                "their way",
+                0.01,
+                lambda made=(optimiser, precision): _recorded(device, rays, *made),
+            )
 
 
 def _indices(device: torch.device) -> float:
@@ -130,9 +134,8 @@ def _steps(device: torch.device, rays: RaySet, optimiser: str) -> float:
     return _apart(*runs)
 
 
-def _recorded(device: torch.device, rays: RaySet, optimiser: str) -> float:
-    """In the device's own number format, which steps run in."""
-    runs = [new_run(WIDTH, 1024, device, "auto", optimiser) for _ in range(2)]
+def _recorded(device: torch.device, rays: RaySet, optimiser: str, precision: str) -> float:
+    runs = [new_run(WIDTH, 1024, device, precision, optimiser) for _ in range(2)]
     source = DeviceRays(rays, device)
 
     def step(run: TrainingRun) -> None:
@@ -146,7 +149,12 @@ def _recorded(device: torch.device, rays: RaySet, optimiser: str) -> float:
 
 
 def _apart(ours: TrainingRun, theirs: TrainingRun) -> float:
-    """How far the weights of two runs are apart, over how far they have come, at most."""
+    """How far the weights of two runs are apart, over how far they have come, at most.
+
+    Infinitely, where one is not finite.
+    """
+    if not all(w.isfinite().all() for run in (ours, theirs) for w in run.weights.values()):
+        return math.inf
     start = new_run(WIDTH, 16, CPU, "float32").weights
     return max(
         ((a.cpu() - b.cpu()).norm() / (a.cpu() - start[name]).norm()).item()

@@ -1,24 +1,26 @@
 """The learning curves of a configuration, one training after another until the time is up."""
 
+import shutil
 import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import torch
 from gpu_data import Data
 
-from neural_shadows.files.whole_files import read_json, write_json, write_text
+from neural_shadows.evaluation.per_view_metrics import write_metrics
+from neural_shadows.files.whole_files import read_json, whole_file, write_json, write_text
+from neural_shadows.layout.layout import Layout
+from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
 from neural_shadows.metrics.shadow_error import shadow_error
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
-from neural_shadows.networks.object_space.shadow_query import on_device, sphere_rays
+from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.running.hardware import describe_machine
@@ -27,7 +29,9 @@ from neural_shadows.training.training_run import TrainingRun
 
 Metric = Callable[[np.ndarray, np.ndarray], float]
 
-IMAGE_METRICS: dict[str, Metric] = {"psnr": psnr, "ssim": ssim}
+IMAGE_METRICS: dict[str, Metric] = {"psnr": psnr, "ssim": ssim, "flip": flip}
+
+BATCH = "000"  # all views are one batch
 
 
 def keys_of(settings: Mapping[str, Any]) -> Iterator[str]:
@@ -50,9 +54,9 @@ def run_curves(
 ) -> list[str]:
     """Train and measure what is not there yet until `deadline` on the monotonic clock.
 
-    Writes, in `out`: `trainings.json`, of each training that is done what the pipeline's
-    `training.json` holds; `losses.csv` and `metrics.csv`, theirs of all; and the state of the
-    training that was stopped.
+    Writes, below `out`, what the pipeline writes of each training, where it does (`Paths`):
+    `training.json`, `loss.csv` and the metrics, with those of `no_shadow`, and the description of
+    the scene's mesh. And, in `out`, the state of the training that was stopped.
 
     Args:
         metrics: of images, beside the shadow errors.
@@ -60,10 +64,12 @@ def run_curves(
     Returns: the trainings that are left.
     """
     settings = data.settings
-    trainings_json = out / "trainings.json"
-    done = read_json(trainings_json) if trainings_json.exists() else {}
-    left = [key for key in keys_of(settings) if key not in done]
-    scenes: set[str] = set()  # whose null predictor this call has measured
+    paths = Layout(settings).paths
+
+    def record(key: str) -> Path:
+        return out / paths.network("training.json", key)
+
+    left = [key for key in keys_of(settings) if not record(key).exists()]
     while left and time.monotonic() < deadline:
         key = left[0]
         experiment = settings["experiments"][key]
@@ -76,18 +82,19 @@ def run_curves(
         if not _train(run, rays, deadline, data.threads):
             run.save(state)
             break
-        rows = measured(key, answers_of(run.network, run.dtype), data, scene, metrics)
-        if scene not in scenes:
-            rows += measured("no_shadow", all_lit, data, scene, metrics)
-            scenes.add(scene)
-        _append(out / "metrics.csv", pd.DataFrame(rows), values=1)
-        losses = pd.read_csv(StringIO(run.curve_csv()))
-        losses.insert(0, "experiment", key)
-        _append(out / "losses.csv", losses, values=2)
+        run.save(state)  # measuring takes a minute, and may be cut short
+        answers = {key: answers_of(run.network, run.dtype), "no_shadow": all_lit}
+        for method, lit in answers.items():
+            metrics_csv = out / paths.evaluation("csv", scene, method, BATCH)
+            if not metrics_csv.exists():
+                write_metrics(metrics_csv, measured(method, lit, data, scene, metrics))
+        with whole_file(out / paths.scene("mesh.json", scene)) as part:
+            shutil.copy(data.mesh(scene).with_suffix(".json"), part)
+        write_text(out / paths.network("loss.csv", key), run.curve_csv())
         # Last, for it says that all else is there.
         about = {"parameters": run.network.parameter_count(), "machine": describe_machine()}
-        done[key] = header | outcome(run, rays) | about | {"threads": data.threads}
-        write_json(trainings_json, done)
+        about |= outcome(run, rays) | {"threads": data.threads}
+        write_json(record(key), header | about)
         state.unlink(missing_ok=True)
         left.remove(key)
     return left
@@ -100,7 +107,7 @@ def _opened(key: str, experiment: Mapping[str, Any], device: torch.device, data:
     made = {"device": device.type, "precision": str(dtype).removeprefix("torch.")}
     training = experiment["training"] | {"seed": experiment["seed"]} | made
     network = make_network(experiment["network"])
-    if experiment["network"]["encoding"] != "frequency":
+    if Layout(data.settings).kind(key).needs_mesh:
         network.prepare(data.mesh(scene))
     network.initialise(experiment["seed"])
     _, rays_json = data.rays(scene, experiment["sampling"])
@@ -113,7 +120,8 @@ def _train(run: TrainingRun, rays, deadline: float, threads: int) -> bool:
     started, before = time.monotonic(), run.seconds
     for step in curve_points(run, rays, threads, after_step=lambda samples: None):
         run.seconds = before + time.monotonic() - started
-        if time.monotonic() > deadline and step < run.settings["steps"]:
+        more = step < run.settings["steps"] and run.died_at_step is None
+        if time.monotonic() > deadline and more:
             return False
     return True
 
@@ -123,11 +131,7 @@ def answers_of(network: ShadowNetwork, dtype: torch.dtype) -> Callable[[GBuffer]
 
     def lit(frame: GBuffer) -> np.ndarray:
         points, light = on_device(frame.p, frame.view.light, network.device)
-        rays = sphere_rays(points, light)
-        reached = torch.minimum(rays.s, rays.chord) <= network.depths(rays.origins, -light, dtype)
-        answer = torch.ones(len(points), dtype=torch.bool, device=points.device)
-        answer[rays.index] = reached
-        return answer.cpu().numpy()
+        return network_lit(network, points, light, dtype=dtype)(0.0).cpu().numpy()
 
     return lit
 
@@ -144,7 +148,7 @@ def measured(
     scene: str,
     metrics: Mapping[str, Metric],
 ) -> list[dict[str, Any]]:
-    """Rows of a method's metrics on all frames of a scene, as the pipeline's `metrics.csv`."""
+    """Rows of a method's metrics on all frames of a scene, see `write_metrics`."""
     frames = data.frames(scene)
     answers = [frame.visibility(lit(frame)) for frame, _ in frames]
 
@@ -153,22 +157,8 @@ def measured(
         image, reference = shade(frame, answer), shade(frame, truth)
         values = {name: metric(image, reference) for name, metric in metrics.items()}
         values |= shadow_error(answer, truth)._asdict()
-        view = {"scene": scene, "view": frame.view.index, "view_set": frame.view.view_set}
-        view |= {"method": method}
+        view = {"view": frame.view.index, "view_set": frame.view.view_set, "method": method}
         return [view | {"metric": name, "value": value} for name, value in values.items()]
 
     with ThreadPoolExecutor(data.threads) as pool:
         return [row for part in pool.map(rows, frames, answers) for row in part]
-
-
-def _append(path: Path, rows: pd.DataFrame, values: int) -> None:
-    """Add rows to a CSV file in place of the same ones, which a kill may have left.
-
-    Args:
-        values: the last columns, which do not say what a row is of.
-    """
-    if path.exists():
-        rows = pd.concat([pd.read_csv(path), rows])
-    keys = list(rows.columns[:-values])
-    rows = rows.drop_duplicates(keys, keep="last").sort_values(keys)
-    write_text(path, rows.to_csv(index=False, lineterminator="\n"))

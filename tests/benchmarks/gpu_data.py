@@ -85,9 +85,8 @@ class Data:
 
             def render(which: tuple[str, int]) -> tuple[GBuffer, np.ndarray]:
                 view_set, index = which
-                (view,) = draw_viewpoints(
-                    opened, [view_set], [index], width / height, about["frames"]["seed"]
-                )
+                drawn = about["frames"]["seed"], about["frames"]["least_shadow"]
+                (view,) = draw_viewpoints(opened, [view_set], [index], width / height, *drawn)
                 frame = render_gbuffer(opened, view, width, height)
                 return frame, exact_visibility(opened.tracer, frame)
 

@@ -7,7 +7,10 @@ from types import SimpleNamespace
 
 import gpu
 import gpu_checks
+import gpu_data
 import gpu_rates
+import gpu_report
+import numpy as np
 import pandas as pd
 import pytest
 import torch
@@ -16,12 +19,17 @@ from shipped import shipped
 
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
+from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.evaluation.references import References
+from neural_shadows.evaluation.render_references import render_references
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.training import cuda_graph
+from neural_shadows.training.loss_curve import read_loss
 from neural_shadows.training.training_run import TrainingRun
 
 CPU = torch.device("cpu")
-STEPS, SEEDS = (4, 8), (5, 6)
+STEPS, SEEDS, BATCH = (4, 6, 8), (5, 6), 64
+NAMES = ("dragon", "dragon_uniform")
 
 
 @pytest.fixture(autouse=True)
@@ -48,26 +56,19 @@ def call(tmp_path, monkeypatch):
     values["samplings"]["poisson_quadtree"] |= {"directions": 8, "points_per_direction": 100}
     values["rendering"] |= {"width": 64, "height": 64}
     values["networks"]["thesis"] |= {"width": 8, "hidden_layers": 1}
+    values["seed"] = SEEDS[0]
+    values["trainings"]["base"] |= {"steps": STEPS[-1], "batch_size": BATCH}
+    values["learning_curves"] = {"experiments": [*NAMES], "steps": [*STEPS], "seeds": len(SEEDS)}
     settings = resolved(read_config(values))
-    points = {}
-    for name in ("dragon", "dragon_identity"):
-        points[name] = []
-        for steps in STEPS:
-            for seed in SEEDS:
-                key = f"{name}_{steps}_steps_seed_{seed}"
-                points[name].append({"experiment": key, "steps": steps, "seed": seed})
-                training = settings["experiments"][name]["training"] | {"steps": steps}
-                new = settings["experiments"][name] | {"training": training, "seed": seed}
-                settings["experiments"][key] = new
-    settings["learning_curves"] = points
     monkeypatch.setattr(gpu, "settings_of", lambda overlay, mesh: settings)
     kept = ["--mesh", str(ball), "--work", str(tmp_path / "work"), "--views", "2"]
 
-    def main(out, minutes):
+    def main(out, minutes, *others):
         kept_too = ["--out", str(tmp_path / out), "--minutes", str(minutes), "--device", "cpu"]
-        gpu.main(kept + kept_too)
+        gpu.main([*kept, *kept_too, *others])
         return tmp_path / out
 
+    main.settings = settings
     return main
 
 
@@ -75,11 +76,14 @@ def test_goes_on_with_each_call(call, tmp_path, monkeypatch, capsys):
     """Stopped after each training's first point, it comes to the same as undisturbed."""
     whole = call("whole", 5)
     checks = json.loads((whole / "checks.json").read_text())
-    assert len(checks) == 9 and all(check["passed"] for check in checks), checks
+    assert len(checks) == 11 and all(check["passed"] for check in checks), checks
     rates = pd.read_csv(whole / "rates.csv")
     assert len(rates) == 4 and (rates["rate"] > 0).all()
     assert "\n0 trainings of the learning curves are left" in capsys.readouterr().out
     check_files(whole)
+    with pytest.raises(SystemExit, match="whole: was made with other settings or of another mesh"):
+        call("whole", 5, "--views", "1")
+    check_reports(whole, call.settings, monkeypatch)
 
     (tmp_path / "stopped").mkdir()
     for name in ("checks.json", "rates.csv"):  # done already
@@ -99,37 +103,82 @@ def test_goes_on_with_each_call(call, tmp_path, monkeypatch, capsys):
         while not states or states[-1]:
             stopped = call("stopped", 7)
             states.append([path.name for path in stopped.glob("*.safetensors")])
-            assert len(states) < 9
+            assert len(states) < 14
     assert len(states) > 2 and max(map(len, states)) == 1
     assert "\n0 trainings of the learning curves are left" in capsys.readouterr().out
-    for name in ("losses.csv", "metrics.csv"):
-        pd.testing.assert_frame_equal(pd.read_csv(stopped / name), pd.read_csv(whole / name))
+    files = sorted(path.relative_to(whole) for path in whole.glob("results/**/*.csv"))
+    assert len(files) == 2 * 12 + 1
+    for name in files:
+        assert (stopped / name).read_bytes() == (whole / name).read_bytes()
+
+
+def record_of(results, name):
+    return json.loads((results / "networks" / name / "training.json").read_text())
 
 
 def check_files(out):
-    """The trainings in the order that was meant, and what is written of them."""
-    trainings = json.loads((out / "trainings.json").read_text())
-    assert list(trainings) == [
-        f"{name}_{steps}_steps_seed_{seed}"
-        for name in ("dragon", "dragon_identity")
-        for seed in SEEDS
-        for steps in STEPS
-    ]
-    record = trainings["dragon_8_steps_seed_6"]
-    assert record["samples"] == 8 * record["training"]["batch_size"]
+    """What is written of the trainings, where the pipeline has it."""
+    results = out / "results" / "smoke"
+    names = [f"{name}_{n}_steps_seed_{seed}" for name in NAMES for seed in SEEDS for n in STEPS]
+    names = [name.removesuffix("_8_steps_seed_5") for name in names]  # the experiment itself
+    written = sorted(results.glob("networks/*/training.json"), key=lambda p: p.stat().st_mtime_ns)
+    assert [path.parent.name for path in written] == names
+    record = record_of(results, "dragon_8_steps_seed_6")
+    assert record["samples"] == 8 * record["training"]["batch_size"] == 8 * BATCH
     assert record["training"]["seed"] == 6 and record["no_shadow_loss"] > 0
-    metrics = pd.read_csv(out / "metrics.csv")
-    assert list(metrics) == ["scene", "view", "view_set", "method", "metric", "value"]
-    names = ["psnr", "ssim", "shadow_error", "false_shadow", "light_leak"]
-    assert (metrics.groupby(["scene", "method"]).size() == 2 * 2 * len(names)).all()
-    null = metrics[metrics["method"] == "no_shadow"].groupby("metric")["value"].mean()
+    shown = {}
+    for name in (*names, "no_shadow"):
+        metrics = read_metrics([results / f"evaluations/dragon/{name}.000.csv"])
+        assert set(metrics["method"]) == {name} and len(metrics) == 2 * 2 * 6
+        shown[name] = metrics.groupby("metric")["value"].mean()
+    null = shown["no_shadow"]
     assert null["false_shadow"] == 0 and null["light_leak"] == null["shadow_error"] > 0
-    losses = pd.read_csv(out / "losses.csv")
-    assert list(losses) == ["experiment", "step", "samples", "learning_rate", "loss"]
-    points = losses.groupby("experiment").size()
-    assert points.to_dict() == {
-        key: int(key.split("_steps")[0].split("_")[-1]) for key in trainings
-    }
+    for name in names:
+        losses = read_loss(results / f"networks/{name}/loss.csv")
+        assert len(losses) == record_of(results, name)["training"]["steps"]
+
+
+def check_reports(out, settings, monkeypatch):
+    """Tables and claims of them: of curves that are whole, and of files that are there."""
+    monkeypatch.chdir(out)
+    names = ("sampling", "dragon_worse_than_512", "scene_difficulty")
+    claims = {name: settings["claims"][name] for name in names}
+    claims["sampling"] = claims["sampling"] | {"metrics": ["psnr"]}
+    written = gpu_report.reports(settings | {"claims": claims})
+    assert written == [
+        f"reports/smoke/{name}.{end}"
+        for name in ("learning_sampling", "claims")
+        for end in ("csv", "md")
+    ]
+    made = pd.read_csv(out / written[0])
+    assert len(set(made["method"])) == len(NAMES)
+    budgets = sorted(made["samples"].unique())[:-1]
+    assert budgets == [steps * BATCH for steps in STEPS]
+    assert pd.read_csv(out / written[2])["claim"].tolist() == ["sampling"]
+
+
+def test_frames_are_those_of_the_references(tmp_path):
+    """Of the scene with a least share of shadow too."""
+    values = shipped("smoke")
+    values["rendering"] |= {"width": 96, "height": 64}
+    settings = resolved(read_config(values))
+    data = gpu_data.Data(settings, tmp_path, 1, views=2)
+    files = data.mesh("landscape"), tmp_path / "000.safetensors", tmp_path / "000.npz"
+    about = settings["scenes"]["landscape"]
+    assert about["frames"]["least_shadow"] > 0
+    render_references(*files, scene=about["scene"], frames=about["frames"], first=0, last=2)
+    batch = list(References(files[1]))
+    assert len(batch) == 2
+    for (ours, lit), (frame, truth) in zip(data.frames("landscape"), batch, strict=True):
+        np.testing.assert_array_equal(ours.p, frame.p)
+        np.testing.assert_array_equal(ours.view.light, frame.view.light)
+        np.testing.assert_array_equal(lit, truth)
+
+
+def test_weights_that_are_no_numbers_are_infinitely_apart():
+    runs = [gpu_checks.new_run(16, 16, CPU, "float32") for _ in range(2)]
+    runs[1].weights["output"].data[0, 0] = torch.nan
+    assert gpu_checks._apart(*runs) == gpu_checks._apart(*runs[::-1]) == float("inf")
 
 
 def test_a_check_that_finds_a_difference_or_cannot_be_done(monkeypatch):

@@ -52,6 +52,7 @@ rule figure:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=10),
+        gpu=lambda wildcards: GPUS * figures.asks_networks(LAYOUT, wildcards.figure),
     params:
         kind=setting("figures/{figure}/kind"),
         settings=of(figures.arguments),

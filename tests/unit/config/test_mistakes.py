@@ -53,6 +53,11 @@ tables.table_4_3.against | dragon_64 | table_4_3.against: 'dragon_64' (did you m
 tables.beyond.against | {fence: dragon} | tables.beyond.against: 'dragon' is not among ray_traced
 experiments.tiny | {scene: dragon, network: {encoding: mesh, triangles: 3}} | experiments.tiny.network.triangles = 3: Input should be greater than or equal to 4
 experiments.tiny | {scene: dragon, network: {encoding: mesh}, training: base} | experiments.tiny: a network of the kind 'mesh' is built and not trained
+experiments.dragon_field.training | muon | experiments.dragon_field.training: optimiser = 'muon': is for matrices between two layers of neurons
+tables.table_4_7.against | dragon | tables.table_4_7.against: a table of kind 'memory' gives no differences
+tables.table_4_6.against | {dragon: dragon} | tables.table_4_6.against: a table of kind 'frame_times' gives
+experiments.landscape_heights.network.up | z | network: unknown key: 'up'
+experiments.tiny | {scene: dragon, sampling: uniform, network: {encoding: ray_grid, hidden_layers: 1}, training: muon} | this network of the kind 'ray_grid' has none; use adam
 networks.sheet_256.start | distances | start: distances needs an inside
 experiments.dragon_field.training | null | experiments.dragon_field.training: this key is missing
 experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tables has a name like

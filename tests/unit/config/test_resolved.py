@@ -47,6 +47,36 @@ def test_scenes_and_experiments(values):
     assert smoke["experiments"]["dragon_field"]["label"] == "64³ occupancy field"
 
 
+def test_a_height_map_has_its_scene_s_up(values):
+    values["scenes"]["landscape"]["up"] = "x"
+    network = resolved(read_config(values))["experiments"]["landscape_heights"]["network"]
+    assert network == {"encoding": "height_map", "up": "x", "resolution": 257, "bits": 16}
+
+
+@pytest.mark.parametrize("scale", ["lab", "thesis"])
+def test_what_a_scale_compares_with_the_thesis_s_network_has_its_samples_and_rays(scale):
+    """Anchors of config.yaml are followed before an overlay changes what they name."""
+    settings = resolved(read_config(shipped(scale)))
+    tables = settings["tables"].values()
+    rows = [row for table in tables if table["kind"] == "networks" for row in table["rows"]]
+    names = {row["experiment"] for row in rows} - {None}
+    compared = [settings["experiments"][name] for name in names]
+    compared = [one for one in compared if one["network"]["encoding"] == "frequency"]
+    sizes = set()
+    for one in compared:
+        rays = settings["samplings"][one["sampling"]]
+        sizes.add(
+            (
+                one["training"]["steps"] * one["training"]["batch_size"],
+                rays["directions"] * rays["points_per_direction"],
+            )
+        )
+    expected = {"lab": (50_000 * 65_536, 5000 * 10_000), "thesis": (10**6 * 65_536, 250_000_000)}
+    assert len(compared) > 10 and sizes == {expected[scale]}
+    smallest = [settings["samplings"][f"min_quad_{size}"]["min_quad"] for size in (2, 4, 8)]
+    assert smallest == [2, 4, 8]
+
+
 def test_rows_of_tables(settings, changed):
     rows = settings["tables"]["table_4_3"]["rows"]
     assert rows[0] == row("shadow_map_2048", "2048² shadow map", "shadow_map_2048")

@@ -104,6 +104,12 @@ def _check_training(config: "Config", name: str) -> None:
                 f"{key}: a network of the kind {network.encoding!r} is built and not trained; "
                 "leave out its sampling and training"
             )
+    elif not missing and training_of(config, name).optimiser == "muon":
+        if network.hidden_matrices == 0:
+            raise ValueError(
+                f"{key}.training: optimiser = 'muon': is for matrices between two layers of "
+                f"neurons, and this network of the kind {network.encoding!r} has none; use adam"
+            )
     elif missing and (len(missing) == 1 or getattr(network, "start", None) != "distances"):
         raise ValueError(
             f"{key}.{missing[0]}: this key is missing; a network that is trained needs a sampling "

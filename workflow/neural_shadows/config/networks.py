@@ -1,6 +1,6 @@
 """`networks`: what is trained, and what answers in its place without a training, by encoding."""
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, get_args
 
 from pydantic import Field, model_validator
 
@@ -12,6 +12,12 @@ class NetworkModel(Model):
 
     trained: ClassVar[bool] = True  # else an experiment of it has no sampling and no training
     needs_mesh: ClassVar[bool] = False
+    of_scene: ClassVar[tuple[str, ...]] = ()  # settings that the network is given by its scene
+
+    @property
+    def hidden_matrices(self) -> int:
+        """Matrices between two layers of neurons, which are what Muon is for."""
+        return 0
 
 
 class FrequencyNetwork(NetworkModel):
@@ -21,6 +27,10 @@ class FrequencyNetwork(NetworkModel):
     frequencies: int = Field(ge=0, le=30, description="L of the frequency encoding; 0 is identity")
     width: int = Field(ge=8, le=4096, description="neurons per layer")
     hidden_layers: int = Field(ge=1, le=64, description="width × width layers")
+
+    @property
+    def hidden_matrices(self) -> int:
+        return self.hidden_layers
 
 
 Stored = Literal["float32", "float16", "int8"]
@@ -41,6 +51,10 @@ class RayGrid(NetworkModel):
         "depth_confidence", description="whether a second output tells hit from miss"
     )
     stored: Stored = Field("float16", description="how the weight file holds the weights")
+
+    @property
+    def hidden_matrices(self) -> int:
+        return self.hidden_layers - 1  # the first is behind the grids
 
 
 class OccupancyRayGrid(RayGrid):
@@ -117,14 +131,13 @@ class HeightMap(NetworkModel):
 
     trained: ClassVar[bool] = False
     needs_mesh: ClassVar[bool] = True
+    of_scene: ClassVar[tuple[str, ...]] = ("up",)  # the axis of the heights
     encoding: Literal["height_map"] = Field(description="`height_map`: heights, not trained")
-    up: Literal["x", "y", "z"] = Field("y", description="the axis of the heights, the scene's `up`")
     resolution: int = Field(257, ge=2, le=4097, description="heights along a side")
     bits: int = Field(16, ge=8, le=16, multiple_of=8, description="of a height")
 
 
-Network = by_kind(
-    "encoding",
+KINDS = (
     FrequencyNetwork,
     RayGrid,
     OccupancyRayGrid,
@@ -133,5 +146,11 @@ Network = by_kind(
     Mesh,
     VoxelDag,
     HeightMap,
-    default="frequency",
 )
+Network = by_kind("encoding", *KINDS, default="frequency")
+
+
+def kind_of(encoding: str) -> type[NetworkModel]:
+    """The model of an encoding that there is."""
+    found = {get_args(kind.model_fields["encoding"].annotation)[0]: kind for kind in KINDS}
+    return found[encoding]

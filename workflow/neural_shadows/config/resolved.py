@@ -20,7 +20,8 @@ def resolved(config: "Config") -> Section:
 
     Sections are as in config.yaml, with every default, but: a scene has its `mesh_name`, `scene`
     (what `open_scene` takes beside the mesh) and `frames` (how its viewpoints are drawn and
-    rendered); an experiment's `network` and `training` are sections, and the points of learning
+    rendered); an experiment's `network` and `training` are sections, the former with what it takes
+    from its scene, and the points of learning
     curves are experiments, too; `learning_curves` has those of each (`points_of`); seeds and
     labels are what holds; rows, curves, pairs and methods are as `rows_of` gives them.
     """
@@ -58,9 +59,10 @@ def _scene(config: "Config", name: str) -> Section:
 
 
 def _experiment(config: "Config", name: str) -> Section:
-    training = training_of(config, name)
+    training, network = training_of(config, name), network_of(config, name)
+    scene = config.scenes[config.experiments[name].scene]
     return config.experiments[name].model_dump() | {
-        "network": network_of(config, name).model_dump(),
+        "network": network.model_dump() | {key: getattr(scene, key) for key in network.of_scene},
         "training": training and training.model_dump(),
         "seed": seed_of(config, name),
         "label": formatted(config, name),

@@ -97,6 +97,8 @@ Table = by_kind("kind", TableOfOneScene, TableByScene, CostTable, default="compa
 # shadow at all has learned nothing that such a table could show.
 NULL_ROWS = {"comparison": tuple(NULL), "networks": tuple(NULL), "frame_times": ("no_shadow",)}
 
+# The kinds that give paired differences to the row `against`.
+WITH_DIFFERENCES = ("comparison", "networks")
 
 Row = dict[str, Any]  # method, label, published, scene, experiment, bias
 
@@ -183,6 +185,11 @@ def check(config: "Config") -> None:
                             f"{key}.rows of {scene}: {value!r} is there twice; should be there once"
                         )
             against = getattr(table, "against", None)
+            if against and table.kind not in WITH_DIFFERENCES:
+                raise ValueError(
+                    f"{key}.against: a table of kind {table.kind!r} gives no differences; leave it "
+                    f"out (kinds that do: {', '.join(WITH_DIFFERENCES)})"
+                )
             against = against.get(scene) if isinstance(against, dict) else against
             if against is not None:
                 check_among(f"{key}.against", against, [row["method"] for row in made])

@@ -8,7 +8,7 @@ from neural_shadows.layout.layout import Layout
 # What a kind's function is told beside its title; those that are not here, the scene alone.
 TOLD = {
     "pictures": ("rows", "view_sets", "run"),
-    "errors_3d": ("scene", "rows", "run"),
+    "errors_3d": ("scene", "rows", "run", "device", "precision"),
     "loss": ("curves", "run"),
     "widths": ("rows", "run"),
     "pareto": ("scene", "rows", "run"),
@@ -72,6 +72,7 @@ def arguments(layout: Layout, figure: str) -> dict[str, Any]:
     """What the function of a figure's kind is told beside its files."""
     settings, scene = layout.entry("figures", figure), _scene(layout, figure)
     values = {**settings, "run": layout.run(), "seed": layout.settings["seed"]}
+    values |= {key: layout.settings["compute"][key] for key in ("device", "precision")}
     if scene is not None:
         values["seed"] = layout.entry("scenes", scene)["seed"]
     if scene is not None and settings["kind"] != "pareto":
@@ -86,6 +87,11 @@ def _scene(layout: Layout, figure: str) -> str | None:
     if "experiment" in settings:
         return layout.entry("experiments", settings["experiment"])["scene"]
     return settings.get("scene")
+
+
+def asks_networks(layout: Layout, figure: str) -> bool:
+    """Whether a figure's job may compute networks on a GPU."""
+    return layout.entry("figures", figure)["kind"] == "errors_3d"
 
 
 def labels(layout: Layout, figure: str) -> dict[str, str]:

@@ -6,16 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from pydantic import TypeAdapter
-
 from neural_shadows.config.base import not_among
-from neural_shadows.config.networks import Network, NetworkModel
+from neural_shadows.config.networks import NetworkModel, kind_of
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import experiment_of, is_classic, unbiased
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
-
-_NETWORK = TypeAdapter(Network)
 
 
 @dataclass(frozen=True)
@@ -109,14 +105,13 @@ class Layout:
                 **self.shards(*names),
             }
         return {
-            "mesh_ply": [self.paths.scene("mesh.ply", names[0])]
-            * self._kind(experiment).needs_mesh,
+            "mesh_ply": [self.paths.scene("mesh.ply", names[0])] * self.kind(experiment).needs_mesh,
             **found,
         }
 
-    def _kind(self, experiment: str) -> NetworkModel:
+    def kind(self, experiment: str) -> type[NetworkModel]:
         """What the graph must know of an experiment's kind of network."""
-        return _NETWORK.validate_python(self.entry("experiments", experiment)["network"])
+        return kind_of(self.entry("experiments", experiment)["network"]["encoding"])
 
     def is_trained(self, experiment: str) -> bool:
         """Whether an experiment's network is not only built."""
@@ -124,7 +119,7 @@ class Layout:
 
     def can_use_gpu(self, method: str) -> bool:
         """Whether a method is a network of a kind that does; those without weights do not."""
-        return _is_network(method) and self._kind(experiment_of(method)).trained
+        return _is_network(method) and self.kind(experiment_of(method)).trained
 
     def export_files(self, experiment: str) -> dict[str, Any]:
         """What an export says of its network: the mesh's sphere, and the depth bias if found."""

@@ -33,6 +33,8 @@ def draw(
     scene: Section,
     rows: Sequence[Section],
     run: Section,
+    device: str = "auto",
+    precision: str = "auto",
     threads: int = 1,
 ) -> None:
     """Draw the wrong points of a batch of viewpoints by each method.
@@ -40,6 +42,7 @@ def draw(
     Args:
         references: of the batch.
         weights, depth_biases: of the rows' experiments.
+        device, precision: that networks are asked with, see `open_network`.
 
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
@@ -56,7 +59,7 @@ def draw(
             method = shadow_methods.classic_method(name, opened)
         else:
             path = networks[row["experiment"]]
-            network, dtype = shadow_methods.open_network(path, "auto", threads)
+            network, dtype = shadow_methods.open_network(path, device, threads, precision)
             bias = shadow_methods.take_found(network, found) if found else row["bias"]
             method = shadow_methods.network_method(network, dtype)
         p, error, share = wrong_points(method, bias, References(references))
