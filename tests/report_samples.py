@@ -32,7 +32,7 @@ NULL = ("no_shadow", "all_dark")
 CLASSIC = ("shadow_map_", "ray_traced", *NULL)
 
 
-def row(method, label=None, *, scene="dragon", published=None, bias=0.0):
+def row(method, label=None, *, scene="dragon", published=None, bias=0.0, trained=True):
     """A row as `config.rows` gives it."""
     network = not method.startswith(CLASSIC)
     given = network or method.endswith("_biased")
@@ -42,6 +42,7 @@ def row(method, label=None, *, scene="dragon", published=None, bias=0.0):
         "published": published or method,
         "scene": scene,
         "experiment": method.removesuffix("_biased") if network else None,
+        "trained": network and trained,
         "bias": bias if given else None,
     }
 
@@ -66,7 +67,7 @@ def metrics_of(means, views=8):
     )
 
 
-def write_metrics(folder, means, scene="dragon", views=8):
+def write_metrics(folder, means, scene="dragon", views=12):
     """A file of `metrics_of` in the folder of a scene."""
     path = folder / scene / "metrics.csv"
     path.parent.mkdir(parents=True, exist_ok=True)

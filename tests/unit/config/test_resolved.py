@@ -16,7 +16,8 @@ def settings(values):
 
 def row(method, label, published=None, experiment=None, bias=None, scene="dragon"):
     made = {"method": method, "label": label, "published": published, "scene": scene}
-    return made | {"experiment": experiment, "bias": bias}
+    trained = experiment is not None
+    return made | {"experiment": experiment, "trained": trained, "bias": bias}
 
 
 def test_scenes_and_experiments(values):
@@ -137,7 +138,7 @@ def test_claims_on_methods_without_a_network_and_on_what_is_printed(changed):
         ("fence", "no_shadow", None),
         ("fence", "fence", 0.0),
     ]
-    needs = {"device": None, "seeds": 3, "budget": 0.03, "mesh": "thesis"}
+    needs = {"device": None, "seeds": 3, "budget": 1.0, "mesh": "thesis"}
     assert claims["dragon_better_than_256"]["needs"] == needs
     assert claims["dragon_better_than_256"]["metrics"] == ["lpips"]
     (pair,) = claims["printed_fence_better_than_128"]["pairs"]

@@ -1,9 +1,13 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from claim_samples import VIEWS, better, loss_curve, measured, pairs, points, scene, views
 
 from neural_shadows.reports import verdicts
-from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.claims.comparison import Comparison
+from neural_shadows.reports.claims.gates import direction_of, judge, trend_of
+from neural_shadows.reports.claims.learning import Learning, widened
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES
 
 SHARES = np.array([1 / 81, 1 / 27, 1 / 9, 1 / 3, 1])  # of the largest budget
@@ -48,6 +52,7 @@ def test_a_licensed_extrapolation_decides(as_loss):
     assert found["verdict"] == "supported"
     assert "at the thesis's samples, extrapolated" in found["reason"]
     assert (found["direction"], found["trend"] > 0) == ("towards", True)
+    assert "(20 times the largest budget; the hold-out tries 3 times)" in found["evidence"]
     at = float(found["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
     assert at == pytest.approx(0.04 + 0.005 / 20**0.5 - 0.0112 - 0.0388 / 20**0.5, abs=0.002)
     ahead_no_more = followed(*AHEAD_LATER[::-1], most=0.05, as_loss=as_loss)
@@ -66,7 +71,8 @@ def test_an_extrapolation_of_psnr_is_one_of_squared_errors():
 def test_more_than_thirtyfold_is_not_licensed():
     found = followed(*AHEAD_LATER, most=0.02)
     assert found["verdict"] == verdicts.TOO_SMALL
-    assert "2 % of the thesis's samples, 10 % are needed (2.2 billion a network)" in found["reason"]
+    asked = "2 % of the thesis's samples, 10 % are needed; an extrapolation needs 1/30: 2.2 billion"
+    assert asked in found["reason"]
     assert "no extrapolation: 50 times the largest budget" in found["reason"]
     assert found["reason"].endswith("moving towards the claim")
     assert "at the thesis's samples" not in found["evidence"]
@@ -107,3 +113,30 @@ def test_a_map_does_not_learn():
     assert found["verdict"] == "supported"
     at = float(found["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
     assert at == pytest.approx(0.03 - law(20), abs=0.003)
+
+
+def test_each_side_of_an_extrapolation_is_widened_apart():
+    # 90 % of fits from 0.99 to 1.5 are 1.96 / 1.645 times as far at 95 %; views go 0.02 and 0.1.
+    value, low, high, p = widened((1.0, 0.99, 1.5), (0.02, 0.1))
+    assert (value, low) == pytest.approx((1.0, 1 - np.hypot(0.01 * 1.1916, 0.02)), abs=1e-4)
+    assert high == pytest.approx(1 + np.hypot(0.5 * 1.1916, 0.1), abs=1e-4)
+    # What 0 lies on the narrow side of is sure; on the wide side it is not.
+    assert p < 1e-6
+    *_, high, p = widened((-0.2, -0.25, 0.1), (0.0, 0.0))
+    assert high > 0 and p > 0.05
+    assert widened((0.0, 0.0, 0.0), (0.0, 0.0))[3] == 1.0
+
+
+def test_a_direction_is_said_only_where_all_open_comparisons_move_alike():
+    towards, away = (
+        Learning(*[(1, 0.5, 1.5)] * 2, None, "", (9, 3)),
+        Learning(*[(-1, -1.5, -0.5)] * 2, None, "", (9, 3)),
+    )
+    good = Comparison("lpips", "a", "a", "+1", True, 1.0, learning=away)
+    bad = Comparison("lpips", "b", "b", "-1", False, 1.0, learning=towards)
+    other = Comparison("psnr", "c", "c", "-1", False, 1.0, learning=away)
+    assert direction_of([good, bad]) == "towards"
+    assert direction_of([good, bad, other]) == ""
+    assert direction_of([bad, replace(bad, learning=None)]) == ""
+    assert direction_of([good]) == "away"
+    assert trend_of([good, bad, other])["trend_of"] == "lpips of b"

@@ -1,9 +1,9 @@
 import numpy as np
 import pandas as pd
 import pytest
-from report_samples import PUBLISHED
+from report_samples import PUBLISHED, row
 
-from neural_shadows.reports.learned import has_learned, learned, margins
+from neural_shadows.reports.learned import has_learned, learned, learned_methods, margins
 from neural_shadows.reports.published import read_published
 
 METRICS = ("lpips", "psnr", "ssim")
@@ -51,6 +51,9 @@ def test_one_metric_no_better_than_no_shadow_is_enough(metric):
     assert not has_learned(learned(network, null, METRICS, {}, seed=1))
 
 
-def test_a_single_view_has_no_interval():
-    found = learned(views(0.1, 30, 0.95, count=1), views(0.2, 20, 0.9, count=1), METRICS, {}, 1)
-    assert found["psnr"] == pytest.approx((10, 10, 10)) and has_learned(found)
+def test_only_what_is_trained_has_learned_or_not_and_few_views_say_nothing():
+    null, network = views(0.2, 20, 0.9), views(0.1, 30, 0.95)
+    wide = pd.concat({"no_shadow": null, "net": network, "built": null, "bad": null}, axis=1)
+    rows = [row("net"), row("bad"), row("built", trained=False), row("no_shadow")]
+    assert learned_methods(wide, rows, {}, seed=1) == {"net": True, "bad": False}
+    assert learned_methods(wide[:9], rows, {}, seed=1) == {}

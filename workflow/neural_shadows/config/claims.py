@@ -33,7 +33,12 @@ class Needs(Model):
 
     device: Literal["cuda", "cpu"] | None = Field(None, description="that all methods are timed on")
     seeds: int | None = Field(None, ge=1, le=100, description="trainings of each network")
-    budget: float | None = Field(None, gt=0, le=1, description="share of the thesis's samples")
+    budget: float | None = Field(
+        None,
+        gt=0,
+        le=1,
+        description="share of the thesis's samples; with less only what learning curves license",
+    )
     mesh: Literal["thesis"] | None = Field(
         None, description="`thesis`: the thesis's meshes, and no others in their place"
     )
@@ -89,6 +94,12 @@ class FrameTimeClaim(AnyClaim):
     pairs: Pairs = Field(description="methods of one scene; the first's time over the second's")
     at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
     at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")
+    overhead_ms: float = Field(
+        0.0,
+        ge=0,
+        lt=1e6,
+        description="milliseconds of a frame beside the method, added to both own times",
+    )
 
     @model_validator(mode="after")
     def _check_bounds(self):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field
 
 from neural_shadows.config.base import Model, Text, by_kind, check_among, name_in, section_or
-from neural_shadows.config.experiments import formatted
+from neural_shadows.config.experiments import formatted, training_of
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
     CLASSIC,
@@ -100,7 +100,7 @@ NULL_ROWS = {"comparison": tuple(NULL), "networks": tuple(NULL), "frame_times": 
 # The kinds that give paired differences to the row `against`.
 WITH_DIFFERENCES = ("comparison", "networks")
 
-Row = dict[str, Any]  # method, label, published, scene, experiment, bias
+Row = dict[str, Any]  # method, label, published, scene, experiment, trained, bias
 
 
 def settings_by_scene(config: "Config", table: AnyTable) -> dict[str, list[RowSettings]]:
@@ -126,7 +126,8 @@ def rows_of(config: "Config", name: str) -> list[Row]:
 
     Returns: of each row `method`, the method's key; `label`; `published`, its key in
         published.csv or None if the table is not the thesis's; `scene`; `experiment`, or None
-        if it is no network; `bias`, a number, `held_out`, or None if it has none.
+        if it is no network, and whether it is `trained`; `bias`, a number, `held_out`, or None if
+        it has none.
     """
     table = config.tables[name]
     return [
@@ -156,6 +157,7 @@ def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
         "published": None,
         "scene": scene,
         "experiment": row.method if experiment else None,
+        "trained": bool(experiment and training_of(config, row.method)),
         "bias": bias,
     }
 

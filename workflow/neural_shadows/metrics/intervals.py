@@ -8,6 +8,7 @@ from scipy.stats import bootstrap, t
 from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
 
 LEVEL = 0.95
+FEWEST_VIEWS = 10  # a resampling of fewer is far too narrow to decide anything
 
 
 def mean_interval(
@@ -23,17 +24,6 @@ def mean_interval(
     if values.size == 1:
         return (float(values[0]),) * 3
     return _interval((values,), np.mean, seed, resamples)
-
-
-def difference_interval(
-    a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000
-) -> tuple[float, float, float]:
-    """Difference of the means of two independent samples, (n,) and (m,): (a − b, low, high).
-
-    For values of the same views take `mean_interval` of their differences instead: what
-    the views have in common then cancels.
-    """
-    return _interval((a, b), _mean_difference, seed, resamples)
 
 
 def paired_difference(
@@ -63,13 +53,6 @@ def pooled_psnr_difference(
     if len(squares[0]) == 1:
         return (float(np.subtract(a, b)[0]),) * 3
     return _interval(squares, _psnr_difference, seed, resamples, paired=True)
-
-
-def median_ratio_interval(
-    a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000
-) -> tuple[float, float, float]:
-    """Ratio of the medians of two series (n,) taken in the same rounds: (a / b, low, high)."""
-    return _interval((a, b), _median_ratio, seed, resamples, paired=True)
 
 
 def t_interval(values: np.ndarray) -> tuple[float, float, float, float]:
@@ -132,16 +115,8 @@ def two_way_interval(
     return float(statistic(values)), float(low), float(high), p
 
 
-def _mean_difference(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray:
-    return a.mean(axis) - b.mean(axis)
-
-
 def _psnr_difference(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray:
     return psnr_of(a.mean(axis) / b.mean(axis))
-
-
-def _median_ratio(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray:
-    return np.median(a, axis) / np.median(b, axis)
 
 
 def _interval(

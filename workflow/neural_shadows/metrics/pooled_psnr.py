@@ -20,11 +20,6 @@ def psnr_of(mse: np.ndarray) -> np.ndarray:
     return -10 * np.log10(mse)
 
 
-def pooled_psnr(psnr: np.ndarray) -> float:
-    """PSNR in dB of the mean squared error of all views, whose own PSNRs are of any shape."""
-    return float(psnr_of(mse_of(psnr).mean()))
-
-
 def identical(psnr: np.ndarray) -> int:
     """How many of the views equal their reference."""
     return int(np.count_nonzero(np.asarray(psnr) >= IDENTICAL))

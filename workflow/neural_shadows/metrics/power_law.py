@@ -18,6 +18,7 @@ from neural_shadows.metrics.pooled_psnr import psnr_of
 
 EXPONENTS = np.linspace(0.05, 1, 39)  # b that are tried
 LARGEST_STEP = 30  # from the largest budget to the one that is extrapolated to
+LARGEST_MISS = 0.1  # of a hold-out: seeds that differ much have intervals that hold anything
 LEVEL = 0.9  # of the predictions' intervals
 FEWEST_BUDGETS = 3  # as many as the law has numbers
 RESAMPLES = 1000
@@ -53,12 +54,14 @@ class HoldOut:
     """The largest budget's error: as the others predict it, and as measured (means over seeds).
 
     low, high: 90 % interval of the prediction, for a mean of so many seeds; NaN of one seed.
+    step: how many times the samples of the budget before.
     """
 
     predicted: float
     low: float
     high: float
     measured: float
+    step: float
 
     @property
     def error(self) -> float:
@@ -66,9 +69,12 @@ class HoldOut:
         return self.predicted / self.measured - 1
 
     @property
-    def passed(self) -> bool:
-        """Whether what was measured lies within the interval."""
-        return self.low <= self.measured <= self.high
+    def failure(self) -> str:
+        """Why it licenses nothing: it is outside its interval, or misses by too much; else empty."""
+        missed = f"the hold-out is missed by {100 * self.error:+.1f} %"
+        if not self.low <= self.measured <= self.high:
+            return f"{missed}, outside its interval"
+        return f"{missed}, {100 * LARGEST_MISS:.0f} % at most" * (abs(self.error) > LARGEST_MISS)
 
 
 def fit(curve: Curve) -> PowerLaw:
@@ -94,7 +100,8 @@ def hold_out(curve: Curve, seed: int) -> HoldOut:
     others = Curve(curve.samples[:-1], curve.values[:-1])
     predicted, drawn, noise = _carried_on(others, curve.samples[-1], seed)
     low, high = _ends(drawn * noise)
-    return HoldOut(predicted, low, high, float(np.mean(curve.values[-1])))
+    step = float(curve.samples[-1] / curve.samples[-2])
+    return HoldOut(predicted, low, high, float(np.mean(curve.values[-1])), step)
 
 
 def extrapolate(curve: Curve, samples: float, seed: int) -> tuple[float, float, float]:
@@ -108,41 +115,47 @@ def extrapolate(curve: Curve, samples: float, seed: int) -> tuple[float, float, 
 
 
 def extrapolate_difference(
-    a: Curve, b: Curve, samples: float, seed: int, psnr: bool = False
+    a: Curve | float, b: Curve | float, samples: float, seed: int, psnr: bool = False
 ) -> tuple[float, float, float]:
     """The expected a − b at so many samples: (value, low, high), 90 %, ends NaN of one seed.
 
     The same seeds and budgets are drawn of both, so that what they have in common cancels.
 
     Args:
-        a, b: of the same numbers of budgets and seeds.
+        a, b: of the same numbers of budgets and seeds; a number is the error of what does not
+            learn, such as a shadow map.
         psnr: the curves are of mean squared errors, and the difference is of PSNRs, dB.
 
     Raises:
         ValueError: as `fit`.
     """
     difference = _psnr_difference if psnr else np.subtract
-    (one, drawn_a, _), (other, drawn_b, _) = (_carried_on(c, samples, seed) for c in (a, b))
+    (one, drawn_a, _), (other, drawn_b, _) = (
+        _carried_on(arm, samples, seed) if isinstance(arm, Curve) else (arm, arm, 1.0)
+        for arm in (a, b)
+    )
     return float(difference(one, other)), *_ends(difference(drawn_a, drawn_b))
 
 
-def licensed(curves: Sequence[Curve], samples: float, seed: int) -> tuple[bool, str]:
+def licensed(
+    curves: Sequence[Curve], samples: float, seed: int, died: bool = False
+) -> tuple[bool, str]:
     """Whether curves may be carried on to so many samples, and why not (empty if they may).
 
-    They may if each predicts its largest budget from the others, within its 90 % interval, and
-    the step is at most thirtyfold.
+    They may if each predicts its largest budget from the others, within its 90 % interval and to
+    10 %, the step is at most thirtyfold, and none of their trainings `died`.
     """
+    if died:
+        return False, "a training died"
     reasons = []
     for curve in curves:
-        if not _positive(curve.values):
-            return False, "a training died"
-        if not can_hold_out(curve):
+        if len(curve.samples) < FEWEST_BUDGETS:
             return False, f"{len(curve.samples)} budgets: {FEWEST_BUDGETS} are needed"
+        if not can_hold_out(curve):
+            return False, "an error of 0 has no power law"
         if curve.values.shape[1] == 1:
             return False, "one seed does not say how sure the fit is"
-        held = hold_out(curve, seed)
-        if not held.passed:
-            reasons.append(f"the hold-out is missed by {100 * held.error:+.1f} %")
+        reasons += filter(None, [hold_out(curve, seed).failure])
     step = samples / min(curve.samples[-1] for curve in curves)
     if step > LARGEST_STEP:
         reasons.append(f"{step:,.0f} times the largest budget, {LARGEST_STEP} at most")

@@ -1,12 +1,20 @@
 """Whether a network has learned: whether it is better than drawing no shadow at all."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import pandas as pd
 
-from neural_shadows.metrics.intervals import paired_difference, pooled_psnr_difference
+from neural_shadows.metrics.intervals import (
+    FEWEST_VIEWS,
+    paired_difference,
+    pooled_psnr_difference,
+)
 
 Advantage = tuple[float, float, float]  # a value and the ends of its 95 % interval
+
+NULL = "no_shadow"  # what a network that has learned is better than
+THESIS_METRICS = ("lpips", "psnr", "ssim")  # of its tables: in what it is better
 
 HIGHER_IS_BETTER = ("psnr", "ssim")
 # The configuration that the thesis prints twice, trained anew: its difference is what chance does.
@@ -48,13 +56,40 @@ def learned(
         margins: of each metric, 0 of those that are not there.
         seed: of the bootstrap over views.
 
-    Returns: of each metric the `advantage` less its margin: see `has_learned`.
+    Returns: of each metric the `advantage` less its margin.
     """
     found = {}
     for metric in metrics:
         ends = advantage(network[metric], null[metric], metric, seed)
         found[metric] = tuple(end - margins.get(metric, 0.0) for end in ends)
     return found
+
+
+def learned_methods(
+    wide: pd.DataFrame,
+    rows: Sequence[Mapping[str, Any]],
+    margins: Mapping[str, float],
+    seed: int,
+) -> dict[str, bool]:
+    """Whether each trained network is better than no shadow, in all that the thesis prints.
+
+    In LPIPS, or without it in FLIP, in pooled PSNR and in SSIM. Of too few views for an interval
+    nothing is said: there are no methods then.
+
+    Args:
+        wide: as `values_by_view` gives it, with `NULL`.
+        rows: as `config.rows_of` gives them; those that are not `trained` are left out.
+    """
+    if len(wide) < FEWEST_VIEWS:
+        return {}
+    perceived = "lpips" if (NULL, "lpips") in wide else "flip"
+    metrics = (perceived, *THESIS_METRICS[1:])
+    found = {
+        row["method"]: learned(wide[row["method"]], wide[NULL], metrics, margins, seed)
+        for row in rows
+        if row["trained"]
+    }
+    return {method: has_learned(advantages) for method, advantages in found.items()}
 
 
 def has_learned(advantages: Mapping[str, Advantage]) -> bool:

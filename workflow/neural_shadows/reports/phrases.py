@@ -34,10 +34,18 @@ def describe_frames(run: Mapping[str, Any]) -> str:
     return f"Frames of {run['width']} × {run['height']}; reference: {reference}."
 
 
+def is_own_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> bool:
+    """Whether a scene has the thesis's own mesh, and none made to its description.
+
+    Of the latter `thesis_mesh` is true, too: the thesis's numbers may stand beside it.
+    """
+    return mesh["thesis_mesh"] and not scene["procedural"]
+
+
 def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
     """One phrase on a mesh: name, what it is, size, whether it is closed."""
     stand_in = "a procedural stand-in, " if scene["procedural"] else ""
-    kind = "" if mesh["thesis_mesh"] else f" ({stand_in}not the thesis's mesh)"
+    kind = "" if is_own_mesh(mesh, scene) else f" ({stand_in}not the thesis's mesh)"
     closed = "watertight" if mesh["watertight"] else "open"
     return f"{mesh['name']}{kind}, {mesh['faces']:,} triangles, {closed}"
 

@@ -27,8 +27,17 @@ def read_published(path: Path) -> pd.Series:
     `row` is the pipeline's key of the method. Values are as printed, save two shadow maps of
     table 4.7: their 256 and 64 KiB are 0.25 and 0.0625 MiB, so that the column has one unit.
     """
-    published = pd.read_csv(path, dtype={"table": str, "value": float})
-    return published.set_index(["table", "row", "column"])["value"]
+    return by_cell(read_rows(path))
+
+
+def read_rows(path: Path) -> pd.DataFrame:
+    """The file as it is: a row a printed number, with the `label` that the thesis gives its row."""
+    return pd.read_csv(path, dtype={"table": str, "value": float})
+
+
+def by_cell(rows: pd.DataFrame) -> pd.Series:
+    """`read_rows` as `read_published` gives it."""
+    return rows.set_index(["table", "row", "column"])["value"]
 
 
 def printed_table(published: pd.Series, number: str) -> pd.DataFrame:

@@ -14,13 +14,16 @@ MEANINGS = {
     "thesis's, or times of another class of device.",
     NOT_LEARNED: "a network of the claim is not better than drawing no shadow at all, so that it "
     "says nothing of networks that have learned.",
-    VACUOUS: "drawing no shadow at all in the networks' place passes the same test.",
-    TOO_SMALL: "too few training samples or seeds for what is claimed, and the learning curves do "
-    "not license an extrapolation to the thesis's samples.",
-    UNDECIDED: "the data suffice, but chance explains the difference as well as the claim does.",
-    SUPPORTED: "the 95 % interval lies on the claim's side in each of its comparisons.",
+    VACUOUS: "supported, and drawing no shadow at all in the networks' place passes the same test; "
+    "where maps are to beat a network, only below a thirtieth of the thesis's samples.",
+    TOO_SMALL: "too few training samples, seeds, views or frames for what is claimed, and the "
+    "learning curves do not license an extrapolation to the thesis's samples; or against the claim "
+    "below a thirtieth of these, which says nothing of more.",
+    UNDECIDED: "the intervals do not separate the claim from its contrary.",
+    SUPPORTED: "the 95 % interval lies on the claim's side in each of its comparisons; of printed "
+    "numbers, each difference is beyond the margin.",
     CONTRADICTED: "one comparison or more lies on the other side, at a level of 5 % for all of "
-    "the claim's comparisons together (Holm).",
+    "the claim's comparisons together (Holm); of printed numbers, beyond the margin.",
 }
 VERDICTS = tuple(MEANINGS)
 

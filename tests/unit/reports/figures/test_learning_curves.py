@@ -5,6 +5,7 @@ from report_samples import RUN, row
 
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES
 from neural_shadows.reports.figures.learning_curves import curves_figure, draw
+from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, MEASURED
 
 BUDGETS = 1e6 * np.array([1, 2, 4, 8])
 
@@ -12,10 +13,10 @@ BUDGETS = 1e6 * np.array([1, 2, 4, 8])
 def lines_of(label, metric, values, *, null, thesis=np.nan):
     """The lines of a method in the table: two trainings at each budget, no extrapolation."""
     seeds = [f"{0.99 * value:.6g} {1.01 * value:.6g}" for value in values]
-    budgets = pd.DataFrame({"samples": BUDGETS, "mean": values, "by_seed": seeds})
+    budgets = pd.DataFrame({"samples": BUDGETS, "mean": values, "by_seed": seeds, "kind": MEASURED})
     predicted = pd.DataFrame({"predicted": [0.2], "predicted_low": 0.18, "predicted_high": 0.23})
     budgets.loc[3, predicted.columns] = predicted.iloc[0]
-    end = pd.DataFrame({"samples": [THESIS_SAMPLES], "thesis": [thesis]})
+    end = pd.DataFrame({"samples": [THESIS_SAMPLES], "thesis": [thesis], "kind": EXTRAPOLATED})
     named = {"scene": "dragon", "method": label, "metric": metric, "no_shadow": null}
     return pd.concat([budgets, end], ignore_index=True).assign(**named)
 

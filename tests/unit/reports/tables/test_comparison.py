@@ -28,7 +28,9 @@ ORDER += ["128² shadow map, with bias", "No shadow"]
 
 @pytest.fixture
 def written(tmp_path):
-    def written(first=0, against=None, records=(samples.TRAINING, FIELD), **mesh):
+    def written(
+        first=0, against=None, records=(samples.TRAINING, FIELD), rows=ROWS, views=12, **mesh
+    ):
         means = {key: dict(list(zip(METRICS, values))[first:]) for key, values in MEANS.items()}
         lpips = samples.LPIPS | {"available": not first}
         biases = {"dragon_field": (0.008, True), "shadow_map_128": (-0.002, False)}
@@ -36,7 +38,7 @@ def written(tmp_path):
         return samples.written_table(
             write,
             tmp_path,
-            metrics=[samples.write_metrics(tmp_path, means)],
+            metrics=[samples.write_metrics(tmp_path, means, views=views)],
             mesh_json=samples.write_mesh(tmp_path, **mesh),
             trainings=[samples.write_record(trainings / one["name"], one) for one in records],
             depth_biases=[
@@ -49,7 +51,7 @@ def written(tmp_path):
             lpips_json=samples.write_record(tmp_path / "found.json", lpips),
             published="4.3",
             against=against,
-            rows=ROWS,
+            rows=rows,
         )
 
     return written
@@ -84,10 +86,16 @@ def test_a_network_like_no_shadow_has_not_learned(written):
     assert table["learned"].isna().tolist() == [True, False, True, False, True, True]
     assert samples.cells_of(md, 3)["method"] == "Thesis's network (**not learned**)"
     assert samples.cells_of(md, 1)["method"] == "Field"
-    built = FIELD | {"training": None, "samples": 0}
-    table, md = written(records=(samples.TRAINING, built))
-    assert table["learned"].isna()[1]
+    built = [row | {"trained": row["method"] == "dragon"} for row in ROWS]
+    untrained = FIELD | {"training": None, "samples": 0}
+    table, md = written(records=(samples.TRAINING, untrained), rows=built)
+    assert table["learned"].isna()[1] and not table["learned"][3]
     assert "Network dragon_field: 100 parameters, built without training in 2 s" in md.read_text()
+
+
+def test_of_few_views_nothing_is_said_of_learning(written):
+    table, md = written(views=8)
+    assert table["learned"].isna().all() and "not learned" not in md.read_text()
 
 
 def test_maps_that_would_be_as_good(written):
@@ -117,6 +125,11 @@ def test_the_thesis_says_nothing_of_another_mesh(written):
     table, md = written(thesis_mesh=False)
     theirs = ["thesis_lpips", "thesis_psnr", "psnr_minus_thesis", "thesis_map_lpips"]
     assert table[theirs].isna().all(axis=None)
+    assert "wyrm (a procedural stand-in, not the thesis's mesh)" in md.read_text()
+    # What is made to its description stands beside its numbers, and is said to be made so.
+    same = written(thesis_mesh=True)[1].read_text()
+    assert "wyrm (a procedural stand-in, not the thesis's mesh)" in same
+    _, md = written(thesis_mesh=False)
     assert samples.cells_of(md, 0)["thesis PSNR"] == ""
     assert "Title, mesh wyrm (after table 4.3 of the thesis)\n" in md.read_text()
 
@@ -125,5 +138,6 @@ def test_without_lpips_flip_sorts(written):
     table, md = written(first=1)
     assert table["method"].tolist()[:2] == ["Thesis's network", "Field"]
     assert table[["lpips", "map_lpips"]].isna().all(axis=None)
+    assert samples.cells_of(md, 1)["equal map"].startswith("– / 10")
     assert list(samples.cells_of(md, 0))[:3] == ["method", "FLIP ↓", "PSNR ↑"]
     assert "LPIPS is missing" in md.read_text()

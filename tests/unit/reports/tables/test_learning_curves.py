@@ -119,7 +119,12 @@ def test_nothing_is_said_beyond_what_the_budgets_license(written):
     why = "8,192 times the largest budget, 30 at most"
     assert (beyond["unlicensed"].loc["Poisson"] == why).all()
     missed = beyond.loc["Uniform", "loss"]["unlicensed"]
-    assert missed == f"the hold-out is missed by +25.0 %; {why}"
+    assert missed == f"the hold-out is missed by +25.0 %, outside its interval; {why}"
+    assert beyond["kind"].unique().tolist() == ["extrapolated"]
+    assert beyond["step"].tolist() == pytest.approx([8192] * 8)
+    assert "tries a step of 2 times the samples, and that to the thesis's is 8,192 times" in (
+        md.read_text()
+    )
     assert samples.cells_of(md, 0)["at the thesis's samples"] == why
     # What the thesis prints stands at its budget.
     assert beyond.loc["Poisson", "psnr"]["thesis"] == 27.21
@@ -136,7 +141,8 @@ def test_within_thirtyfold_the_end_is_an_interval(written, monkeypatch):
     assert found["predicted"] == pytest.approx(-10 * np.log10(0.032 / 128**0.25), rel=1e-3)
     assert found["predicted_low"] < found["predicted"] < found["predicted_high"]
     assert samples.cells_of(md, 2)["at the thesis's samples"].startswith("20.2")
-    assert beyond.loc["Uniform", "loss"]["unlicensed"] == "the hold-out is missed by +25.0 %"
+    missed = "the hold-out is missed by +25.0 %, outside its interval"
+    assert beyond.loc["Uniform", "loss"]["unlicensed"] == missed
     # It did not measure this mesh.
     assert beyond["thesis"].isna().all()
 

@@ -6,14 +6,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.metrics.intervals import two_way_interval
+from neural_shadows.metrics.error_scale import value_of
+from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.metrics.power_law import FEWEST_BUDGETS, Curve
-from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged
+from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.learning import Learning, followed
 from neural_shadows.reports.claims.measured import NO_SHADOW, Budget, Measured, Row, labels
-
-FEWEST = 10  # views; a resampling of fewer is far too narrow
 
 
 def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
@@ -32,7 +31,7 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
 def without_networks(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     """The same comparisons with drawing no shadow in the place of each network that is trained."""
     pairs = [
-        [NO_SHADOW | {"scene": row["scene"]} if data.trained(row) else row for row in pair]
+        [NO_SHADOW | {"scene": row["scene"]} if row["trained"] else row for row in pair]
         for pair in claim["pairs"]
     ]
     return comparisons({**claim, "pairs": pairs}, data)
@@ -40,18 +39,20 @@ def without_networks(claim: Mapping[str, Any], data: Measured) -> list[Compariso
 
 def _compared(pair: Sequence[Row], metric: str, data: Measured) -> Comparison:
     """Methods of one scene are seen from the same views, and compared view by view."""
+    kept = {"metric": metric, "methods": " against ".join(labels(pair))}
+    if why := data.unshared(pair):
+        text = f"{NAMES[metric]} of {kept['methods']}"
+        return Comparison(**kept, text=text, **unjudged(incomparable=why))
     budgets = data.budgets(pair)
     a, b = (data.errors(row, metric, budgets[-1]) for row in pair)
     fewest, seeds = min(len(a), len(b)), budgets[-1].seeds
-    kept = {
-        "metric": metric,
+    kept |= {
         "text": _text(pair, metric, a, b),
         "seeds": seeds if budgets[-1].runs else None,
         "samples": budgets[-1].samples,
     }
-    if fewest < FEWEST:
-        few = f"{fewest} views are too few"
-        return Comparison(**kept, numbers=few, supports=False, against=1.0)
+    if fewest < FEWEST_VIEWS:
+        return Comparison(**kept, **unjudged(untested=f"{fewest} views are too few"))
     values, groups, advantage = _arranged(pair, metric, a, b)
     found = two_way_interval(values, data.seed, advantage, groups)
     learning = _learning(pair, metric, budgets, data, (values, groups, advantage))
@@ -84,18 +85,23 @@ def _learning(
     data: Measured,
     last: tuple[np.ndarray, np.ndarray, Callable[[np.ndarray], float]],
 ) -> Learning | None:
-    """The advantage over all budgets of which the pair has the seeds of the largest one."""
-    budgets = [budget for budget in budgets if budget.seeds == budgets[-1].seeds]
+    """The advantage over all budgets, if there are enough of them."""
     if budgets[-1].samples is None or len(budgets) < FEWEST_BUDGETS:
         return None
     samples = np.array([budget.samples for budget in budgets])
     errors = [[data.errors(row, metric, one).mean() for one in budgets] for row in pair]
-    a, b = curves = [Curve(samples, np.array(means)) for means in errors]
-    trained = [curve for row, curve in zip(pair, curves) if data.trained(row)]
+    curves = [Curve(samples, np.array(means)) for means in errors]
     values, groups, advantage = last
-    _, low, high, _ = two_way_interval(values.mean(0, keepdims=True), data.seed, advantage, groups)
-    half = (high - low) / 2
-    return followed(a, b, trained, psnr=metric == "psnr", views=half, seed=data.seed)
+    of_views = values.mean(0, keepdims=True)
+    value, low, high, _ = two_way_interval(of_views, data.seed, advantage, groups)
+    return followed(
+        *curves,
+        learn=[row["trained"] for row in pair],
+        died=any(data.died(row, budgets) for row in pair),
+        psnr=metric == "psnr",
+        views=(value - low, high - value),
+        seed=data.seed,
+    )
 
 
 def _text(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame) -> str:
@@ -106,9 +112,7 @@ def _text(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame) ->
 
 
 def _shown(metric: str, error: float) -> str:
-    if metric == "psnr":
-        return f"{psnr_of(error):.3g} dB"
-    return f"{1 - error if metric == 'ssim' else error:.3g}"
+    return f"{value_of(metric, error):.3g}{' dB' if metric == 'psnr' else ''}"
 
 
 def _error_gain(a: float, b: float) -> float:

@@ -23,16 +23,19 @@ class Comparison:
     """How one comparison of a claim came out.
 
     Args:
-        metric: what is compared.
+        metric, methods: what is compared, and of which methods.
         text: the methods and their values.
         numbers: the advantage and its interval, as text.
         supports: its interval lies wholly on the claim's side.
         against: p-value of its lying on the claim's side in truth; 1 if it does as measured.
         seeds, samples: of the trainings that it compares; None if nothing is trained.
         learning: over the learning curves, if there are any.
+        incomparable: why the methods cannot be compared, if they cannot.
+        untested: what there is too little of for a test, if there is.
     """
 
     metric: str
+    methods: str
     text: str
     numbers: str
     supports: bool
@@ -40,6 +43,8 @@ class Comparison:
     seeds: int | None = None
     samples: int | None = None
     learning: Learning | None = None
+    incomparable: str = ""
+    untested: str = ""
 
     @property
     def evidence(self) -> str:
@@ -53,6 +58,12 @@ class Comparison:
         if self.learning is None or self.learning.extrapolated is None:
             return None
         return replace(self, **judged(*self.learning.extrapolated))
+
+
+def unjudged(**why: str) -> dict[str, object]:
+    """What says nothing, as a `Comparison` has it; `why`: its `incomparable` or `untested`."""
+    (said,) = why.values()
+    return {"numbers": said, "supports": False, "against": 1.0, **why}
 
 
 def judged(value: float, low: float, high: float, p: float) -> dict[str, object]:

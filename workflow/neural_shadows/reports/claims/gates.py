@@ -9,9 +9,10 @@ from neural_shadows.metrics.power_law import LARGEST_STEP
 from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims import better, frame_time, lower_loss, printed, violations
 from neural_shadows.reports.claims.comparison import Comparison, against, verdict_of
-from neural_shadows.reports.claims.learning import AWAY, NEITHER, TOWARDS, Learning
+from neural_shadows.reports.claims.learning import AWAY, NEITHER, TOWARDS
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured, rows_of
 from neural_shadows.reports.claims.unlearned import not_learned
+from neural_shadows.reports.phrases import is_own_mesh
 
 KINDS = {
     "better": better.comparisons,
@@ -24,6 +25,8 @@ OF_TRAININGS = ("better", "lower_loss")
 # One training says nothing of how trainings differ. Two are enough for an interval, of Student's t
 # with one degree of freedom: 12.7 standard errors either way.
 LEAST_SEEDS = 2
+# Of fewer samples nothing may be extrapolated, so that nothing is known of the thesis's.
+DECISIVE = THESIS_SAMPLES / LARGEST_STEP
 MOVING = {
     TOWARDS: "moving towards the claim",
     AWAY: "moving away from the claim",
@@ -41,15 +44,14 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
     """
     found = KINDS[claim["kind"]](claim, data)
     null = null_verdict(claim, data)
-    extrapolated = [one.extrapolated for one in found]
-    carried = below_budget(claim, found) and all(extrapolated)
-    final = extrapolated if carried else found
+    carried = carried_on(claim, found)
+    final = carried or found
     gates = {
-        verdicts.NOT_COMPARABLE: not_comparable(claim, data),
+        verdicts.NOT_COMPARABLE: not_comparable(claim, found, data),
         verdicts.NOT_LEARNED: not_learned(claim, data),
-        verdicts.VACUOUS: vacuous(final, null),
+        verdicts.VACUOUS: vacuous(claim, final, null),
         verdicts.TOO_SMALL: too_small(claim, found, carried),
-        verdict_of(final): decided(final, carried),
+        verdict_of(final): decided(final, bool(carried)),
     }
     verdict, reason = next((verdict, reason) for verdict, reason in gates.items() if reason)
     samples = [one.samples for one in found if one.samples is not None]
@@ -66,95 +68,134 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
     }
 
 
-def not_comparable(claim: Claim, data: Measured) -> str:
+def not_comparable(claim: Claim, found: Sequence[Comparison], data: Measured) -> str:
     """Why what was measured is not what the claim is about; empty if it is."""
     if needs(claim, "mesh") == "thesis":
         scenes = dict.fromkeys(row["scene"] for row in rows_of(claim))
-        own = {
-            s for s in scenes if data.meshes[s]["thesis_mesh"] and not data.scenes[s]["procedural"]
-        }
-        if others := [scene for scene in scenes if scene not in own]:
+        if others := [s for s in scenes if not is_own_mesh(data.meshes[s], data.scenes[s])]:
             return f"not the thesis's mesh: {', '.join(others)}"
     if claim["kind"] == "frame_time":
-        found, asked = frame_time.devices(claim, data), needs(claim, "device")
-        if len({*found.values(), asked or min(found.values())}) > 1:
-            timed = ", ".join(f"{label} on {device}" for label, device in found.items())
-            return f"times of {asked or 'one device'} are needed: {timed}"
-    return ""
+        timed, asked = frame_time.devices(claim, data), needs(claim, "device")
+        if len({*timed.values(), asked or min(timed.values())}) > 1:
+            said = ", ".join(f"{label} on {device}" for label, device in timed.items())
+            return f"times of {asked or 'one device'} are needed: {said}"
+    said = {one.methods: one.incomparable for one in found if one.incomparable}
+    return "; ".join(f"{methods}: {why}" for methods, why in said.items())
 
 
 def null_verdict(claim: Claim, data: Measured) -> str:
     """The verdict with no shadow in place of the networks; empty where it can have none."""
-    if claim["kind"] != "better" or not any(map(data.trained, rows_of(claim))):
+    if claim["kind"] != "better" or not any(row["trained"] for row in rows_of(claim)):
         return ""
     return verdict_of(better.without_networks(claim, data))
 
 
-def vacuous(found: Sequence[Comparison], null: str) -> str:
-    """Why a support says nothing; empty if it does, or if there is no support."""
-    if null == verdict_of(found) == verdicts.SUPPORTED:
+def vacuous(claim: Claim, found: Sequence[Comparison], null: str) -> str:
+    """Why a support says nothing; empty if it does, or if there is no support.
+
+    Any map beats no shadow, so that this says nothing against a claim that maps beat a network, if
+    the network has learned what it can: from a thirtieth of the thesis's samples on it counts.
+    """
+    if not null == verdict_of(found) == verdicts.SUPPORTED:
+        return ""
+    if any(winner["trained"] for winner, _ in claim["pairs"]):
         return "supported as well with no shadow in place of the networks"
+    if (least := fewest_samples(found)) < DECISIVE:
+        return f"no shadow in the networks' place loses as well, and they do at {share(least)}"
     return ""
 
 
-def below_budget(claim: Claim, found: Sequence[Comparison]) -> bool:
-    """Whether a network saw a smaller share of the thesis's samples than the claim needs."""
+def carried_on(claim: Claim, found: Sequence[Comparison]) -> list[Comparison]:
+    """The comparisons, those of fewer samples than a claim needs at the thesis's.
+
+    Empty if none has fewer, or if one's learning curves do not license it.
+    """
+    short = [below_budget(claim, one) for one in found]
+    carried = [one.extrapolated if few else one for one, few in zip(found, short)]
+    return carried if any(short) and all(carried) else []
+
+
+def below_budget(claim: Claim, one: Comparison) -> bool:
+    """Whether its networks saw a smaller share of the thesis's samples than the claim needs."""
     least = (needs(claim, "budget") or 0.0) * THESIS_SAMPLES
-    return any(one.samples < least for one in found if one.samples is not None)
+    return one.samples is not None and one.samples < least
 
 
-def too_small(claim: Claim, found: Sequence[Comparison], carried: bool) -> str:
-    """What seeds or samples are missing, and where the difference goes; empty if none are."""
+def fewest_samples(found: Sequence[Comparison]) -> float:
+    """Of the trainings of comparisons; infinite if nothing is trained."""
+    return min((one.samples for one in found if one.samples is not None), default=np.inf)
+
+
+def too_small(claim: Claim, found: Sequence[Comparison], carried: Sequence[Comparison]) -> str:
+    """What seeds, views or samples are missing, and where the difference goes; empty if none are."""
     trained = [one for one in found if one.samples is not None]
     asked = max(needs(claim, "seeds") or 0, LEAST_SEEDS * (claim["kind"] in OF_TRAININGS))
-    learning = deciding_curves(found)
-    reasons = []
+    learning = deciding(found).learning
+    lost = against(carried or found)
+    # One comparison is enough against a claim, whatever the others lack.
+    reasons = [] if lost else [*dict.fromkeys(one.untested for one in found if one.untested)]
     if trained and (seeds := min(one.seeds for one in trained)) < asked:
         reasons.append(f"{seeds} seed{'s' if seeds > 1 else ''} of {asked}")
-    if below_budget(claim, found) and not carried:
-        least, budget = min(one.samples for one in trained), needs(claim, "budget")
-        deciding = min(budget, 1 / LARGEST_STEP) * THESIS_SAMPLES
-        reasons.append(
-            f"{share(least)}, {100 * budget:.3g} % are needed "
-            f"({deciding / 1e9:.2g} billion a network)"
-        )
+    if any(below_budget(claim, one) for one in found) and not carried:
+        least, budget = fewest_samples(found), needs(claim, "budget")
+        reasons.append(f"{share(least)}, {100 * budget:.3g} % are needed")
+        if least < DECISIVE:
+            reasons.append(
+                f"an extrapolation needs 1/{LARGEST_STEP}: {DECISIVE / 1e9:.2g} billion a network"
+            )
         if learning and learning.unlicensed:
             reasons.append(f"no extrapolation: {learning.unlicensed}")
-    if reasons and learning and learning.direction:
-        reasons.append(MOVING[learning.direction])
+    elif (least := fewest_samples(lost)) < DECISIVE:
+        reasons.append(f"against it at {share(least)}, which says nothing of the thesis's")
+    if reasons and (moving := direction_of(found)):
+        reasons.append(MOVING[moving])
     return "; ".join(reasons)
 
 
-def share(samples: int) -> str:
+def share(samples: float) -> str:
     """Training samples of a network in words."""
     return f"{100 * samples / THESIS_SAMPLES:.2g} % of the thesis's samples"
 
 
 def decided(found: Sequence[Comparison], carried: bool) -> str:
     """Which comparisons a verdict rests on."""
-    samples = min((one.samples for one in found if one.samples is not None), default=THESIS_SAMPLES)
+    samples = fewest_samples(found)
     where = f" at {share(samples)}" if samples < THESIS_SAMPLES else ""
     where = " at the thesis's samples, extrapolated" if carried else where
+    if any(one.seeds == 1 for one in found):
+        where += ", of one training"
     held, lost = sum(one.supports for one in found), against(found)
     if held < len(found) and lost:
         return f"against it{where}: {'; '.join(one.text for one in lost)}"
-    rest = ", none is against it" if held < len(found) else ""
+    rest = ", none is significantly against it" if held < len(found) else ""
     return f"{held} of {len(found)} comparisons are in its favour{where}{rest}"
 
 
-def deciding_curves(found: Sequence[Comparison]) -> Learning | None:
-    """The learning curves of the first comparison that does not support a claim, else the first."""
-    learnt = sorted((one for one in found if one.learning), key=lambda one: one.supports)
-    return learnt[0].learning if learnt else None
+def deciding(found: Sequence[Comparison]) -> Comparison:
+    """The first comparison with learning curves that does not support a claim, else the first."""
+    return min(found, key=lambda one: (one.learning is None, one.supports))
+
+
+def direction_of(found: Sequence[Comparison]) -> str:
+    """Where a claim's comparisons move, of those that do not support it if there are some.
+
+    Empty if they do not all move alike, or if that is not known of one.
+    """
+    open_ones = [one for one in found if not one.supports] or found
+    directions = {one.learning.direction if one.learning else "" for one in open_ones}
+    return directions.pop() if len(directions) == 1 else ""
 
 
 def trend_of(found: Sequence[Comparison]) -> dict[str, Any]:
-    """The trend and its direction by `deciding_curves`; NaN and empty where there is none."""
-    learning = deciding_curves(found)
-    ends = learning.trend if learning else [np.nan] * 3
+    """The trend of the `deciding` comparison and which it is; NaN and empty where there is none."""
+    one = deciding(found)
+    ends = one.learning.trend if one.learning else [np.nan] * 3
     known = [end if np.isfinite(end) else np.nan for end in ends]
-    names = dict(zip(("trend", "trend_low", "trend_high"), known))
-    return {**names, "direction": learning.direction if learning else ""}
+    return {
+        "trend_of": f"{one.metric} of {one.methods}" if one.learning else "",
+        **dict(zip(("trend", "trend_low", "trend_high"), known)),
+        "direction": one.learning.direction if one.learning else "",
+    }
 
 
 def needs(claim: Claim, name: str) -> Any:

@@ -1,5 +1,6 @@
 """Where a difference of two methods goes as their networks are trained on more samples."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,12 +24,15 @@ class Learning:
         relative: the same of the logarithm of the errors' ratio.
         extrapolated: it at the thesis's samples, its 95 % interval and two-sided p-value; None if
             the curves do not license it, for the reason `unlicensed`.
+        steps: how many times the samples of the largest budget those of the thesis are, and how
+            many times those of the one before its own, which is as far as a hold-out tries.
     """
 
     trend: tuple[float, float, float]
     relative: tuple[float, float, float]
     extrapolated: tuple[float, float, float, float] | None
     unlicensed: str
+    steps: tuple[float, float]
 
     @property
     def direction(self) -> str:
@@ -51,20 +55,32 @@ class Learning:
         said = f"trend {value:+.3g}{ends} for each tenfold of the samples"
         if self.extrapolated:
             at, below, above, _ = self.extrapolated
-            said += f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}]"
+            far, tried = self.steps
+            said += (
+                f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}] ({far:.3g} "
+                f"times the largest budget; the hold-out tries {tried:.3g} times)"
+            )
         return said
 
 
 def followed(
-    a: Curve, b: Curve, trained: list[Curve], *, psnr: bool, views: float, seed: int
+    a: Curve,
+    b: Curve,
+    *,
+    learn: Sequence[bool],
+    died: bool,
+    psnr: bool,
+    views: tuple[float, float],
+    seed: int,
 ) -> Learning:
     """Follow the advantage of `a` over `b`.
 
     Args:
-        a, b: errors of both methods at the same budgets, `FEWEST_BUDGETS` or more, and seeds; a map's are all the same.
-        trained: those of the two that are of networks.
+        a, b: errors of both methods at the same budgets, `FEWEST_BUDGETS` or more, and seeds.
+        learn: which of the two does; the errors of a map are the same at all budgets.
+        died: a training of theirs did, and its errors are on no curve.
         psnr: the errors are squared ones, and the advantage is in dB.
-        views: half the 95 % interval of the advantage over views alone, in its unit.
+        views: from the advantage down and up to the ends of its 95 % interval over views alone.
         seed: of the resampling of curves.
     """
     gaps = psnr_of(a.values) - psnr_of(b.values) if psnr else b.values - a.values
@@ -72,13 +88,34 @@ def followed(
     # An error may be 0, that of a frame like its reference: 1e-10, as in PSNR.
     ratios = np.log(np.maximum(b.values, 1e-10) / np.maximum(a.values, 1e-10))
     relative = power_law.trend(a.samples, ratios)
-    allowed, why = power_law.licensed(trained, THESIS_SAMPLES, seed)
+    steps = THESIS_SAMPLES / a.samples[-1], a.samples[-1] / a.samples[-2]
+    curves = [curve for curve, learns in zip((a, b), learn) if learns]
+    allowed, why = power_law.licensed(curves, THESIS_SAMPLES, seed, died)
     if not allowed:
-        return Learning(trend, relative, None, why)
-    arms = (a, b) if psnr else (b, a)
-    value, low, high = power_law.extrapolate_difference(*arms, THESIS_SAMPLES, seed, psnr)
-    # The fits know nothing of other views. Both errors are taken as normal and independent.
-    wide = norm.ppf((1 + LEVEL) / 2)
-    half = float(np.hypot((high - low) / 2 * wide / norm.ppf((1 + power_law.LEVEL) / 2), views))
-    p = float(2 * norm.sf(wide * abs(value) / half)) if half else float(value == 0)
-    return Learning(trend, relative, (value, value - half, value + half, p), "")
+        return Learning(trend, relative, None, why, steps)
+    arms = [curve if learns else curve.values[-1].mean() for curve, learns in zip((a, b), learn)]
+    arms = arms if psnr else arms[::-1]
+    found = power_law.extrapolate_difference(*arms, THESIS_SAMPLES, seed, psnr)
+    return Learning(trend, relative, widened(found, views), "", steps)
+
+
+def widened(
+    found: tuple[float, float, float], views: tuple[float, float]
+) -> tuple[float, float, float, float]:
+    """An extrapolated value, the ends of its 95 % interval over views, too, and its p-value.
+
+    Each side is scaled from 90 % and widened apart: what falls towards a floor is skew. Errors of
+    fits and of views are taken as independent, and each side as that of a normal distribution.
+
+    Args:
+        found: a value and its 90 % interval, which knows nothing of other views.
+        views: how far the 95 % interval over views alone goes down and up.
+    """
+    value, low, high = found
+    wide, narrow = (norm.ppf((1 + level) / 2) for level in (LEVEL, power_law.LEVEL))
+    # The value may lie outside its interval, which is of resampled fits.
+    sides = np.maximum([value - low, high - value], 0.0) * wide / narrow
+    down, up = np.hypot(sides, views)
+    towards_0 = down if value > 0 else up
+    p = float(2 * norm.sf(wide * abs(value) / towards_0)) if towards_0 else float(value == 0)
+    return value, float(value - down), float(value + up), p

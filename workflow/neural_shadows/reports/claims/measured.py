@@ -7,11 +7,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.metrics.pooled_psnr import mse_of
+from neural_shadows.metrics.error_scale import error_of
+from neural_shadows.reports.learned import NULL
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
 LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
-NO_SHADOW = {"method": "no_shadow", "label": "No shadow", "experiment": None, "bias": None}
+NO_SHADOW = {
+    **{"method": NULL, "label": "No shadow", "experiment": None, "trained": False, "bias": None}
+}
 
 Row = Mapping[str, Any]  # as `config.rows_of` gives it
 
@@ -58,19 +61,12 @@ class Measured:
     curves: Mapping[str, Sequence[Mapping[str, Any]]]
     seed: int
 
-    def trained(self, row: Row) -> bool:
-        """Whether a method is a network that learns, not a map, a null predictor or only built."""
-        name = row["experiment"]
-        if name is None or name in self.curves:
-            return name is not None
-        return self.trainings[name]["training"] is not None
-
     def budgets(self, rows: Iterable[Row]) -> list[Budget]:
         """The budgets, growing, at which all trained methods among the rows share a seed.
 
-        Methods that share none, each trained once in its own way, have one: of the least samples.
+        One without samples if no method is trained; none where `unshared` says why.
         """
-        arms = {row["experiment"]: {} for row in rows if self.trained(row)}
+        arms = {row["experiment"]: {} for row in rows if row["trained"]}
         if not arms:
             return [Budget(None, {})]
         for name, found in arms.items():
@@ -81,11 +77,22 @@ class Measured:
             seeds = sorted(set.intersection(*(set(found[samples]) for found in arms.values())))
             runs = {name: [found[samples][s] for s in seeds] for name, found in arms.items()}
             shared += [Budget(samples, runs)] * bool(seeds)
-        if shared:
-            return shared
-        last = {name: max(found) for name, found in arms.items()}
-        runs = {name: list(arms[name][most].values())[:1] for name, most in last.items()}
-        return [Budget(min(last.values()), runs)]
+        return shared
+
+    def unshared(self, rows: Sequence[Row]) -> str:
+        """Why methods have no budget in common, at which alone they compare; empty if they have."""
+        if self.budgets(rows):
+            return ""
+        trained = [self._points(row["experiment"]) for row in rows if row["trained"]]
+        most = [max(point["samples"] for point in points) for points in trained]
+        if len(set(most)) == 1:
+            return "trained from no common seed"
+        return f"trained on {' and '.join(f'{samples:,}' for samples in most)} samples"
+
+    def died(self, row: Row, budgets: Iterable[Budget]) -> bool:
+        """Whether a training of a method died at one of the budgets."""
+        runs = [run for budget in budgets for run in budget.runs.get(row["experiment"], ())]
+        return any(self.trainings[run]["died_at_step"] is not None for run in runs)
 
     def methods(self, row: Row, budget: Budget) -> list[str]:
         """The keys of a method's trainings at a budget; the same one for each if it has none."""
@@ -108,26 +115,32 @@ class Measured:
         found = self.metrics[row["scene"]]
         methods = self.methods(row, budget)
         values = pd.concat([found[method, metric] for method in methods], axis=1)
-        if metric == "psnr":
-            return values.apply(mse_of)
-        return 1 - values if metric == "ssim" else values
+        return values.apply(lambda each: error_of(metric, each))
 
     def end_losses(self, row: Row, budget: Budget) -> np.ndarray:
-        """The mean loss of the last tenth of each training (S,); of a dead one before it died."""
-        ends = []
-        for run in budget.runs[row["experiment"]]:
-            loss = self.losses[run]["loss"].to_numpy()
-            loss = loss[np.isfinite(loss)]
-            ends.append(loss[-max(1, round(LOSS_SHARE * len(loss))) :].mean())
-        return np.array(ends)
+        """The mean loss of the last tenth of each training (S,).
+
+        Of a dead one at least that of drawing no shadow: the loss before it died is of a network
+        that is no more.
+        """
+        return np.array([self._end_loss(run) for run in budget.runs[row["experiment"]]])
+
+    def _end_loss(self, run: str) -> float:
+        loss, record = self.losses[run]["loss"].to_numpy(), self.trainings[run]
+        end = loss[-max(1, round(LOSS_SHARE * len(loss))) :]
+        if record["died_at_step"] is None:
+            return float(end.mean())
+        known = len(end) and np.isfinite(end).all()
+        return float(max(end.mean() if known else 0.0, record["no_shadow_loss"]))
 
     def _points(self, experiment: str) -> Sequence[Mapping[str, Any]]:
         """The trainings of an experiment: those of its learning curve, or its own alone."""
         if points := self.curves.get(experiment):
             return points
-        record = self.trainings[experiment]
-        alone = {"samples": record["samples"], "seed": record["training"]["seed"]}
-        return [{"experiment": experiment, **alone}]
+        # Its whole length: a training that died did not come so far, but was one of that budget.
+        training = self.trainings[experiment]["training"]
+        samples = training["steps"] * training["batch_size"]
+        return [{"experiment": experiment, "samples": samples, "seed": training["seed"]}]
 
 
 def labels(rows: Sequence[Row]) -> list[str]:
@@ -137,8 +150,13 @@ def labels(rows: Sequence[Row]) -> list[str]:
     return [f"{row['label']} ({row['scene']})" for row in rows]
 
 
-def rows_of(claim: Mapping[str, Any]) -> list[Row]:
-    """The methods of a claim; none of one on printed numbers."""
+def compared(claim: Mapping[str, Any]) -> list[Sequence[Row]]:
+    """The methods that a claim compares with each other, or each alone; none of printed numbers."""
     if claim["kind"] == "printed":
         return []
-    return [*claim.get("methods", ()), *(row for pair in claim.get("pairs", ()) for row in pair)]
+    return [*claim.get("pairs", ()), *([row] for row in claim.get("methods", ()))]
+
+
+def rows_of(claim: Mapping[str, Any]) -> list[Row]:
+    """The methods of a claim; none of one on printed numbers."""
+    return [row for rows in compared(claim) for row in rows]

@@ -3,29 +3,39 @@
 from collections.abc import Mapping
 from typing import Any
 
+from neural_shadows.metrics.intervals import FEWEST_VIEWS
 from neural_shadows.reports.claims.comparison import NAMES, interval_text
-from neural_shadows.reports.claims.measured import NO_SHADOW, Measured, Row, rows_of
-from neural_shadows.reports.learned import has_learned, learned
+from neural_shadows.reports.claims.measured import Budget, Measured, Row, compared
+from neural_shadows.reports.learned import NULL, THESIS_METRICS, has_learned, learned
 
-THESIS_METRICS = ("lpips", "psnr", "ssim")  # of its tables: what a network must be better in
+LOSS_MARGIN = 0.02  # of no shadow's loss: what chance does to the end of a curve
 
 
 def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
     """Which trained networks are not better than drawing no shadow; empty if all are.
 
-    Each training of the largest budget must be, in each of the claim's metrics.
+    Each training of the budget that is compared must be, in the metrics of the thesis's tables
+    and those of the claim. Of too few views nothing is said.
     """
     if claim["kind"] in ("frame_time", "printed"):
         return ""  # neither is about what a network answers
-    said = []
-    for row in {row["method"]: row for row in rows_of(claim) if data.trained(row)}.values():
+    tested = [
+        (row, budget)
+        for rows in compared(claim)
+        for budget in data.budgets(rows)[-1:]
+        for row in rows
+        if row["trained"]
+    ]
+    said = {}
+    for row, budget in tested:
         if claim["kind"] == "lower_loss":
-            reason = _by_loss(row, row["method"] in losers(claim), data)
+            reason = _by_loss(row, row["method"] in losers(claim), budget, data)
         else:
-            reason = _by_frames(row, claim.get("metrics", THESIS_METRICS), data)
+            names = dict.fromkeys((*THESIS_METRICS, *claim.get("metrics", ())))
+            reason = _by_frames(row, [*names], budget, data)
         if reason:
-            said.append(f"{row['label']} ({row['scene']}): {reason}")
-    return "; ".join(said)
+            said[row["method"]] = f"{row['label']} ({row['scene']}): {reason}"
+    return "; ".join(said.values())
 
 
 def losers(claim: Mapping[str, Any]) -> set[str]:
@@ -34,13 +44,14 @@ def losers(claim: Mapping[str, Any]) -> set[str]:
     return {row["method"] for row in second} - {row["method"] for row in first}
 
 
-def _by_frames(row: Row, names: list[str], data: Measured) -> str:
+def _by_frames(row: Row, names: list[str], budget: Budget, data: Measured) -> str:
     """The first metric in which a training is not better, beyond the thesis's run-to-run margin."""
-    metrics = [data.metric(row, name) for name in names]
+    metrics = [*dict.fromkeys(data.metric(row, name) for name in names)]
     frames = data.metrics[row["scene"]]
-    null = frames[NO_SHADOW["method"]][metrics]
-    for method in data.methods(row, data.budgets([row])[-1]):
-        found = learned(frames[method][metrics], null, metrics, data.margins, data.seed)
+    if len(frames) < FEWEST_VIEWS:
+        return ""
+    for method in data.methods(row, budget):
+        found = learned(frames[method], frames[NULL], metrics, data.margins, data.seed)
         if not has_learned(found):
             metric = next(name for name, (_, low, _) in found.items() if not low > 0)
             numbers, margin = interval_text(*found[metric]), data.margins.get(metric, 0.0)
@@ -48,16 +59,18 @@ def _by_frames(row: Row, names: list[str], data: Measured) -> str:
     return ""
 
 
-def _by_loss(row: Row, loser: bool, data: Measured) -> str:
-    """The first training whose loss ends no lower than that of drawing no shadow.
+def _by_loss(row: Row, loser: bool, budget: Budget, data: Measured) -> str:
+    """The first training whose loss ends no lower than that of drawing no shadow, or that died.
 
     A training that died in a claimed loser's place is what such a claim is about, a rate that is
     too high for instance, and no reason to say nothing.
     """
-    budget = data.budgets([row])[-1]
     for run, loss in zip(budget.runs[row["experiment"]], data.end_losses(row, budget)):
         record = data.trainings[run]
-        died = record.get("died_at_step") is not None
-        if loss >= record["no_shadow_loss"] and not (died and loser):
-            return f"loss {loss:.3g}, without shadow {record['no_shadow_loss']:.3g}"
+        died, null = record["died_at_step"], record["no_shadow_loss"]
+        if died is not None:
+            if not loser:
+                return f"died at step {died:,}"
+        elif loss >= (1 - LOSS_MARGIN) * null:
+            return f"loss {loss:.3g}, without shadow {null:.3g} (margin {100 * LOSS_MARGIN:.0f} %)"
     return ""

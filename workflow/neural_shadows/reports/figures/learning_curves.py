@@ -17,7 +17,7 @@ from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES
 from neural_shadows.reports.figures import style
-from neural_shadows.reports.tables.learning_curves import PREDICTED, READING
+from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, READING, by_kind
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
@@ -44,7 +44,7 @@ def draw(
     Raises:
         InputError: the table is missing or not whole.
     """
-    curves = read_table(table, ("scene", "method", "metric", "by_seed"), NUMBERS)
+    curves = read_table(table, ("scene", "method", "metric", "kind", "by_seed"), NUMBERS)
     labels = [row["label"] for row in rows]
     curves = curves[(curves["scene"] == rows[0]["scene"]) & curves["method"].isin(labels)]
     figure = curves_figure(curves, labels, title=f"{title} ({run['scale']} scale)")
@@ -85,7 +85,7 @@ def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> 
     }
     if table["thesis"].notna().any():
         shapes["as the thesis prints it"] = {"marker": "*", "markersize": 11}
-    if table.loc[table["samples"] == THESIS_SAMPLES, "predicted"].notna().any():
+    if table.loc[table["kind"] == EXTRAPOLATED, "predicted"].notna().any():
         shapes["extrapolated, 90 %"] = {"marker": "s", "markerfacecolor": "white"}
     lines = [Line2D([], [], color=colours[label], linewidth=3, label=label) for label in labels]
     looks = [
@@ -104,7 +104,7 @@ def _draw_curve(axes: Axes, metric: str, part: pd.DataFrame, colour: str, aside:
 
     These stand `aside`, which is where data lie in the panel and a little further.
     """
-    measured, beyond = part.iloc[:-1], part.iloc[-1]
+    measured, beyond = by_kind(part)
     samples = measured["samples"].to_numpy()
     values = np.array([[float(value) for value in one.split()] for one in measured["by_seed"]])
     at = np.repeat(samples[:, None], values.shape[1], axis=1)

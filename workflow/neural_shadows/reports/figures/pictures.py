@@ -15,9 +15,9 @@ from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.reports.figures.style import ORANGE, Section, new_figure, write_figure
-from neural_shadows.reports.learned import margins
+from neural_shadows.reports.learned import NULL, learned_methods, margins
 from neural_shadows.reports.published import read_published
-from neural_shadows.reports.tables.quality import NULL, learned_methods, values_by_view
+from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
 
@@ -60,9 +60,8 @@ def draw(
     """
     measured = dict.fromkeys([NULL, *(row["method"] for row in rows)])
     wide = values_by_view(read_metrics(metrics), [*measured])
-    networks = [row for row in rows if row["experiment"]]
     chance = margins(read_published(published_csv))
-    found = learned_methods(wide, networks, chance, run["seed"])
+    found = learned_methods(wide, rows, chance, run["seed"])
     labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
     labels |= {method: labels[method] + NOT_LEARNED for method in found if not found[method]}
     captions = [VIEW_SETS[view_set] for view_set in view_sets]

@@ -49,9 +49,7 @@ def write(
     name = rows[0]["scene"]
     scene, mesh, lpips = scenes[name], read_json(mesh_json), read_json(lpips_json)
     records, printed = [read_json(path) for path in trainings], read_published(published_csv)
-    table = quality.scene_quality(
-        metrics, rows, quality.trained(records), margins(printed), against, scene["seed"]
-    )
+    table = quality.scene_quality(metrics, rows, margins(printed), against, run["seed"])
     table = add_printed(table, rows, PRINTED, published, published_csv, {name: mesh})
     table = add_printed_maps(table, rows, printed, published if mesh["thesis_mesh"] else None)
     table = table.assign(**quality.context_columns(mesh, lpips, run, scene["seed"]))

@@ -39,9 +39,8 @@ def write(
     prints, and the context.
     """
     timed = {one["scene"]: one for one in map(read_json, times)}
-    networks = {row["experiment"] for row in rows if row["experiment"]}
     chance = margins(read_published(published_csv))
-    scored = scenes_quality(metrics, rows, networks, chance, {}, run["seed"])
+    scored = scenes_quality(metrics, rows, chance, {}, run["seed"])
     table = timing.timing_table(timed, rows, weights).merge(
         scored, on=["scene", "method"], how="left"
     )

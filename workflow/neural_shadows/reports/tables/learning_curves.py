@@ -13,8 +13,9 @@ from neural_shadows.metrics import power_law
 from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.reports import phrases
-from neural_shadows.reports.claims.measured import NO_SHADOW, THESIS_SAMPLES, Measured, Row
+from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured, Row
 from neural_shadows.reports.inputs import by_folder, read_meshes
+from neural_shadows.reports.learned import NULL
 from neural_shadows.reports.published import read_published
 from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.reports.tables.writing import number_cells, write_twins
@@ -31,9 +32,10 @@ READING = {
 }
 PREDICTED = ["predicted", "predicted_low", "predicted_high"]
 COLUMNS = [
-    *("scene", "method", "metric", "samples", "mean", "spread", "by_seed", "exponent"),
-    *(*PREDICTED, "error", "unlicensed", "no_shadow", "thesis"),
+    *("scene", "method", "metric", "kind", "samples", "mean", "spread", "by_seed", "exponent"),
+    *(*PREDICTED, "step", "error", "unlicensed", "no_shadow", "thesis"),
 ]
+MEASURED, EXTRAPOLATED = "measured", "extrapolated"  # kinds of rows
 
 
 def write(
@@ -89,8 +91,9 @@ def write(
         "simulations of such laws, with three seeds that differ by 1 to 3 %, it holds what is "
         "measured in 89 to 91 % of cases. missed by: prediction over measurement, of the error.",
         f"at the thesis's samples: extrapolated to {THESIS_SAMPLES:,} [90 %], on these views, "
-        "where the largest budget lies within its predicted interval and is at least a thirtieth "
-        "of that; otherwise why not. *thesis*: what it prints, on its own views.",
+        "where the largest budget lies within its predicted interval and 10 % of it, and is at "
+        "least a thirtieth of that; otherwise why not. *thesis*: what it prints, on its own views.",
+        *_describe_steps(table),
         *(phrases.describe_scene(name, mesh, scenes[name]) for name, mesh in data.meshes.items()),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),
@@ -112,12 +115,13 @@ def curve_table(
 
     `printed` has the thesis's numbers by the row's `published` and the metric.
 
-    Columns: `scene`, `method` (the label), `metric` (loss, lpips or flip, psnr, ssim), `samples`;
-    of a budget `mean` over seeds, their standard deviation `spread` and the values `by_seed` with
+    Columns: `scene`, `method` (the label), `metric` (loss, lpips or flip, psnr, ssim), `kind`,
+    `MEASURED` of a budget and `EXTRAPOLATED` of the thesis's, `samples`; of a budget `mean` over
+    seeds, their standard deviation `spread` and the values `by_seed` with
     spaces between them, and `exponent`, the local one from the budget before; `predicted` with the
     ends of its 90 % interval: at the largest budget from the others, with the relative `error` of
     the prediction, and at the thesis's budget from all, unless it is `unlicensed`, for the reason
-    given; `no_shadow`, what drawing no shadow gives; and `thesis`, what that prints.
+    given; `step`, how many times the largest budget that it was predicted from; `no_shadow`, what drawing no shadow gives; and `thesis`, what that prints.
     """
     found = []
     for row in rows:
@@ -129,10 +133,11 @@ def curve_table(
         of_metric = {"loss": (losses, last["no_shadow_loss"])}
         for metric in (data.metric(row, "lpips"), "psnr", "ssim"):
             means = [data.errors(row, metric, budget).mean() for budget in budgets]
-            null = data.metrics[row["scene"]][NO_SHADOW["method"], metric]
+            null = data.metrics[row["scene"]][NULL, metric]
             of_metric[metric] = np.array(means), error_of(metric, null).mean()
         for metric, (errors, null) in of_metric.items():
-            lines = _of_metric(metric, Curve(samples, errors), data.seed)
+            curve = Curve(samples, errors)
+            lines = _of_metric(metric, curve, data.seed, data.died(row, budgets))
             if data.meshes[row["scene"]]["thesis_mesh"]:
                 lines[-1]["thesis"] = printed.get((row["published"], metric), np.nan)
             given = of | {"metric": metric, "no_shadow": value_of(metric, null)}
@@ -140,13 +145,14 @@ def curve_table(
     return pd.DataFrame(found, columns=COLUMNS)
 
 
-def _of_metric(metric: str, curve: Curve, seed: int) -> list[dict[str, Any]]:
-    """A line for each budget of a curve of errors, and for the thesis's."""
+def _of_metric(metric: str, curve: Curve, seed: int, died: bool) -> list[dict[str, Any]]:
+    """A line for each budget of a curve of errors, and for the thesis's; `died`: a training did."""
     lines = []
     for count, errors in zip(curve.samples, curve.values):
         each = value_of(metric, errors)
         lines.append(
             {
+                "kind": MEASURED,
                 "samples": count,
                 "mean": value_of(metric, errors.mean()),
                 "spread": each.std(ddof=1) if len(each) > 1 else np.nan,
@@ -157,9 +163,11 @@ def _of_metric(metric: str, curve: Curve, seed: int) -> list[dict[str, Any]]:
         line["exponent"] = exponent
     if held := power_law.hold_out(curve, seed) if power_law.can_hold_out(curve) else None:
         lines[-1] |= _prediction(metric, held.predicted, held.low, held.high)
-        lines[-1]["error"] = held.error
-    allowed, why = power_law.licensed([curve], THESIS_SAMPLES, seed)
-    lines.append({"samples": THESIS_SAMPLES, "unlicensed": why})
+        lines[-1] |= {"step": held.step, "error": held.error}
+    allowed, why = power_law.licensed([curve], THESIS_SAMPLES, seed, died)
+    step = THESIS_SAMPLES / curve.samples[-1]
+    beyond = {"kind": EXTRAPOLATED, "samples": THESIS_SAMPLES, "step": step, "unlicensed": why}
+    lines.append(beyond)
     if allowed:
         lines[-1] |= _prediction(metric, *power_law.extrapolate(curve, THESIS_SAMPLES, seed))
     return lines
@@ -171,14 +179,26 @@ def _prediction(metric: str, *errors: float) -> dict[str, float]:
     return dict(zip(PREDICTED, (value, *sorted(ends))))
 
 
+def _describe_steps(table: pd.DataFrame) -> list[str]:
+    """One sentence on how far is predicted, and how far that was tried; none of two budgets."""
+    steps = [table.loc[table["kind"] == kind, "step"].dropna() for kind in (MEASURED, EXTRAPOLATED)]
+    if any(some.empty for some in steps):
+        return []
+    tried, asked = steps[0].min(), steps[1].max()
+    return [
+        f"The hold-out tries a step of {tried:.3g} times the samples, and that to the thesis's is "
+        f"{asked:,.0f} times: no hold-out sees what bends in between."
+    ]
+
+
 def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
     """The Markdown's cells by heading: a row for each method and metric."""
-    budgets = sorted(table.loc[table["samples"] < THESIS_SAMPLES, "samples"].unique())
+    budgets = sorted(table.loc[table["kind"] == MEASURED, "samples"].unique())
     lines = []
     for (scene, method, metric), part in table.groupby(["scene", "method", "metric"], sort=False):
         heading, decimals = READING[metric]
         form = f"{{:.{decimals}f}}"
-        measured, beyond = part.iloc[:-1], part.iloc[-1]
+        measured, beyond = by_kind(part)
         last = measured.iloc[-1]
         exponents = measured["exponent"].dropna()
         ends = exponents.iloc[[0, -1]] if len(exponents) else exponents
@@ -199,6 +219,12 @@ def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
             }
         )
     return {name: [line[name] for line in lines] for name in lines[0]}
+
+
+def by_kind(part: pd.DataFrame) -> tuple[pd.DataFrame, pd.Series]:
+    """The rows of a method and metric that are measured, and the one at the thesis's samples."""
+    measured = part["kind"] == MEASURED
+    return part[measured], part[~measured].iloc[0]
 
 
 def _interval(line: pd.Series, form: str) -> str:

@@ -69,9 +69,7 @@ def write(
     }
     facts = [facts_of(row, records, biases, timed, durations, context) for row in rows]
     table = pd.concat([timing.timing_table(timed, rows, weights), pd.DataFrame(facts)], axis=1)
-    scored = quality.scenes_quality(
-        metrics, rows, quality.trained(records.values()), margins(printed), against, run["seed"]
-    )
+    scored = quality.scenes_quality(metrics, rows, margins(printed), against, run["seed"])
     table = table.merge(scored, on=["scene", "method"], how="left")
     same = [
         name for name, mesh in reports.items() if mesh["thesis_mesh"] and name in TABLE_OF_SCENE

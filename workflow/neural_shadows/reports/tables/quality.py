@@ -1,6 +1,6 @@
 """Quality of methods on the same views: averages with bootstrap intervals, and paired comparisons."""
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +14,9 @@ from neural_shadows.metrics.intervals import mean_interval, pooled_psnr_interval
 from neural_shadows.metrics.pooled_psnr import identical
 from neural_shadows.reports.equivalent_maps import equivalent_maps
 from neural_shadows.reports.inputs import by_folder
-from neural_shadows.reports.learned import advantage, has_learned, learned
+from neural_shadows.reports.learned import NULL, advantage, learned_methods
 
 METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
-NULL = "no_shadow"  # what a network that has learned is better than
 
 
 def with_ends(metric: str) -> list[str]:
@@ -28,7 +27,6 @@ def with_ends(metric: str) -> list[str]:
 def scene_quality(
     metrics: Sequence[Path],
     rows: Sequence[Mapping[str, Any]],
-    networks: Collection[str],
     margins: Mapping[str, float],
     against: str | None,
     seed: int,
@@ -39,7 +37,6 @@ def scene_quality(
 
     Args:
         metrics: of all methods of the rows.
-        networks: the experiments among them that are trained, which may have learned or not.
         margins: see `learned`.
         against: the method, among the rows, that others are compared with.
 
@@ -49,8 +46,7 @@ def scene_quality(
     rows = [row for row in rows if row["method"] != RAY_TRACED]
     wide = values_by_view(read_metrics(metrics), [row["method"] for row in rows])
     table = quality_table(wide, rows, seed)
-    network_rows = [row for row in rows if row["experiment"] in networks]
-    found = learned_methods(wide, network_rows, margins, seed)
+    found = learned_methods(wide, rows, margins, seed)
     table["learned"] = pd.Series([found.get(row["method"]) for row in rows], dtype=object)
     table = table.assign(**equivalent_maps(table, [row["method"] for row in rows]))
     return pd.concat([table, differences(wide, rows, against, seed)], axis=1)
@@ -59,7 +55,6 @@ def scene_quality(
 def scenes_quality(
     metrics: Sequence[Path],
     rows: Sequence[Mapping[str, Any]],
-    networks: Collection[str],
     margins: Mapping[str, float],
     against: Mapping[str, str],
     seed: int,
@@ -68,14 +63,9 @@ def scenes_quality(
     parts = []
     for scene, files in by_folder(metrics).items():
         here = [row for row in rows if row["scene"] == scene]
-        table = scene_quality(files, here, networks, margins, against.get(scene), seed)
+        table = scene_quality(files, here, margins, against.get(scene), seed)
         parts.append(table.assign(scene=scene))
     return pd.concat(parts, ignore_index=True)
-
-
-def trained(records: Iterable[Mapping[str, Any]]) -> set[str]:
-    """The experiments, by what `train` wrote of them, whose networks learn from samples."""
-    return {record["name"] for record in records if record["training"]}
 
 
 def null_leaks(metrics: pd.DataFrame) -> pd.DataFrame:
@@ -104,21 +94,6 @@ def quality_table(wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], seed: i
     ends = [end for metric in METRICS for end in with_ends(metric)[1:]]
     robust = [*with_ends("psnr_pooled"), "psnr_median", "identical"]
     return pd.DataFrame(records, columns=["method", *METRICS, *ends, *robust, "views"])
-
-
-def learned_methods(
-    wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], margins: Mapping[str, float], seed: int
-) -> dict[str, bool]:
-    """Whether the network of each row is better than no shadow, in all that the thesis prints.
-
-    In LPIPS, or without it in FLIP, in pooled PSNR and in SSIM.
-    """
-    perceived = "lpips" if (NULL, "lpips") in wide else "flip"
-    metrics = (perceived, "psnr", "ssim")
-    return {
-        row["method"]: has_learned(learned(wide[row["method"]], wide[NULL], metrics, margins, seed))
-        for row in rows
-    }
 
 
 def differences(

@@ -30,7 +30,7 @@ def describe_quality(table: pd.DataFrame, against: str | None) -> list[str]:
     if table["map_psnr"].fillna("").any():
         notes.append(
             "equal map: texels along a side of the shadow map that would be as good, by LPIPS / by "
-            "pooled PSNR."
+            "pooled PSNR; –: not measured."
         )
     if against:
         notes.append(f"difference: of pooled PSNR, from {against}, on the same views.")
@@ -63,9 +63,12 @@ def difference_cells(table: pd.DataFrame) -> list[str]:
 
 
 def map_cells(lpips: pd.Series, psnr: pd.Series) -> list[str]:
-    """The Markdown's cells of `equivalent_maps`: by LPIPS / by PSNR, or once what both say."""
+    """The Markdown's cells of `equivalent_maps`: by LPIPS / by PSNR, – for one that is missing."""
     pairs = zip(lpips.fillna(""), psnr.fillna(""))
-    return [" / ".join(f"{size}²" for size in dict.fromkeys(pair) if size) for pair in pairs]
+    return [
+        " / ".join(f"{size}²" if size else "–" for size in pair) if any(pair) else ""
+        for pair in pairs
+    ]
 
 
 def quality_cells(table: pd.DataFrame, metric: str) -> list[str]:

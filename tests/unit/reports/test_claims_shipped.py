@@ -1,0 +1,139 @@
+"""Each claim of the shipped configuration, on data that are as it says, and on their contrary."""
+
+import functools
+
+import numpy as np
+import pytest
+from claim_samples import loss_curve, measured, points, scene, views, violated
+from shipped import shipped
+
+from neural_shadows.config.reading import read_config
+from neural_shadows.config.resolved import resolved
+from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.claims.measured import THESIS_SAMPLES, compared, rows_of
+
+BUDGETS = np.array([1 / 27, 1 / 9, 1 / 3, 1])  # of the largest
+FALL = 0.1  # exponent of all networks' errors
+
+
+@functools.cache
+def claims():
+    return resolved(read_config(shipped()))["claims"]
+
+
+def ranks(claim):
+    """How many methods each one is to lose against, in a row."""
+    found = {row["method"]: 0 for row in rows_of(claim)}
+    for _ in found:
+        for better, worse in compared(claim):
+            found[worse["method"]] = max(found[worse["method"]], found[better["method"]] + 1)
+    return found
+
+
+def errors_of(claim, share, contrary):
+    """Runs, their samples and their errors, each method twice as wrong as the one before it."""
+    order = ranks(claim)
+    most, rng = max(order.values()), np.random.default_rng(3)
+    curves, errors = {}, {}
+    for row in rows_of(claim):
+        method = row["method"]
+        level = 0.02 * 2.0 ** (most - order[method] if contrary else order[method])
+        if not row["trained"]:
+            errors[method] = level
+            continue
+        samples = [int(part * share * THESIS_SAMPLES) for part in BUDGETS]
+        curves[method] = points(method, samples, 3)
+        for point in curves[method]:
+            fall = (point["samples"] / samples[-1]) ** -FALL
+            errors[point["experiment"]] = level * fall * np.exp(rng.normal(0, 0.003))
+    return curves, errors
+
+
+def data_of(claim, share, contrary):
+    """Everything that a claim is tested on, at a share of the samples; `contrary` to what it says."""
+    match claim["kind"]:
+        case "printed":
+            return measured()
+        case "frame_time":
+            return measured(times=times_of(claim, contrary))
+        case "violations":
+            curves = {
+                row["method"]: points(row["method"], [share * THESIS_SAMPLES], 3)
+                for row in rows_of(claim)
+            }
+            errors = dict.fromkeys(runs_of(curves), 0.1)
+            counts = violated(10, 30) if contrary else violated(40, 15)
+            return measured(scenes_of(claim, curves, errors, counts), curves)
+    curves, errors = errors_of(claim, share, contrary)
+    if claim["kind"] == "lower_loss":
+        losses = {run: loss_curve(error) for run, error in errors.items()}
+        return measured(curves=curves, losses=losses)
+    return measured(scenes_of(claim, curves, errors), curves)
+
+
+def runs_of(curves):
+    return [point["experiment"] for some in curves.values() for point in some]
+
+
+def scenes_of(claim, curves, errors, counts=()):
+    """Metrics of a claim's scenes, of all runs of its methods."""
+    scenes = {}
+    for row in rows_of(claim):
+        runs = [point["experiment"] for point in curves.get(row["method"], ())] or [row["method"]]
+        found = {run: quality(errors[run]) | dict(counts) for run in runs}
+        scenes[row["scene"]] = scenes.get(row["scene"], {}) | found
+    return {name: scene(found, null=quality(0.9)) for name, found in scenes.items()}
+
+
+def times_of(claim, contrary):
+    """Own times, a factor of three from the bound of the claim."""
+    far = 3.0 if (claim["at_least"] is None) == contrary else 1 / 3
+    own = {}
+    for first, second in claim["pairs"]:
+        known = own.setdefault(first["scene"], {})
+        known.setdefault(second["method"], 100.0)
+        known[first["method"]] = (
+            known[second["method"]] * far * (claim["at_least"] or claim["at_most"])
+        )
+    return {
+        ("table_4_6", name): {
+            "methods": {
+                method: {"own_ms": [ms] * 15, "ms": [ms] * 15, "device": "cuda"}
+                for method, ms in known.items()
+            }
+        }
+        for name, known in own.items()
+    }
+
+
+def quality(error):
+    """Metrics that all say the same: an error, whose views differ by 1 % of it."""
+    spread = error * (1 + 0.1 * (views(0.0, spread=0.0)))
+    return {"lpips": spread, "psnr": -10 * np.log10(spread), "ssim": 1 - spread}
+
+
+def expected(claim, share, contrary):
+    """The verdicts that a claim may have."""
+    if claim["kind"] == "printed":
+        return "contradicted"
+    if claim["kind"] == "frame_time":
+        return "contradicted" if contrary else "supported"
+    if contrary:
+        return "undecided (scale)" if share < 1 / 30 else "contradicted"
+    if share > 1 / 30 or not claim["needs"]["budget"]:
+        return "supported"
+    network_wins = claim["kind"] != "better" or any(row["trained"] for row, _ in claim["pairs"])
+    return "undecided (scale)" if network_wins else "vacuous"
+
+
+@pytest.mark.parametrize("name", claims())
+@pytest.mark.parametrize(
+    ("share", "contrary"), [(0.0003, False), (0.05, False), (1, False), (0.02, True), (0.05, True)]
+)
+def test_a_claim_has_the_verdict_that_its_data_carry(name, share, contrary):
+    claim = claims()[name]
+    found = judge(claim, data_of(claim, share, contrary))
+    assert found["verdict"] == expected(claim, share, contrary), found["reason"]
+    # At a twentieth what needs all samples is decided by an extrapolation, and by that alone.
+    carried = share == 0.05 and claim.get("needs", {}).get("budget") is not None
+    assert ("extrapolated" in found["reason"]) == carried
