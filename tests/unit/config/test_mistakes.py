@@ -28,6 +28,7 @@ figures.figure_beyond_dragon.table | table_4_6 | 'table_4_6' is not among beyond
 figures.figure_beyond_slice.experiment | dragon | experiment: 'dragon' (did you mean 'dragon_fi
 claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | one of them should be an experiment
 claims.learning_rate.pairs | [[dragon, dragon]] | 'dragon' is compared with itself
+claims.learning_rate.pairs | [[dragon, dragon_field]] | 'dragon_field' of encoding 'occupancy_field' has another loss
 claims.learning_rate.pairs | [[dragon, dragn]] | learning_rate.pairs.0.1: 'dragn' (did you mean
 claims.sampling.pairs | [[no_shadow_biased, dragon]] | has no depth bias; write 'no_shadow'
 claims.sampling.metrics | [lpips, lpips] | claims.sampling.metrics: 'lpips' is there twice

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in
+from neural_shadows.config.experiments import network_of
 from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
 from neural_shadows.evaluation.method_names import (
     is_classic,
@@ -185,8 +186,15 @@ def _check_methods(config: "Config", key: str, methods: list[str], claim: AnyCla
             )
         if not is_classic(name):
             check_among(key, name, config.experiments)
-        if isinstance(claim, LowerLossClaim) and config.experiments[method].training is None:
-            raise ValueError(f"{key}: {method!r} is not trained, and has no loss")
+        if isinstance(claim, LowerLossClaim):
+            if config.experiments[method].training is None:
+                raise ValueError(f"{key}: {method!r} is not trained, and has no loss")
+            if (encoding := network_of(config, method).encoding) != "frequency":
+                # Theirs is cross-entropy, or has some in it: no number to compare with depths'.
+                raise ValueError(
+                    f"{key}: {method!r} of encoding {encoding!r} has another loss than the thesis's "
+                    "networks; compare it by image metrics (kind: better)"
+                )
     if all(map(is_classic, names)):
         raise ValueError(f"{key}: {methods}: one of them should be an experiment")
     if len(set(methods)) < len(methods):
