@@ -19,10 +19,11 @@ DIR/reports:
 Needs no network, no Snakemake and no GPU program but PyTorch's. Imports beside this checkout:
 torch, numpy, scipy, pandas, numba, scikit-image, safetensors, tqdm, yaml, and (small wheels, to be
 carried along where they are not installed) embreex, trimesh, pydantic, pydantic-core,
-annotated-types, typing-inspection, typing-extensions; with `--trunk` also lpips and torchvision.
+annotated-types, typing-inspection, typing-extensions; with `--trunk` also lpips and torchvision,
+without it flip-evaluator.
 
 Quality is measured on the first `--views` viewpoints of each view set, without a depth bias, in
-PSNR, SSIM, FLIP and shadow error, with `--trunk` in LPIPS (squeeze) too, beside the null predictor
+PSNR, SSIM and shadow error, with `--trunk` in LPIPS (squeeze) and else in FLIP, beside the null predictor
 `no_shadow`. Rays and frames are made anew by each call, but for what `--work` holds.
 """
 
@@ -136,6 +137,10 @@ def work(given: argparse.Namespace, device: torch.device, deadline: float) -> No
         from neural_shadows.metrics.lpips_distance import make_lpips
 
         metrics["lpips"] = make_lpips("squeeze", given.trunk, device.type)
+    else:
+        from neural_shadows.metrics.flip import flip
+
+        metrics["flip"] = flip
     reason = None if given.trunk else "gpu.py was given no trunk"
     found = {"net": "squeeze", "trunk": None, "available": not reason, "reason": reason}
     write_json(given.out / Layout(settings).paths.lpips, found)

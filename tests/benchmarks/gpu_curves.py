@@ -14,7 +14,6 @@ from gpu_data import Data
 from neural_shadows.evaluation.per_view_metrics import write_metrics
 from neural_shadows.files.whole_files import read_json, whole_file, write_json, write_text
 from neural_shadows.layout.layout import Layout
-from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
 from neural_shadows.metrics.shadow_error import shadow_error
 from neural_shadows.networks.compute import choose_dtype
@@ -29,7 +28,7 @@ from neural_shadows.training.training_run import TrainingRun
 
 Metric = Callable[[np.ndarray, np.ndarray], float]
 
-IMAGE_METRICS: dict[str, Metric] = {"psnr": psnr, "ssim": ssim, "flip": flip}
+IMAGE_METRICS: dict[str, Metric] = {"psnr": psnr, "ssim": ssim}
 
 BATCH = "000"  # all views are one batch
 

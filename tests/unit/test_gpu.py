@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import gpu
 import gpu_checks
+import gpu_curves
 import gpu_data
 import gpu_rates
 import gpu_report
@@ -22,7 +23,11 @@ from neural_shadows.config.resolved import resolved
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.render_references import render_references
+from neural_shadows.files.whole_files import write_text
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
+from neural_shadows.networks.weight_file import load_tensors
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.scenes.scene import open_scene
 from neural_shadows.training import cuda_graph
 from neural_shadows.training.loss_curve import read_loss
 from neural_shadows.training.training_run import TrainingRun
@@ -161,14 +166,16 @@ def test_frames_are_those_of_the_references(tmp_path):
     """Of the scene with a least share of shadow too."""
     values = shipped("smoke")
     values["rendering"] |= {"width": 96, "height": 64}
+    values["scenes"]["landscape"]["least_shadow"] = 0.2
     settings = resolved(read_config(values))
     data = gpu_data.Data(settings, tmp_path, 1, views=2)
     files = data.mesh("landscape"), tmp_path / "000.safetensors", tmp_path / "000.npz"
     about = settings["scenes"]["landscape"]
-    assert about["frames"]["least_shadow"] > 0
     render_references(*files, scene=about["scene"], frames=about["frames"], first=0, last=2)
     batch = list(References(files[1]))
-    assert len(batch) == 2
+    opened, seed = open_scene(files[0], **about["scene"]), about["frames"]["seed"]
+    others = draw_viewpoints(opened, ["centre"], range(2), 1.5, seed)  # whatever their shadow
+    assert any((o.light != frame.view.light).any() for o, (frame, _) in zip(others, batch))
     for (ours, lit), (frame, truth) in zip(data.frames("landscape"), batch, strict=True):
         np.testing.assert_array_equal(ours.p, frame.p)
         np.testing.assert_array_equal(ours.view.light, frame.view.light)
@@ -179,6 +186,26 @@ def test_weights_that_are_no_numbers_are_infinitely_apart():
     runs = [gpu_checks.new_run(16, 16, CPU, "float32") for _ in range(2)]
     runs[1].weights["output"].data[0, 0] = torch.nan
     assert gpu_checks._apart(*runs) == gpu_checks._apart(*runs[::-1]) == float("inf")
+
+
+def test_a_training_is_kept_before_it_is_measured(call, tmp_path, monkeypatch):
+    def killed(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(gpu_curves, "measured", killed)
+    for name in ("checks.json", "rates.csv"):
+        write_text(tmp_path / "out" / name, "done")
+    with pytest.raises(KeyboardInterrupt):
+        call("out", 5)
+    (state,) = tmp_path.glob("out/*.safetensors")
+    assert load_tensors(state)[1]["step"] == STEPS[0]
+
+
+@pytest.mark.parametrize("died_at_step", [None, 1])
+def test_a_dead_run_is_done_when_the_time_is_up(monkeypatch, died_at_step):
+    monkeypatch.setattr(gpu_curves, "curve_points", lambda *_, **__: iter([1]))
+    run = SimpleNamespace(settings={"steps": 8}, seconds=0.0, died_at_step=died_at_step)
+    assert gpu_curves._train(run, None, 0.0, 1) == (died_at_step is not None)
 
 
 def test_a_check_that_finds_a_difference_or_cannot_be_done(monkeypatch):
