@@ -58,6 +58,7 @@ def call(tmp_path, monkeypatch):
     ball = tmp_path / "ball.ply"
     trimesh.creation.icosphere(3).export(ball)
     values = shipped("smoke", dragon=str(ball))
+    values["tables"]["learning_sampling"]["rows"] = {"dragon": list(NAMES)}
     values["samplings"]["poisson_quadtree"] |= {"directions": 8, "points_per_direction": 100}
     values["rendering"] |= {"width": 64, "height": 64}
     values["networks"]["thesis"] |= {"width": 8, "hidden_layers": 1}
