@@ -10,6 +10,7 @@ from neural_shadows.config.experiments import formatted, training_of
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
     CLASSIC,
+    NO_SHADOW,
     NULL,
     RAY_TRACED,
     biased_key,
@@ -95,7 +96,7 @@ Table = by_kind("kind", TableOfOneScene, TableByScene, CostTable, default="compa
 
 # What stands in each table of a kind beside its methods: a network that is not better than no
 # shadow at all has learned nothing that such a table could show.
-NULL_ROWS = {"comparison": tuple(NULL), "networks": tuple(NULL), "frame_times": ("no_shadow",)}
+NULL_ROWS = {"comparison": tuple(NULL), "networks": tuple(NULL), "frame_times": (NO_SHADOW,)}
 
 # The kinds that give paired differences to the row `against`.
 WITH_DIFFERENCES = ("comparison", "networks")

@@ -10,7 +10,7 @@ import numpy as np
 import torch
 
 from neural_shadows.evaluation.memory import shadow_map_bytes
-from neural_shadows.evaluation.method_names import experiment_of, is_map, unbiased
+from neural_shadows.evaluation.method_names import is_map, unbiased
 from neural_shadows.evaluation.shadow_methods import classic_method, open_network
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.networks.compute import choose_device, choose_dtype
@@ -110,9 +110,9 @@ def measure_frame_times(
     opened = open_scene(mesh_ply, **scene)
     chosen = choose_device(device)
     files = {path.parent.name: path for path in weights}
-    networks = [method for method in methods if experiment_of(method) in files]
+    networks = [method for method in methods if unbiased(method) in files]
     timed = {
-        method: timed_network(*open_network(files[experiment_of(method)], device, 1, precision))
+        method: timed_network(*open_network(files[unbiased(method)], device, 1, precision))
         if method in networks
         else timed_classic(unbiased(method), opened)
         for method in methods

@@ -7,7 +7,8 @@ BIASED_SUFFIX = "_biased"
 
 # Null predictors and their labels: what knows nothing of the object, so that what is no better
 # than it has learned nothing of it either.
-NULL = {"no_shadow": "No shadow", "all_dark": "All dark"}
+NO_SHADOW = "no_shadow"  # everything that faces the light is lit
+NULL = {NO_SHADOW: "No shadow", "all_dark": "All dark"}
 
 
 @dataclass(frozen=True)
@@ -79,10 +80,5 @@ def biased_key(method: str) -> str:
 
 
 def unbiased(method: str) -> str:
-    """The key of a method without such a bias."""
+    """The key of a method without such a bias: of a network, its experiment's name."""
     return method.removesuffix(BIASED_SUFFIX)
-
-
-def experiment_of(method: str) -> str:
-    """The experiment whose network a network's key names."""
-    return unbiased(method)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from neural_shadows.evaluation.method_names import (
+    NO_SHADOW,
     RAY_TRACED,
     family_of,
     is_null,
@@ -52,7 +53,7 @@ def classic_method(method: str, scene: Scene, *, whole_map: bool = False) -> Sha
     if method == RAY_TRACED:
         return lambda frame: _whatever_bias(exact_visibility(scene.tracer, frame))
     if is_null(method):
-        lit = float(method == "no_shadow")
+        lit = float(method == NO_SHADOW)
         return lambda frame: _whatever_bias(frame.visibility(np.full(len(frame.p), lit)))
     (mesh,) = scene.objects
     resolution, family = resolution_of(method), family_of(method)

@@ -29,9 +29,8 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
     match kind:
         case "pictures":
             rows = settings["rows"]
-            null = {"scene": scene, "method": "no_shadow"}  # what a network must be better than
             return {
-                "metrics": tables.metrics(layout, [*rows, null]),
+                "metrics": tables.metrics(layout, [*rows, *tables.unshadowed([scene])]),
                 "pictures": [
                     paths.reference("npz", scene, "000"),
                     *(paths.evaluation("npz", scene, row["method"], "000") for row in rows),

@@ -9,7 +9,7 @@ from typing import Any
 from neural_shadows.config.base import not_among
 from neural_shadows.config.networks import NetworkModel, kind_of
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.method_names import experiment_of, is_classic, unbiased
+from neural_shadows.evaluation.method_names import is_classic, unbiased
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
 
@@ -119,7 +119,7 @@ class Layout:
 
     def can_use_gpu(self, method: str) -> bool:
         """Whether a method is a network of a kind that does; those without weights do not."""
-        return _is_network(method) and self.kind(experiment_of(method)).trained
+        return _is_network(method) and self.kind(unbiased(method)).trained
 
     def export_files(self, experiment: str) -> dict[str, Any]:
         """What an export says of its network: the mesh's sphere, and the depth bias if found."""
@@ -153,7 +153,7 @@ class Layout:
 
     def weights(self, method: str) -> list[str]:
         """The weights of a method that is a network."""
-        file = self.paths.network("weights.safetensors", experiment_of(method))
+        file = self.paths.network("weights.safetensors", unbiased(method))
         return [file] * _is_network(method)
 
     def evaluated_files(self, scene: str, method: str, batch: str) -> dict[str, Any]:
@@ -167,7 +167,7 @@ class Layout:
 
     def method_encodings(self, method: str) -> set[str]:
         """The kind of network of a method that is one."""
-        return self.encodings([experiment_of(method)] * _is_network(method))
+        return self.encodings([unbiased(method)] * _is_network(method))
 
 
 def _is_network(method: str) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from neural_shadows.evaluation.costs import STAGES
-from neural_shadows.evaluation.method_names import RAY_TRACED, biased_key, unbiased
+from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED, biased_key, unbiased
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_names
 
@@ -158,7 +158,7 @@ def with_curves(layout: Layout, rows: Sequence[Row]) -> list[Row]:
 
 def unshadowed(scenes: Iterable[str]) -> list[Row]:
     """What networks have to be better than on each scene, as rows."""
-    row = {"method": "no_shadow", "experiment": None, "bias": None}
+    row = {"method": NO_SHADOW, "experiment": None, "bias": None}
     return [{**row, "scene": scene} for scene in scenes]
 
 

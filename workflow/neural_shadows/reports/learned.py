@@ -5,6 +5,7 @@ from typing import Any
 
 import pandas as pd
 
+from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.metrics.intervals import (
     FEWEST_VIEWS,
     paired_difference,
@@ -13,7 +14,6 @@ from neural_shadows.metrics.intervals import (
 
 Advantage = tuple[float, float, float]  # a value and the ends of its 95 % interval
 
-NULL = "no_shadow"  # what a network that has learned is better than
 THESIS_METRICS = ("lpips", "psnr", "ssim")  # of its tables: in what it is better
 
 HIGHER_IS_BETTER = ("psnr", "ssim")
@@ -77,15 +77,15 @@ def learned_methods(
     nothing is said: there are no methods then.
 
     Args:
-        wide: as `values_by_view` gives it, with `NULL`.
+        wide: as `values_by_view` gives it, with `NO_SHADOW`.
         rows: as `config.rows_of` gives them; those that are not `trained` are left out.
     """
     if len(wide) < FEWEST_VIEWS:
         return {}
-    perceived = "lpips" if (NULL, "lpips") in wide else "flip"
+    perceived = "lpips" if (NO_SHADOW, "lpips") in wide else "flip"
     metrics = (perceived, *THESIS_METRICS[1:])
     found = {
-        row["method"]: learned(wide[row["method"]], wide[NULL], metrics, margins, seed)
+        row["method"]: learned(wide[row["method"]], wide[NO_SHADOW], metrics, margins, seed)
         for row in rows
         if row["trained"]
     }

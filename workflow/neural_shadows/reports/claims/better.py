@@ -12,7 +12,7 @@ from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.metrics.power_law import FEWEST_BUDGETS, Curve
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.learning import Learning, followed
-from neural_shadows.reports.claims.measured import NO_SHADOW, Budget, Measured, Row, labels
+from neural_shadows.reports.claims.measured import NO_SHADOW_ROW, Budget, Measured, Row, labels
 
 
 def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
@@ -31,7 +31,7 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
 def without_networks(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     """The same comparisons with drawing no shadow in the place of each network that is trained."""
     pairs = [
-        [NO_SHADOW | {"scene": row["scene"]} if row["trained"] else row for row in pair]
+        [NO_SHADOW_ROW | {"scene": row["scene"]} if row["trained"] else row for row in pair]
         for pair in claim["pairs"]
     ]
     return comparisons({**claim, "pairs": pairs}, data)

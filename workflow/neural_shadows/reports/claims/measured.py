@@ -7,13 +7,17 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.metrics.error_scale import error_of
-from neural_shadows.reports.learned import NULL
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
 LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
-NO_SHADOW = {
-    **{"method": NULL, "label": "No shadow", "experiment": None, "trained": False, "bias": None}
+NO_SHADOW_ROW = {
+    "method": NO_SHADOW,
+    "label": "No shadow",
+    "experiment": None,
+    "trained": False,
+    "bias": None,
 }
 
 Row = Mapping[str, Any]  # as `config.rows_of` gives it

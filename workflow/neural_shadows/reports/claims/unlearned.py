@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
+from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.metrics.intervals import FEWEST_VIEWS
 from neural_shadows.reports.claims.comparison import NAMES, interval_text
 from neural_shadows.reports.claims.measured import Budget, Measured, Row, compared
-from neural_shadows.reports.learned import NULL, THESIS_METRICS, has_learned, learned
+from neural_shadows.reports.learned import THESIS_METRICS, has_learned, learned
 
 LOSS_MARGIN = 0.02  # of no shadow's loss: what chance does to the end of a curve
 
@@ -51,7 +52,7 @@ def _by_frames(row: Row, names: list[str], budget: Budget, data: Measured) -> st
     if len(frames) < FEWEST_VIEWS:
         return ""
     for method in data.methods(row, budget):
-        found = learned(frames[method], frames[NULL], metrics, data.margins, data.seed)
+        found = learned(frames[method], frames[NO_SHADOW], metrics, data.margins, data.seed)
         if not has_learned(found):
             metric = next(name for name, (_, low, _) in found.items() if not low > 0)
             numbers, margin = interval_text(*found[metric]), data.margins.get(metric, 0.0)

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
+from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED, is_null
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.published import NETWORKS
-from neural_shadows.reports.tables.quality import NULL, with_ends
+from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
@@ -84,7 +84,7 @@ def kind_of(method: str, encoding: str | float, samples: float) -> str:
     """
     if not isinstance(encoding, str):
         if is_null(method):
-            return "no shadow" if method == NULL else NOT_SHOWN
+            return "no shadow" if method == NO_SHADOW else NOT_SHOWN
         plain = method.removeprefix("shadow_map_").isdecimal()
         kind = "shadow map" if plain else "filtered or 16-bit shadow map"
         return "ray traced" if method == RAY_TRACED else kind

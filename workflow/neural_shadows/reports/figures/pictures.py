@@ -12,10 +12,11 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter, minimum_filter
 
 from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
+from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.reports.figures.style import ORANGE, Section, new_figure, write_figure
-from neural_shadows.reports.learned import NULL, learned_methods, margins
+from neural_shadows.reports.learned import learned_methods, margins
 from neural_shadows.reports.published import read_published
 from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.running.stage import run_stage
@@ -58,7 +59,7 @@ def draw(
     Raises:
         InputError: a file is missing or not whole.
     """
-    measured = dict.fromkeys([NULL, *(row["method"] for row in rows)])
+    measured = dict.fromkeys([NO_SHADOW, *(row["method"] for row in rows)])
     wide = values_by_view(read_metrics(metrics), [*measured])
     chance = margins(read_published(published_csv))
     found = learned_methods(wide, rows, chance, run["seed"])

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics import power_law
@@ -15,7 +16,6 @@ from neural_shadows.metrics.power_law import Curve
 from neural_shadows.reports import phrases
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured, Row
 from neural_shadows.reports.inputs import by_folder, read_meshes
-from neural_shadows.reports.learned import NULL
 from neural_shadows.reports.published import read_published
 from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.reports.tables.writing import number_cells, write_twins
@@ -117,11 +117,12 @@ def curve_table(
 
     Columns: `scene`, `method` (the label), `metric` (loss, lpips or flip, psnr, ssim), `kind`,
     `MEASURED` of a budget and `EXTRAPOLATED` of the thesis's, `samples`; of a budget `mean` over
-    seeds, their standard deviation `spread` and the values `by_seed` with
-    spaces between them, and `exponent`, the local one from the budget before; `predicted` with the
-    ends of its 90 % interval: at the largest budget from the others, with the relative `error` of
-    the prediction, and at the thesis's budget from all, unless it is `unlicensed`, for the reason
-    given; `step`, how many times the largest budget that it was predicted from; `no_shadow`, what drawing no shadow gives; and `thesis`, what that prints.
+    seeds, their standard deviation `spread` and the values `by_seed` with spaces between them, and
+    `exponent`, the local one from the budget before; `predicted` with the ends of its 90 %
+    interval: at the largest budget from the others, with the relative `error` of the prediction,
+    and at the thesis's budget from all, unless it is `unlicensed`, for the reason given; `step`,
+    how many times the largest budget that it was predicted from; `no_shadow`, what drawing no
+    shadow gives; and `thesis`, what that prints.
     """
     found = []
     for row in rows:
@@ -133,7 +134,7 @@ def curve_table(
         of_metric = {"loss": (losses, last["no_shadow_loss"])}
         for metric in (data.metric(row, "lpips"), "psnr", "ssim"):
             means = [data.errors(row, metric, budget).mean() for budget in budgets]
-            null = data.metrics[row["scene"]][NULL, metric]
+            null = data.metrics[row["scene"]][NO_SHADOW, metric]
             of_metric[metric] = np.array(means), error_of(metric, null).mean()
         for metric, (errors, null) in of_metric.items():
             curve = Curve(samples, errors)

@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.metrics.intervals import mean_interval, pooled_psnr_interval
 from neural_shadows.metrics.pooled_psnr import identical
 from neural_shadows.reports.equivalent_maps import equivalent_maps
 from neural_shadows.reports.inputs import by_folder
-from neural_shadows.reports.learned import NULL, advantage, learned_methods
+from neural_shadows.reports.learned import advantage, learned_methods
 
 METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
 
@@ -70,7 +70,7 @@ def scenes_quality(
 
 def null_leaks(metrics: pd.DataFrame) -> pd.DataFrame:
     """The light leak of no shadow by `view_set` and `view`: the share of points in cast shadow."""
-    leaks = metrics[metrics["method"].eq(NULL) & metrics["metric"].eq("light_leak")]
+    leaks = metrics[metrics["method"].eq(NO_SHADOW) & metrics["metric"].eq("light_leak")]
     return leaks.set_index(["view_set", "view"])[["value"]]
 
 
