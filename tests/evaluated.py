@@ -20,18 +20,17 @@ class Evaluated(NamedTuple):
 
     mesh_ply: Path
     references: Path
-    pictures_npz: Path
     lpips_json: Path
     weights: Path  # of the experiment `net`
 
 
 def make_evaluated(folder: Path, shape=None, first: int = 0, frames=FRAMES, **given) -> Evaluated:
     """Write them; `given` are others of `render_references`."""
-    names = ("mesh.ply", "000.safetensors", "000.npz", "lpips.json", "net/weights.safetensors")
+    names = ("mesh.ply", "000.safetensors", "lpips.json", "net/weights.safetensors")
     files = Evaluated(*(folder / name for name in names))
     (shape or bumpy_sphere(4)).export(files.mesh_ply)
     given |= {"scene": SCENE, "frames": frames, "first": first, "last": first + 2}
-    render_references(*files[:3], **given)
+    render_references(*files[:2], **given)
     write_json(files.lpips_json, {"available": False})
     network = FrequencyNetwork(**TINY)
     network.initialise(1)

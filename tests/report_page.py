@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import report_samples as samples
+from frame_samples import write_frames
 from PIL import Image
 
-from neural_shadows.evaluation.first_frames import write_first_frames
 from neural_shadows.reports.page import write_page
 
 TEMPLATE = sorted((Path(__file__).parents[1] / "workflow" / "report" / "page").iterdir())
@@ -25,17 +25,23 @@ TABLE = f"""# Networks and shadow maps (table 4.3 of the thesis)
 LABELS = {"shadow_map_128": "128² map", "shadow_map_512": "512² map", "dragon": "Network"}
 
 
-def write_frames(folder: Path) -> tuple[list[Path], Path]:
-    """Pictures of two viewpoints by the reference and three methods, and the methods' metrics."""
-    reference = np.full((80, 120), 0.8)
-    reference[20:60, 30:90] = 0.2
-    means = {method: {"psnr": 20 + i, "lpips": 0.1} for i, method in enumerate(LABELS)}
+def seen_frames() -> dict[str, dict[tuple[str, int], np.ndarray]]:
+    """The visibility (80, 120) of two viewpoints by the reference and three methods."""
+    reference = np.ones((80, 120))
+    reference[20:60, 30:90] = 0
+    seen = {}
+    for shift, method in enumerate(("reference", *LABELS)):
+        lit = np.roll(reference, shift, axis=1)
+        seen[method] = {("shadow", 0): lit[:, ::-1], ("surface", 0): lit}
+    return seen
+
+
+def write_evaluated(folder: Path) -> dict[str, list[Path]]:
+    """These frames and metrics of them."""
+    means = {m: {"psnr": 20 + i, "lpips": 0.1, "flip": 0.2} for i, m in enumerate(LABELS)}
     metrics = samples.write_metrics(folder, means, views=2)
-    pictures = [metrics.with_name(f"{method}.npz") for method in ("reference", *LABELS)]
-    for shift, path in enumerate(pictures):
-        image = np.roll(reference, shift, axis=1)
-        write_first_frames(path, path.stem, {"shadow": image[:, ::-1], "surface": image})
-    return pictures, metrics
+    references, visibilities = write_frames(metrics.parent, seen_frames())
+    return {"references": references, "visibilities": visibilities, "metrics": [metrics]}
 
 
 def make_page(folder: Path, **changes) -> Path:
@@ -45,15 +51,13 @@ def make_page(folder: Path, **changes) -> Path:
         path.write_text(TABLE)
     figure = folder / "figure_4_1.png"
     Image.new("RGB", (9, 9)).save(figure)
-    pictures, metrics = write_frames(folder)
     parts = {
         "html": folder / "index.html",
         "template": TEMPLATE,
         "tables": tables[:3],
         "figures": [figure],
         "claims_md": tables[3],
-        "pictures": pictures,
-        "metrics": [metrics],
+        **write_evaluated(folder),
         "meshes": [samples.write_mesh(folder, name=HOSTILE)],
         "trainings": [samples.write_record(folder / "training.json", samples.TRAINING)],
         "lpips_json": samples.write_record(folder / "lpips.json", samples.LPIPS),

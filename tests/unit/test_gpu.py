@@ -170,7 +170,7 @@ def test_frames_are_those_of_the_references(tmp_path):
     values["scenes"]["landscape"]["least_shadow"] = 0.2
     settings = resolved(read_config(values))
     data = gpu_data.Data(settings, tmp_path, 1, views=2)
-    files = data.mesh("landscape"), tmp_path / "000.safetensors", tmp_path / "000.npz"
+    files = data.mesh("landscape"), tmp_path / "000.safetensors"
     about = settings["scenes"]["landscape"]
     render_references(*files, scene=about["scene"], frames=about["frames"], first=0, last=2)
     batch = list(References(files[1]))

@@ -28,8 +28,7 @@ rule render_references:
         mesh_ply=PATHS.scene("mesh.ply"),
         code=code("evaluation/render_references"),
     output:
-        references=PATHS.reference("safetensors"),
-        pictures_npz=PATHS.reference("npz"),
+        references=PATHS.reference(),
     log:
         PATHS.log("render_references", "scene", "batch"),
     benchmark:
@@ -80,7 +79,7 @@ rule find_depth_bias:
 
 rule query_network:
     input:
-        references=PATHS.reference("safetensors"),
+        references=PATHS.reference(),
         weights=of(LAYOUT.weights),
         depth_bias_json=of(LAYOUT.bias_file),
         mesh_ply=PATHS.scene("mesh.ply"),
@@ -112,12 +111,12 @@ rule query_network:
 rule evaluate:
     input:
         unpack(of(LAYOUT.evaluated_files)),
-        references=PATHS.reference("safetensors"),
+        references=PATHS.reference(),
         lpips_json=PATHS.lpips,
         code=code("evaluation/evaluate"),
     output:
         metrics_csv=PATHS.evaluation("csv"),
-        pictures_npz=PATHS.evaluation("npz"),
+        visibilities_npz=PATHS.evaluation("npz"),
     log:
         PATHS.log("evaluate", "scene", "method", "batch"),
     benchmark:

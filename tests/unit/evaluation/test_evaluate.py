@@ -4,12 +4,12 @@ from evaluated import SCENE, make_evaluated
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate import evaluate
-from neural_shadows.evaluation.first_frames import read_first_frames
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.evaluation.query_network import query_network
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.shadow_methods import classic_method, network_method, open_network
 from neural_shadows.evaluation.violations import Violations
+from neural_shadows.evaluation.visibilities import read_visibility
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.metrics.psnr_ssim import psnr
 from neural_shadows.rendering.shading import shade
@@ -22,7 +22,7 @@ def files(tmp_path_factory):
 
 
 def evaluated(files, folder, method, answers=None, depth_bias_json=None):
-    """Metrics by view set, view and metric; and the paths of metrics and pictures."""
+    """Metrics by view set, view and metric; and the paths of metrics and visibilities."""
     outputs = folder / f"{method}.000.csv", folder / f"{method}.000.npz"
     mesh_ply = None if answers else files.mesh_ply
     inputs = files.references, answers, mesh_ply, depth_bias_json, files.lpips_json
@@ -32,7 +32,7 @@ def evaluated(files, folder, method, answers=None, depth_bias_json=None):
 
 
 def test_metrics_are_those_of_each_view(files, tmp_path):
-    values, metrics_csv, pictures_npz = evaluated(files, tmp_path, "shadow_map_64")
+    values, _, visibilities_npz = evaluated(files, tmp_path, "shadow_map_64")
     answer = classic_method("shadow_map_64", open_scene(files.mesh_ply, **SCENE))
     for frame, truth in References(files.references):
         view = (frame.view.view_set, frame.view.index)
@@ -44,13 +44,17 @@ def test_metrics_are_those_of_each_view(files, tmp_path):
         assert 0 < values[*view, "flip"] < 1 and 0 < values[*view, "ssim"] < 1
     assert len(values) == 4 * 6  # without LPIPS
 
-    first = read_first_frames([files.pictures_npz, pictures_npz], [metrics_csv])
-    for frame, (pixels, truth) in zip(first, list(References(files.references))[::2], strict=True):
-        assert list(frame.images) == ["reference", "shadow_map_64"]
-        expected = np.round(255 * shade(pixels, truth)).astype(np.uint8)
-        np.testing.assert_array_equal(frame.images["reference"], expected)
-        scores = frame.scores["shadow_map_64"]
-        assert scores["psnr"] == values[pixels.view.view_set, 0, "psnr"]
+
+@pytest.mark.parametrize("method", ["shadow_map_64", "shadow_map_pcf_64"])
+def test_every_frame_can_be_drawn_again(files, tmp_path, method):
+    *_, visibilities_npz = evaluated(files, tmp_path, method)
+    answer = classic_method(method, open_scene(files.mesh_ply, **SCENE))
+    for number, (frame, _) in enumerate(References(files.references)):
+        kept, given = read_visibility(visibilities_npz, number, frame), answer(frame)(0.0)
+        assert (len(np.unique(given)) > 2) == ("pcf" in method)
+        np.testing.assert_allclose(kept, given, rtol=0, atol=0.5 / 255 + 1e-6)
+    with pytest.raises(InputError, match="damaged"):  # made of other views
+        read_visibility(visibilities_npz, 0, frame)
 
 
 def test_a_network_is_asked_with_its_bias(files, tmp_path):

@@ -43,8 +43,10 @@ def test_pictures_are_judged_by_all_views_and_by_no_shadow(layout):
     made = figures.files(layout, "figure_pictures")
     names = [f"{method}.{part}" for method in ("dragon", "no_shadow") for part in ("000", "001")]
     assert made["metrics"] == [f"results/evaluations/dragon/{name}.csv" for name in names]
-    pictures = ["references/dragon/000.npz", "evaluations/dragon/dragon.000.npz"]
-    assert made["pictures"] == [f"results/{name}" for name in pictures]
+    answered = [f"results/evaluations/dragon/dragon.{part}.npz" for part in ("000", "001")]
+    assert made["visibilities"] == answered
+    seen = [f"results/references/dragon/{part}.safetensors" for part in ("000", "001")]
+    assert made["references"] == seen
 
 
 def test_losses_come_with_what_became_of_their_trainings(layout):

@@ -3,28 +3,30 @@ import io
 
 import numpy as np
 from PIL import Image
-from report_page import write_frames
+from report_page import seen_frames, write_evaluated
 from report_samples import row
 
 from neural_shadows.reports.frame_comparison import frame_comparisons, map_picture
 
 
 def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
-    pictures, metrics = write_frames(tmp_path)
+    files = write_evaluated(tmp_path)
     # Two methods of one label bear their keys.
     labels = {"shadow_map_128": "A map", "shadow_map_512": "A map", "dragon": "Network"}
     rows = [row(method, label) for method, label in labels.items()]
-    (data,) = frame_comparisons(pictures, [metrics], rows, {"dragon": "the dragon"})
+    (data,) = frame_comparisons(**files, rows=rows, meshes={"dragon": "the dragon"})
     names = [method["name"] for method in data["methods"]]
     assert names == ["Reference", "A map (shadow_map_128)", "A map (shadow_map_512)", "Network"]
     assert (data["left"], data["right"]) == ("dragon", "reference")
     shown = data["views"][1]["pictures"]["dragon"]
     content = base64.b64decode(shown["frame"].removeprefix("data:image/webp;base64,"))
     frame = np.asarray(Image.open(io.BytesIO(content)))[..., 0]
-    np.testing.assert_array_equal(frame, np.load(pictures[-1])["surface.dragon"])
-    assert shown["scores"] == "LPIPS 0.1100, PSNR 24.20 dB"
+    np.testing.assert_array_equal(
+        frame, np.round(255 * (0.25 + 0.75 * seen_frames()["dragon"]["surface", 0]))
+    )
+    assert shown["scores"] == "LPIPS 0.1100, PSNR 24.20 dB, FLIP 0.2200"
     # Without a reference nothing is compared.
-    assert frame_comparisons(pictures[1:], [metrics], rows, {}) == []
+    assert frame_comparisons(**files | {"references": []}, rows=rows, meshes={}) == []
 
 
 def test_map_is_black_where_nothing_differs():

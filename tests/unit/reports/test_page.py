@@ -41,12 +41,12 @@ def test_notes_are_shown_once_and_what_is_past_the_thesis_apart(text):
     assert '<article id="table-beyond">' in text[text.index('<section id="beyond">') :]
 
 
-@pytest.mark.parametrize("there", ["tables", "figures", "claims_md", "pictures"])
+@pytest.mark.parametrize("there", ["tables", "figures", "claims_md", "references"])
 def test_page_shows_what_is_there(tmp_path, there):
-    parts = {"tables", "figures", "claims_md", "pictures", "meshes", "trainings", "lpips_json"}
+    parts = {"tables", "figures", "claims_md", "references", "meshes", "trainings", "lpips_json"}
     text = make_page(
         tmp_path, **{name: None if "_" in name else [] for name in parts - {there}}
     ).read_text()
-    section = {"claims_md": "claims", "pictures": "compare"}.get(there, there)
+    section = {"claims_md": "claims", "references": "compare"}.get(there, there)
     sections = re.findall(r'<section id="(\w+)"', text)
     assert [name for name in sections if name != "beyond"] == ["run", section]

@@ -136,7 +136,7 @@ class Stages:
         queried = references, weights, None, mesh_ply, answers
 
         def work() -> None:
-            render_references(mesh_ply, references, self.folder / "reference.npz", **batch)
+            render_references(mesh_ply, references, **batch)
             query_network(*queried, method="network", device=device)
             for method, file in {"shadow_map_512": None, "network": answers}.items():
                 outputs = (self.folder / f"{method}.{ending}" for ending in ("csv", "npz"))

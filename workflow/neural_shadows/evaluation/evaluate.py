@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.evaluation.answers import Answers
-from neural_shadows.evaluation.first_frames import write_first_frames
 from neural_shadows.evaluation.method_names import unbiased
 from neural_shadows.evaluation.per_view_metrics import write_metrics
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.shadow_methods import classic_method
+from neural_shadows.evaluation.visibilities import write_visibilities
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
@@ -33,7 +33,7 @@ def evaluate(
     depth_bias_json: Path | None,
     lpips_json: Path,
     metrics_csv: Path,
-    pictures_npz: Path,
+    visibilities_npz: Path,
     *,
     method: str,
     scene: Mapping[str, Any],
@@ -42,8 +42,8 @@ def evaluate(
     """Shade the batch's frames by one method, and measure them.
 
     Writes tidy metrics (a row per view and metric), with the numbers of `Violations` where they
-    are counted; and, for people to look at, the picture of each view set's first frame, see
-    `write_first_frames`.
+    are counted; and what the method answered, see `write_visibilities`, so that people can look
+    at any frame.
 
     Args:
         references: what `render_references` wrote.
@@ -65,18 +65,18 @@ def evaluate(
     metrics = {"psnr": psnr, "ssim": ssim, "flip": flip} | _lpips(lpips_json, threads)
     batch = References(references)
     rows: list[dict[str, Any]] = []
-    pictures: dict[str, np.ndarray] = {}
+    lit: list[np.ndarray] = []
     with progress_bar(len(batch), "views", f"evaluate {method}") as bar:
         for number, (frame, truth) in enumerate(batch):
             visibility, counted = answer(number, frame)
             image, reference = shade(frame, visibility), shade(frame, truth)
-            pictures.setdefault(frame.view.view_set, image)
+            lit.append(visibility[frame.lit_side])
             values = {name: metric(image, reference) for name, metric in metrics.items()}
             values |= {**shadow_error(visibility, truth)._asdict(), **counted}
             key = {"view": frame.view.index, "view_set": frame.view.view_set, "method": method}
             rows += [key | {"metric": name, "value": value} for name, value in values.items()]
             bar.update()
-    write_first_frames(pictures_npz, method, pictures)
+    write_visibilities(visibilities_npz, lit)
     write_metrics(metrics_csv, rows)
 
 

@@ -6,11 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.first_frames import write_first_frames
 from neural_shadows.evaluation.references import write_references
 from neural_shadows.evaluation.shadow_methods import REFERENCES, classic_method
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
-from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
@@ -20,7 +18,6 @@ from neural_shadows.scenes.scene import open_scene
 def render_references(
     mesh_ply: Path,
     references: Path,
-    pictures_npz: Path,
     *,
     scene: Mapping[str, Any],
     frames: Mapping[str, Any],
@@ -32,7 +29,6 @@ def render_references(
 
     Args:
         references: for the G-buffers and the visibilities, see `References`.
-        pictures_npz: for the picture of each set's first view, see `write_first_frames`.
         scene: `up`, `ground` and `light`, see `open_scene`.
         frames: `width`, `height` (pixels), and what `draw_viewpoints` is told: `view_sets`, `seed`,
             `least_shadow`.
@@ -55,15 +51,11 @@ def render_references(
         frames.get("least_shadow", 0.0),
     )
     rendered: list[tuple[GBuffer, np.ndarray]] = []
-    pictures: dict[str, np.ndarray] = {}
     with progress_bar(len(views), "views", f"render references of {mesh_ply.parent.name}") as bar:
         for view in views:
             frame = render_gbuffer(opened, view, width, height)
-            visibility = answer(frame)(0.0)
-            rendered.append((frame, visibility))
-            pictures.setdefault(view.view_set, shade(frame, visibility))
+            rendered.append((frame, answer(frame)(0.0)))
             bar.update()
-    write_first_frames(pictures_npz, "reference", pictures)
     write_references(references, rendered, opened.ground)
 
 

@@ -31,16 +31,14 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
             rows = settings["rows"]
             return {
                 "metrics": tables.metrics(layout, [*rows, *tables.unshadowed([scene])]),
-                "pictures": [
-                    paths.reference("npz", scene, "000"),
-                    *(paths.evaluation("npz", scene, row["method"], "000") for row in rows),
-                ],
+                "references": tables.references(layout, [scene]),
+                "visibilities": tables.visibilities(layout, rows),
                 "mesh_json": mesh["mesh_json"],
                 "published_csv": layout.source("config/published.csv"),
             }
         case "errors_3d":
             return mesh_ply | {
-                "references": paths.reference("safetensors", scene, "000"),
+                "references": paths.reference(scene, "000"),
                 "weights": tables.networks(layout, settings["rows"], "weights.safetensors"),
                 "depth_biases": tables.depth_biases(layout, settings["rows"]),
             }

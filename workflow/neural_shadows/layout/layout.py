@@ -138,7 +138,7 @@ class Layout:
 
     def held_out_views(self, scene: str) -> str:
         """The references of the viewpoints that the depth biases of a scene are found on."""
-        return self.paths.reference("safetensors", scene, HELD_OUT)
+        return self.paths.reference(scene, HELD_OUT)
 
     def bias(self, method: str) -> float | str | None:
         """A method's depth bias: a number, `held_out`, or None if it has none."""

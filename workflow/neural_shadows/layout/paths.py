@@ -32,14 +32,14 @@ class Paths:
         """`weights.safetensors`, `loss.csv`, `training.json`, `network.onnx`, `network.json`."""
         return f"{self.results}/networks/{experiment}/{file}"
 
-    def reference(self, ending: str, scene: str = "{scene}", batch: str = "{batch}") -> str:
-        """`safetensors`, G-buffers and visibility of a batch of viewpoints; `npz`, pictures."""
-        return f"{self.results}/references/{scene}/{batch}.{ending}"
+    def reference(self, scene: str = "{scene}", batch: str = "{batch}") -> str:
+        """G-buffers and visibility of a batch of viewpoints."""
+        return f"{self.results}/references/{scene}/{batch}.safetensors"
 
     def evaluation(
         self, ending: str, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
     ) -> str:
-        """`csv`, the metrics of a method on a batch; `npz`, its pictures."""
+        """`csv`, the metrics of a method on a batch; `npz`, its visibilities."""
         return f"{self.results}/evaluations/{scene}/{method}.{batch}.{ending}"
 
     def answers(

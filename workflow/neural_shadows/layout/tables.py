@@ -123,9 +123,24 @@ def timed_encodings(layout: Layout, table: str, scene: str) -> set[str]:
 
 def metrics(layout: Layout, rows: Sequence[Row]) -> list[str]:
     """The metrics of all batches of the rows' methods, each once; a ray-traced one has none."""
+    return _evaluations(layout, rows, "csv")
+
+
+def visibilities(layout: Layout, rows: Sequence[Row]) -> list[str]:
+    """The same methods' visibilities."""
+    return _evaluations(layout, rows, "npz")
+
+
+def _evaluations(layout: Layout, rows: Sequence[Row], ending: str) -> list[str]:
     methods = [(row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED]
     parts = batches(layout.settings["rendering"])
-    return unique(layout.paths.evaluation("csv", *one, part) for one in methods for part in parts)
+    return unique(layout.paths.evaluation(ending, *one, part) for one in methods for part in parts)
+
+
+def references(layout: Layout, scenes: Iterable[str]) -> list[str]:
+    """All batches of viewpoints of some scenes that methods are measured on."""
+    parts = batches(layout.settings["rendering"])
+    return [layout.paths.reference(scene, part) for scene in scenes for part in parts]
 
 
 def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:

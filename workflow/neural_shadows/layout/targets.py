@@ -45,15 +45,12 @@ def page_files(layout: Layout) -> dict[str, Any]:
     """All that the page shows of a whole run."""
     settings, paths = layout.settings, layout.paths
     rows = pictured(layout)
-    first = [(row["scene"], row["method"], "000") for row in rows]
     scenes = tables.unique(row["scene"] for row in rows)
     return _reports(layout, default_tables(layout), default_figures(layout)) | {
         "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
-        "pictures": [
-            *(paths.reference("npz", scene, "000") for scene in scenes),
-            *(paths.evaluation("npz", *names) for names in first),
-        ],
-        "metrics": [paths.evaluation("csv", *names) for names in first],
+        "references": tables.references(layout, scenes),
+        "visibilities": tables.visibilities(layout, rows),
+        "metrics": tables.metrics(layout, rows),
         "meshes": [paths.scene("mesh.json", scene) for scene in settings["scenes"]],
         "trainings": tables.networks(layout, rows, "training.json"),
         "lpips_json": [paths.lpips],

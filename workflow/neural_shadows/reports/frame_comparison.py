@@ -1,4 +1,4 @@
-"""The page's frames to compare: the first views of each scene by every method."""
+"""The page's frames to compare: a view of each view set by every method, for each scene."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -8,19 +8,21 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.evaluation.method_names import is_classic, unbiased
+from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.metrics.flip import flip_map
+from neural_shadows.reports.chosen_views import choose_views
+from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
 from neural_shadows.reports.inputs import by_folder
 from neural_shadows.reports.page_blocks import webp_uri
 
-REFERENCE = "reference"
 MAP_LEVELS = 64  # of a FLIP map: steps of 0.016, and files a third as large as of 256
 SCORES = {"lpips": "LPIPS {:.4f}", "psnr": "PSNR {:.2f} dB", "flip": "FLIP {:.4f}"}
 
 
 def frame_comparisons(
-    pictures: Sequence[Path],
+    references: Sequence[Path],
+    visibilities: Sequence[Path],
     metrics: Sequence[Path],
     rows: Sequence[Mapping[str, Any]],
     meshes: Mapping[str, str],
@@ -28,16 +30,21 @@ def frame_comparisons(
     """The frames and FLIP maps of each scene that has some, as plain data for the page's script.
 
     Args:
-        pictures, metrics: the first batches, in folders of scenes.
+        references, visibilities, metrics: of all batches, in folders of scenes.
         rows: the last of a method counts; meshes: a phrase on the mesh of each scene.
     """
-    scores = by_folder(metrics)
+    answered, measured = by_folder(visibilities), by_folder(metrics)
     comparisons = []
-    for scene, paths in by_folder(pictures).items():
-        frames = read_first_frames(paths, scores[scene]) if scene in scores else []
-        if not frames or REFERENCE not in frames[0].images:
+    for scene, paths in by_folder(references).items():
+        if scene not in measured:
             continue
-        methods = sorted(frames[0].images, key=lambda method: method != REFERENCE)
+        values = read_metrics(measured[scene])
+        views = [*choose_views(values).values()]
+        frames = read_frames(paths, answered.get(scene, []), values, views)
+        if not frames:
+            continue
+        # Of a page that is made half-way: what each of the views has.
+        methods = [key for key in frames[0].images if all(key in one.images for one in frames)]
         networks = [name for name in methods[1:] if not is_classic(unbiased(name))]
         labels = {row["method"]: row["label"] for row in rows if row["scene"] == scene}
         names = {REFERENCE: "Reference"} | labels
@@ -56,14 +63,14 @@ def frame_comparisons(
     return comparisons
 
 
-def _view(frame: FirstFrame) -> dict[str, Any]:
-    reference = frame.images[REFERENCE].astype(np.float32) / 255
+def _view(frame: Frame) -> dict[str, Any]:
+    reference = frame.images[REFERENCE]
     pictures = {}
     for method, image in frame.images.items():
         scores = frame.scores.get(method, {})
-        error = flip_map(image.astype(np.float32) / 255, reference)
+        error = flip_map(image, reference)
         pictures[method] = {
-            "frame": webp_uri(Image.fromarray(image)),
+            "frame": webp_uri(Image.fromarray(np.round(255 * image).astype(np.uint8))),
             "map": webp_uri(map_picture(error)),
             "scores": ", ".join(SCORES[key].format(scores[key]) for key in SCORES if key in scores),
         }

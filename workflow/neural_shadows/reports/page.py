@@ -24,7 +24,8 @@ def write_page(
     tables: list[Path],
     figures: list[Path],
     claims_md: Path | None,
-    pictures: list[Path],
+    references: list[Path],
+    visibilities: list[Path],
     metrics: list[Path],
     meshes: list[Path],
     trainings: list[Path],
@@ -41,7 +42,7 @@ def write_page(
     Args:
         template: `template.html`, `style.css` and `script.js` of one folder.
         figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
-        pictures, metrics: the first batch of each method and scene, and the references' pictures.
+        references, visibilities, metrics: of all batches of each scene, and of each method.
         beyond: names of the tables and figures that are not the thesis's.
         rows: `method`, `scene` and `label` of the methods that have pictures.
         benchmarks: Snakemake's, a folder for each rule.
@@ -65,7 +66,7 @@ def write_page(
         script=Markup((folder / "script.js").read_text(encoding="utf-8")),
         facts=run_facts(run, described, trainings, lpips_json, benchmarks),
         claims=claims,
-        comparisons=frame_comparisons(pictures, metrics, rows, described),
+        comparisons=frame_comparisons(references, visibilities, metrics, rows, described),
         tables=[block for block in blocks if block.name not in beyond],
         figures=[block for block in drawings if block.name not in beyond],
         beyond=[block for block in blocks + drawings if block.name in beyond],

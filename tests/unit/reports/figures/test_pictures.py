@@ -1,11 +1,12 @@
 import numpy as np
 import pytest
 import report_samples as samples
+from frame_samples import write_frames
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from neural_shadows.evaluation.first_frames import FirstFrame, write_first_frames
 from neural_shadows.reports.figures import pictures
 from neural_shadows.reports.figures.pictures import choose_crop, picture_strip
+from neural_shadows.reports.frames import Frame
 from neural_shadows.reports.tables.quality import METRICS
 
 
@@ -32,17 +33,15 @@ def test_crop_lies_where_a_border_is_wrong():
 def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():
     labels = {f"map_{i}": f"Occupancy-clipped ray grid (single axis) {i}" for i in range(8)}
     labels = {"reference": "Reference", **labels}
-    images = {
-        name: np.uint8(255 * np.roll(discs(20, 12), i, axis=1)) for i, name in enumerate(labels)
-    }
-    frame = FirstFrame("Cast shadow", images, {"map_0": {"psnr": 27.39}})
+    images = {name: np.roll(discs(20, 12), i, axis=1) for i, name in enumerate(labels)}
+    frame = Frame(("shadow", 3), images, {"map_0": {"psnr": 27.39}})
     figure = picture_strip([frame] * 2, labels, "landscape")
     shown = [axes for axes in figure.axes if axes.images]
     assert len(shown) == 2 * 2 * 9
-    row, column, height, width = choose_crop({m: i / np.float32(255) for m, i in images.items()})
+    row, column, height, width = choose_crop(images)
     crops = [axes for axes in shown if axes.get_xlabel()]
     assert [axes.get_xlabel() for axes in crops] == ["PSNR 27.39 dB"] * 2
-    part = images["map_0"][row : row + height, column : column + width] / np.float32(255)
+    part = images["map_0"][row : row + height, column : column + width]
     np.testing.assert_array_equal(crops[0].images[0].get_array(), part)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
@@ -56,9 +55,8 @@ def test_a_network_that_has_not_learned_says_so_under_its_name(tmp_path, monkeyp
     monkeypatch.setattr(pictures, "write_figure", lambda figure, *paths: drawn.append(figure))
     labels = {"dragon": "Network", "shadow_map_512": "512² shadow map"}
     images = {"dragon": discs(20, 0), "shadow_map_512": discs(20, 12), "reference": discs(20, 12)}
-    files = [tmp_path / f"{method}.000.npz" for method in images]
-    for path, (method, image) in zip(files, images.items()):
-        write_first_frames(path, method, {"shadow": image, "surface": image})
+    seen = {m: {("shadow", view): image for view in range(6)} for m, image in images.items()}
+    references, visibilities = write_frames(tmp_path, seen)
     worse, better = (0.2, 15.0, 0.8), (0.1, 30.0, 0.9)
     quality = {"dragon": worse, "no_shadow": worse, "shadow_map_512": better}
     means = {
@@ -68,7 +66,8 @@ def test_a_network_that_has_not_learned_says_so_under_its_name(tmp_path, monkeyp
     mesh = {"name": "wyrm", "faces": 4, "watertight": True, "thesis_mesh": False}
     pictures.draw(
         metrics=[samples.write_metrics(tmp_path, means)],
-        pictures=files,
+        references=references,
+        visibilities=visibilities,
         mesh_json=samples.write_record(tmp_path / "mesh.json", mesh),
         published_csv=samples.PUBLISHED,
         png=tmp_path / "f.png",

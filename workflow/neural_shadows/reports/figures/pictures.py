@@ -11,16 +11,16 @@ from matplotlib.patches import Rectangle
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter, minimum_filter
 
-from neural_shadows.evaluation.first_frames import FirstFrame, read_first_frames
 from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.reports.chosen_views import choose_views
 from neural_shadows.reports.figures.style import ORANGE, Section, new_figure, write_figure
+from neural_shadows.reports.frames import Frame, read_frames
 from neural_shadows.reports.learned import learned_methods, margins
 from neural_shadows.reports.published import read_published
 from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.cameras import VIEW_SETS
 
 # Grey levels in [0, 1]. Light and shadow differ by 0.75 n.l, neighbouring facets by far less;
 # a step of an 8-bit picture is 0.004.
@@ -39,7 +39,8 @@ SCORES = {"psnr": "PSNR {:.2f} dB", "lpips": "LPIPS {:.4f}"}
 
 def draw(
     metrics: list[Path],
-    pictures: list[Path],
+    references: list[Path],
+    visibilities: list[Path],
     mesh_json: Path,
     published_csv: Path,
     png: Path,
@@ -50,23 +51,25 @@ def draw(
     view_sets: Sequence[str],
     run: Section,
 ) -> None:
-    """Draw the first frame of each view set by every method, whole and as a crop.
+    """Draw a frame of each view set by every method, whole and as a crop.
 
     Args:
         metrics: of all batches of each method and of no shadow.
-        pictures: of their first batches, and the reference's.
+        references, visibilities: of all batches, see `read_frames`.
 
     Raises:
         InputError: a file is missing or not whole.
     """
     measured = dict.fromkeys([NO_SHADOW, *(row["method"] for row in rows)])
-    wide = values_by_view(read_metrics(metrics), [*measured])
+    values = read_metrics(metrics)
+    wide = values_by_view(values, [*measured])
     chance = margins(read_published(published_csv))
     found = learned_methods(wide, rows, chance, run["seed"])
     labels = {row["method"]: row["label"] for row in rows} | {"reference": "Reference"}
     labels |= {method: labels[method] + NOT_LEARNED for method in found if not found[method]}
-    captions = [VIEW_SETS[view_set] for view_set in view_sets]
-    frames = [f for f in read_first_frames(pictures, metrics) if f.caption in captions]
+    chosen = choose_views(values)
+    views = [chosen[view_set] for view_set in view_sets]
+    frames = read_frames(references, visibilities, values, views)
     mesh = read_mesh_report(mesh_json)["name"]
     heading = f"{title} ({mesh}, {run['scale']} scale)"
     write_figure(picture_strip(frames, labels, heading), png, svg)
@@ -97,7 +100,7 @@ def choose_crop(frames: Mapping[str, np.ndarray]) -> tuple[int, int, int, int]:
     return int(row), int(column), height, width
 
 
-def picture_strip(frames: Sequence[FirstFrame], labels: Mapping[str, str], title: str) -> Figure:
+def picture_strip(frames: Sequence[Frame], labels: Mapping[str, str], title: str) -> Figure:
     """Draw a row of whole frames and a row of crops for each viewpoint.
 
     Args:
@@ -115,7 +118,7 @@ def picture_strip(frames: Sequence[FirstFrame], labels: Mapping[str, str], title
     figure.supxlabel("Scores are of the whole frames.", x=0.005, ha="left", fontsize=10)
     for part, frame in zip(figure.subfigures(len(frames), squeeze=False).flat, frames):
         part.suptitle(frame.caption, x=0.005, ha="left", fontsize=11)
-        images = {m: frame.images[m].astype(np.float32) / 255 for m in methods}
+        images = {m: frame.images[m] for m in methods}
         row, column, crop_rows, crop_columns = choose_crop(images)
         panels = part.subplots(2 * lines, columns, squeeze=False)
         for i, axes in enumerate(panels.flat):

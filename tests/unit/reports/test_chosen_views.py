@@ -1,0 +1,62 @@
+import pandas as pd
+import pytest
+
+from neural_shadows.reports.chosen_views import choose_views
+
+# FLIP of three methods by view: blank, then an error that grows, and a spread that does not.
+FLIP = {
+    0: (0.0, 0.0, 0.0),
+    1: (0.01, 0.01, 0.011),
+    2: (0.02, 0.01, 0.03),
+    3: (0.03, 0.01, 0.09),
+    4: (0.04, 0.02, 0.05),
+    5: (0.05, 0.00, 0.90),
+    6: (0.06, 0.06, 0.061),
+}
+
+
+def metrics_of(flip, methods=("a", "b", "c"), view_set="shadow"):
+    return pd.DataFrame(
+        [
+            (view, view_set, method, metric, value)
+            for view, values in flip.items()
+            for method, value in zip(methods, values, strict=True)
+            for metric, value in (("psnr", 99.0), ("flip", value))
+        ],
+        columns=["view", "view_set", "method", "metric", "value"],
+    )
+
+
+def test_of_the_middling_views_the_one_that_tells_methods_apart():
+    assert choose_views(metrics_of(FLIP)) == {"shadow": ("shadow", 3)}
+
+
+def test_the_order_of_methods_and_views_does_not_matter():
+    metrics = metrics_of(FLIP)
+    for seed in range(5):
+        assert choose_views(metrics.sample(frac=1, random_state=seed)) == choose_views(metrics)
+
+
+@pytest.mark.parametrize("blank", [1, 5, 20])
+def test_a_view_without_differences_is_not_shown(blank):
+    flip = dict.fromkeys(range(blank), (0.0, 0.0, 0.0)) | {blank: (0.02, 0.01, 0.03)}
+    assert choose_views(metrics_of(flip)) == {"shadow": ("shadow", blank)}
+    # Where there is no other it is shown all the same.
+    assert choose_views(metrics_of({7: (0.0, 0.0, 0.0)})) == {"shadow": ("shadow", 7)}
+
+
+def test_no_shadow_and_what_lacks_a_view_have_no_say():
+    metrics = metrics_of(FLIP)
+    null = metrics_of({v: (0.9 - v / 10,) for v in FLIP}, ["no_shadow"])
+    half = metrics_of({2: (0.9,)}, ["half"])
+    assert choose_views(pd.concat([metrics, null, half])) == choose_views(metrics)
+
+
+def test_one_method_and_each_view_set():
+    two = [metrics_of({v: (v / 10,) for v in range(5)}, ["a"], s) for s in ("surface", "shadow")]
+    found = choose_views(pd.concat(two))
+    assert {key: view[0] for key, view in found.items()} == {
+        "surface": "surface",
+        "shadow": "shadow",
+    }
+    assert found["shadow"][1] in (2, 3)
