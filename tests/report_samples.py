@@ -32,7 +32,16 @@ NULL = ("no_shadow", "all_dark")
 CLASSIC = ("shadow_map_", "ray_traced", *NULL)
 
 
-def row(method, label=None, *, scene="dragon", published=None, bias=0.0, trained=True):
+def row(
+    method,
+    label=None,
+    *,
+    scene="dragon",
+    published=None,
+    bias=0.0,
+    encoding="frequency",
+    trained=True,
+):
     """A row as `config.rows` gives it."""
     network = not method.startswith(CLASSIC)
     given = network or method.endswith("_biased")
@@ -42,6 +51,7 @@ def row(method, label=None, *, scene="dragon", published=None, bias=0.0, trained
         "published": published or method,
         "scene": scene,
         "experiment": method.removesuffix("_biased") if network else None,
+        "encoding": encoding if network else None,
         "trained": network and trained,
         "bias": bias if given else None,
     }

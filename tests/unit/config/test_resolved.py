@@ -14,10 +14,11 @@ def settings(values):
     return resolved(read_config(values))
 
 
-def row(method, label, published=None, experiment=None, bias=None, scene="dragon"):
+def row(method, label, published=None, experiment=None, bias=None, scene="dragon", **more):
     made = {"method": method, "label": label, "published": published, "scene": scene}
     trained = experiment is not None
-    return made | {"experiment": experiment, "trained": trained, "bias": bias}
+    network = {"experiment": experiment, "encoding": "frequency" if trained else None}
+    return made | network | {"trained": trained, "bias": bias} | more
 
 
 def test_scenes_and_experiments(values):
@@ -83,7 +84,13 @@ def test_rows_of_tables(settings, changed):
     assert rows[0] == row("shadow_map_2048", "2048² shadow map", "shadow_map_2048")
     assert rows[5:] == [
         row("dragon", "Thesis's network", "network", "dragon", 0.0),
-        row("dragon_field", "256³ occupancy field", *["dragon_field"] * 2, "held_out"),
+        row(
+            "dragon_field",
+            "256³ occupancy field",
+            *["dragon_field"] * 2,
+            "held_out",
+            encoding="occupancy_field",
+        ),
         row("no_shadow", "No shadow", "no_shadow"),
         row("all_dark", "All dark", "all_dark"),
     ]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field
 
 from neural_shadows.config.base import Model, Text, by_kind, check_among, name_in, section_or
-from neural_shadows.config.experiments import formatted, training_of
+from neural_shadows.config.experiments import formatted, network_of, training_of
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
     CLASSIC,
@@ -101,7 +101,7 @@ NULL_ROWS = {"comparison": tuple(NULL), "networks": tuple(NULL), "frame_times": 
 # The kinds that give paired differences to the row `against`.
 WITH_DIFFERENCES = ("comparison", "networks")
 
-Row = dict[str, Any]  # method, label, published, scene, experiment, trained, bias
+Row = dict[str, Any]  # method, label, published, scene, experiment, encoding, trained, bias
 
 
 def settings_by_scene(config: "Config", table: AnyTable) -> dict[str, list[RowSettings]]:
@@ -126,9 +126,9 @@ def rows_of(config: "Config", name: str) -> list[Row]:
     """The rows of a table; none of a table of costs.
 
     Returns: of each row `method`, the method's key; `label`; `published`, its key in
-        published.csv or None if the table is not the thesis's; `scene`; `experiment`, or None
-        if it is no network, and whether it is `trained`; `bias`, a number, `held_out`, or None if
-        it has none.
+        published.csv or None if the table is not the thesis's; `scene`; `experiment` and the
+        network's `encoding`, or None if it is none, and whether it is `trained`; `bias`, a number,
+        `held_out`, or None if it has none.
     """
     table = config.tables[name]
     return [
@@ -158,6 +158,7 @@ def row_of(config: "Config", scene: str, row: RowSettings) -> Row:
         "published": None,
         "scene": scene,
         "experiment": row.method if experiment else None,
+        "encoding": network_of(config, row.method).encoding if experiment else None,
         "trained": bool(experiment and training_of(config, row.method)),
         "bias": bias,
     }
