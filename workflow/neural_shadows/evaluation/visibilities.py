@@ -2,7 +2,8 @@
 
 One npz file: of each frame by number, `NUMBER` (m,) uint8, the visibility of its m points on the
 lit side in steps of 1/255: fine enough for an 8-bit picture of PCF. A batch of 24 frames of
-600 × 400 takes 0.2 MB, its G-buffers, see `References`, are the same for all methods.
+600 × 400 takes 66 kB, of PCF 180 kB; reading a frame takes 5 ms. Its G-buffers, see `References`,
+are the same for all methods.
 """
 
 from collections.abc import Sequence

@@ -5,8 +5,8 @@ import pandas as pd
 from neural_shadows.evaluation.method_names import is_null
 
 RULE = (
-    "Shown is, of the third of the views with a middling error (the median of all methods' FLIP), "
-    "the one whose methods differ most (the range of the middle half of their FLIP)."
+    "Which view is shown: of the middle third of all views by error (the methods' median FLIP), "
+    "the one in which the methods differ most (their FLIP's interquartile range)."
 )
 
 

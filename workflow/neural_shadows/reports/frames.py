@@ -20,17 +20,19 @@ View = tuple[str, int]  # a view set and a number in it
 class Frame:
     """A viewpoint by `reference` and by methods: grey `images` (H, W) float32 in [0, 1].
 
-    `scores` are by method and metric.
+    `scores` are by method and metric; the view is one of `count` of its set.
     """
 
     view: View
+    count: int
     images: dict[str, np.ndarray]
     scores: dict[str, dict[str, float]] = field(default_factory=dict)
 
     @property
     def caption(self) -> str:
-        """Where the camera is aimed."""
-        return VIEW_SETS[self.view[0]]
+        """Which view it is, and where the camera is aimed."""
+        view_set, number = self.view
+        return f"View {number} (of 0 to {self.count - 1}), {VIEW_SETS[view_set]}"
 
 
 def read_frames(
@@ -50,6 +52,7 @@ def read_frames(
         InputError: a file cannot be read.
     """
     scores = metrics.pivot(index=["view_set", "view", "method"], columns="metric", values="value")
+    counts = metrics.groupby("view_set")["view"].nunique()
     frames = {}
     for path in references:
         batch = References(path)
@@ -74,5 +77,5 @@ def read_frames(
                 for m in methods
                 if (*view, m) in scores.index
             }
-            frames[view] = Frame(view, images, found)
+            frames[view] = Frame(view, counts[view[0]], images, found)
     return [frames[view] for view in views if view in frames]

@@ -5,8 +5,10 @@ from frame_samples import write_frames
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from neural_shadows.reports.figures import pictures
-from neural_shadows.reports.figures.pictures import choose_crop, picture_strip
+from neural_shadows.reports.figures.frame_errors import choose_crops, with_errors
+from neural_shadows.reports.figures.pictures import picture_strip
 from neural_shadows.reports.frames import Frame
+from neural_shadows.reports.method_look import look_of
 from neural_shadows.reports.tables.quality import METRICS
 
 
@@ -18,36 +20,52 @@ def discs(first, second):
     return np.where(dark, 0.25, 0.9).astype(np.float32)
 
 
-def test_crop_lies_where_a_border_is_wrong():
+def test_crops_lie_where_methods_err_most_and_no_method_outvotes_the_others():
     reference, first, second = discs(8, 8), discs(6, 8), discs(8, 6)
-    row, column, height, width = choose_crop({"network": second, "reference": reference})
-    assert (height, width) == (20, 30)
-    assert (row + height / 2, column + width / 2) == pytest.approx((70, 110), abs=1)
-    # Each method counts.
-    frames = {"a": first, "b": second, "c": first, "reference": reference}
-    assert choose_crop(frames)[0] < 50
+    outer, inner = choose_crops({"network": second, "reference": reference})
+    assert outer[2:] == (20, 30) and inner[2:] == (6, 9)
+    centre = outer.row + outer.height / 2, outer.column + outer.width / 2
+    assert centre == pytest.approx((70, 110), abs=1)
+    assert outer.row <= inner.row and inner.row + inner.height <= outer.row + outer.height
+    assert inner.of(np.abs(second - reference)).sum() > 0
+    # One that is wrong nearly everywhere counts as much as one that is wrong here and there.
+    dark = np.full_like(reference, 0.25)
+    assert choose_crops({"a": dark, "b": first, "reference": reference})[0].row < 30
     # Equal frames give the middle.
-    assert choose_crop({"network": second, "reference": second}) == (40, 60, 20, 30)
+    assert choose_crops({"a": second, "reference": second})[0] == (40, 60, 20, 30)
+
+
+def test_errors_are_red_where_too_dark_and_blue_where_too_light():
+    reference, image = np.full((2, 3), 0.5), np.array([[0.5, 0.4, 0.6], [0.52, 0.48, 0.5]])
+    red, green, blue = np.moveaxis(with_errors(image, reference), 2, 0)
+    assert red[0, 1] > blue[0, 1] + 0.3 and blue[0, 2] > red[0, 2] + 0.3
+    same = np.isin(image, (0.5, 0.52, 0.48))
+    for channel in (red, green, blue):
+        np.testing.assert_array_equal(channel[same], image[same])
 
 
 def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():
-    labels = {f"map_{i}": f"Occupancy-clipped ray grid (single axis) {i}" for i in range(8)}
-    labels = {"reference": "Reference", **labels}
-    images = {name: np.roll(discs(20, 12), i, axis=1) for i, name in enumerate(labels)}
-    frame = Frame(("shadow", 3), images, {"map_0": {"psnr": 27.39}})
-    figure = picture_strip([frame] * 2, labels, "landscape")
+    label = "Occupancy-clipped ray grid (single axis)"
+    heads = {f"map_{i}": (f"{label} {i}", look_of(samples.row("shadow_map_64"))) for i in range(8)}
+    images = {
+        name: np.roll(discs(20, 12), i, axis=1) for i, name in enumerate(["reference", *heads])
+    }
+    frame = Frame(("shadow", 3), 9, images, {"map_0": {"psnr": 27.39}})
+    figure = picture_strip([frame] * 2, heads, "landscape")
     shown = [axes for axes in figure.axes if axes.images]
-    assert len(shown) == 2 * 2 * 9
-    row, column, height, width = choose_crop(images)
-    crops = [axes for axes in shown if axes.get_xlabel()]
-    assert [axes.get_xlabel() for axes in crops] == ["PSNR 27.39 dB"] * 2
-    part = images["map_0"][row : row + height, column : column + width]
-    np.testing.assert_array_equal(crops[0].images[0].get_array(), part)
+    assert len(shown) == 2 * 3 * 9
+    texts = [text.get_text() for axes in shown for text in axes.texts]
+    assert texts.count("PSNR 27.4 dB") == 2
+    coloured = with_errors(images["map_0"], images["reference"])
+    for crop, axes in zip(choose_crops(images), shown[1:3]):
+        np.testing.assert_array_equal(axes.images[0].get_array(), crop.of(coloured))
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    boxes = [axes.title.get_window_extent(canvas.get_renderer()) for axes in shown]
-    boxes = [box for box in boxes if box.width > 1]
-    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+    titles = figure.findobj(lambda artist: getattr(artist, "get_weight", str)() == "bold")
+    boxes = [title.get_window_extent(canvas.get_renderer()) for title in titles if title.get_text()]
+    assert len(boxes) == 18 and not any(
+        a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i]
+    )
 
 
 def test_a_network_that_has_not_learned_says_so_under_its_name(tmp_path, monkeypatch):
@@ -77,5 +95,5 @@ def test_a_network_that_has_not_learned_says_so_under_its_name(tmp_path, monkeyp
         view_sets=["shadow"],
         run=samples.RUN,
     )
-    heads = [axes.get_title() for axes in drawn[0].axes if axes.get_title()]
+    heads = [axes.get_title(loc="left") for axes in drawn[0].axes if axes.get_title(loc="left")]
     assert heads == ["Network\n(not learned)", "512² shadow map", "Reference"]

@@ -20,6 +20,8 @@ DPI = 150
 # Okabe and Ito's colours, which readers with any colour vision tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 BLUE, ORANGE = COLOURS[:2]
+YELLOW = COLOURS[4]
+FALSE_SHADOW, LIGHT_LEAK = ORANGE, BLUE  # red and blue, as any eye tells apart
 MOST_IN_LINE = 8  # entries of a legend below panels
 GRID = {"linewidth": 0.4, "alpha": 0.4}
 

@@ -1,0 +1,87 @@
+"""Where methods' pictures of a viewpoint are wrong: the parts to show large, and their colours."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Patch
+from numpy.lib.stride_tricks import sliding_window_view
+
+from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK
+from neural_shadows.reports.frames import REFERENCE
+
+# Grey levels in [0, 1]: light and shadow differ by 0.75 n.l, steps of an 8-bit picture by 0.004.
+VISIBLE_DIFFERENCE = 0.05
+FEW = 0.0005  # of a frame's pixels: a method with fewer wrong ones has less of a say
+CROP_SHARES = (0.2, 0.06)  # of the frame's height and width
+TINT = 0.75  # of an error's colour; the rest is the picture's
+
+
+class Window(NamedTuple):
+    """A part of a frame, in pixels."""
+
+    row: int
+    column: int
+    height: int
+    width: int
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, right, lower and upper edge in the frame's pixels, for `imshow`."""
+        right, lower = self.column + self.width, self.row + self.height
+        return self.column - 0.5, right - 0.5, lower - 0.5, self.row - 0.5
+
+    def of(self, image: np.ndarray) -> np.ndarray:
+        """This part (height, width, …) of an image."""
+        return image[self.row : self.row + self.height, self.column : self.column + self.width]
+
+
+def choose_crops(images: Mapping[str, np.ndarray]) -> list[Window]:
+    """The windows, each within the one before, that show best how methods differ.
+
+    Args:
+        images: greyscale, shape (H, W), in [0, 1], of the methods and of `reference`.
+
+    Returns:
+        Windows of `CROP_SHARES` of the frame either way, with most of the methods' visible errors:
+        each method's add up to 1, or a network that is wrong everywhere would outvote all others.
+        Of equally good windows the middle one.
+    """
+    reference = images[REFERENCE]
+    interest = np.zeros(reference.shape)
+    for image in images.values():
+        wrong = np.abs(image - reference) > VISIBLE_DIFFERENCE
+        interest += wrong / max(wrong.sum(), FEW * wrong.size)
+    windows = [Window(0, 0, *reference.shape)]
+    for share in CROP_SHARES:
+        height, width = (max(1, round(share * size)) for size in reference.shape)
+        row, column = _best_window(windows[-1].of(interest), height, width)
+        windows.append(Window(windows[-1].row + row, windows[-1].column + column, height, width))
+    return windows[1:]
+
+
+def _best_window(interest: np.ndarray, height: int, width: int) -> tuple[int, int]:
+    inside = sliding_window_view(interest, height, axis=0).sum(axis=-1)
+    inside = sliding_window_view(inside, width, axis=1).sum(axis=-1)
+    best = np.argwhere(np.isclose(inside, inside.max()))  # sums of shares are not exact
+    row, column = best[np.argmin(((best - best.mean(axis=0)) ** 2).sum(axis=1))]
+    return int(row), int(column)
+
+
+def with_errors(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """A grey image (H, W) in colours (H, W, 3), tinted where it visibly differs from the reference."""
+    coloured = np.repeat(image[..., None], 3, axis=2)
+    difference = image - reference
+    for wrong, colour in (
+        (difference < -VISIBLE_DIFFERENCE, FALSE_SHADOW),
+        (difference > VISIBLE_DIFFERENCE, LIGHT_LEAK),
+    ):
+        coloured[wrong] = (1 - TINT) * coloured[wrong] + TINT * np.array(to_rgb(colour))
+    return coloured
+
+
+def error_legend() -> list[Patch]:
+    """What the colours of `with_errors` mean."""
+    names = {"false shadow": FALSE_SHADOW, "light leak": LIGHT_LEAK}
+    return [Patch(color=colour, label=name) for name, colour in names.items()]
