@@ -29,21 +29,21 @@ class AnyFigure(Model):
 
 
 class MethodsFigure(AnyFigure):
-    """Methods of a table side by side: their errors on the mesh, in three dimensions."""
+    """Methods of a table side by side: their errors on the mesh, or all views of each, small."""
 
     table: Name = Field(description="a table of `comparison` or `networks`")
     scene: Name | None = Field(None, description="which scene of a table of several")
     methods: list[str] | None = Field(
         None, min_length=1, description="which of its rows; NAME_biased with a bias of its own"
     )
-    kind: Literal["errors_3d"] = Field(description="`errors_3d`")
+    kind: Literal["errors_3d", "contact_sheet"] = Field(description="what is drawn")
 
 
 class PicturesFigure(MethodsFigure):
     """The same viewpoints by every method, whole and as crops [figures 4.4 to 4.7]."""
 
     kind: Literal["pictures"] = Field(description="`pictures`")
-    view_sets: list[ViewSet] = Field(min_length=1, description="the first view of each")
+    view_sets: list[ViewSet] = Field(min_length=1, description="a view of each is shown")
 
 
 class CurveSettings(Model):
@@ -130,6 +130,7 @@ Figure = by_kind(
 KINDS_OF_TABLE = {
     "pictures": ("comparison", "networks"),
     "errors_3d": ("comparison", "networks"),
+    "contact_sheet": ("comparison", "networks"),
     "widths": ("frame_times",),
     "pareto": ("networks",),
     "learning_curves": ("learning_curves",),

@@ -8,6 +8,7 @@ from neural_shadows.layout.layout import Layout
 # What a kind's function is told beside its title; those that are not here, the scene alone.
 TOLD = {
     "pictures": ("rows", "view_sets", "run"),
+    "contact_sheet": ("rows", "run"),
     "errors_3d": ("scene", "rows", "run", "device", "precision"),
     "loss": ("curves", "run"),
     "widths": ("rows", "run"),
@@ -27,15 +28,18 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
     mesh_ply = {"mesh_ply": paths.scene("mesh.ply", scene)}
     mesh = mesh_ply | {"mesh_json": paths.scene("mesh.json", scene)}
     match kind:
-        case "pictures":
+        case "pictures" | "contact_sheet":
             rows = settings["rows"]
-            return {
-                "metrics": tables.metrics(layout, [*rows, *tables.unshadowed([scene])]),
+            files = {
+                "metrics": tables.metrics(layout, rows),
                 "references": tables.references(layout, [scene]),
                 "visibilities": tables.visibilities(layout, rows),
                 "mesh_json": mesh["mesh_json"],
-                "published_csv": layout.source("config/published.csv"),
             }
+            if kind == "pictures":  # which say whether a network has learned
+                files["metrics"] += tables.metrics(layout, tables.unshadowed([scene]))
+                files["published_csv"] = layout.source("config/published.csv")
+            return files
         case "errors_3d":
             return mesh_ply | {
                 "references": paths.reference(scene, "000"),

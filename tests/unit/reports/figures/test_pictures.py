@@ -63,7 +63,7 @@ def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():
     canvas.draw()
     titles = figure.findobj(lambda artist: getattr(artist, "get_weight", str)() == "bold")
     boxes = [title.get_window_extent(canvas.get_renderer()) for title in titles if title.get_text()]
-    assert len(boxes) == 18 and not any(
+    assert len(boxes) == 19 and not any(
         a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i]
     )
 

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 from numpy.lib.stride_tricks import sliding_window_view
+from scipy.ndimage import maximum_filter
 
 from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK
 from neural_shadows.reports.frames import REFERENCE
@@ -69,15 +70,19 @@ def _best_window(interest: np.ndarray, height: int, width: int) -> tuple[int, in
     return int(row), int(column)
 
 
-def with_errors(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """A grey image (H, W) in colours (H, W, 3), tinted where it visibly differs from the reference."""
+def with_errors(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.ndarray:
+    """A grey image (H, W) in colours (H, W, 3), tinted where it visibly differs from the reference.
+
+    Each wrong pixel is drawn `size` pixels wide and high, to be seen in a small picture.
+    """
     coloured = np.repeat(image[..., None], 3, axis=2)
     difference = image - reference
     for wrong, colour in (
         (difference < -VISIBLE_DIFFERENCE, FALSE_SHADOW),
         (difference > VISIBLE_DIFFERENCE, LIGHT_LEAK),
     ):
-        coloured[wrong] = (1 - TINT) * coloured[wrong] + TINT * np.array(to_rgb(colour))
+        wide = maximum_filter(wrong, size)
+        coloured[wide] = (1 - TINT) * coloured[wide] + TINT * np.array(to_rgb(colour))
     return coloured
 
 

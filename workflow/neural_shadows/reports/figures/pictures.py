@@ -119,7 +119,7 @@ def picture_strip(
                 _mark(seen_in, crop)
                 seen_in = _panel(part, grid[line + 1, column + k], "N")
                 seen_in.spines[:].set(visible=True, edgecolor=YELLOW, linewidth=1.5)
-                seen_in.imshow(crop.of(coloured), extent=crop.extent, interpolation="nearest")
+                seen_in.imshow(crop.of(coloured), extent=crop.extent, interpolation="none")
     return figure
 
 

@@ -1,0 +1,102 @@
+"""All views at a glance: each small, by a few methods, with its errors and its score."""
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from math import ceil
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.metrics.pooled_psnr import identical
+from neural_shadows.reports.figures.frame_errors import error_legend, with_errors
+from neural_shadows.reports.figures.style import Section, new_figure, write_figure
+from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
+from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.cameras import VIEW_SETS
+
+MOST_VIEWS = 24  # of a view set; of more, so many evenly through them
+COLUMNS = 8
+PIXELS = 200  # across a small view, or a few more
+NOTE = (
+    "Below each view: its number, and its PSNR in dB or that it equals the reference. "
+    "Wrong pixels are drawn larger than they are."
+)
+WIDTH = 12.0  # inches: on a page of 1168 px a view is 145 px wide
+
+
+def draw(
+    metrics: list[Path],
+    references: list[Path],
+    visibilities: list[Path],
+    mesh_json: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    rows: Sequence[Section],
+    run: Section,
+) -> None:
+    """Draw the views of each view set by each method.
+
+    Args:
+        metrics, references, visibilities: of all batches, see `read_frames`.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    values = read_metrics(metrics)
+    frames = {}
+    for view_set, numbers in values.groupby("view_set")["view"].unique().items():
+        numbers = np.sort(numbers)
+        few = np.linspace(0, len(numbers) - 1, min(len(numbers), MOST_VIEWS)).round().astype(int)
+        views = [(view_set, number) for number in numbers[few]]
+        frames[view_set] = read_frames(references, visibilities, values, views)
+    mesh = read_mesh_report(mesh_json)["name"]
+    heading = f"{title} ({mesh}, {run['scale']} scale)"
+    labels = {row["method"]: row["label"] for row in rows}
+    write_figure(contact_sheet(frames, labels, heading), png, svg)
+
+
+def contact_sheet(
+    frames: Mapping[str, Sequence[Frame]], labels: Mapping[str, str], title: str
+) -> Figure:
+    """Draw a block of small views for each view set: in turn a row of them by each method.
+
+    Args:
+        frames: by view set; all images of one shape.
+        labels: of the methods, in order.
+    """
+    rows = [len(labels) * ceil(len(views) / COLUMNS) for views in frames.values()]
+    height, width = next(iter(frames.values()))[0].images[REFERENCE].shape
+    step = max(1, width // PIXELS)
+    heights = [0.3 + (WIDTH / COLUMNS * height / width + 0.2) * count for count in rows]
+    figure = new_figure(title, WIDTH, 0.8 + sum(heights))
+    figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
+    figure.legend(handles=error_legend(), loc="outside upper right", ncols=2)
+    figure.supxlabel(NOTE, x=0.005, ha="left", fontsize=10)
+    parts = figure.subfigures(len(frames), squeeze=False, height_ratios=heights).flat
+    for part, (view_set, views), count in zip(parts, frames.items(), rows):
+        heading = f"The views {VIEW_SETS[view_set]}"
+        part.suptitle(heading, x=0.005, ha="left", fontsize=11, weight="bold")
+        panels = part.subplots(count, COLUMNS, squeeze=False)
+        for axes in panels.flat:
+            axes.set(xticks=[], yticks=[])
+            axes.spines[:].set_visible(False)
+        for j, (method, label) in enumerate(labels.items()):
+            lines = panels[j :: len(labels)]
+            for line in lines:
+                line[0].set_ylabel(textwrap.fill(label, 18), fontsize=8)
+            for axes, frame in zip(lines.flat, views):
+                image = with_errors(frame.images[method], frame.images[REFERENCE], 2 * step + 1)
+                axes.imshow(image[::step, ::step], interpolation="none")
+                psnr = frame.scores[method]["psnr"]
+                score = "equal" if identical(psnr) else f"{psnr:.1f}"
+                axes.set_xlabel(f"{frame.view[1]}: {score}", fontsize=9, labelpad=2)
+    return figure
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)
