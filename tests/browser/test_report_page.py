@@ -49,7 +49,9 @@ def divider_at(page):
 
 
 def sources(page):
-    return page.locator(".layer img").evaluate_all("images => images.map(image => image.src)")
+    return page.locator(".layer img:first-child").evaluate_all(
+        "images => images.map(image => image.src)"
+    )
 
 
 def drag(page, start, end):
@@ -68,9 +70,13 @@ def drag(page, start, end):
 def test_every_image_loads_and_nothing_else(open_page, address):
     page = open_page()
     page.wait_for_load_state()
-    page.evaluate("Promise.allSettled([...document.images].map(image => image.decode()))")
-    widths = page.evaluate("[...document.images].map(image => image.naturalWidth)")
-    assert len(widths) == 3 and min(widths) > 0
+    page.evaluate(
+        "Promise.allSettled([...document.querySelectorAll('img[src]')].map(image => image.decode()))"
+    )
+    widths = page.evaluate(
+        "[...document.querySelectorAll('img[src]')].map(image => image.naturalWidth)"
+    )
+    assert len(widths) == 4 and min(widths) > 0
     assert page.messages == []
     assert [url for url in page.requested if not url.startswith("data:")] == [address]
 
@@ -91,27 +97,40 @@ def test_divider_follows_the_mouse_and_the_keyboard(open_page):
 def test_any_two_methods_of_any_view_can_be_compared(open_page):
     page = open_page()
     options = page.locator(".left option").all_inner_texts()
-    assert options == ["Reference", *LABELS.values()]
+    assert [option[2:] for option in options] == ["Reference", *LABELS.values()]  # of symbols
     seen = {tuple(sources(page))}
     for selector, value in ((".left", "shadow_map_128"), (".right", "dragon"), (".view", "1")):
         page.locator(selector).select_option(value)
         seen.add(tuple(sources(page)))
     assert len(seen) == 4
-    assert page.locator(".name-left").inner_text().startswith("128² map: LPIPS 0.1100")
+    assert page.locator(".name-left").inner_text().startswith("■ 128² map: LPIPS 0.1100")
 
 
-def test_map_takes_the_place_of_the_frame(open_page):
+def test_errors_lie_over_the_frame_and_the_map_takes_its_place_but_not_the_references(open_page):
     page = open_page()
-    before = sources(page)
-    assert page.locator(".scale").is_hidden()
-    page.locator(".map").click()
-    assert not set(sources(page)) & set(before)
-    assert page.locator(".scale").is_visible()
+    under, over = sources(page)
+    errors, scale = page.locator(".layer .errors"), page.locator(".scale")
+    seen = {}
+    for shown in ("errors", "frame", "map"):
+        page.locator(".shown").select_option(shown)
+        seen[shown] = [errors.nth(i).is_visible() for i in (0, 1)]
+        seen[shown] += [scale.nth(i).is_visible() for i in (0, 1)]
+        assert sources(page)[0] == under and (sources(page)[1] == over) == (shown != "map")
+    assert seen["errors"] == [False, True, True, False]
+    assert seen["frame"] == [False] * 4
+    assert seen["map"] == [False, False, False, True]
+
+
+def test_a_double_click_zooms_and_leaves_the_divider(open_page):
+    page = open_page()
+    page.locator(".stage").dblclick(position={"x": 90, "y": 60})
+    assert page.locator(".zoom output").inner_text() == "2×"
+    assert divider_at(page) == 50
 
 
 def test_zoom_shows_single_pixels(open_page):
     page = open_page()
-    image = page.locator(".under img")
+    image = page.locator(".under img:first-child")
     before = image.bounding_box()["width"]
     page.locator(".in").click()
     page.locator(".in").click()
@@ -123,7 +142,7 @@ def test_zoom_shows_single_pixels(open_page):
 
 def test_zoomed_picture_is_moved_by_the_mouse_and_the_keyboard(open_page):
     page = open_page()
-    image, step = page.locator(".under img"), 0.1 * page.locator(".stage").bounding_box()["width"]
+    image, step = page.locator(".under img:first-child"), 0.1 * page.locator(".stage").bounding_box()["width"]
     page.locator(".divider").focus()
     page.keyboard.press("+")
     start = image.bounding_box()

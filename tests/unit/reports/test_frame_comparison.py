@@ -16,7 +16,12 @@ def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
     rows = [row(method, label) for method, label in labels.items()]
     (data,) = frame_comparisons(**files, rows=rows, meshes={"dragon": "the dragon"})
     names = [method["name"] for method in data["methods"]]
-    assert names == ["Reference", "A map (shadow_map_128)", "A map (shadow_map_512)", "Network"]
+    assert names == [
+        "★ Reference",
+        "■ A map (shadow_map_128)",
+        "■ A map (shadow_map_512)",
+        "● Network",
+    ]
     assert (data["left"], data["right"]) == ("dragon", "reference")
     shown = data["views"][1]["pictures"]["dragon"]
     content = base64.b64decode(shown["frame"].removeprefix("data:image/webp;base64,"))

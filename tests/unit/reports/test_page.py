@@ -25,7 +25,10 @@ def test_text_from_the_config_is_shown_not_run(text):
     assert HOSTILE not in text and text.count("<script") == 2
     data = json.loads(re.search(r'<script type="application/json">(.+?)</script>', text)[1])
     assert data["title"].startswith(f"dragon: {HOSTILE}")
-    assert [method["name"] for method in data["methods"]] == ["Reference", *LABELS.values()]
+    assert [method["name"] for method in data["methods"]] == [
+        "★ Reference",
+        *(f"{symbol} {label}" for symbol, label in zip("■■●", LABELS.values())),
+    ]
 
 
 def test_every_link_leads_to_one_place(text):

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from neural_shadows.evaluation.method_names import is_classic, unbiased
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.metrics.flip import flip_map
-from neural_shadows.reports.chosen_views import choose_views
+from neural_shadows.reports.chosen_views import RULE, choose_views
+from neural_shadows.reports.frame_errors import error_layer
 from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
 from neural_shadows.reports.inputs import by_folder
+from neural_shadows.reports.method_look import LOOKS, look_of
 from neural_shadows.reports.page_blocks import webp_uri
 
 MAP_LEVELS = 64  # of a FLIP map: steps of 0.016, and files a third as large as of 256
@@ -27,7 +28,7 @@ def frame_comparisons(
     rows: Sequence[Mapping[str, Any]],
     meshes: Mapping[str, str],
 ) -> list[dict[str, Any]]:
-    """The frames and FLIP maps of each scene that has some, as plain data for the page's script.
+    """The frames, errors and FLIP maps of each scene that has some, as data for the page's script.
 
     Args:
         references, visibilities, metrics: of all batches, in folders of scenes.
@@ -45,35 +46,59 @@ def frame_comparisons(
             continue
         # Of a page that is made half-way: what each of the views has.
         methods = [key for key in frames[0].images if all(key in one.images for one in frames)]
-        networks = [name for name in methods[1:] if not is_classic(unbiased(name))]
-        labels = {row["method"]: row["label"] for row in rows if row["scene"] == scene}
-        names = {REFERENCE: "Reference"} | labels
-        counts = Counter(labels.values())  # two methods of one label bear their keys
-        names |= {key: f"{label} ({key})" for key, label in labels.items() if counts[label] > 1}
+        here = {row["method"]: row for row in rows if row["scene"] == scene}
         comparisons.append(
             {
                 "scene": scene,
                 "title": f"{scene}: {meshes.get(scene, '')}",
-                "methods": [{"key": key, "name": names.get(key, key)} for key in methods],
-                "left": (networks or methods[1:] or methods)[0],
+                "rule": RULE,
+                "methods": [{"key": key, "name": name} for key, name in _names(methods, here)],
+                "left": _shown_first(methods, here, frames),
                 "right": REFERENCE,
-                "views": [_view(frame) for frame in frames],
+                "views": [_view(frame, methods) for frame in frames],
             }
         )
     return comparisons
 
 
-def _view(frame: Frame) -> dict[str, Any]:
+def _names(methods: Sequence[str], rows: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, str]]:
+    """Methods with their symbols and labels; two of one label bear their keys."""
+    counts = Counter(row["label"] for row in rows.values())
+    names = {REFERENCE: f"{LOOKS[REFERENCE].symbol} Reference"}
+    for key, row in rows.items():
+        names[key] = f"{look_of(row).symbol} {row['label']}"
+        if counts[row["label"]] > 1:
+            names[key] += f" ({key})"
+    return [(key, names.get(key, key)) for key in methods]
+
+
+def _shown_first(
+    methods: Sequence[str], rows: Mapping[str, Mapping[str, Any]], frames: Sequence[Frame]
+) -> str:
+    """The trained network that errs least in the frames, or the method that does."""
+
+    def rank(method: str) -> tuple[bool, float]:
+        trained = method in rows and rows[method]["trained"]
+        return not trained, sum(one.scores[method]["flip"] for one in frames)
+
+    return min([m for m in methods if m != REFERENCE], key=rank, default=REFERENCE)
+
+
+def _view(frame: Frame, methods: Sequence[str]) -> dict[str, Any]:
     reference = frame.images[REFERENCE]
     pictures = {}
-    for method, image in frame.images.items():
-        scores = frame.scores.get(method, {})
-        error = flip_map(image, reference)
+    for method in methods:
+        image, scores = frame.images[method], frame.scores.get(method, {})
+        grey = Image.fromarray(np.round(255 * image).astype(np.uint8))
         pictures[method] = {
-            "frame": webp_uri(Image.fromarray(np.round(255 * image).astype(np.uint8))),
-            "map": webp_uri(map_picture(error)),
+            "frame": webp_uri(grey),
             "scores": ", ".join(SCORES[key].format(scores[key]) for key in SCORES if key in scores),
         }
+        if method != REFERENCE:  # which has none of its own
+            pictures[method] |= {
+                "errors": webp_uri(Image.fromarray(error_layer(image, reference))),
+                "map": webp_uri(map_picture(flip_map(image, reference))),
+            }
     height, width = reference.shape
     return {"caption": frame.caption, "width": width, "height": height, "pictures": pictures}
 

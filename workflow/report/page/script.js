@@ -16,7 +16,7 @@ for (const article of document.querySelectorAll("article.compare")) {
   const find = (selector) => article.querySelector(selector);
   const stage = find(".stage"), divider = find(".divider");
   const over = find(".over"), images = article.querySelectorAll(".layer img");
-  const view = find(".view"), left = find(".left"), right = find(".right"), map = find(".map");
+  const view = find(".view"), left = find(".left"), right = find(".right"), shown = find(".shown");
   const names = Object.fromEntries(data.methods.map((method) => [method.key, method.name]));
   // position: of the divider in per cent; x, y: of the picture's corner in stage widths.
   const state = { position: 50, zoom: 1, x: 0, y: 0 };
@@ -31,18 +31,23 @@ for (const article of document.querySelectorAll("article.compare")) {
 
   function show() {
     const item = data.views[Number(view.value)];
-    const maps = map.getAttribute("aria-pressed") === "true";
     stage.style.aspectRatio = `${item.width} / ${item.height}`;
     for (const [image, key, name] of [
-      [images[1], left.value, find(".name-left")],
-      [images[0], right.value, find(".name-right")],
+      [find(".over img"), left.value, find(".name-left")],
+      [find(".under img"), right.value, find(".name-right")],
     ]) {
       const picture = item.pictures[key];
-      image.src = maps ? picture.map : picture.frame;
-      image.alt = `${names[key]}${maps ? ", FLIP map" : ""}, ${item.caption}`;
+      // The reference has no errors and no map.
+      image.src = shown.value === "map" && picture.map || picture.frame;
+      const errors = image.nextElementSibling;
+      errors.hidden = shown.value !== "errors" || !picture.errors;
+      if (!errors.hidden) errors.src = picture.errors;
+      image.alt = `${names[key]}, ${shown.selectedOptions[0].text}, ${item.caption}`;
       name.textContent = picture.scores ? `${names[key]}: ${picture.scores}` : names[key];
     }
-    find(".scale").hidden = !maps;
+    for (const scale of article.querySelectorAll(".scale")) {
+      scale.hidden = scale.dataset.of !== shown.value;
+    }
   }
 
   function place() {
@@ -81,11 +86,7 @@ for (const article of document.querySelectorAll("article.compare")) {
     return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.width];
   };
 
-  for (const select of [view, left, right]) select.addEventListener("change", show);
-  map.addEventListener("click", () => {
-    map.setAttribute("aria-pressed", String(map.getAttribute("aria-pressed") !== "true"));
-    show();
-  });
+  for (const select of [view, left, right, shown]) select.addEventListener("change", show);
   find(".in").addEventListener("click", () => zoomMiddle(2));
   find(".out").addEventListener("click", () => zoomMiddle(0.5));
   find(".reset").addEventListener("click", () => {
@@ -104,13 +105,13 @@ for (const article of document.querySelectorAll("article.compare")) {
     const onDivider = event.target === divider || state.zoom === 1;
     drag = { onDivider, at: pointOf(event) };
     stage.setPointerCapture(event.pointerId);
-    if (onDivider) moveDivider(100 * drag.at[0]);
   });
   stage.addEventListener("pointermove", (event) => {
     if (!drag) return;
     const at = pointOf(event);
     if (drag.onDivider) {
-      moveDivider(100 * at[0]);
+      drag.moved ||= Math.abs(at[0] - drag.at[0]) > 0.005; // a click is no drag
+      if (drag.moved) moveDivider(100 * at[0]);
     } else {
       state.x += at[0] - drag.at[0];
       state.y += at[1] - drag.at[1];

@@ -5,8 +5,8 @@ from frame_samples import write_frames
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from neural_shadows.reports.figures import pictures
-from neural_shadows.reports.figures.frame_errors import choose_crops, with_errors
 from neural_shadows.reports.figures.pictures import picture_strip
+from neural_shadows.reports.frame_errors import choose_crops, with_errors
 from neural_shadows.reports.frames import Frame
 from neural_shadows.reports.method_look import look_of
 from neural_shadows.reports.tables.quality import METRICS

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.metrics.pooled_psnr import identical
-from neural_shadows.reports.figures.frame_errors import error_legend, with_errors
 from neural_shadows.reports.figures.style import Section, new_figure, write_figure
+from neural_shadows.reports.frame_errors import error_legend, with_errors
 from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS

@@ -15,17 +15,17 @@ from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.reports.chosen_views import RULE, choose_views
-from neural_shadows.reports.figures.frame_errors import (
-    Window,
-    choose_crops,
-    error_legend,
-    with_errors,
-)
 from neural_shadows.reports.figures.style import (
     YELLOW,
     Section,
     new_figure,
     write_figure,
+)
+from neural_shadows.reports.frame_errors import (
+    Window,
+    choose_crops,
+    error_legend,
+    with_errors,
 )
 from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
 from neural_shadows.reports.learned import learned_methods, margins

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter
@@ -70,20 +70,26 @@ def _best_window(interest: np.ndarray, height: int, width: int) -> tuple[int, in
     return int(row), int(column)
 
 
-def with_errors(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.ndarray:
-    """A grey image (H, W) in colours (H, W, 3), tinted where it visibly differs from the reference.
+def error_layer(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.ndarray:
+    """What to lay over a grey image (H, W): RGBA (H, W, 4) uint8, a tint where it is visibly wrong.
 
-    Each wrong pixel is drawn `size` pixels wide and high, to be seen in a small picture.
+    Each wrong pixel is `size` pixels wide and high, to be seen in a small picture.
     """
-    coloured = np.repeat(image[..., None], 3, axis=2)
+    layer = np.zeros((*image.shape, 4), np.uint8)
     difference = image - reference
     for wrong, colour in (
         (difference < -VISIBLE_DIFFERENCE, FALSE_SHADOW),
         (difference > VISIBLE_DIFFERENCE, LIGHT_LEAK),
     ):
-        wide = maximum_filter(wrong, size)
-        coloured[wide] = (1 - TINT) * coloured[wide] + TINT * np.array(to_rgb(colour))
-    return coloured
+        layer[maximum_filter(wrong, size)] = np.round(255 * np.array(to_rgba(colour, TINT)))
+    return layer
+
+
+def with_errors(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.ndarray:
+    """A grey image (H, W) in [0, 1] under its `error_layer`, in colours (H, W, 3)."""
+    layer = error_layer(image, reference, size) / 255
+    colour, opacity = layer[..., :3], layer[..., 3:]
+    return (1 - opacity) * image[..., None] + opacity * colour
 
 
 def error_legend() -> list[Patch]:
