@@ -142,7 +142,10 @@ def test_zoom_shows_single_pixels(open_page):
 
 def test_zoomed_picture_is_moved_by_the_mouse_and_the_keyboard(open_page):
     page = open_page()
-    image, step = page.locator(".under img:first-child"), 0.1 * page.locator(".stage").bounding_box()["width"]
+    image, step = (
+        page.locator(".under img:first-child"),
+        0.1 * page.locator(".stage").bounding_box()["width"],
+    )
     page.locator(".divider").focus()
     page.keyboard.press("+")
     start = image.bounding_box()

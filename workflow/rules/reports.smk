@@ -74,6 +74,7 @@ rule preview_scene:
             category="Scenes",
             labels={"scene": "{scene}"},
         ),
+        svg=PATHS.report("scenes/{scene}.svg"),
     log:
         PATHS.log("preview_scene", "scene"),
     conda:

@@ -17,7 +17,11 @@ def all_reports(layout: Layout) -> list[str]:
     names = [
         *(f"{name}{ending}" for name in default_tables(layout) for ending in (".csv", ".md")),
         *(f"{name}{ending}" for name in default_figures(layout) for ending in (".png", ".svg")),
-        *(f"scenes/{scene}.png" for scene in layout.settings["scenes"]),
+        *(
+            f"scenes/{one}{ending}"
+            for one in layout.settings["scenes"]
+            for ending in (".png", ".svg")
+        ),
         *(f"claims{ending}" for ending in (".csv", ".md") if layout.settings["claims"]),
         "index.html",
     ]

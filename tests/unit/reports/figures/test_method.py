@@ -76,7 +76,7 @@ def test_bounds_of_a_sphere_are_its_chords():
 
 def test_the_preview_says_the_up_axis_and_a_sheet(tmp_path, capsys):
     box(1, 0.4, 0.6).export(tmp_path / "mesh.ply")
-    files = tmp_path / "mesh.ply", tmp_path / "mesh.json", tmp_path / "a.png"
+    files = [tmp_path / name for name in ("mesh.ply", "mesh.json", "a.png", "a.svg")]
     write_json(files[1], {"name": "a mesh", "faces": 12, "watertight": False, "sheet": True})
     draw_preview(*files, scene={"up": "z", "ground": True, "light": SPHERE_OF_LIGHTS})
     said = capsys.readouterr().out

@@ -116,3 +116,11 @@ def test_the_learned_surface_of_a_ball_is_a_ball(files):
     field, _ = load_network(files / "field" / "weights.safetensors")
     points = field_3d.learned_surface(field).points
     np.testing.assert_allclose(np.linalg.norm(points, axis=1), RADIUS, atol=2e-3)
+
+
+def test_the_detail_of_a_slice_is_where_the_surface_is_stored():
+    logits = np.full((field_slice.PIXELS, field_slice.PIXELS), np.nan)
+    logits[100:300, 100:300] = 5  # inside alone
+    logits[600:700, 450:500], logits[600:700, 500:550] = 5, -5
+    x, y = field_slice.choose_detail(logits)
+    assert (x, y) == pytest.approx((2 * 500 / 900 - 1, 2 * 650 / 900 - 1), abs=0.06)

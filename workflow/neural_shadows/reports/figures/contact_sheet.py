@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.metrics.pooled_psnr import identical
-from neural_shadows.reports.figures.style import Section, new_figure, write_figure
+from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
 from neural_shadows.reports.frame_errors import error_legend, with_errors
 from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
 from neural_shadows.running.stage import run_stage
@@ -76,7 +76,7 @@ def contact_sheet(
     figure = new_figure(title, WIDTH, 0.8 + sum(heights))
     figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
     figure.legend(handles=error_legend(), loc="outside upper right", ncols=2)
-    figure.supxlabel(NOTE, x=0.005, ha="left", fontsize=10)
+    note_below(figure, NOTE)
     parts = figure.subfigures(len(frames), squeeze=False, height_ratios=heights).flat
     for part, (view_set, views), count in zip(parts, frames.items(), rows):
         heading = f"The views {VIEW_SETS[view_set]}"

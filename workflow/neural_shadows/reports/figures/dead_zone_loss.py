@@ -32,6 +32,7 @@ def draw(
         axes.plot(t, loss, color=colour, label=label)
         axes.axvspan(low, min(high, 2), color=colour, alpha=0.12, linewidth=0)
     axes.set(xlabel="predicted depth t$_{pred}$", ylabel="loss", xlim=(0, 2))
+    axes.set_title("shaded: between its bounds any depth is right and costs nothing", fontsize=11)
     axes.grid(**GRID)
     axes.legend()
     write_figure(figure, png, svg)

@@ -12,7 +12,7 @@ from neural_shadows.rays.labels import chord_lengths, dual_bounds
 from neural_shadows.rays.silhouette import entry_points
 from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.style import Section
+from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK, Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
@@ -21,8 +21,8 @@ TOLERANCE = 0.005  # of a depth that counts as right: two thirds of a cell of a 
 STEP = 0.15  # in depth between neighbouring rays: beyond it, a sheet is torn
 COLOURS = {
     "between the bounds": space.OBJECT_COLOUR,
-    "false shadow": space.FALSE_SHADOW,
-    "light leak": space.LIGHT_LEAK,
+    "false shadow": FALSE_SHADOW,
+    "light leak": LIGHT_LEAK,
 }
 
 
@@ -53,7 +53,7 @@ def draw(
     right = np.mean(error[hit] == 0)
     sheets = {
         "t$_{lb}$: what the light meets": (t_lb, 0 * error),
-        f"t$_{{pred}}$: what the network answers, {right:.0%} right": (t_pred, error),
+        f"t$_{{pred}}$: what the network answers, {right:.1%} right": (t_pred, error),
         "t$_{ub}$: where it would leave": (t_ub, 0 * error),
     }
     shown = {}

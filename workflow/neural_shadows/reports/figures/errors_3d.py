@@ -12,13 +12,13 @@ from neural_shadows.evaluation.references import References
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.figures import space
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.style import Section
+from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK, Section
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
 MOST_VIEWS = 12  # of a batch; a network answers for each
 MOST_POINTS = 20_000
-COLOURS = {"false shadow": space.FALSE_SHADOW, "light leak": space.LIGHT_LEAK}
+COLOURS = {"false shadow": FALSE_SHADOW, "light leak": LIGHT_LEAK}
 
 
 def draw(

@@ -46,7 +46,7 @@ def draw(
     within = np.mean(np.abs(distance) < 0.5)
     shown = {
         f"the mesh: {shape.n_cells:,} triangles": left,
-        f"the field of {field.resolution}³ cells: {within:.0%} within half a cell": right,
+        f"the field of {field.resolution}³ cells: {within:.1%} within half a cell": right,
     }
     scale = "distance from the mesh, cells: outside > 0 > inside"
     colours = ScalarMappable(Normalize(-0.5, 0.5), COLOURS)

@@ -8,6 +8,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch, Rectangle
+from scipy.ndimage import uniform_filter
 
 from neural_shadows.networks.object_space.field_marching import BRICK, SOLID
 from neural_shadows.networks.object_space.occupancy_field_network import (
@@ -29,7 +30,7 @@ EMPTY_COLOUR, ENCLOSED_COLOUR = "#f4f4f4", "#5b6b7b"
 def draw(
     mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Section
 ) -> None:
-    """Draw the slice whole and in detail, at the outline's highest point.
+    """Draw the slice whole, and in detail where most of it is stored.
 
     Args:
         weights: of an occupancy field.
@@ -43,9 +44,7 @@ def draw(
     whole, detail = figure.subplots(1, 2)
     _show(whole, field, cut, np.zeros(2), 1.0)
     whole.set_title(f"bricks of {BRICK}³ cells at the surface, {field.resolution}³ cells in all")
-    # The highest point stands a little above the middle: there is less to be seen above it.
-    ends = cut.outline.reshape(-1, 2)
-    centre = ends[ends[:, 1].argmax()] - (0, 0.4 * DETAIL)
+    centre = choose_detail(slice_logits(field, cut, np.zeros(2), 1.0))
     whole.add_patch(Rectangle(centre - DETAIL, 2 * DETAIL, 2 * DETAIL, fill=False))
     image = _show(detail, field, cut, centre, DETAIL)
     detail.set_title("the square: shadow begins where the logit turns positive")
@@ -54,6 +53,18 @@ def draw(
     enclosed = Patch(color=ENCLOSED_COLOUR, label="enclosed: in shadow, nothing stored")
     legend_below(figure, [empty, enclosed])
     write_figure(figure, png, svg)
+
+
+def choose_detail(logits: np.ndarray) -> np.ndarray:
+    """The centre (2,) of the detail that shows most of what is stored, inside and outside alike.
+
+    `logits` (PIXELS, PIXELS) are of the whole slice, as `slice_logits` gives them.
+    """
+    size = round(DETAIL * PIXELS)
+    inside = uniform_filter(((logits > 0) & (logits <= LIMIT)).astype(float), size)
+    outside = uniform_filter((logits <= 0).astype(float), size)
+    row, column = np.unravel_index(np.argmax(inside * outside), logits.shape)
+    return (np.array([column, row]) + 0.5) / PIXELS * 2 - 1
 
 
 def slice_logits(

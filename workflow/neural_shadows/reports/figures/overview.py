@@ -9,7 +9,7 @@ from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.reports.figures import drawing
 from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
-from neural_shadows.reports.figures.style import BLUE, ORANGE, Section, write_figure
+from neural_shadows.reports.figures.style import BLUE, ORANGE, Section, legend_below, write_figure
 from neural_shadows.running.stage import run_stage
 
 
@@ -25,7 +25,7 @@ def draw(
     seed: int,
 ) -> None:
     """Draw directions, points on a silhouette, labels and a query beside each other."""
-    cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title, 13.3, 4)
+    cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title, 13.3, 4.4)
     directions, points, labels, query = figure.subplots(1, 4)
     pattern = sphere_directions(drawing.SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0]
     drawing.draw_hemisphere(directions, pattern, "a  view directions")
@@ -37,6 +37,7 @@ def draw(
     drawing.draw_bounded_rays(labels, slice_rays(cut, drawing.FEW_RAYS), 1.0)
     drawing.draw_outline(labels, cut)
     _draw_query(query, cut)
+    legend_below(figure)
     write_figure(figure, png, svg)
 
 
@@ -52,9 +53,10 @@ def _draw_query(axes: Axes, cut: MeshSlice) -> None:
     first, last, chord = rays.t_lb[i], rays.end[i], rays.chord[i]
     depth, s = (first + last) / 2, last + 0.6 * (chord - last)
     for begin, stop, colour in ((-0.2, depth, ORANGE), (depth, s, drawing.SHADE)):
-        axes.plot(*np.stack([o + begin * d, o + stop * d]).T, color=colour, linewidth=2)
-    axes.annotate("light", o - 0.26 * d, ha="center", va="center", color=ORANGE)
-    axes.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25))
+        ends = np.stack([o + begin * d, o + stop * d]).T
+        axes.plot(*ends, color=colour, linewidth=2, clip_on=False)
+    style = {"ha": "center", "va": "center", "color": ORANGE, "annotation_clip": False}
+    axes.annotate("light", o - 0.26 * d, **style)
     for t, text, colour in ((0.0, "o", ORANGE), (depth, "t$_s$", BLUE), (s, "p", drawing.OUTLINE)):
         axes.plot(*(o + t * d), "o", color=colour, zorder=4)
         style = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 12, "zorder": 5}

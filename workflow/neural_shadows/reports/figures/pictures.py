@@ -19,6 +19,7 @@ from neural_shadows.reports.figures.style import (
     YELLOW,
     Section,
     new_figure,
+    note_below,
     write_figure,
 )
 from neural_shadows.reports.frame_errors import (
@@ -100,7 +101,7 @@ def picture_strip(
     figure = new_figure(title, WIDTH, height)
     figure.get_layout_engine().set(w_pad=0.03, hspace=0, wspace=0)
     note = textwrap.fill(f"Scores are of the whole frames. {RULE}", 4 * LETTERS // 3)
-    figure.supxlabel(note, x=0.005, ha="left", fontsize=10)
+    note_below(figure, note)
     figure.legend(handles=error_legend(), loc="outside upper right", ncols=2)
     for part, frame in zip(figure.subfigures(len(frames), squeeze=False).flat, frames):
         part.suptitle(frame.caption, x=0.005, ha="left", fontsize=11)

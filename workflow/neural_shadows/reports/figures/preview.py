@@ -6,24 +6,31 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
-from neural_shadows.files.whole_files import whole_file
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.reports.figures.drawing import SilhouetteDrawing, draw_disk
 from neural_shadows.reports.figures.hero_view import DISTANCE, FOV, hero_view
-from neural_shadows.reports.figures.style import COLOURS, ORANGE, Section, new_figure
+from neural_shadows.reports.figures.style import (
+    COLOURS,
+    ORANGE,
+    Section,
+    new_figure,
+    note_below,
+    write_figure,
+)
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import Viewpoint, camera_axes
 from neural_shadows.scenes.scene import Scene, open_scene
 
 PIXELS = 700  # of the picture of the object, square
 RESOLUTION = 128  # of the silhouette, as in the default config
+CORNERS = 1.3  # radii: the quadtree is turned with the view, and wider than the sphere
 AXIS_COLOURS = dict(zip("xyz", (COLOURS[1], COLOURS[2], COLOURS[0])))
 
 
-def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Section) -> None:
+def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: Section) -> None:
     """Draw the object in its bounding sphere, and a silhouette of it with its quadtree.
 
     Raises:
@@ -41,15 +48,15 @@ def draw(mesh_ply: Path, mesh_json: Path, png: Path, *, scene: Section) -> None:
     quads = f"quadtree of {len(shown.quads):,} quads"
     draw_disk(right, f"the same view's silhouette of {RESOLUTION}² texels, {quads}")
     shown.draw(right)
+    right.set(xlim=(-CORNERS, CORNERS), ylim=(-CORNERS, CORNERS))
     closed = "The mesh is watertight." if report["watertight"] else "The mesh is open."
     if report["sheet"]:
         closed += " It is a sheet: give an occupancy field of it `surface: sheet`."
     up = f"Up is {scene['up']}: if the object does not stand as it should, change the scene's `up`."
     notes = f"{up}\n{closed} Orange: its bounding sphere, whose radius is the unit of all lengths."
-    figure.supxlabel(notes, x=0.01, ha="left", fontsize=10)
+    note_below(figure, notes)
     print(notes)
-    with whole_file(png) as part:
-        figure.savefig(part)
+    write_figure(figure, png, svg)
 
 
 def _draw_object(axes: Axes, scene: Scene, view: Viewpoint) -> None:

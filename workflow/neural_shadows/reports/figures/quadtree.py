@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from neural_shadows.reports.figures import drawing
-from neural_shadows.reports.figures.style import Section, write_figure
+from neural_shadows.reports.figures.style import Section, note_below, write_figure
 from neural_shadows.running.stage import run_stage
 
 
@@ -28,6 +28,11 @@ def draw(
     drawing.draw_disk(right, f"{drawing.SHOWN_POINTS:,} points, divided evenly over the quads")
     shown.draw(right, quads=False)
     shown.draw_points(right, drawing.SHOWN_POINTS, seed, 3)
+    note_below(
+        figure,
+        "Grey: what the object covers, seen across the slice. Blue: squares, divided where its "
+        "outline runs.\nOrange: the bounding sphere. So most rays start where shadow meets light.",
+    )
     write_figure(figure, png, svg)
 
 

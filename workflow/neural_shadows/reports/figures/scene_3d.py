@@ -43,7 +43,7 @@ def draw(
     """
     rays = RaySet(directions_npy, sorted(origins), sorted(bounds))
     opened = open_scene(mesh_ply, **scene)
-    view = hero_view(opened.up, 3.9)
+    view = hero_view(opened.up, 4.1)
     left, right = space.new_plotter(view), space.new_plotter(view)
     sphere = pyvista.Sphere(radius=1, theta_resolution=36, phi_resolution=18)
     for plotter, opacity in ((left, 1.0), (right, 0.35)):  # rays go on inside the object

@@ -4,6 +4,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
 import pyvista
 from matplotlib.cm import ScalarMappable
 from matplotlib.patches import Patch
@@ -15,7 +16,7 @@ from neural_shadows.scenes.scene import Scene
 
 WIDTH, HEIGHT = 900, 800  # pixels of a picture
 OBJECT_COLOUR = "#d8d4cc"
-FALSE_SHADOW, LIGHT_LEAK = style.ORANGE, style.BLUE
+WHITE = 250  # of 255: what all pictures have white above and below is cut off
 REACH = 1.2  # radii of what is shown of the ground
 
 
@@ -72,11 +73,14 @@ def write_pictures(
         colours: of the legend, by label.
         scale: label and colours of a scale at the right.
     """
-    width = min(6.2, 18 / len(shown))
-    figure = style.new_figure(title, width * len(shown), width * HEIGHT / WIDTH + 1)
+    pictures = [plotter.screenshot(return_img=True) for plotter in shown.values()]
+    rows = np.flatnonzero(np.min(pictures, axis=(0, 2, 3)) < WHITE)
+    width = min(6.2, 13.5 / len(shown))  # of three, names on a page of 1168 px are 13 px high
+    height = width * (np.ptp(rows) + 1) / WIDTH
+    figure = style.new_figure(title, width * len(shown), height + 1.2)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
-    for axes, (heading, plotter) in zip(panels, shown.items()):
-        axes.imshow(plotter.screenshot(return_img=True))
+    for axes, heading, plotter, picture in zip(panels, shown, shown.values(), pictures):
+        axes.imshow(picture[rows[0] : rows[-1] + 1])
         plotter.close()
         axes.set_title(heading, fontsize=11)
         axes.set_axis_off()

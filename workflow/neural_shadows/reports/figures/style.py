@@ -34,6 +34,11 @@ def new_figure(title: str, width: float, height: float) -> Figure:
     return figure
 
 
+def note_below(figure: Figure, text: str) -> None:
+    """What a reader must know to read the figure, in lines below it."""
+    figure.supxlabel(text, x=0.01, ha="left", fontsize=10)
+
+
 def plain_numbers(axis: Axis) -> None:
     """Label a logarithmic axis with 0.5 and 20: less than a decade has no power of ten."""
     axis.set_major_locator(LogLocator(subs=(1, 2, 5)))

@@ -34,6 +34,7 @@ def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
         spectrum.plot(np.arange(1, DEGREES + 1), power, color=colour, marker=".", label=label)
     spectrum.axhline(1, color="grey", linestyle="--", linewidth=1, label="expected of uniform")
     spectrum.set(xlabel="degree of the spherical harmonics", ylabel="power", ylim=(0, None))
+    spectrum.set_title("little power at low degrees: neither clusters nor gaps", fontsize=11)
     spectrum.grid(**GRID)
     spectrum.legend()
     write_figure(figure, png, svg)
