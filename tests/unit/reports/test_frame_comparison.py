@@ -2,6 +2,7 @@ import base64
 import io
 
 import numpy as np
+import pandas as pd
 from PIL import Image
 from report_page import seen_frames, write_evaluated
 from report_samples import row
@@ -38,3 +39,13 @@ def test_map_is_black_where_nothing_differs():
     picture = np.asarray(map_picture(np.array([[0.0, 0.5, 1.0]])))
     assert picture[0, 0].tolist() == [0, 0, 4]
     assert picture[0, 2].tolist() == [252, 253, 191]  # magma's ends
+
+
+def test_of_a_half_finished_run_what_each_view_has_is_shown(tmp_path):
+    files = write_evaluated(tmp_path)
+    values = pd.read_csv(files["metrics"][0])
+    values[values["method"] != "dragon"].to_csv(files["metrics"][0], index=False)
+    (data,) = frame_comparisons(**files, rows=[], meshes={})
+    shown = ["reference", "shadow_map_128", "shadow_map_512"]
+    assert [method["key"] for method in data["methods"]] == shown
+    assert all(list(view["pictures"]) == shown for view in data["views"])

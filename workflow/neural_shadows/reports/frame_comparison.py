@@ -12,9 +12,9 @@ from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.metrics.flip import flip_map
 from neural_shadows.reports.chosen_views import RULE, choose_views
 from neural_shadows.reports.frame_errors import error_layer
-from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
+from neural_shadows.reports.frames import Frame, read_frames
 from neural_shadows.reports.inputs import by_folder
-from neural_shadows.reports.method_look import LOOKS, look_of
+from neural_shadows.reports.method_look import LOOKS, REFERENCE, look_of
 from neural_shadows.reports.page_blocks import webp_uri
 
 MAP_LEVELS = 64  # of a FLIP map: steps of 0.016, and files a third as large as of 256

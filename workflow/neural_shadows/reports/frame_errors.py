@@ -10,7 +10,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter
 
 from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK
-from neural_shadows.reports.frames import REFERENCE
+from neural_shadows.reports.method_look import REFERENCE
 
 # Grey levels in [0, 1]: light and shadow differ by 0.75 n.l, steps of an 8-bit picture by 0.004.
 VISIBLE_DIFFERENCE = 0.05

@@ -10,9 +10,9 @@ import pandas as pd
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.visibilities import read_visibility
 from neural_shadows.rendering.shading import shade
+from neural_shadows.reports.method_look import REFERENCE
 from neural_shadows.scenes.cameras import VIEW_SETS
 
-REFERENCE = "reference"
 View = tuple[str, int]  # a view set and a number in it
 
 
@@ -41,7 +41,7 @@ def read_frames(
     metrics: pd.DataFrame,
     views: Sequence[View],
 ) -> list[Frame]:
-    """Some views of a scene, in their order.
+    """Some views of a scene, in their order, by the methods that have both answers and metrics.
 
     Args:
         references: batches of the scene, as BATCH.safetensors; visibilities: of its methods, as
@@ -56,26 +56,17 @@ def read_frames(
     frames = {}
     for path in references:
         batch = References(path)
-        methods = {}
-        for one in visibilities:
-            method, _, name = one.stem.rpartition(".")
-            if name == path.stem:
-                methods[method] = one
-        for number, seen in enumerate(batch.views):
-            view = (seen.view_set, seen.index)
+        # Of another batch the key is METHOD.BATCH, of which there are no scores.
+        answered = {one.stem.removesuffix(f".{path.stem}"): one for one in visibilities}
+        for number, view in enumerate((one.view_set, one.index) for one in batch.views):
             if view not in views:
                 continue
             frame, truth = batch[number]
-            answers = {
-                method: read_visibility(one, number, frame) for method, one in methods.items()
-            }
-            images = {
-                name: shade(frame, one) for name, one in ({REFERENCE: truth} | answers).items()
-            }
-            found = {
-                m: scores.loc[*view, m].dropna().to_dict()
-                for m in methods
-                if (*view, m) in scores.index
-            }
-            frames[view] = Frame(view, counts[view[0]], images, found)
+            found = Frame(view, counts[view[0]], {REFERENCE: shade(frame, truth)})
+            for method, file in answered.items():
+                if (*view, method) in scores.index:
+                    answer = read_visibility(file, number, frame)
+                    found.images[method] = shade(frame, answer)
+                    found.scores[method] = scores.loc[*view, method].dropna().to_dict()
+            frames[view] = found
     return [frames[view] for view in views if view in frames]

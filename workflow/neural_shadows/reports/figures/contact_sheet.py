@@ -13,7 +13,8 @@ from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.metrics.pooled_psnr import identical
 from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
 from neural_shadows.reports.frame_errors import error_legend, with_errors
-from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
+from neural_shadows.reports.frames import Frame, read_frames
+from neural_shadows.reports.method_look import REFERENCE
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
 

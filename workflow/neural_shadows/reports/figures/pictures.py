@@ -28,9 +28,9 @@ from neural_shadows.reports.frame_errors import (
     error_legend,
     with_errors,
 )
-from neural_shadows.reports.frames import REFERENCE, Frame, read_frames
+from neural_shadows.reports.frames import Frame, read_frames
 from neural_shadows.reports.learned import learned_methods, margins
-from neural_shadows.reports.method_look import LOOKS, Look, look_of
+from neural_shadows.reports.method_look import LOOKS, REFERENCE, Look, look_of
 from neural_shadows.reports.published import read_published
 from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.running.stage import run_stage
