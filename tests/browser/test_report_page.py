@@ -49,8 +49,9 @@ def divider_at(page):
 
 
 def sources(page):
-    return page.locator(".layer img:first-child").evaluate_all(
-        "images => images.map(image => image.src)"
+    """Of the layers under and over the divider the images that are seen."""
+    return page.locator(".layer").evaluate_all(
+        "layers => layers.map(layer => [...layer.children].map(one => one.hidden || one.src))"
     )
 
 
@@ -76,7 +77,7 @@ def test_every_image_loads_and_nothing_else(open_page, address):
     widths = page.evaluate(
         "[...document.querySelectorAll('img[src]')].map(image => image.naturalWidth)"
     )
-    assert len(widths) == 4 and min(widths) > 0
+    assert len(widths) == 5 and min(widths) > 0
     assert page.messages == []
     assert [url for url in page.requested if not url.startswith("data:")] == [address]
 
@@ -98,27 +99,26 @@ def test_any_two_methods_of_any_view_can_be_compared(open_page):
     page = open_page()
     options = page.locator(".left option").all_inner_texts()
     assert [option[2:] for option in options] == ["Reference", *LABELS.values()]  # of symbols
-    seen = {tuple(sources(page))}
+    seen = {str(sources(page))}
     for selector, value in ((".left", "shadow_map_128"), (".right", "dragon"), (".view", "1")):
         page.locator(selector).select_option(value)
-        seen.add(tuple(sources(page)))
+        seen.add(str(sources(page)))
     assert len(seen) == 4
     assert page.locator(".name-left").inner_text().startswith("■ 128² map: LPIPS 0.1100")
 
 
-def test_errors_lie_over_the_frame_and_the_map_takes_its_place_but_not_the_references(open_page):
+def test_what_is_shown_of_a_method_and_that_the_reference_has_no_errors(open_page):
     page = open_page()
-    under, over = sources(page)
-    errors, scale = page.locator(".layer .errors"), page.locator(".scale")
-    seen = {}
+    scale, seen = page.locator(".scale"), {}
     for shown in ("errors", "frame", "map"):
         page.locator(".shown").select_option(shown)
-        seen[shown] = [errors.nth(i).is_visible() for i in (0, 1)]
-        seen[shown] += [scale.nth(i).is_visible() for i in (0, 1)]
-        assert sources(page)[0] == under and (sources(page)[1] == over) == (shown != "map")
-    assert seen["errors"] == [False, True, True, False]
-    assert seen["frame"] == [False] * 4
-    assert seen["map"] == [False, False, False, True]
+        (reference, *others), seen[shown] = sources(page)
+        assert others == [True, True]  # hidden
+        assert (seen[shown][0] == reference) == (shown != "map")
+        assert scale.nth(0).is_visible() == (shown == "errors")
+        assert scale.nth(1).is_visible() == (shown == "map")
+    assert True not in seen["errors"] and seen["frame"] == [*seen["errors"][:2], True]
+    assert seen["map"][1:] == [True, True]
 
 
 def test_a_double_click_zooms_and_leaves_the_divider(open_page):

@@ -25,10 +25,14 @@ def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
     ]
     assert (data["left"], data["right"]) == ("dragon", "reference")
     shown = data["views"][1]["pictures"]["dragon"]
-    content = base64.b64decode(shown["frame"].removeprefix("data:image/webp;base64,"))
-    frame = np.asarray(Image.open(io.BytesIO(content)))[..., 0]
+    reference, change = (
+        Image.open(io.BytesIO(base64.b64decode(uri.removeprefix("data:image/webp;base64,"))))
+        for uri in (data["views"][1]["reference"], shown["change"])
+    )
+    frame = Image.alpha_composite(reference.convert("RGBA"), change.convert("RGBA"))
     np.testing.assert_array_equal(
-        frame, np.round(255 * (0.25 + 0.75 * seen_frames()["dragon"]["surface", 0]))
+        np.asarray(frame)[..., 0],
+        np.round(255 * (0.25 + 0.75 * seen_frames()["dragon"]["surface", 0])),
     )
     assert shown["scores"] == "LPIPS 0.1100, PSNR 24.20 dB, FLIP 0.2200"
     # Without a reference nothing is compared.

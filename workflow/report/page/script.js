@@ -32,16 +32,20 @@ for (const article of document.querySelectorAll("article.compare")) {
   function show() {
     const item = data.views[Number(view.value)];
     stage.style.aspectRatio = `${item.width} / ${item.height}`;
-    for (const [image, key, name] of [
-      [find(".over img"), left.value, find(".name-left")],
-      [find(".under img"), right.value, find(".name-right")],
+    for (const [layer, key, name] of [
+      [over, left.value, find(".name-left")],
+      [find(".under"), right.value, find(".name-right")],
     ]) {
       const picture = item.pictures[key];
-      // The reference has no errors and no map.
-      image.src = shown.value === "map" && picture.map || picture.frame;
-      const errors = image.nextElementSibling;
-      errors.hidden = shown.value !== "errors" || !picture.errors;
-      if (!errors.hidden) errors.src = picture.errors;
+      // Over the reference lies what a method changes, and over that its errors; the reference has
+      // neither, and no map.
+      const map = shown.value === "map" && picture.map;
+      const [image, ...others] = layer.children;
+      image.src = map || item.reference;
+      [!map && picture.change, shown.value === "errors" && picture.errors].forEach((source, i) => {
+        others[i].hidden = !source;
+        if (source) others[i].src = source;
+      });
       image.alt = `${names[key]}, ${shown.selectedOptions[0].text}, ${item.caption}`;
       name.textContent = picture.scores ? `${names[key]}: ${picture.scores}` : names[key];
     }

@@ -19,7 +19,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
 
 MOST_VIEWS = 24  # of a view set; of more, so many evenly through them
-COLUMNS = 8
+MOST_COLUMNS, FEWEST_COLUMNS = 8, 4
 PIXELS = 200  # across a small view, or a few more
 NOTE = (
     "Below each view: its number, and its PSNR in dB or that it equals the reference. "
@@ -70,10 +70,12 @@ def contact_sheet(
         frames: by view set; all images of one shape.
         labels: of the methods, in order.
     """
-    rows = [len(labels) * ceil(len(views) / COLUMNS) for views in frames.values()]
+    most = max(map(len, frames.values()))
+    columns = min(max(most, FEWEST_COLUMNS), MOST_COLUMNS)
+    rows = [len(labels) * ceil(len(views) / columns) for views in frames.values()]
     height, width = next(iter(frames.values()))[0].images[REFERENCE].shape
     step = max(1, width // PIXELS)
-    heights = [0.3 + (WIDTH / COLUMNS * height / width + 0.2) * count for count in rows]
+    heights = [0.3 + (WIDTH / columns * height / width + 0.2) * count for count in rows]
     figure = new_figure(title, WIDTH, 0.8 + sum(heights))
     figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
     figure.legend(handles=error_legend(), loc="outside upper right", ncols=2)
@@ -82,7 +84,7 @@ def contact_sheet(
     for part, (view_set, views), count in zip(parts, frames.items(), rows):
         heading = f"The views {VIEW_SETS[view_set]}"
         part.suptitle(heading, x=0.005, ha="left", fontsize=11, weight="bold")
-        panels = part.subplots(count, COLUMNS, squeeze=False)
+        panels = part.subplots(count, columns, squeeze=False)
         for axes in panels.flat:
             axes.set(xticks=[], yticks=[])
             axes.spines[:].set_visible(False)
