@@ -22,11 +22,12 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
     names = [f"table_4_{n}.{ending}" for n in (1, 3, 4, 5, 6, 7) for ending in ("csv", "md")]
     figures = [f"3_{n}" for n in range(1, 7)] + [f"4_{n}" for n in (1, 3, 4, 5, 6, 7, 8)]
     figures += [f"beyond_{part}" for part in ("dragon", "fence", "landscape", "slice")]
-    figures += ["learning_sampling"]
+    figures += ["learning_sampling", "beyond_pictures_dragon", "views_dragon"]
     names += [f"figure_{name}.{ending}" for name in figures for ending in ("png", "svg")]
     names += ["claims.csv", "claims.md", "index.html", "beyond.csv", "beyond.md"]
     names += ["learning_sampling.csv", "learning_sampling.md"]
-    names += [f"scenes/{name}.png" for name in ("dragon", "fence", "landscape")]
+    scenes = ("dragon", "fence", "landscape")
+    names += [f"scenes/{name}.{ending}" for name in scenes for ending in ("png", "svg")]
     for name in names:
         assert (smoke.reports / name).stat().st_size > 0, name
     left = [path for path in smoke.folder.glob("re*/**/*") if path.name.startswith(".")]

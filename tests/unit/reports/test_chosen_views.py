@@ -45,11 +45,18 @@ def test_a_view_without_differences_is_not_shown(blank):
     assert choose_views(metrics_of({7: (0.0, 0.0, 0.0)})) == {"shadow": ("shadow", 7)}
 
 
-def test_no_shadow_and_what_lacks_a_view_have_no_say():
+def test_no_shadow_has_no_say():
     metrics = metrics_of(FLIP)
     null = metrics_of({v: (0.9 - v / 10,) for v in FLIP}, ["no_shadow"])
-    half = metrics_of({2: (0.9,)}, ["half"])
-    assert choose_views(pd.concat([metrics, null, half])) == choose_views(metrics)
+    assert choose_views(pd.concat([metrics, null])) == choose_views(metrics)
+
+
+def test_of_a_half_finished_run_a_view_that_most_methods_have():
+    half = metrics_of({view: (view / 100,) for view in (4, 5, 6)}, ["half"])
+    assert choose_views(pd.concat([metrics_of(FLIP), half])) == {"shadow": ("shadow", 5)}
+    # Two methods without a view in common.
+    parts = [metrics_of({view: (0.1,)}, [method]) for view, method in ((0, "a"), (1, "b"))]
+    assert choose_views(pd.concat(parts))["shadow"][1] in (0, 1)
 
 
 def test_one_method_and_each_view_set():

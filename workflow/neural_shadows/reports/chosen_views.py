@@ -14,16 +14,17 @@ def choose_views(metrics: pd.DataFrame) -> dict[str, tuple[str, int]]:
     """By view set the view to show by `RULE`, as its view set and number.
 
     Views that all methods show as the reference does are left aside where there are others, and
-    so are drawing no shadow and methods without a value of each view.
+    of a half-finished run those that fewer methods have. Drawing no shadow has no say.
 
     Args:
         metrics: of a scene's methods, as `read_metrics` gives them.
     """
     errors = metrics[metrics["metric"].eq("flip") & ~metrics["method"].map(is_null)]
     errors = errors.pivot(index=["view_set", "view"], columns="method", values="value")
-    errors = errors.dropna(axis=1)
     chosen = {}
     for view_set, views in errors.groupby("view_set"):
+        there = views.count(axis=1)
+        views = views[there == there.max()]
         differing = views[views.max(axis=1) > 0]
         views = views if differing.empty else differing
         middle = views.median(axis=1).sort_values(kind="stable").index
