@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.ndimage import maximum_filter
+from scipy.ndimage import maximum_filter, uniform_filter
 
 from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK
 from neural_shadows.reports.method_look import REFERENCE
@@ -73,15 +73,15 @@ def _best_window(interest: np.ndarray, height: int, width: int) -> tuple[int, in
 def error_layer(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.ndarray:
     """What to lay over a grey image (H, W): RGBA (H, W, 4) uint8, a tint where it is visibly wrong.
 
-    Each wrong pixel is `size` pixels wide and high, to be seen in a small picture.
+    Each wrong pixel is `size` pixels wide and high, to be seen in a small picture; where both
+    kinds of error meet, it has the colour of the more.
     """
     layer = np.zeros((*image.shape, 4), np.uint8)
     difference = image - reference
-    for wrong, colour in (
-        (difference < -VISIBLE_DIFFERENCE, FALSE_SHADOW),
-        (difference > VISIBLE_DIFFERENCE, LIGHT_LEAK),
-    ):
-        layer[maximum_filter(wrong, size)] = np.round(255 * np.array(to_rgba(colour, TINT)))
+    wrong = np.where(np.abs(difference) > VISIBLE_DIFFERENCE, np.sign(difference), 0)
+    shown, most = maximum_filter(wrong != 0, size), uniform_filter(wrong, size)
+    for where, colour in ((most <= 0, FALSE_SHADOW), (most > 0, LIGHT_LEAK)):
+        layer[shown & where] = np.round(255 * np.array(to_rgba(colour, TINT)))
     return layer
 
 

@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from neural_shadows.reports.figures import pictures
 from neural_shadows.reports.figures.pictures import picture_strip
-from neural_shadows.reports.frame_errors import choose_crops, with_errors
+from neural_shadows.reports.frame_errors import choose_crops, error_layer, with_errors
 from neural_shadows.reports.frames import Frame
 from neural_shadows.reports.method_look import look_of
 from neural_shadows.reports.tables.quality import METRICS
@@ -39,6 +39,11 @@ def test_errors_are_red_where_too_dark_and_blue_where_too_light():
     reference, image = np.full((2, 3), 0.5), np.array([[0.5, 0.4, 0.6], [0.52, 0.48, 0.5]])
     red, green, blue = np.moveaxis(with_errors(image, reference), 2, 0)
     assert red[0, 1] > blue[0, 1] + 0.3 and blue[0, 2] > red[0, 2] + 0.3
+    three = np.full((3, 9), 0.5)
+    three[1, 4:7] = 0.6, 0.4, 0.6
+    wide = error_layer(three, np.full_like(three, 0.5), 3)
+    assert wide[0, :, 3].astype(bool).tolist() == [False] * 3 + [True] * 5 + [False]
+    assert (wide[:, 4:7, 2] > wide[:, 4:7, 0]).tolist() == [[False, True, False]] * 3
     same = np.isin(image, (0.5, 0.52, 0.48))
     for channel in (red, green, blue):
         np.testing.assert_array_equal(channel[same], image[same])

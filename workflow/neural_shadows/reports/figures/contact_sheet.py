@@ -93,7 +93,7 @@ def contact_sheet(
             for line in lines:
                 line[0].set_ylabel(textwrap.fill(label, 18), fontsize=8)
             for axes, frame in zip(lines.flat, views):
-                image = with_errors(frame.images[method], frame.images[REFERENCE], 2 * step + 1)
+                image = with_errors(frame.images[method], frame.images[REFERENCE], 2 * step - 1)
                 axes.imshow(image[::step, ::step], interpolation="none")
                 psnr = frame.scores[method]["psnr"]
                 score = "equal" if identical(psnr) else f"{psnr:.1f}"
