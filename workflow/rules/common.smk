@@ -29,7 +29,7 @@ os.environ.update(NUMBA_CACHE_DIR=kernels)
 from neural_shadows.config.reading import check_duplicates, check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.layout import claims, figures, parts, tables, targets
+from neural_shadows.layout import claims, figures, parts, tables, targets, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.running.module_graph import modules_of
@@ -51,6 +51,10 @@ TEMPLATE = [
     LAYOUT.source(f"workflow/report/page/{name}")
     for name in ("template.html", "style.css", "script.js")
 ]
+VIEWER = [
+    LAYOUT.source(os.path.relpath(path, WORKFLOW.parent))
+    for path in sorted((WORKFLOW / "report/viewer").glob("**/*.*"))
+]
 STAGES = WORKFLOW / "neural_shadows"
 
 # What a job that computes networks reserves; with `device: auto` a GPU is used, not reserved.
@@ -69,6 +73,7 @@ wildcard_constraints:
     # Names that no entry of the configuration has are refused by what looks them up.
     table=r"(?!claims\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",
+    viewer="viewer(_[a-z0-9_]+)?",
 
 
 def setting(path):

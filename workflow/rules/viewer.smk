@@ -1,4 +1,4 @@
-"""A trained network for renderers."""
+"""What leaves for a renderer or a browser: a network as ONNX, a scene in which the light is dragged."""
 
 
 rule export_network:
@@ -23,3 +23,32 @@ rule export_network:
         "Exporting {wildcards.experiment} as ONNX"
     script:
         "../neural_shadows/viewer/export_network.py"
+
+
+rule viewer:
+    input:
+        unpack(of(viewers.files)),
+        template=VIEWER,
+        code=lambda wildcards: code(
+            "viewer/write_viewer", viewers.encodings(LAYOUT, wildcards.viewer)
+        ),
+    output:
+        html=report(
+            PATHS.report("{viewer}.html"),
+            caption="../report/viewer.rst",
+            category="Report",
+            labels=of(viewers.labels),
+        ),
+        png=PATHS.report("{viewer}.png"),
+    log:
+        PATHS.log("viewer", "viewer"),
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=10),
+    params:
+        settings=of(viewers.arguments),
+    message:
+        "Writing {wildcards.viewer}: a scene in which the light can be dragged"
+    script:
+        "../neural_shadows/viewer/write_viewer.py"

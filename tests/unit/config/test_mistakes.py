@@ -26,6 +26,11 @@ tables.table_4_3.rows.0 | shadow_map_512 | 'shadow_map_512' is there twice
 figures.figure_4_4.view_sets | [centre] | figure_4_4.view_sets: 'centre' is not among shadow, su
 figures.figure_beyond_dragon.table | table_4_6 | 'table_4_6' is not among beyond, ablations
 figures.figure_beyond_slice.experiment | dragon | experiment: 'dragon' (did you mean 'dragon_fi
+viewers.viewer.scene | dragn | viewers.viewer.scene: 'dragn' (did you mean 'dragon'?) is not among
+viewers.viewer.networks | [shadow_map_64] | 'shadow_map_64' is no experiment; shadow maps are there
+viewers.viewer.networks | [fence] | viewers.viewer.networks: 'fence' is of scene 'fence', the viewer of
+viewers.viewer.networks | [dragon_hash_grid] | is a hash_grid; a viewer can show occupancy_field, freq
+viewers.table | {scene: dragon} | viewers.table
 claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | one of them should be an experiment
 claims.learning_rate.pairs | [[dragon, dragon]] | 'dragon' is compared with itself
 claims.learning_rate.pairs | [[dragon, dragon_field]] | 'dragon_field' of encoding 'occupancy_field' has another loss

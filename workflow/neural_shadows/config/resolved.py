@@ -8,6 +8,7 @@ from neural_shadows.config.figures import LossFigure, TableFigure, rows_of_figur
 from neural_shadows.config.learning_curves import points_of
 from neural_shadows.config.scenes import mesh_name
 from neural_shadows.config.tables import rows_of
+from neural_shadows.config.viewers import networks_of
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -23,7 +24,8 @@ def resolved(config: "Config") -> Section:
     rendered); an experiment's `network` and `training` are sections, the former with what it takes
     from its scene, and the points of learning
     curves are experiments, too; `learning_curves` has those of each (`points_of`); seeds and
-    labels are what holds; rows, curves, pairs and methods are as `rows_of` gives them.
+    labels are what holds; rows (also of a viewer's networks), curves, pairs and methods are as
+    `rows_of` gives them.
     """
     names = config.learning_curves.experiments if config.learning_curves else []
     curves = {name: points_of(config, name) for name in names}
@@ -43,6 +45,10 @@ def resolved(config: "Config") -> Section:
             for name, table in config.tables.items()
         },
         "figures": {name: _figure(config, name) for name in config.figures},
+        "viewers": {
+            name: {"scene": viewer.scene, "rows": networks_of(config, name)}
+            for name, viewer in config.viewers.items()
+        },
         "claims": {name: _claim(config, name) for name in config.claims},
     }
 

@@ -8,7 +8,15 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from neural_shadows.config import claims, experiments, figures, learning_curves, scenes, tables
+from neural_shadows.config import (
+    claims,
+    experiments,
+    figures,
+    learning_curves,
+    scenes,
+    tables,
+    viewers,
+)
 from neural_shadows.config.base import Model, Name, Seed
 from neural_shadows.config.claims import Claim
 from neural_shadows.config.compute import Compute
@@ -23,6 +31,7 @@ from neural_shadows.config.samplings import Sampling
 from neural_shadows.config.scenes import Scene
 from neural_shadows.config.tables import Table
 from neural_shadows.config.trainings import Training
+from neural_shadows.config.viewers import Viewer
 
 # Folders below results/ and reports/, where an overlay's own folder of this name would mix with
 # the default's files.
@@ -56,6 +65,9 @@ class Config(Model):
     figures: dict[Annotated[str, Field(pattern=r"^figure_[a-z0-9_]+$")], Figure] = Field(
         {}, description="figures to draw, by name: `figure_` and the thesis's number"
     )
+    viewers: dict[Annotated[str, Field(pattern=r"^viewer(_[a-z0-9_]+)?$")], Viewer] = Field(
+        {}, description="pages in which the light can be dragged, by name: `viewer`, `viewer_NAME`"
+    )
     claims: dict[Name, Claim] = Field({}, description="what the thesis concludes, by name")
 
     @model_validator(mode="after")
@@ -64,6 +76,6 @@ class Config(Model):
             raise ValueError(
                 f"scale = {self.scale!r}: is the name of a folder of results; choose another"
             )
-        for section in (scenes, experiments, learning_curves, tables, figures, claims):
+        for section in (scenes, experiments, learning_curves, tables, figures, viewers, claims):
             section.check(self)
         return self

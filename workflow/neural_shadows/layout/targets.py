@@ -22,6 +22,7 @@ def all_reports(layout: Layout) -> list[str]:
             for one in layout.settings["scenes"]
             for ending in (".png", ".svg")
         ),
+        *(f"{name}.html" for name in layout.settings["viewers"]),
         *(f"claims{ending}" for ending in (".csv", ".md") if layout.settings["claims"]),
         "index.html",
     ]

@@ -123,13 +123,13 @@ class OccupancyFieldNetwork(ShadowNetwork):
 
     def logits(self) -> Tensor:
         """The logits at all vertices, (count,) float32, in (−LIMIT, LIMIT)."""
-        return LIMIT * self._shares()
+        return LIMIT * self.shares()
 
-    def _shares(self) -> Tensor:
+    def shares(self) -> Tensor:
         """Logits as shares of LIMIT, which is how they are stored."""
         return torch.tanh(self.values / LIMIT)
 
-    def _level(self) -> float:
+    def level(self) -> float:
         """The share at which the surface lies: below zero if it is pushed out."""
         # Of signs the surface is halfway between two vertices, ±1 is half a cell away.
         return -self.push * (2 if self.storage == "sign" else START_SHARE / REACH)
@@ -216,7 +216,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         chord = chords(origins, directions)
         p = (origins[:, None] + t[:, None] * directions[:, None]).flatten(0, 1)
         bricks = self.bricks_at(p)
-        logits = self.logits() - LIMIT * self._level()
+        logits = self.logits() - LIMIT * self.level()
         value = self.logits_at(p, bricks.clamp(min=0), logits).view(-1, steps)
         bricks = bricks.view(-1, steps)
         before = torch.cat([value[:, :1], value[:, :-1]], dim=1)
@@ -246,7 +246,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
             bricks,
             SAMPLES_PER_CELL * self.resolution,
             self.surface == "sheet",
-            np.float32(self._level() / scale),
+            np.float32(self.level() / scale),
         )
         return torch.from_numpy(t_pred)
 
@@ -264,7 +264,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         Kept until the weights change: an evaluation asks for them in each of its frames.
         """
         if self._bricks is None or self._bricks[0] != self.values._version:
-            shares, scale = self._shares().detach(), 1.0
+            shares, scale = self.shares().detach(), 1.0
             if self.storage == "sign":
                 shares = (shares > 0).to(torch.int8) * 2 - 1
             elif self.storage == "int8":
@@ -275,7 +275,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
 
     def stored(self) -> dict[str, Tensor]:
         """See `ShadowNetwork.stored`; a bit for each brick that has values."""
-        shares = self._shares().detach()
+        shares = self.shares().detach()
         if self.storage == "sign":
             values = {"values": pack_bits(shares > 0)}
         else:

@@ -1,0 +1,74 @@
+"""What the shaders are given is what the networks hold; the browser's tests ask them."""
+
+import base64
+import zlib
+
+import numpy as np
+import pytest
+from shapes import bumpy_sphere
+
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.field_marching import SOLID
+from neural_shadows.viewer.network_arrays import SOLID_CODE, network_arrays
+
+
+def unpacked(array):
+    """As the browser reads it."""
+    kind = np.dtype(array["kind"])
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(array["data"])), np.uint8)
+    return np.ascontiguousarray(planes.reshape(kind.itemsize, -1).T).view(kind).ravel()
+
+
+@pytest.mark.parametrize("width", [64, 18])
+def test_frequency_network_in_blocks(width):
+    """A column of a block gives four outputs what one input is worth, as network.glsl adds them."""
+    network = make_network(
+        {"encoding": "frequency", "frequencies": 3, "width": width, "hidden_layers": 1}
+    )
+    network.initialise(1)
+    found = network_arrays(network)
+    blocks = unpacked(found["arrays"]["weights"]).view(np.float16).astype(np.float32)
+    x = np.random.default_rng(0).normal(size=6 * (1 + 2 * 3)).astype(np.float32)
+    h, first = np.pad(x, (0, -len(x) % 4)), 0
+    for _ in range(2):
+        outputs = found["width"]
+        layer = blocks[first : first + outputs * len(h)].reshape(outputs // 4, -1, 4)
+        first += outputs * len(h)
+        h = np.maximum(np.einsum("jkc,k->jc", layer, h).ravel(), 0)
+    expected = x
+    for weight in network.layers:
+        expected = np.maximum(weight.detach().numpy() @ expected, 0)
+    assert np.allclose(h[:width], expected, atol=5e-3) and not h[width:].any()
+    assert blocks[first:] @ h == pytest.approx(
+        float(network.output.detach().numpy()[0] @ expected), abs=5e-3
+    )
+
+
+def test_field_of_bricks(tmp_path):
+    bumpy_sphere(4).export(tmp_path / "mesh.ply")
+    settings = {"encoding": "occupancy_field", "resolution": 32, "stored": "int8"}
+    network = make_network(settings | {"surface": "solid", "start": "distances"})
+    network.prepare(tmp_path / "mesh.ply")
+    network.initialise(0)
+    network.push = 0.05
+    found = network_arrays(network)
+    grid, codes = network.grid.numpy(), unpacked(found["arrays"]["grid"])
+    assert found["bricks"] == 8 and len(codes) == 8**3
+    assert np.array_equal(codes == 0, grid >= 0) and (grid >= 0).any()
+    assert np.array_equal(codes == SOLID_CODE, grid == SOLID) and (grid == SOLID).any()
+    empty = (codes > 0) & (codes < SOLID_CODE)
+    assert np.array_equal(-codes[empty].astype(int), grid[empty])
+    values = unpacked(found["arrays"]["values"])
+    shares = network.shares().detach().numpy()
+    assert np.abs(values * np.abs(shares).max() / 127 - shares).max() < 0.005
+    # Pushed out by a twentieth of a cell: a level below zero, in the values' steps.
+    assert found["level"] == pytest.approx(-0.05 * 0.45 / np.abs(shares).max() * 127, rel=0.01)
+
+
+def test_kind_without_a_shader():
+    settings = {"encoding": "ray_grid", "points": 2, "grids": [4], "channels": 1, "width": 8}
+    network = make_network(
+        settings | {"hidden_layers": 1, "head": "depth_confidence", "stored": "float16"}
+    )
+    with pytest.raises(TypeError, match="RayGrid"):
+        network_arrays(network)

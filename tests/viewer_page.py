@@ -1,0 +1,75 @@
+"""A small viewer of untrained networks, and the scene that it shows as the CPU sees it."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import trimesh
+from shapes import SPHERE_OF_LIGHTS, bumpy_sphere, prepared
+
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.scenes.scene import Scene, make_scene
+from neural_shadows.viewer.mesh_arrays import mesh_arrays, restored_mesh
+from neural_shadows.viewer.write_viewer import write_viewer
+
+TEMPLATE = Path(__file__).parents[1] / "workflow/report/viewer"
+FIELD = {"encoding": "occupancy_field", "resolution": 64, "stored": "int8"}
+NETWORKS = {
+    "field": FIELD | {"surface": "solid", "start": "distances"},
+    "thesis": {"encoding": "frequency", "frequencies": 10, "width": 64, "hidden_layers": 8},
+}
+REPORT = {"name": "bumps", "faces": 1, "thesis_mesh": False, "watertight": True}
+
+
+class ViewerPage(NamedTuple):
+    """A page, and what it should show."""
+
+    html: Path
+    png: Path
+    scene: Scene  # of the mesh in the steps that the page holds
+    networks: dict[str, ShadowNetwork]
+    biases: dict[str, float]
+
+
+def make_viewer(folder: Path, settings=NETWORKS, shape=None, light=SPHERE_OF_LIGHTS) -> ViewerPage:
+    """Write it; of a solid, and networks as they are before a training."""
+    shape = shape or bumpy_sphere(5)
+    shape.export(folder / "mesh.ply")
+    write_json(folder / "mesh.json", REPORT)
+    networks, rows, biases = {}, [], {"field": 0.004, "thesis": -0.3}
+    for name, setting in settings.items():
+        network = make_network(setting)
+        if setting["encoding"] != "frequency":
+            network.prepare(folder / "mesh.ply")
+        network.initialise(5)
+        header = {"name": name, "network": setting, "training": None}
+        save_network(folder / f"{name}.safetensors", network, header)
+        write_json(folder / f"{name}.json", {"depth_bias": biases[name], "push": 0.05})
+        networks[name], _ = load_network(folder / f"{name}.safetensors")
+        networks[name].push = 0.05
+        rows.append({"method": name, "experiment": name, "label": name, "bias": "held_out"})
+    scene = {"up": "y", "ground": True, "light": light}
+    write_viewer(
+        html=folder / "viewer.html",
+        png=folder / "viewer.png",
+        template=[path for path in TEMPLATE.rglob("*") if path.is_file()],
+        mesh_ply=folder / "mesh.ply",
+        mesh_json=folder / "mesh.json",
+        weights=[folder / f"{name}.safetensors" for name in settings],
+        depth_biases=[folder / f"{name}.json" for name in settings],
+        name="bumps",
+        rows=rows,
+        scene=scene,
+        frames={"width": 300, "height": 200, "view_sets": ["shadow", "surface"], "seed": 3},
+        views=1,
+        about={"mesh_name": "bumps", "procedural": False, "seed": 3},
+        run={"scale": "test", "seed": 3, "width": 300, "height": 200, "reference": "exact"},
+    )
+    restored = trimesh.Trimesh(
+        *restored_mesh(mesh_arrays(shape.vertices, shape.faces)), process=False
+    )
+    quantised = make_scene(prepared(restored)[0], up=[0, 1, 0], ground=True, light=light)
+    html, png = folder / "viewer.html", folder / "viewer.png"
+    return ViewerPage(html, png, quantised, networks, biases)

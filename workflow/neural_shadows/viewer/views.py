@@ -1,0 +1,53 @@
+"""Where a viewer starts from, and its still."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from neural_shadows.rendering.exact_shadow import exact_visibility
+from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.rendering.shading import shade
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.reports.figures.hero_view import hero_view
+from neural_shadows.scenes.cameras import Viewpoint
+from neural_shadows.scenes.lights import arc_directions
+from neural_shadows.scenes.scene import Scene
+
+POSTER = (960, 640)  # pixels
+
+
+def shown_views(scene: Scene, frames: Mapping[str, Any], count: int) -> list[dict[str, Any]]:
+    """The whole object, and the evaluation's `count` viewpoints of each set, with their lights.
+
+    Args:
+        frames: `width` and `height`, and what `draw_viewpoints` is told.
+    """
+    aspect = frames["width"] / frames["height"]
+    sets, seed, least = frames["view_sets"], frames["seed"], frames.get("least_shadow", 0.0)
+    drawn = draw_viewpoints(scene, sets, range(count), aspect, seed, least)
+    named = {"Whole object": _hero_view(scene)} | {f"{v.view_set} {v.index}": v for v in drawn}
+    return [
+        {"name": name, "fov": view.fov}
+        | {key: getattr(view, key).tolist() for key in ("eye", "target", "light")}
+        for name, view in named.items()
+    ]
+
+
+def poster(scene: Scene) -> Image.Image:
+    """The whole object with its exact shadow, smoothed from four pixels each."""
+    width, height = (2 * size for size in POSTER)
+    frame = render_gbuffer(scene, _hero_view(scene), width, height)
+    picture = shade(frame, exact_visibility(scene.tracer, frame))
+    image = Image.fromarray(np.round(255 * picture).astype(np.uint8))
+    return image.resize(POSTER, Image.Resampling.BOX)
+
+
+def _hero_view(scene: Scene) -> Viewpoint:
+    """The hero's view; where the light moves on an arc, it stands 45 degrees from the zenith."""
+    view, (light,) = hero_view(scene.up), scene.lights
+    if light["domain"] != "single_axis":
+        return view
+    return replace(view, light=arc_directions(light, scene.up, -np.pi / 4))

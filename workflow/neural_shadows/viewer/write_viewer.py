@@ -1,0 +1,158 @@
+"""The stage that writes a scene and its methods as a page in which the light can be dragged."""
+
+import io
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from markupsafe import Markup
+from PIL import Image
+
+from neural_shadows.evaluation.memory import network_bytes
+from neural_shadows.evaluation.shadow_methods import take_found
+from neural_shadows.files.whole_files import whole_file, write_text
+from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.networks.untrained.decimation import decimated
+from neural_shadows.networks.weight_file import load_network
+from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET
+from neural_shadows.rendering.shading import AMBIENT, BACKGROUND
+from neural_shadows.reports.page_blocks import data_uri
+from neural_shadows.reports.phrases import describe_mesh, describe_run
+from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.scene import open_scene
+from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays
+from neural_shadows.viewer.network_arrays import network_arrays
+from neural_shadows.viewer.packed import packed
+from neural_shadows.viewer.views import poster, shown_views
+
+# Some 3 bytes each: with these, a 256³ field and a network 64 wide a viewer takes 2 MiB.
+MOST_TRIANGLES = 210_000
+
+
+def write_viewer(
+    *,
+    html: Path,
+    png: Path,
+    template: list[Path],
+    mesh_ply: Path,
+    mesh_json: Path,
+    weights: list[Path],
+    depth_biases: list[Path],
+    name: str,
+    rows: Sequence[Mapping[str, Any]],
+    scene: Mapping[str, Any],
+    frames: Mapping[str, Any],
+    views: int,
+    about: Mapping[str, Any],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a viewer of a scene as one self-contained file, and its poster.
+
+    Args:
+        template: the files of `workflow/report/viewer`.
+        weights: of the networks, in the order of their rows.
+        depth_biases: those that were found, named after their methods.
+        name: of the scene.
+        rows: `method`, `experiment`, `label` and `bias` of each network.
+        scene: `up`, `ground` and `light`, see `open_scene`.
+        frames: how the evaluation's viewpoints are drawn, see `render_references`.
+        views: how many of each set there are.
+        about: `describe_mesh`'s of the scene.
+
+    Raises:
+        InputError: an input file cannot be read.
+    """
+    opened = open_scene(mesh_ply, **scene)
+    (mesh,) = opened.objects
+    vertices, faces = decimated(mesh.vertices, mesh.faces, MOST_TRIANGLES)
+    arrays = mesh_arrays(vertices, faces)
+    image = poster(opened)
+    with whole_file(png) as part:
+        image.save(part, "PNG")
+    report = read_mesh_report(mesh_json)
+    found = {path.stem: path for path in depth_biases}
+    title = f"Shadows of the {name}: {report['name']}"
+    data = {
+        "name": name,
+        "mesh": {"bits": BITS, **{key: packed(of) for key, of in arrays._asdict().items()}},
+        "scene": {
+            "up": opened.up.tolist(),
+            "ground": opened.ground,
+            "ground_radius": GROUND_RADIUS,
+            "light": scene["light"],
+        },
+        "constants": {
+            key: f"{value:.9g}" if value % 1 else f"{value:.1f}"
+            for key, value in (
+                ("SHADING_OFFSET", SHADING_OFFSET),
+                ("AMBIENT", AMBIENT),
+                ("BACKGROUND", BACKGROUND),
+            )
+        },
+        "views": shown_views(opened, frames, views),
+        "networks": [_network(path, row, found) for path, row in zip(weights, rows)],
+        "shaders": _shaders(template),
+    }
+    fewer = "is decimated to" if len(faces) < report["faces"] else "has its"
+    quantised = f"Here it {fewer} {len(faces):,} triangles, with vertices in {BITS} bits."
+    (folder,) = {path.parent for path in template if path.suffix == ".html"}
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
+    )
+    page = environment.get_template("viewer.html").render(
+        title=title,
+        style=Markup(_text(template, ".css")),
+        script=Markup(_text(template, ".js")),
+        poster=_jpeg(image),
+        about=f"Mesh: {describe_mesh(report, about)}. {quantised} {describe_run(run)}",
+        data=data,
+    )
+    write_text(html, page)
+
+
+def _network(
+    weights: Path, row: Mapping[str, Any], depth_biases: Mapping[str, Path]
+) -> dict[str, Any]:
+    """What the viewer is told of a network."""
+    network, header = load_network(weights)
+    depth_bias = row["bias"]
+    if depth_bias == "held_out":
+        depth_bias = take_found(network, depth_biases[row["experiment"]])
+    return {
+        "key": row["method"],
+        "name": row["label"],
+        "encoding": header["network"]["encoding"],
+        "depth_bias": depth_bias,
+        "stored": network_bytes(weights),
+        "resident": network.resident_bytes(),
+        **network_arrays(network),
+    }
+
+
+def _jpeg(image: Image.Image) -> str:
+    """An image within the page, for the while in which the viewer starts."""
+    file = io.BytesIO()
+    image.save(file, "JPEG", quality=80)
+    return data_uri("jpeg", file.getvalue())
+
+
+def _text(template: Sequence[Path], ending: str) -> str:
+    """The template's files of an ending; main.js, which starts it all, last."""
+    paths = sorted(template, key=lambda path: path.name == "main.js")
+    return "\n".join(path.read_text(encoding="utf-8") for path in paths if path.suffix == ending)
+
+
+def _shaders(template: Sequence[Path]) -> dict[str, str]:
+    """By name: `field` of field.glsl, `surface_vert` of surface.vert."""
+    found = {}
+    for path in template:
+        if path.suffix in (".vert", ".frag"):
+            found[f"{path.stem}_{path.suffix[1:]}"] = path.read_text(encoding="utf-8")
+        elif path.suffix == ".glsl":
+            found[path.stem] = path.read_text(encoding="utf-8")
+    return found
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write_viewer)

@@ -1,0 +1,32 @@
+// The whole state in the address, so that a link shows what its sender saw.
+
+const joined = (vector) => vector.map((x) => x.toFixed(4)).join(",");
+const parted = (text) => text.split(",").map(Number);
+const isVector = (text) => /^(-?\d+(\.\d+)?,){2}-?\d+(\.\d+)?$/.test(text ?? "");
+
+function stateText({ left, right, divider, errors, view, light }) {
+  return new URLSearchParams({
+    left, right, divider: divider.toFixed(1), ...(errors && { errors: "1" }),
+    eye: joined(view.eye), target: joined(view.target), fov: view.fov, light: joined(light),
+  }).toString();
+}
+
+// What of a text makes sense; the rest stays as it was.
+function stateOf(text, keys) {
+  const found = new URLSearchParams(text), state = {};
+  for (const side of ["left", "right"]) if (keys.includes(found.get(side))) state[side] = found.get(side);
+  const divider = Number(found.get("divider") ?? NaN), fov = Number(found.get("fov"));
+  if (divider >= 0 && divider <= 100) state.divider = divider;
+  if (found.has("errors")) state.errors = true;
+  if (isVector(found.get("light"))) state.light = parted(found.get("light"));
+  if (isVector(found.get("eye")) && isVector(found.get("target")) && fov >= 5 && fov <= 120) {
+    state.view = { eye: parted(found.get("eye")), target: parted(found.get("target")), fov };
+  }
+  return state;
+}
+
+// In a page's frame the page's own address holds it; on its own, the viewer's.
+function writeAddress(text) {
+  if (window.parent !== window) window.parent.postMessage({ viewer: text }, "*");
+  else history.replaceState(null, "", `#${text}`);
+}

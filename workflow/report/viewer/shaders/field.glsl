@@ -1,0 +1,65 @@
+// The first crossing of a ray with an occupancy field; see field_marching.py, of which this is a
+// translation. Only the values of bricks that the surface touches are there.
+uniform highp isampler3D grid;   // a brick's number; −how many may be skipped; or SOLID
+uniform highp isampler2D values; // ROW_BRICKS bricks a row, 125 values each
+uniform float level;
+uniform float depthBias;
+uniform bool sheet;
+
+const float CELLS = 4.0; // of a brick along an axis
+
+float value(ivec2 brick, vec3 at) {
+  ivec3 cell = min(ivec3(at), ivec3(3));
+  vec3 w = at - vec3(cell);
+  ivec2 first = brick + ivec2((cell.x * 5 + cell.y) * 5 + cell.z, 0);
+  #define AT(i) float(texelFetch(values, first + ivec2(i, 0), 0).x)
+  float a = mix(AT(0), AT(1), w.z), b = mix(AT(5), AT(6), w.z);
+  float c = mix(AT(25), AT(26), w.z), e = mix(AT(30), AT(31), w.z);
+  return mix(mix(a, b, w.y), mix(c, e, w.y), w.x);
+}
+
+float firstCrossing(vec3 o, vec3 d, float chord) {
+  int size = textureSize(grid, 0).x;
+  float scale = float(size) / 2.0, step = 1.0 / (scale * CELLS * SAMPLES_PER_CELL);
+  vec3 origin = (o + 1.0) * scale, speed = d * scale;
+  bvec3 moves = greaterThan(abs(speed), vec3(1e-9));
+  vec3 inverse = 1.0 / mix(vec3(1.0), speed, moves);
+  vec3 ahead = vec3(greaterThan(d, vec3(0.0)));
+  int i = 0, known = -2;
+  float before = 0.0, t = 0.5 * step;
+  while (t < chord) {
+    vec3 at = origin + t * speed;
+    ivec3 brick = clamp(ivec3(at), 0, size - 1);
+    int found = texelFetch(grid, brick.zyx, 0).x;
+    if (found == SOLID) return t;
+    float free = float(max(-found, 1));
+    vec3 end = vec3(brick) + mix(vec3(1.0 - free), vec3(free), ahead);
+    vec3 ways = mix(vec3(4.0), (end - at) * inverse, moves);
+    float leave = t + max(min(ways.x, min(ways.y, ways.z)), 0.0);
+    if (found < 0) {
+      i = max(i + 1, int(ceil(leave / step - 0.5)));
+      t = (float(i) + 0.5) * step;
+      continue;
+    }
+    ivec2 first = ivec2(found % ROW_BRICKS * 125, found / ROW_BRICKS);
+    do {
+      at = origin + t * speed;
+      float now = value(first, clamp((at - vec3(brick)) * CELLS, 0.0, CELLS));
+      bool follows = known == i - 1;
+      if (sheet ? follows && (now > level) != (before > level) : now > level)
+        return follows ? t - step * (now - level) / (now - before) : t;
+      before = now;
+      known = i;
+      i++;
+      t = (float(i) + 0.5) * step;
+    } while (t < leave && t < chord);
+  }
+  return 4.0;
+}
+
+float visibility(vec3 p, float cosGeometric) {
+  vec3 o;
+  float s, chord;
+  if (!sphereRay(p, o, s, chord)) return 1.0;
+  return min(s, chord) <= firstCrossing(o, -light, chord) + depthBias ? 1.0 : 0.0;
+}

@@ -1,0 +1,3 @@
+float visibility(vec3 p, float cosGeometric) {
+  return 1.0;
+}

@@ -1,0 +1,113 @@
+// WebGL2 in a few words: programs, textures, targets, and drawing with named uniforms.
+
+class Unavailable extends Error {}
+
+function openWebgl(canvas) {
+  const gl = canvas.getContext("webgl2", { antialias: false, alpha: false });
+  if (!gl) throw new Unavailable("This browser has no WebGL2, or it is switched off.");
+  if (!gl.getExtension("EXT_color_buffer_float")) {
+    throw new Unavailable("This browser's WebGL2 cannot draw floating-point numbers.");
+  }
+  return gl;
+}
+
+function makeProgram(gl, vertex, fragment, constants = {}) {
+  const defines = Object.entries(constants).map(([name, value]) => `#define ${name} ${value}\n`);
+  const head = `#version 300 es\nprecision highp float;\nprecision highp int;\n${defines.join("")}`;
+  const program = gl.createProgram();
+  for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, head + source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
+      throw new Error(gl.getShaderInfoLog(shader) || "a shader does not compile");
+    }
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+  const uniforms = {};
+  for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); i++) {
+    const { name, type } = gl.getActiveUniform(program, i);
+    uniforms[name] = { type, place: gl.getUniformLocation(program, name) };
+  }
+  return { program, uniforms };
+}
+
+// format: [internal, format, type]; data null for a target. Texels are fetched, never filtered.
+function makeTexture(gl, format, [width, height, depth], data = null) {
+  const texture = gl.createTexture(), kind = depth ? gl.TEXTURE_3D : gl.TEXTURE_2D;
+  gl.bindTexture(kind, texture);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+  const [internal, ...rest] = format.map((name) => gl[name]);
+  if (depth) gl.texImage3D(kind, 0, internal, width, height, depth, 0, ...rest, data);
+  else gl.texImage2D(kind, 0, internal, width, height, 0, ...rest, data);
+  for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
+    gl.texParameteri(kind, filter, gl.NEAREST);
+  }
+  return { texture, kind };
+}
+
+// Numbers as rows of a texture of `channels` each: what is left of the last row stays zero.
+function makeTable(gl, format, channels, data, width = 1024) {
+  const height = Math.max(1, Math.ceil(data.length / channels / width));
+  const whole = new data.constructor(width * height * channels);
+  whole.set(data);
+  return makeTexture(gl, format, [width, height], whole);
+}
+
+// Textures to draw into, and a depth buffer if asked for.
+function makeTarget(gl, formats, width, height, deep = false) {
+  const textures = formats.map((format) => makeTexture(gl, format, [width, height]));
+  const framebuffer = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+  textures.forEach(({ texture }, i) => gl.framebufferTexture2D(
+    gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + i, gl.TEXTURE_2D, texture, 0));
+  gl.drawBuffers(textures.map((_, i) => gl.COLOR_ATTACHMENT0 + i));
+  const depth = deep ? gl.createRenderbuffer() : null;
+  if (deep) {
+    gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
+    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT32F, width, height);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
+  }
+  const free = () => {
+    textures.forEach(({ texture }) => gl.deleteTexture(texture));
+    gl.deleteFramebuffer(framebuffer);
+    gl.deleteRenderbuffer(depth);
+  };
+  return { framebuffer, textures, width, height, free };
+}
+
+function setUniforms(gl, { program, uniforms }, values) {
+  gl.useProgram(program);
+  let unit = 0;
+  for (const [name, { type, place }] of Object.entries(uniforms)) {
+    const value = values[name];
+    if (value === undefined) throw new Error(`uniform ${name} has no value`);
+    if (value.texture) {
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(value.kind, value.texture);
+      gl.uniform1i(place, unit++);
+    } else if (type === gl.FLOAT) gl.uniform1f(place, value);
+    else if (type === gl.FLOAT_VEC2) gl.uniform2fv(place, value);
+    else if (type === gl.FLOAT_VEC3) gl.uniform3fv(place, value);
+    else if (type === gl.FLOAT_MAT3) gl.uniformMatrix3fv(place, false, value);
+    else if (type === gl.FLOAT_MAT4) gl.uniformMatrix4fv(place, false, value);
+    else gl.uniform1i(place, Number(value)); // int or bool
+  }
+}
+
+// arrays: by attribute, three numbers a vertex.
+function makeVertices(gl, program, arrays) {
+  const vertices = gl.createVertexArray();
+  gl.bindVertexArray(vertices);
+  for (const [name, array] of Object.entries(arrays)) {
+    const place = gl.getAttribLocation(program.program, name);
+    if (place < 0) continue;
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, array, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
+  }
+  return { vertices, count: Object.values(arrays)[0].length / 3 };
+}
