@@ -27,6 +27,25 @@ MEANINGS = {
 }
 VERDICTS = tuple(MEANINGS)
 
+# For those who cannot tell the colours apart.
+SYMBOLS = {
+    NOT_COMPARABLE: "≠",
+    NOT_LEARNED: "○",
+    VACUOUS: "∅",
+    TOO_SMALL: "…",
+    UNDECIDED: "?",
+    SUPPORTED: "✓",
+    CONTRADICTED: "✗",
+}
+# Why a claim stays undecided, in few words.
+REASONS = {
+    NOT_COMPARABLE: "the mesh or the device is not the one that they are about",
+    NOT_LEARNED: "a network of theirs has learned nothing here",
+    VACUOUS: "drawing no shadow at all would pass their tests as well",
+    TOO_SMALL: "the run has too few samples, seeds or views for them",
+    UNDECIDED: "the differences are within what chance does",
+}
+
 
 def css_class(verdict: str) -> str:
     """The page's class of a verdict: `undecided-scale`."""

@@ -1,0 +1,103 @@
+"""What a run found: sentences that turn round with the data."""
+
+import pandas as pd
+import pytest
+
+from neural_shadows.reports.findings import claims_counted, findings, size_of
+from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, TOO_SMALL
+
+NAN = float("nan")
+NETWORKS = {  # label: encoding, samples, stored bytes, pooled PSNR, learned, equal map
+    "512² map": (None, NAN, 2**20, 35.0, NAN, None),
+    "256² map": (None, NAN, 2**18, 32.0, NAN, None),
+    "Grid": ("occupancy_field", 0, 700_000, 39.0, NAN, "900"),
+    "Field": ("occupancy_field", 3e7, 710_000, 41.0, True, "> 2048"),
+    "Thesis": ("frequency", 2e7, 2_000_000, 25.0, True, "< 128"),
+    "No shadow": (None, NAN, NAN, 12.0, NAN, None),
+}
+
+
+def found(folder, half=0.5, views=48, **changes):
+    """The findings of a table with intervals of ± `half` dB, and why some are missing."""
+    names = ["encoding", "samples", "stored_bytes", "psnr_pooled", "learned", "map_lpips"]
+    table = pd.DataFrame.from_dict(NETWORKS, orient="index", columns=names)
+    for label, values in changes.items():
+        for column, value in values.items():
+            table.loc[label, column] = value
+    table = table.rename_axis("method").reset_index().assign(scene="dragon", views=views)
+    table = table.assign(parameters=1000, map_psnr=None)
+    for end, sign in (("low", -1), ("high", 1)):
+        table[f"psnr_pooled_{end}"] = table["psnr_pooled"] + sign * half
+    table.to_csv(folder / "beyond.csv", index=False)
+    said, gaps = findings([folder / "beyond.csv"], None)
+    return [str(sentence.striptags()) for sentence in said], gaps
+
+
+def test_what_is_best_at_equal_bytes_turns_round_with_the_data(tmp_path):
+    (best, trained, thesis), _ = found(tmp_path)
+    assert best == (
+        "In 693 KiB nothing comes closer to the exact shadow than the Field (41.0 dB [40.5, 41.5])."
+        " The next, the Grid (39.0 dB [38.5, 39.5]), has 1.6 times its squared error."
+    )
+    assert (
+        trained == "Training pays: the Field is 2.0 dB better than the same grid untrained (Grid)."
+    )
+    assert "is worth less than a 128² shadow map by LPIPS." in thesis
+
+    (best, trained, _), _ = found(tmp_path, Grid={"psnr_pooled": 44.0})
+    assert best.startswith("The best trained network, the Field (41.0 dB [40.5, 41.5]), is not")
+    assert "the Grid (44.0 dB [43.5, 44.5]) takes 684 KiB, and has 2 times less" in best
+    assert trained.startswith("Training does not pay: the Field is 3.0 dB worse")
+
+    (best, trained, _), _ = found(tmp_path, half=2.5)
+    assert best.endswith("are too close to tell which is better.")
+    assert trained.startswith("Whether training pays is not clear")
+
+
+def test_a_paired_difference_decides_where_intervals_overlap(tmp_path):
+    paired = {"psnr_difference": -2.0, "psnr_difference_low": -2.1, "psnr_difference_high": -1.9}
+    (best, trained, _), _ = found(tmp_path, half=2.5, Grid=paired)
+    assert best.startswith("In 693 KiB nothing comes closer") and trained.startswith(
+        "Training pays"
+    )
+
+
+def test_the_thesis_s_network_beside_the_thesis_and_what_has_not_learned(tmp_path):
+    printed = {"Thesis's network, as printed": {"map_lpips": "386", "stored_bytes": 2.2e6}}
+    (*_, thesis), _ = found(tmp_path, **printed)
+    assert thesis.endswith("less than a 128² shadow map by LPIPS; in the thesis a 386² shadow map.")
+    (*_, thesis, failed), _ = found(tmp_path, Thesis={"learned": False})
+    assert thesis.startswith("The thesis's network has learned nothing here")
+    assert failed.startswith("1 of 2 trained networks have learned nothing")
+    assert failed.endswith(": Thesis (dragon).")
+    # A field that has not learned is no finding.
+    (trained, *_), _ = found(tmp_path, Field={"learned": False, "psnr_pooled": 12.0})
+    assert trained.startswith("The best trained network, the Thesis")
+
+
+def test_what_is_missing_is_said_in_place_of_findings(tmp_path):
+    said, gaps = found(tmp_path, views=6)
+    assert said == [] and gaps[0].startswith("Nothing is said of quality: 6 views")
+    assert findings([], None) == (
+        [],
+        [
+            "Nothing is said of quality: no table of networks has been made.",
+            "The thesis's claims have not been tested.",
+        ],
+    )
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "end"),
+    [
+        ([SUPPORTED, CONTRADICTED], "supports 1 and contradicts 1."),
+        ([SUPPORTED, TOO_SMALL, TOO_SMALL], "cannot decide the other 2, in 2 cases since the run"),
+    ],
+)
+def test_claims_are_counted(verdicts, end):
+    said = claims_counted(pd.DataFrame({"verdict": verdicts})).striptags()
+    assert said.startswith(f"Of {len(verdicts)} claims") and end in said
+
+
+def test_sizes():
+    assert [size_of(size) for size in (2**10, 783_360, 2**24)] == ["1 KiB", "765 KiB", "16 MiB"]

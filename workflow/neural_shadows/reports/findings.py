@@ -1,0 +1,211 @@
+"""What a run found, in words that are made from its tables: a sentence each, or none."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import pandas as pd
+from markupsafe import Markup
+
+from neural_shadows.metrics.intervals import FEWEST_VIEWS
+from neural_shadows.reports.published import NETWORKS
+from neural_shadows.reports.tables.quality import with_ends
+from neural_shadows.reports.verdicts import CONTRADICTED, REASONS, SUPPORTED
+
+OF_NETWORKS = {"scene", "method", "encoding", "samples", "stored_bytes", "psnr_pooled", "views"}
+MAPS = {"map_lpips": "LPIPS", "map_psnr": "PSNR"}  # what a map's equality is by
+ALIKE = 1.02  # times the bytes: as many
+SAME_GRID = 1.05  # times the parameters: the same grid
+MOST_NAMED = 3
+
+
+def findings(tables: Iterable[Path], claims_csv: Path | None) -> tuple[list[Markup], list[str]]:
+    """What the tables of a run say, each sentence only where its data are there.
+
+    Args:
+        tables: CSVs; of those of networks the first counts, and of it the first scene.
+
+    Returns: the findings, and why there are none where there are none.
+    """
+    frames = [pd.read_csv(path, dtype=dict.fromkeys(MAPS, str)) for path in tables]
+    networks = next((frame for frame in frames if OF_NETWORKS <= {*frame}), None)
+    found: list[Markup | None] = []
+    gaps = []
+    if networks is None:
+        gaps.append("Nothing is said of quality: no table of networks has been made.")
+    elif (views := networks["views"].min()) < FEWEST_VIEWS:
+        gaps.append(
+            f"Nothing is said of quality: {views:.0f} views of a scene are too few. Tables and "
+            "figures show that everything works, and nothing more."
+        )
+    else:
+        scene = networks[networks["scene"] == networks["scene"].iloc[0]]
+        found += [best_of_its_size(scene), training_adds(scene), thesis_network(scene)]
+        found.append(unlearned(networks))
+    if claims_csv is None:
+        gaps.append("The thesis's claims have not been tested.")
+    else:
+        found.append(claims_counted(pd.read_csv(claims_csv)))
+    return [sentence for sentence in found if sentence], gaps
+
+
+def best_of_its_size(table: pd.DataFrame) -> Markup | None:
+    """How the best trained network compares with all that takes no more bytes."""
+    known = table.dropna(subset=["psnr_pooled", "stored_bytes"])
+    networks = known[known["samples"].gt(0) & ~_failed(known)]
+    if networks.empty:
+        return None
+    best = _best(networks)
+    size = Markup("<strong>{}</strong>").format(size_of(best["stored_bytes"]))
+    fits = known[known["stored_bytes"] <= ALIKE * best["stored_bytes"]].drop(best.name)
+    if fits.empty:
+        return Markup("The best trained network is the {} in {}.").format(_with_psnr(best), size)
+    other = _best(fits)
+    difference, side = _compared(best, other)
+    if side > 0:
+        said = (
+            "In {size} nothing comes closer to the exact shadow than the {best}. The next, the "
+            "{other}, has {factor} times its squared error."
+        )
+    elif side < 0:
+        said = (
+            "The best trained network, the {best}, is not worth its {size}: the {other} takes "
+            "{less}, and has {factor} times less squared error."
+        )
+    else:
+        said = "In {size} the {best} and the {other} are too close to tell which is better."
+    return Markup(said).format(
+        size=size,
+        best=_with_psnr(best),
+        other=_with_psnr(other),
+        less=size_of(other["stored_bytes"]),
+        factor=_factor(difference),
+    )
+
+
+def training_adds(table: pd.DataFrame) -> Markup | None:
+    """What training adds over the same grid with nothing trained in it."""
+    fields = table[table["encoding"].eq("occupancy_field")].dropna(subset=["psnr_pooled"])
+    built = fields[fields["samples"].eq(0)]
+    for _, trained in fields[fields["samples"].gt(0)].sort_values("psnr_pooled")[::-1].iterrows():
+        ratio = built["parameters"] / trained["parameters"]
+        same = built[ratio.between(1 / SAME_GRID, SAME_GRID)]
+        if len(same):
+            break
+    else:
+        return None
+    other = _best(same)
+    difference, side = _compared(trained, other)
+    said = {
+        1: "Training pays: the {} is {} better than the same grid untrained ({}).",
+        -1: "Training does not pay: the {} is {} worse than the same grid untrained ({}).",
+        0: "Whether training pays is not clear: the {} is {} from the same grid untrained ({}), "
+        "within what chance does.",
+    }
+    decibels = Markup("<strong>{:.1f} dB</strong>").format(abs(difference))
+    return Markup(said[side]).format(_name(trained), decibels, _name(other))
+
+
+def thesis_network(table: pd.DataFrame) -> Markup | None:
+    """Which shadow map the thesis's network equals here, and in the thesis."""
+    own = table[table["encoding"].eq("frequency")].dropna(subset=["psnr_pooled"])
+    if own.empty:
+        return None
+    best = _best(own)
+    if _failed(own).all():
+        said = "The thesis's network has learned nothing here: not even its best variant, {}, is "
+        return Markup(said + "better than drawing no shadow at all.").format(_name(best))
+    for column, metric in MAPS.items():
+        if isinstance(best[column], str):
+            printed = table.loc[table["method"].isin(NETWORKS.values()), column].dropna()
+            said = Markup("The thesis's network, at its best here ({}), is worth {} by {}").format(
+                _name(best), _map(best[column]), metric
+            )
+            theirs = (
+                Markup("; in the thesis {}").format(_map(printed.iloc[0])) if any(printed) else ""
+            )
+            return said + theirs + "."
+    return None
+
+
+def unlearned(table: pd.DataFrame) -> Markup | None:
+    """How many of the trained networks have learned nothing, of all scenes."""
+    trained = table[table["samples"].gt(0) & table["learned"].notna()]
+    failed = trained[_failed(trained)]
+    if failed.empty:
+        return None
+    names = [f"{row.method} ({row.scene})" for row in failed.itertuples()]
+    if len(names) > MOST_NAMED:
+        names[MOST_NAMED:] = [f"{len(names) - MOST_NAMED} more"]
+    return Markup(
+        "<strong>{} of {}</strong> trained networks have learned nothing, that is, are no better "
+        "than drawing no shadow at all: {}."
+    ).format(len(failed), len(trained), ", ".join(names))
+
+
+def claims_counted(claims: pd.DataFrame) -> Markup:
+    """How the thesis's claims came out, and the verdict that most of the others share."""
+    counts = claims["verdict"].value_counts()
+    held, lost = (counts.get(verdict, 0) for verdict in (SUPPORTED, CONTRADICTED))
+    said = Markup(
+        "Of {} claims of the thesis this run supports <strong>{}</strong> and contradicts "
+        "<strong>{}</strong>"
+    ).format(len(claims), held, lost)
+    rest = counts.drop([SUPPORTED, CONTRADICTED], errors="ignore")
+    if rest.empty:
+        return said + "."
+    others = "; it cannot decide the other {}, in {} cases since {}."
+    return said + Markup(others).format(rest.sum(), rest.iloc[0], REASONS[rest.index[0]])
+
+
+def size_of(stored: float) -> str:
+    """Bytes as KiB or MiB, three digits."""
+    return f"{stored / 2**20:.3g} MiB" if stored >= 1000 * 2**10 else f"{stored / 2**10:.3g} KiB"
+
+
+def _best(rows: pd.DataFrame) -> pd.Series:
+    return rows.loc[rows["psnr_pooled"].idxmax()]
+
+
+def _failed(rows: pd.DataFrame) -> pd.Series:
+    """Which are said not to have learned; of too few views nothing is said."""
+    return rows["learned"].astype(str).eq("False")
+
+
+def _compared(a: pd.Series, b: pd.Series) -> tuple[float, int]:
+    """By how many dB `a` is better than `b`, and whether it is (1), is worse (-1) or neither (0).
+
+    By the paired difference, if the table has theirs, or else only where intervals are apart.
+    """
+    for one, other, sign in ((a, b, 1), (b, a, -1)):
+        # The row that the others' differences are to has none itself.
+        if pd.isna(other.get("psnr_difference")) and pd.notna(one.get("psnr_difference")):
+            value, *ends = sign * one[with_ends("psnr_difference")].astype(float)
+            break
+    else:
+        value = a["psnr_pooled"] - b["psnr_pooled"]
+        ends = [
+            a["psnr_pooled_low"] - b["psnr_pooled_high"],
+            a["psnr_pooled_high"] - b["psnr_pooled_low"],
+        ]
+    return value, int(min(ends) > 0) - int(max(ends) < 0)
+
+
+def _factor(decibels: float) -> str:
+    return f"{10 ** (abs(decibels) / 10):.2g}"
+
+
+def _name(row: pd.Series) -> Markup:
+    return Markup("<strong>{}</strong>").format(row["method"])
+
+
+def _with_psnr(row: pd.Series) -> Markup:
+    """A method's name and its pooled PSNR with the interval."""
+    value, low, high = row[with_ends("psnr_pooled")]
+    interval = f" [{low:.1f}, {high:.1f}]" if pd.notna(low) else ""
+    return Markup("{} ({:.1f} dB{})").format(_name(row), value, interval)
+
+
+def _map(size: str) -> Markup:
+    """A size of `equivalent_maps` in words: `386`, `< 128`, `> 2048`."""
+    than = {"<": "less than ", ">": "more than "}.get(size[0], "")
+    return Markup("{}a <strong>{}²</strong> shadow map").format(than, size.lstrip("<> "))
