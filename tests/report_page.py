@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 import report_samples as samples
 from frame_samples import write_frames
+from matplotlib.figure import Figure
 from PIL import Image
 
+from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.page import write_page
 
 TEMPLATE = sorted((Path(__file__).parents[1] / "workflow" / "report" / "page").iterdir())
@@ -22,6 +24,13 @@ TABLE = f"""# Networks and shadow maps (table 4.3 of the thesis)
 - Mean over 24 views; *thesis*: printed.
 - {SHARED}
 """
+CLAIMS = (
+    "claim,section,statement,verdict,reason,evidence,samples,thesis_samples\n"
+    f'less,4.3,"{HOSTILE.replace(chr(34), chr(34) * 2)}",supported,all,"PSNR of A 3 against B 2: +1 [+0.5, +2]",10,1000\n'
+    'more,4.3,More is more.,undecided (scale),1 seed,"loss of A 3 against B 2: +1; too few",10,1000\n'
+)
+VIEWER = """<!DOCTYPE html><title>Viewer</title><p id="said">waits</p>
+<script>document.getElementById("said").textContent = "runs" + ("</scr" + "ipt>").length</script>"""
 LABELS = {"shadow_map_128": "128² map", "shadow_map_512": "512² map", "dragon": "Network"}
 
 
@@ -49,21 +58,34 @@ def make_page(folder: Path, **changes) -> Path:
     tables = [folder / f"{name}.md" for name in ("table_4_3", "tables", "beyond", "claims")]
     for path in tables:
         path.write_text(TABLE)
+        path.with_suffix(".csv").write_text(CLAIMS if path.stem == "claims" else "method,a\nb,1\n")
     figure = folder / "figure_4_1.png"
     Image.new("RGB", (9, 9)).save(figure)
+    drawing = folder / "figure_front.svg"
+    chart = Figure(figsize=(5, 3))
+    (point,) = chart.subplots().plot([1], [2], "o")
+    say(point, HOSTILE)
+    write_chart(chart, drawing.with_suffix(".png"), drawing)
+    viewer = folder / "viewer.html"
+    viewer.write_text(VIEWER)
+    Image.new("RGB", (96, 64), "green").save(viewer.with_suffix(".png"))
     parts = {
         "html": folder / "index.html",
         "template": TEMPLATE,
         "tables": tables[:3],
-        "figures": [figure],
+        "figures": [figure, drawing],
+        "viewers": [viewer],
         "claims_md": tables[3],
         **write_evaluated(folder),
         "meshes": [samples.write_mesh(folder, name=HOSTILE)],
         "trainings": [samples.write_record(folder / "training.json", samples.TRAINING)],
         "lpips_json": samples.write_record(folder / "lpips.json", samples.LPIPS),
         "titles": {"figure_4_1": HOSTILE},
+        "front": "figure_front",
+        "data": {"figure_front": "beyond"},
         "beyond": ["beyond"],
         "rows": [samples.row(method, label) for method, label in LABELS.items()],
+        "kinds": {"512² shadow map": "map", "Network": "frequency"},
         "run": {**samples.RUN, "scale": HOSTILE},
         "scenes": samples.SCENES,
         "benchmarks": folder / "none",

@@ -3,7 +3,7 @@
 import shutil
 
 import pytest
-from report_page import LABELS, make_page
+from report_page import HOSTILE, LABELS, make_page
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 pytestmark = pytest.mark.skipif(
@@ -77,9 +77,67 @@ def test_every_image_loads_and_nothing_else(open_page, address):
     widths = page.evaluate(
         "[...document.querySelectorAll('img[src]')].map(image => image.naturalWidth)"
     )
-    assert len(widths) == 5 and min(widths) > 0
+    assert len(widths) == 6 and min(widths) > 0
     assert page.messages == []
     assert [url for url in page.requested if not url.startswith("data:")] == [address]
+
+
+def test_the_viewer_starts_when_asked_for_and_the_page_s_policy_lets_it(open_page, address):
+    page = open_page()
+    assert page.locator("iframe").count() == 0
+    page.get_by_role("button", name="Drag the light").click()
+    said = page.frame_locator("iframe").locator("#said")
+    said.wait_for()
+    assert said.inner_text() == "runs9" and page.locator(".poster").count() == 0
+    assert page.messages == [] and {*page.requested} <= {address, "about:srcdoc"}
+
+
+def test_claims_of_one_verdict_are_shown_and_all_again(open_page):
+    page = open_page()
+    cards = page.locator(".card:visible")
+    assert cards.count() == 2
+    page.get_by_role("button", name="✓ supported 1").click()
+    assert cards.get_attribute("id") == "claim-less"
+    page.get_by_role("button", name="All 2").click()
+    assert cards.count() == 2
+
+
+def test_points_of_a_chart_say_their_values_to_pointer_and_keyboard(open_page):
+    page = open_page()
+    chart, tip = page.locator(".chart"), page.locator("#tip")
+    assert tip.is_hidden()
+    page.locator(".says circle").hover()
+    assert tip.inner_text() == HOSTILE
+    page.mouse.move(0, 0)
+    assert tip.is_hidden()
+    chart.focus()
+    page.keyboard.press("ArrowRight")
+    assert tip.inner_text() == HOSTILE
+    chart.blur()
+    assert tip.is_hidden()
+
+
+def test_contents_follow_the_reading(open_page):
+    page = open_page()
+    current = page.locator("nav .current")
+    assert current.inner_text() == "What was found"
+    page.locator("nav").get_by_text("Tables", exact=True).click()
+    page.wait_for_function("document.querySelector('nav .current').hash === '#tables'")
+    assert page.locator("nav").get_by_text("Networks and shadow maps").first.is_visible()
+    # On a narrow screen they are folded until asked for.
+    narrow = open_page(width=768)
+    assert narrow.locator("nav li").first.is_hidden()
+    narrow.locator("nav summary").click()
+    narrow.locator("nav").get_by_text("The run").click()
+    assert narrow.locator("nav li").first.is_hidden()
+
+
+def test_without_script_nothing_that_is_read_is_missing(browser, address):
+    page = browser.new_context(java_script_enabled=False).new_page()
+    page.goto(address)
+    assert page.locator(".card:visible").count() == 2 and page.locator(".filter").is_hidden()
+    assert page.get_by_role("button", name="Drag the light").is_hidden()
+    assert page.locator(".poster img").is_visible()
 
 
 def test_divider_follows_the_mouse_and_the_keyboard(open_page):

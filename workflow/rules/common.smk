@@ -49,7 +49,7 @@ COMPUTE = SETTINGS["compute"]
 ENVIRONMENT = "../../envs/environment.yaml"
 TEMPLATE = [
     LAYOUT.source(f"workflow/report/page/{name}")
-    for name in ("template.html", "style.css", "script.js")
+    for name in ("template.html", "style.css", "reading.js", "script.js")
 ]
 VIEWER = [
     LAYOUT.source(os.path.relpath(path, WORKFLOW.parent))

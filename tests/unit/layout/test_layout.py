@@ -172,6 +172,14 @@ def test_what_is_made_by_default(desk):
     assert len(names) == len(set(names)) and ("dragon", "ray_traced") not in names
 
 
+def test_a_page_is_told_its_first_figure_and_every_method_s_kind(desk):
+    assert targets.front(desk) == "figure_front" and targets.front(layout_of("claims")) is None
+    told = targets.page_arguments(desk)
+    assert told["data"]["figure_front"] == "beyond"
+    kinds = {"Poisson-disk quadtree sampling": "frequency", "No shadow": "null"}
+    assert kinds.items() <= told["kinds"].items()
+
+
 def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert targets.newest(desk) == 0

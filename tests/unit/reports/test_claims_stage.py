@@ -1,4 +1,3 @@
-import pandas as pd
 import pytest
 from claim_samples import better, loss_curve, pairs, points
 from report_samples import (
@@ -11,9 +10,9 @@ from report_samples import (
     written_table,
 )
 
+from neural_shadows.reports.claim_cards import budget, read_cards
 from neural_shadows.reports.claims.violations import LOWER, UPPER
 from neural_shadows.reports.claims.write_claims import COLUMNS, write_claims
-from neural_shadows.reports.page_blocks import table_block
 from neural_shadows.reports.tables.quality import METRICS
 
 CURVE = points("net", [20_480_000], 3)
@@ -100,12 +99,10 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
     assert f"Mesh of dragon: {SCENES['dragon']['mesh_name']} (a procedural stand-in" in text
 
 
-def test_the_page_shows_verdicts_in_classes_and_folds_their_evidence(written):
+def test_the_page_shows_them_as_cards(written):
     _, md = written
-    block = table_block(md)
-    before, table = block.html.split('<div class="scroll"')
-    assert "<li><strong>vacuous</strong> (0): supported, and drawing no shadow" in before
-    assert 'class="undecided-scale"><strong>undecided (scale)</strong>' in table
-    assert 'class="not-comparable"><strong>not comparable</strong>' in table
-    assert "<details><summary>2</summary><ul><li>LPIPS of net 0.2 against" in table
-    assert pd.Series(block.notes).str.contains("Scale: test").any()
+    scale, *others = read_cards(md.with_suffix(".csv"))
+    assert (scale.verdict.style, scale.number[:10]) == ("undecided-scale", "advantage ")
+    assert len(scale.evidence) == 2 and scale.evidence[0].startswith("LPIPS of net 0.2 against")
+    assert {"not-comparable", "contradicted"} <= {card.verdict.style for card in others}
+    assert budget(md.with_suffix(".csv")) == md.read_text().split("\n")[2].split(" A verdict")[0]

@@ -1,9 +1,10 @@
+import html
 import json
 import re
 from collections import Counter
 
 import pytest
-from report_page import HOSTILE, LABELS, SHARED, make_page
+from report_page import HOSTILE, LABELS, SHARED, VIEWER, make_page
 
 
 @pytest.fixture(scope="module")
@@ -16,14 +17,16 @@ def attributes(text, name):
 
 
 def test_page_asks_for_nothing_outside_itself(text):
-    assert not re.search(r"@import|url\(|<(link|iframe|object)\b", text)
+    assert not re.search(r"@import|url\((?!#)|<(link|iframe|object)\b", text)
     addresses = attributes(text, "src") + attributes(text, "href")
     assert all(address.startswith(("data:", "#")) for address in addresses) and addresses
 
 
 def test_text_from_the_config_is_shown_not_run(text):
-    assert HOSTILE not in text and text.count("<script") == 2
-    data = json.loads(re.search(r'<script type="application/json">(.+?)</script>', text)[1])
+    assert HOSTILE not in text and text.count("<script") == 3
+    viewer, data = re.findall(r'<script type="application/json">(.+?)</script>', text)
+    assert json.loads(viewer) == VIEWER
+    data = json.loads(data)
     assert data["title"].startswith(f"dragon: {HOSTILE}")
     assert [method["name"] for method in data["methods"]] == [
         "★ Reference",
@@ -34,22 +37,34 @@ def test_text_from_the_config_is_shown_not_run(text):
 def test_every_link_leads_to_one_place(text):
     ids = Counter(attributes(text, "id"))
     assert ids.most_common(1)[0][1] == 1
-    links = {address.removeprefix("#") for address in attributes(text, "href")}
+    links = {address[1:] for address in attributes(text, "href") if address[0] == "#"}
     assert {"claims", "tables", "beyond", "table-tables", "table-beyond"} <= links <= set(ids)
 
 
 def test_notes_are_shown_once_and_what_is_past_the_thesis_apart(text):
     assert text.count(SHARED) == 1
-    assert "<figcaption>Figure 4.1</figcaption>" in text  # its title is in the picture
+    assert re.search(r"<figcaption>Figure 4.1\s+<span", text)  # its title is in the picture
     assert '<article id="table-beyond">' in text[text.index('<section id="beyond">') :]
 
 
 @pytest.mark.parametrize("there", ["tables", "figures", "claims_md", "references"])
 def test_page_shows_what_is_there(tmp_path, there):
     parts = {"tables", "figures", "claims_md", "references", "meshes", "trainings", "lpips_json"}
-    text = make_page(
-        tmp_path, **{name: None if "_" in name else [] for name in parts - {there}}
-    ).read_text()
+    missing = {name: None if "_" in name else [] for name in parts - {there}}
+    text = make_page(tmp_path, **missing, viewers=[], kinds={}).read_text()
     section = {"claims_md": "claims", "references": "compare"}.get(there, there)
     sections = re.findall(r'<section id="(\w+)"', text)
-    assert [name for name in sections if name != "beyond"] == ["run", section]
+    assert [name for name in sections if name != "beyond"] == [section, "run"]
+    said = "The thesis's claims have not been tested." in html.unescape(text)
+    assert said == (there != "claims_md")
+
+
+def test_the_first_screen_has_the_findings_the_viewer_and_the_front(text):
+    first = text[text.index('<header id="found">') : text.index("</header>")]
+    assert "Of 2 claims of the thesis" in first and "no table of networks" in first
+    assert first.index('id="viewer-viewer"') < first.index('id="figure-figure_front"')
+    assert text.count('id="figure-figure_front"') == 1
+
+
+def test_nothing_of_the_machine_s_paths_enters_the_page(tmp_path):
+    assert str(tmp_path) not in make_page(tmp_path).read_text()

@@ -1,9 +1,9 @@
 import subprocess
 from platform import python_version
 
-from report_samples import LPIPS, MACHINE, RUN, TRAINING, write_record
+from report_samples import LPIPS, MACHINE, RUN, SCENES, TRAINING, write_record
 
-from neural_shadows.reports.run_facts import commit_of, run_facts
+from neural_shadows.reports.run_facts import commit_of, run_facts, run_sentence
 
 
 def git(folder, *arguments):
@@ -36,10 +36,19 @@ def test_facts(tmp_path):
     )
     lpips_json = write_record(tmp_path / "lpips.json", LPIPS)
     meshes = {"dragon": "wyrm, 10 triangles"}
-    facts = run_facts(RUN, meshes, [first, first, second], lpips_json, tmp_path / "benchmarks")
+    built = write_record(tmp_path / "built.json", {**TRAINING, "training": None, "samples": 0})
+    records = [first, first, second, built]
+    facts = run_facts(RUN, meshes, records, lpips_json, tmp_path / "benchmarks")
     assert facts["mesh of dragon"] == "wyrm, 10 triangles"
-    assert facts["training"] == "3 networks, 640 or 20,480,000 samples each"
+    assert (
+        facts["training"]
+        == "3 networks, 640 or 20,480,000 samples each; 1 more built without training"
+    )
     assert facts["hardware"] == "a CPU, 2 cores; a CPU, 2 cores, A GPU"
     assert facts["LPIPS"] == "network alex"
     assert facts["durations"] == "evaluate 2 s (1 job); train 3 min (2 jobs)"
+    said = run_sentence(RUN, SCENES, facts)
+    assert said.startswith(
+        "3 networks beside shadow maps, on the meshes wyrm and fence (test scale"
+    )
     assert facts["versions"].startswith(f"Python {python_version()}, snakemake ")

@@ -95,6 +95,12 @@ class ParetoFigure(AnyFigure):
     kind: Literal["pareto"] = Field(description="`pareto`")
     table: Name = Field(description="a table of `networks` in `tables`")
     scene: Name = Field(description="a scene of that table")
+    costs: list[Literal["stored_bytes", "resident_bytes", "own_ms", "build_seconds"]] = Field(
+        ["stored_bytes", "resident_bytes", "own_ms", "build_seconds"],
+        min_length=1,
+        description="what quality is drawn over; the first figure of `stored_bytes` alone opens "
+        "the page",
+    )
 
 
 class LearningCurvesFigure(AnyFigure):

@@ -12,7 +12,7 @@ TOLD = {
     "errors_3d": ("scene", "rows", "run", "device", "precision"),
     "loss": ("curves", "run"),
     "widths": ("rows", "run"),
-    "pareto": ("scene", "rows", "run"),
+    "pareto": ("scene", "costs", "rows", "run"),
     "learning_curves": ("rows", "run"),
     "cost": ("run",),
     "view_directions": ("seed",),

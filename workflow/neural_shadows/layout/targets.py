@@ -10,6 +10,7 @@ from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.layout import claims, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.figures import opengl
+from neural_shadows.reports.method_look import kind_of
 
 
 def all_reports(layout: Layout) -> list[str]:
@@ -53,6 +54,7 @@ def page_files(layout: Layout) -> dict[str, Any]:
     scenes = tables.unique(row["scene"] for row in rows)
     return _reports(layout, default_tables(layout), default_figures(layout)) | {
         "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
+        "viewers": [paths.report(f"{name}.html") for name in settings["viewers"]],
         "references": tables.references(layout, scenes),
         "visibilities": tables.visibilities(layout, rows),
         "metrics": tables.metrics(layout, rows),
@@ -86,10 +88,18 @@ def pictured(layout: Layout) -> list[tables.Row]:
 
 def page_arguments(layout: Layout) -> dict[str, Any]:
     """What `write_page` is told beside its files."""
+    figures = layout.settings["figures"]
     return {
-        "titles": {name: one["title"] for name, one in layout.settings["figures"].items()},
+        "titles": {name: one["title"] for name, one in figures.items()},
+        "front": front(layout),
+        "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "beyond": beyond(layout),
         "rows": pictured(layout),
+        "kinds": {
+            row["label"]: kind_of(row)
+            for table in layout.settings["tables"].values()
+            for row in table.get("rows", ())
+        },
         "run": layout.run(),
         "scenes": layout.scenes(layout.settings["scenes"]),
         "benchmarks": layout.paths.benchmarks,
@@ -121,6 +131,14 @@ def beyond(layout: Layout) -> list[str]:
         if not re.fullmatch(r"figure_\d+_\d+", name) and figure["kind"] != "learning_curves":
             found.append(name)
     return found
+
+
+def front(layout: Layout) -> str | None:
+    """The first figure of quality over stored bytes alone: what a page shows before all others."""
+    for name in default_figures(layout):
+        if layout.settings["figures"][name].get("costs") == ["stored_bytes"]:
+            return name
+    return None
 
 
 def closing_words(layout: Layout, outputs: Iterable[str]) -> str:

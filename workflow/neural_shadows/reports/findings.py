@@ -49,22 +49,25 @@ def findings(tables: Iterable[Path], claims_csv: Path | None) -> tuple[list[Mark
 
 
 def best_of_its_size(table: pd.DataFrame) -> Markup | None:
-    """How the best trained network compares with all that takes no more bytes."""
+    """How the best trained network compares with what is of another kind and takes no more bytes."""
     known = table.dropna(subset=["psnr_pooled", "stored_bytes"])
     networks = known[known["samples"].gt(0) & ~_failed(known)]
     if networks.empty:
         return None
     best = _best(networks)
     size = Markup("<strong>{}</strong>").format(size_of(best["stored_bytes"]))
-    fits = known[known["stored_bytes"] <= ALIKE * best["stored_bytes"]].drop(best.name)
+    alike = known["encoding"].eq(best["encoding"]) & known["samples"].gt(0)
+    fits = known[~alike & (known["stored_bytes"] <= ALIKE * best["stored_bytes"])]
+    worth = _worth(best, "map_psnr")
     if fits.empty:
-        return Markup("The best trained network is the {} in {}.").format(_with_psnr(best), size)
+        said = Markup("The best trained network is the {}, in {}{}.")
+        return said.format(_with_psnr(best), size, worth)
     other = _best(fits)
     difference, side = _compared(best, other)
     if side > 0:
         said = (
-            "In {size} nothing comes closer to the exact shadow than the {best}. The next, the "
-            "{other}, has {factor} times its squared error."
+            "In {size} nothing comes closer to the exact shadow than the {best}{worth}. The best of "
+            "another kind, the {other}, has {factor} times its squared error."
         )
     elif side < 0:
         said = (
@@ -77,6 +80,7 @@ def best_of_its_size(table: pd.DataFrame) -> Markup | None:
         size=size,
         best=_with_psnr(best),
         other=_with_psnr(other),
+        worth=worth,
         less=size_of(other["stored_bytes"]),
         factor=_factor(difference),
     )
@@ -153,7 +157,7 @@ def claims_counted(claims: pd.DataFrame) -> Markup:
     rest = counts.drop([SUPPORTED, CONTRADICTED], errors="ignore")
     if rest.empty:
         return said + "."
-    others = "; it cannot decide the other {}, in {} cases since {}."
+    others = "; it cannot decide the other {}: {} of them since {}."
     return said + Markup(others).format(rest.sum(), rest.iloc[0], REASONS[rest.index[0]])
 
 
@@ -203,6 +207,14 @@ def _with_psnr(row: pd.Series) -> Markup:
     value, low, high = row[with_ends("psnr_pooled")]
     interval = f" [{low:.1f}, {high:.1f}]" if pd.notna(low) else ""
     return Markup("{} ({:.1f} dB{})").format(_name(row), value, interval)
+
+
+def _worth(row: pd.Series, column: str) -> Markup:
+    """Which shadow map is as good, and what that would store."""
+    if not isinstance(row[column], str):
+        return Markup()
+    stored = size_of(4 * float(row[column].lstrip("<> ")) ** 2)
+    return Markup(", worth {} of {}").format(_map(row[column]), stored)
 
 
 def _map(size: str) -> Markup:

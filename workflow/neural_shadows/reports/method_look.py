@@ -131,14 +131,15 @@ LOOKS = {
 }
 
 
-def kind_of(method: str, encoding: str | None, trained: bool) -> str:
-    """The key in `LOOKS` of a method; `encoding` is None if it is no network.
+def kind_of(row: Mapping[str, Any]) -> str:
+    """The key in `LOOKS` of the method of a row of `config.rows_of`.
 
-    A kind of network that is not there is a key all the same (`look_of` shows it).
+    A kind of network that is not there is a key all the same (`look_of_kind` shows it).
     """
-    method = unbiased(method)
+    method, encoding = unbiased(row["method"]), row["encoding"]
     if encoding is not None:
-        return "distances" if encoding == "occupancy_field" and not trained else encoding
+        built = encoding == "occupancy_field" and not row["trained"]
+        return "distances" if built else encoding
     if is_null(method):
         return "null"
     if not is_map(method):
@@ -148,6 +149,10 @@ def kind_of(method: str, encoding: str | None, trained: bool) -> str:
 
 
 def look_of(row: Mapping[str, Any]) -> Look:
-    """The look of a row of `config.rows_of`; of a kind of the user's own a plain one."""
-    kind = kind_of(row["method"], row["encoding"], row["trained"])
+    """The look of the method of a row of `config.rows_of`."""
+    return look_of_kind(kind_of(row))
+
+
+def look_of_kind(kind: str) -> Look:
+    """The look of a kind of method; of one of the user's own a plain one."""
     return LOOKS.get(kind, Look(kind.replace("_", " "), "#555555", "8", "⬤", ""))

@@ -1,4 +1,4 @@
-"""The one page that shows a run: facts, claims, tables, figures, and frames to compare."""
+"""The one page that shows a run: what it found, claims, frames, tables, figures, and its facts."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -9,12 +9,19 @@ import jinja2
 from markupsafe import Markup
 
 from neural_shadows.files.whole_files import write_text
+from neural_shadows.reports.claim_cards import budget, counted, read_cards
+from neural_shadows.reports.findings import findings
 from neural_shadows.reports.frame_comparison import frame_comparisons
 from neural_shadows.reports.inputs import read_meshes
-from neural_shadows.reports.page_blocks import figure_blocks, table_block
+from neural_shadows.reports.method_look import LOOKS, look_of_kind
+from neural_shadows.reports.page_blocks import data_uri
+from neural_shadows.reports.page_figures import figure_blocks, themed
+from neural_shadows.reports.page_tables import table_block
 from neural_shadows.reports.phrases import describe_mesh
-from neural_shadows.reports.run_facts import run_facts
+from neural_shadows.reports.run_facts import run_facts, run_sentence
 from neural_shadows.running.stage import run_stage
+
+SCRIPTS = ("reading.js", "script.js")
 
 
 def write_page(
@@ -23,6 +30,7 @@ def write_page(
     template: list[Path],
     tables: list[Path],
     figures: list[Path],
+    viewers: list[Path],
     claims_md: Path | None,
     references: list[Path],
     visibilities: list[Path],
@@ -31,8 +39,11 @@ def write_page(
     trainings: list[Path],
     lpips_json: Path | None,
     titles: Mapping[str, str],
+    front: str | None,
+    data: Mapping[str, str],
     beyond: Sequence[str],
     rows: Sequence[Mapping[str, Any]],
+    kinds: Mapping[str, str],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
     benchmarks: Path,
@@ -40,39 +51,76 @@ def write_page(
     """Write the page of what is there, any of the lists may be empty, as one self-contained file.
 
     Args:
-        template: `template.html`, `style.css` and `script.js` of one folder.
+        template: `template.html`, `style.css` and `SCRIPTS`, of one folder.
+        tables: Markdown, with a CSV beside each, as beside `claims_md`.
         figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
+        viewers: self-contained HTML of each viewer, with its poster, a PNG, beside it.
         references, visibilities, metrics: of all batches of each scene, and of each method.
+        front: the figure of quality over bytes that is shown first, if there is one.
+        data: the tables that figures show, by the figures' names.
         beyond: names of the tables and figures that are not the thesis's.
         rows: `method`, `scene` and `label` of the methods that have pictures.
+        kinds: of methods (`method_look.kind_of`), by label.
         benchmarks: Snakemake's, a folder for each rule.
 
     Raises:
         InputError: a file is missing or not whole.
     """
     described = {s: describe_mesh(mesh, scenes[s]) for s, mesh in read_meshes(meshes).items()}
-    claims = table_block(claims_md) if claims_md else None
-    blocks = [table_block(path) for path in tables]
-    drawings = figure_blocks(figures, titles)
+    looks = {label: look_of_kind(kind) for label, kind in kinds.items()}
+    claims = table_block(claims_md, looks) if claims_md else None
+    claims_csv = claims_md.with_suffix(".csv") if claims_md else None
+    cards = read_cards(claims_csv) if claims_csv else []
+    blocks = [table_block(path, looks) for path in tables]
+    csvs = {path.stem: path.with_suffix(".csv") for path in tables}
+    shown = {figure: csvs[table] for figure, table in data.items() if table in csvs}
+    drawings = figure_blocks(figures, titles, shown)
+    found, gaps = findings(csvs.values(), claims_csv)
     # Notes that several tables have are shown once, before all tables.
     notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
+    facts = run_facts(run, described, trainings, lpips_json, benchmarks)
     folder = template[0].parent
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
+        loader=jinja2.FileSystemLoader(folder),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
+    environment.filters["themed"] = themed
+    scripts = [(folder / name).read_text(encoding="utf-8") for name in SCRIPTS]
     page = environment.get_template("template.html").render(
-        title=f"Neural Shadow Ray Queries: {run['scale']} scale",
+        title=f"Neural shadows: {[*scenes.values()][0]['mesh_name']}, {run['scale']} scale",
         style=Markup((folder / "style.css").read_text(encoding="utf-8")),
-        script=Markup((folder / "script.js").read_text(encoding="utf-8")),
-        facts=run_facts(run, described, trainings, lpips_json, benchmarks),
+        script=Markup("\n".join(scripts)),
+        sentence=run_sentence(run, scenes, facts),
+        findings=found,
+        gaps=gaps,
+        facts=facts,
+        legend=[look for look in LOOKS.values() if look in looks.values()],
         claims=claims,
+        cards=cards,
+        verdicts=counted(cards),
+        budget=budget(claims_csv) if claims_csv else "",
+        viewers=[_viewer(path) for path in viewers],
+        front=next((block for block in drawings if block.name == front), None),
         comparisons=frame_comparisons(references, visibilities, metrics, rows, described),
         tables=[block for block in blocks if block.name not in beyond],
-        figures=[block for block in drawings if block.name not in beyond],
-        beyond=[block for block in blocks + drawings if block.name in beyond],
+        figures=[
+            block
+            for block in sorted(drawings, key=lambda block: block.name)
+            if block.name not in (*beyond, front)
+        ],
+        beyond=[b for b in blocks + drawings if b.name in beyond and b.name != front],
         shared_notes=[note for note, count in notes.items() if count > 1],
     )
     write_text(html, page)
+
+
+def _viewer(html: Path) -> dict[str, str]:
+    """A viewer's name, its poster as an address within the page, and its own page."""
+    poster = data_uri("image/png", html.with_suffix(".png").read_bytes())
+    return {"name": html.stem, "poster": poster, "html": html.read_text(encoding="utf-8")}
 
 
 if "snakemake" in globals():

@@ -103,6 +103,14 @@ def describe_budgets(records: Sequence[Mapping[str, Any]]) -> list[str]:
     ]
 
 
+def describe_samples(seen: float, theirs: float) -> str:
+    """One sentence on a run's training samples a network, beside the thesis's."""
+    return (
+        f"The networks of this run saw at most {seen:,.0f} training samples each, the thesis's "
+        f"{theirs:,.0f}: {theirs / seen:,.0f} times as many."
+    )
+
+
 def describe_printed(scenes: Sequence[str]) -> list[str]:
     """One sentence on rows of the thesis's own values, if there are some."""
     if not scenes:

@@ -29,9 +29,12 @@ def run_facts(
     facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
     facts["frames"] = f"{run['width']} × {run['height']}"
     if records:
-        samples = sorted({record["samples"] for record in records})
-        counts = " or ".join(f"{count:,}" for count in samples)
-        facts["training"] = f"{_counted(len(records), 'network')}, {counts} samples each"
+        trained = [record for record in records if record["training"]]
+        samples = sorted({record["samples"] for record in trained})
+        counts = " or ".join(f"{count:,}" for count in samples) or "no"
+        facts["training"] = f"{_counted(len(trained), 'network')}, {counts} samples each"
+        if built := len(records) - len(trained):
+            facts["training"] += f"; {built} more built without training"
         facts["hardware"] = "; ".join(dict.fromkeys(_machine(one["machine"]) for one in records))
     if lpips_json:
         lpips = read_json(lpips_json)
@@ -43,6 +46,20 @@ def run_facts(
     if spent := by_folder(sorted(benchmarks.glob("*/*.tsv"))):
         facts["durations"] = "; ".join(_duration(*rule) for rule in spent.items())
     return facts | {"made on": datetime.date.today().isoformat()}
+
+
+def run_sentence(
+    run: Mapping[str, Any], scenes: Mapping[str, Mapping[str, Any]], facts: Mapping[str, str]
+) -> str:
+    """What was run, on what and when, in one sentence; `facts` as `run_facts` gives them."""
+    meshes = [scene["mesh_name"] for scene in scenes.values()]
+    named = " and ".join([", ".join(meshes[:-1]), meshes[-1]]) if len(meshes) > 1 else meshes[0]
+    networks = facts.get("training", "no network yet").split(",")[0]
+    hardware = f" on {facts['hardware']}" if "hardware" in facts else ""
+    return (
+        f"{networks} beside shadow maps, on the meshes {named} ({run['scale']} scale, frames of "
+        f"{facts['frames']}); run{hardware}, {facts['made on']}."
+    )
 
 
 def commit_of(folder: Path) -> str:

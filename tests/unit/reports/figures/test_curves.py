@@ -1,11 +1,17 @@
 """The figures of what was measured: losses, widths, costs, fronts."""
 
+from xml.etree import ElementTree
+
 import numpy as np
 import pandas as pd
+import pytest
+from report_samples import row
 
 from neural_shadows.reports.figures import loss, pareto, widths
+from neural_shadows.reports.figures.chart import saying_points, write_chart
 from neural_shadows.reports.figures.cost import cost_figure
-from neural_shadows.reports.figures.style import write_figure
+from neural_shadows.reports.figures.point_labels import label_points
+from neural_shadows.reports.figures.style import new_figure, write_figure
 
 NAN = float("nan")
 
@@ -92,13 +98,18 @@ def test_widths_of_another_mesh_have_no_axes_for_the_thesis():
     assert len(figure.axes) == 2
 
 
+def test_widths_without_lpips_have_times_alone():
+    figure = widths.width_figure(widths_table(lpips=[NAN] * 5), WIDTHS, title="Widths")
+    assert [axes.get_ylabel()[:10] for axes in figure.axes] == ["LPIPS as t", "frame time"]
+
+
 def test_a_line_for_each_stage_with_its_exponent():
     sizes = {"over": "samples", "size": [10, 100, 10, 100], "stage": ["rays"] * 2 + ["labels"] * 2}
     values = {"seconds": [1.0, 10, 2, 2], "memory_mib": [5.0, 5, 0, 0]}
     exponents = {"seconds_exponent": [1.0, 1, 0, 0], "memory_mib_exponent": 0.0}
     seconds, memory = cost_figure(pd.DataFrame({**sizes, **values, **exponents}), title="C").axes
-    assert [line.get_label() for line in seconds.lines] == ["rays (1.00)", "labels (0.00)"]
-    assert [line.get_label() for line in memory.lines] == ["rays (0.00)"]  # 0 has no logarithm
+    labels = [axes.get_legend_handles_labels()[1] for axes in (seconds, memory)]
+    assert labels == [["rays (1.00)", "labels (0.00)"], ["rays (0.00)"]]  # 0 has no logarithm
 
 
 def test_front_is_what_nothing_else_undercuts():
@@ -151,39 +162,83 @@ def written_fronts(folder):
     return folder / "beyond.csv"
 
 
-def test_kinds_of_methods():
-    kinds = [pareto.kind_of(key, row[1] or NAN, row[2]) for key, row in METHODS.items()]
-    assert kinds == [
-        *("ray traced", "shadow map", "shadow map", "filtered or 16-bit shadow map", "mesh"),
-        *("distances, untrained", "occupancy field", "thesis's network", "no shadow", "all dark"),
+@pytest.fixture
+def drawn(tmp_path, monkeypatch):
+    """The fronts of `METHODS` over some costs, as a figure."""
+    figures = []
+    monkeypatch.setattr(pareto, "write_chart", lambda figure, *paths: figures.append(figure))
+    table = written_fronts(tmp_path)
+    rows = [
+        row(key, values[0]) | {"encoding": values[1], "trained": values[2] > 0}
+        for key, values in METHODS.items()
     ]
 
+    def drawn(costs):
+        settings = {"title": "Dragon", "scene": "dragon", "rows": rows, "run": {"scale": "test"}}
+        paths = tmp_path / "p.png", tmp_path / "p.svg"
+        pareto.draw(table, *paths, costs=costs, **settings)
+        return figures[-1]
 
-def test_panels_name_the_front_and_what_costs_nothing(tmp_path, monkeypatch):
-    drawn = []
-    monkeypatch.setattr(pareto.style, "write_figure", lambda figure, *paths: drawn.append(figure))
-    rows = [{"method": key, "label": row[0]} for key, row in METHODS.items()]
-    settings = {"title": "Dragon", "scene": "dragon", "rows": rows, "run": {"scale": "test"}}
-    pareto.draw(written_fronts(tmp_path), tmp_path / "p.png", tmp_path / "p.svg", **settings)
-    panels = np.array(drawn[0].axes).reshape(2, 4)
+    return drawn
+
+
+def test_panels_name_points_and_what_costs_nothing(drawn):
+    panels = np.array((figure := drawn([*pareto.COSTS])).axes).reshape(4, 2)
     named = [[{text.get_text() for text in axes.texts} for axes in row] for row in panels]
     printed = "Thesis's network, as printed"
     lines = [
         {"No shadow", f"{printed} {note}"}
         for note in ("(of another LPIPS network)", "(mean, not pooled)")
     ]
+    assert all(line <= names for row in named for line, names in zip(lines, row))
+    stored, own, build = (panels[i, 0] for i in (0, 2, 3))
     # Stored: a filtered map of the same bytes is better than a plain one.
-    assert named[0][0] - lines[0] == named[1][0] - lines[1] == {"256², PCF", "Field", "Mesh"}
+    joined = [line for line in stored.lines if line.get_color() == "#bbbbbb"]
+    assert joined[0].get_ydata().tolist() == [0.018, 0.005, 0.001]
     # Own time: exact ray tracing is a cost without an error.
-    assert named[0][2] - lines[0] == {"256²", "256², PCF", "Mesh", " ray traced: exact"}
+    assert " ray traced: exact" in named[2][0] and own.get_xlabel().startswith("own time")
     # A map needs no building, and is a line to come below.
-    assert named[0][3] - lines[0] == {"512²", "256²", "Mesh"}
-    assert all(line <= names for line, row in zip(lines, named) for names in row)
+    assert {"512²", "256²"} <= named[3][0] and len(build.containers) == 4
     hollow = [
         line
-        for line in panels[0, 0].lines
+        for line in stored.lines
         if line.get_markerfacecolor() == "none" and line.get_marker() == "o"
     ]
     assert [line.get_xdata().tolist() for line in hollow] == [[2e6 / 1024]]
-    legend = [text.get_text() for text in drawn[0].legends[0].get_texts()]
-    assert legend[0] == "shadow map" and legend[-1] == "not learned" and "ray traced" not in legend
+    legend = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert legend[0] == "shadow map" and legend[-1] == "not learned"
+    assert "exact shadow" not in legend and "no method" not in legend
+
+
+def test_the_first_front_has_one_panel(drawn):
+    (axes,) = drawn(["stored_bytes"]).axes
+    assert axes.get_ylabel().startswith("pooled PSNR")
+    assert {"Field", "Mesh", "512²"} <= {text.get_text() for text in axes.texts}
+
+
+def test_names_cover_neither_points_nor_lines_nor_each_other():
+    figure = new_figure("Names", 5, 4)
+    axes = figure.subplots()
+    points = np.random.default_rng(0).uniform(0, 1, (40, 2))
+    axes.plot(*points.T, "o")
+    axes.plot([0, 1], [0, 1])
+    figure.draw_without_rendering()
+    label_points(axes, points, [f"point {i}" for i in range(40)], fontsize=7)
+    boxes = [text.get_window_extent() for text in axes.texts]
+    assert 20 < len(boxes) < 40
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+    along = axes.transData.transform(np.linspace(0, 1, 500)[:, None].repeat(2, axis=1))
+    for crossed in (axes.transData.transform(points), along):
+        assert not any(box.count_contains(crossed) for box in boxes)
+
+
+def test_points_say_their_values_in_the_svg(tmp_path):
+    figure = new_figure("Chart", 4, 3)
+    saying_points(figure.subplots(), [1, 2], [3, 4], ["one & <two>", "three"])
+    write_chart(figure, tmp_path / "c.png", tmp_path / "c.svg")
+    root = ElementTree.parse(tmp_path / "c.svg").getroot()
+    svg = "{http://www.w3.org/2000/svg}"
+    groups = [group for group in root.iter(f"{svg}g") if group.get("class") == "says"]
+    assert [group.find(f"{svg}title").text for group in groups] == ["one & <two>", "three"]
+    assert all(group.find(f"{svg}circle").get("cx") for group in groups)
+    assert "Chart" in [text.text for text in root.iter(f"{svg}text")]  # text, and no outlines

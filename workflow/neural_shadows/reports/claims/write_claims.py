@@ -110,10 +110,7 @@ def _lead(verdicts: pd.Series, data: Measured) -> str:
     counts = verdicts.value_counts()
     scale = "No network was trained for these claims."
     if seen:
-        scale = (
-            f"The networks of this run saw at most {max(seen):,} training samples each, the "
-            f"thesis's {THESIS_SAMPLES:,}: {THESIS_SAMPLES / max(seen):,.0f} times as many."
-        )
+        scale = phrases.describe_samples(max(seen), THESIS_SAMPLES)
     meanings = [f"- **{name}** ({counts.get(name, 0)}): {MEANINGS[name]}" for name in VERDICTS]
     first = (
         f"{scale} A verdict says what these data can carry about a claim, and nothing more: the "

@@ -17,6 +17,7 @@ from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES
 from neural_shadows.reports.figures import style
+from neural_shadows.reports.figures.chart import say, saying_points, write_chart
 from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, READING, by_kind
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
@@ -48,7 +49,7 @@ def draw(
     labels = [row["label"] for row in rows]
     curves = curves[(curves["scene"] == rows[0]["scene"]) & curves["method"].isin(labels)]
     figure = curves_figure(curves, labels, title=f"{title} ({run['scale']} scale)")
-    style.write_figure(figure, png, svg)
+    write_chart(figure, png, svg)
 
 
 def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> Figure:
@@ -94,7 +95,7 @@ def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> 
     figure.legend(
         handles=[*lines, *(Line2D([], [], **look) for look in looks)],
         loc="outside lower center",
-        ncols=4,
+        ncols=3,
     )
     return figure
 
@@ -108,7 +109,13 @@ def _draw_curve(axes: Axes, metric: str, part: pd.DataFrame, colour: str, aside:
     samples = measured["samples"].to_numpy()
     values = np.array([[float(value) for value in one.split()] for one in measured["by_seed"]])
     at = np.repeat(samples[:, None], values.shape[1], axis=1)
-    axes.plot(at, _height(metric, values), "o", color=colour, markersize=4, alpha=0.7)
+    name, method = READING[metric][0], part["method"].iloc[0]
+    texts = [
+        f"{method}: {name} {value:.4g} at {seen:,.0f} samples"
+        for value, seen in zip(values.flat, at.flat)
+    ]
+    look = {"color": colour, "markersize": 4, "alpha": 0.7}
+    saying_points(axes, at.flat, _height(metric, values).flat, texts, **look)
     curve = Curve(samples, error_of(metric, values))
     if power_law.can_hold_out(curve):
         law = power_law.fit(Curve(samples[:-1], curve.values[:-1]))
@@ -127,7 +134,9 @@ def _draw_prediction(axes: Axes, metric: str, line: pd.Series, **look: Any) -> N
     spread = np.abs(np.array(ends) - value)[:, None]
     spread = spread if metric != "ssim" else spread[::-1]  # 1 − SSIM: the ends change places
     look |= {"markerfacecolor": "white", "markersize": 6, "capsize": 3, "zorder": 4}
-    axes.errorbar(line["samples"], value, spread, **look)
+    bar = axes.errorbar(line["samples"], value, spread, **look)
+    said, low, high = (f"{number:.4g}" for number in line[PREDICTED])
+    say(bar.lines[0], f"{line['method']}, predicted: {READING[metric][0]} {said} [{low}, {high}]")
 
 
 def _height(metric: str, values: float | np.ndarray) -> float | np.ndarray:

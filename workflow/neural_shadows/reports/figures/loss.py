@@ -9,10 +9,13 @@ from matplotlib.figure import Figure
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.figures import style
+from neural_shadows.reports.figures.chart import saying_points, write_chart
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
 PARTS = 60  # of a curve that is drawn as means
+POINTS = ["samples", "loss"]
+SAYING = 6  # every so many of them is a point that says its value
 
 
 def draw(
@@ -42,13 +45,21 @@ def draw(
         frames[curve["label"]] = read_loss(files[curve["experiment"]])
         ends[curve["label"]] = died[curve["experiment"]]
     figure = loss_figure(frames, ends, title=f"{title} ({run['scale']} scale)")
-    style.write_figure(figure, png, svg)
+    data = [means_of(frame).assign(curve=label) for label, frame in frames.items()]
+    write_chart(figure, png, svg, pd.concat(data))
 
 
 def smoothed(values: np.ndarray) -> np.ndarray:
     """Means of a curve (n,) over parts of it that are equally wide on a logarithmic axis."""
     starts = np.unique(np.geomspace(1, len(values), PARTS).astype(int)) - 1
     return np.add.reduceat(values, starts) / np.diff(starts, append=len(values))
+
+
+def means_of(curve: pd.DataFrame) -> pd.DataFrame:
+    """Columns `samples` and `loss` of a curve, `smoothed`, up to where its training died."""
+    alive = curve.loc[np.isfinite(curve["loss"]), POINTS].astype(float)
+    means = {name: smoothed(alive[name].to_numpy()) if len(alive) else [] for name in POINTS}
+    return pd.DataFrame(means)
 
 
 def loss_figure(
@@ -65,7 +76,7 @@ def loss_figure(
     axes = figure.subplots()
     drawn = {label: curve[np.isfinite(curve["loss"])] for label, curve in curves.items()}
     for i, (label, curve) in enumerate(drawn.items()):
-        points = curve[["samples", "loss"]].to_numpy(float).T
+        points = curve[POINTS].to_numpy(float).T
         colour = style.COLOURS[i % len(style.COLOURS)]
         step = died[label]
         end = f"at the end {points[1, -1]:.3g}" if step is None else f"died at step {step:,}"
@@ -77,6 +88,11 @@ def loss_figure(
         if step is not None:
             axes.plot(*points[:, -1:], color=colour, marker="X", markersize=10)
     axes.set(xscale="log", yscale="log", xlabel="training samples", ylabel="dead-zone loss")
+    for i, (label, curve) in enumerate(curves.items()):
+        places = means_of(curve)[::-SAYING].to_numpy()
+        texts = [f"{label}: {loss:.3g} at {seen:,.0f} samples" for seen, loss in places]
+        look = {"color": style.COLOURS[i % len(style.COLOURS)], "markersize": 3.5}
+        saying_points(axes, *places.T, texts, **look)
     # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
     settled = [curve["loss"].iloc[len(curve) // 100 :].max() for curve in drawn.values()]
     axes.set_ylim(top=min(axes.get_ylim()[1], 3 * np.nanmax(settled)))

@@ -10,8 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED, is_null
+from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED
 from neural_shadows.reports.figures import style
+from neural_shadows.reports.figures.chart import say, write_chart
+from neural_shadows.reports.figures.point_labels import label_points
+from neural_shadows.reports.method_look import LOOKS, Look, look_of
 from neural_shadows.reports.published import NETWORKS
 from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.tables.writing import read_table
@@ -23,26 +26,18 @@ COSTS = {
     "own_ms": ("own time a frame, ms", 1),
     "build_seconds": ("from mesh file to network, s", 1),
 }
-# A kind of method: its colour and marker, in the legend's order. Rivals that train nothing have
-# the colours of dark text, networks bright ones.
-STYLES = {
-    "shadow map": ("#777777", "s"),
-    "filtered or 16-bit shadow map": ("#aaaaaa", "d"),
-    "ray traced": ("#000000", "*"),
-    "mesh": ("#000000", "h"),
-    "distances, untrained": ("#8c564b", "P"),
-    "voxel dag": ("#8c564b", "<"),
-    "height map": ("#8c564b", ">"),
-    "thesis's network": (style.COLOURS[1], "o"),
-    "ray grid": (style.COLOURS[3], "v"),
-    "occupancy ray grid": (style.COLOURS[2], "^"),
-    "hash grid": (style.COLOURS[4], "D"),
-    "occupancy field": (style.COLOURS[0], "P"),
+HEADINGS = {
+    "lpips": "LPIPS, lower is better\n(bars: 95 % intervals)",
+    "flip": "FLIP, lower is better\n(bars: 95 % intervals)",
+    "psnr_pooled": "pooled PSNR in dB, higher is better\n(bars: 95 % intervals)",
 }
-OTHER = (style.COLOURS[5], "X")
-LINES = {"no shadow": ":", "as printed": "--"}  # what has a quality and no cost here
-NOT_SHOWN = "all dark"
+PRINTED = "printed"  # the key of the thesis's own values
+LINES = {NO_SHADOW: ":", PRINTED: "--"}  # what has a quality and no cost here
+NOT_SHOWN = "all_dark"
 PRINTED_NOTES = {True: " (of another LPIPS network)", False: " (mean, not pooled)"}
+GREY = "#777777"
+MOST_IN_LINE = 2  # of the legend below a panel
+PANEL = 4.75, 3.8  # inches: 342 points, so that one panel fits a phone's 375 px
 
 
 def draw(
@@ -52,6 +47,7 @@ def draw(
     *,
     title: str,
     scene: str,
+    costs: Sequence[str],
     rows: Sequence[style.Section],
     run: style.Section,
 ) -> None:
@@ -59,131 +55,120 @@ def draw(
 
     Args:
         table: its CSV.
+        costs: of `COSTS`; over `stored_bytes` alone only PSNR is drawn, to be seen first.
         rows: the table's rows of that scene.
 
     Raises:
         InputError: the table is missing or not whole.
     """
     numbers = (*with_ends("lpips"), *with_ends("flip"), "psnr", *with_ends("psnr_pooled"))
-    texts = ("scene", "method", "encoding", "learned")
-    found = read_table(table, texts, (*numbers, *COSTS, "samples"))
+    found = read_table(table, ("scene", "method", "learned"), (*numbers, *COSTS))
     found = found[found["scene"] == scene].set_index("method", drop=False)
-    networks = found.loc[[row["label"] for row in rows]]
-    keys = [row["method"] for row in rows]
-    kinds = map(kind_of, keys, networks["encoding"], networks["samples"])
-    printed = found[found["method"].isin(NETWORKS.values())]
-    networks = pd.concat([networks.assign(kind=[*kinds]), printed.assign(kind="as printed")])
-    figure = pareto_figure(networks, title=f"{title} ({run['scale']} scale)")
-    style.write_figure(figure, png, svg)
-
-
-def kind_of(method: str, encoding: str | float, samples: float) -> str:
-    """What the legend calls a method with this key.
-
-    `encoding` is NaN if it is no network, `samples` 0 of one that is built without training.
-    """
-    if not isinstance(encoding, str):
-        if is_null(method):
-            return "no shadow" if method == NO_SHADOW else NOT_SHOWN
-        plain = method.removeprefix("shadow_map_").isdecimal()
-        kind = "shadow map" if plain else "filtered or 16-bit shadow map"
-        return "ray traced" if method == RAY_TRACED else kind
-    if encoding == "occupancy_field" and samples == 0:
-        return "distances, untrained"
-    return "thesis's network" if encoding == "frequency" else encoding.replace("_", " ")
+    methods = found.loc[[row["label"] for row in rows]]
+    methods = methods.assign(key=[row["method"] for row in rows], look=[*map(look_of, rows)])
+    printed = found[found["method"].isin(NETWORKS.values())].assign(key=PRINTED, look=None)
+    shown = pd.concat([methods[methods["key"] != NOT_SHOWN], printed], ignore_index=True)
+    figure = pareto_figure(shown, costs, title=f"{title} ({run['scale']} scale)")
+    write_chart(figure, png, svg)
 
 
 def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
     """Indices of the points that no other undercuts in both, by rising cost."""
     order = np.lexsort((error, cost))
     best = np.minimum.accumulate(error[order])
-    return order[np.r_[True, best[1:] < best[:-1]]]
+    return order[np.r_[True, best[1:] < best[:-1]][: len(order)]]
 
 
-def pareto_figure(table: pd.DataFrame, *, title: str) -> Figure:
-    """Draw a scene's methods, a column of panels for each cost.
+def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> Figure:
+    """Draw a scene's methods, a line of panels for each cost.
 
-    Above LPIPS, or FLIP where there is none; below pooled PSNR, upwards better. Networks that have
-    not learned are hollow. What costs nothing there, and what the thesis prints, is a line.
+    On the left LPIPS, or FLIP where there is none; on the right pooled PSNR, upwards better.
+    Networks that have not learned are hollow. What costs nothing there, and what the thesis
+    prints, is a line.
 
     Args:
-        table: rows of a table of networks of one scene, with their `kind` as of `kind_of`, or
-            `as printed` of the thesis's own values.
+        table: rows of a table of networks of one scene, with their `key` and `look`; the key of
+            the thesis's own values is `PRINTED`.
     """
     measured = table["lpips_low"].notna().any()  # what is printed has no interval
     perceived = "lpips" if measured else "flip"
     # The thesis prints a mean PSNR, and no views to pool.
     table = table.assign(psnr_pooled=table["psnr_pooled"].fillna(table["psnr"]))
-    figure = style.new_figure(title, 17, 9.6)
-    panels = figure.subplots(2, len(COSTS), sharex="col", sharey="row")
-    for row, metric in zip(panels, (perceived, "psnr_pooled")):
-        points = table.rename(columns=dict(zip(with_ends(metric), ("value", "low", "high"))))
-        for axes, (column, (label, factor)) in zip(row, COSTS.items()):
-            axes.set(xscale="log", yscale="log" if metric == perceived else "linear")
-            _draw_panel(axes, points.assign(cost=points[column] * factor), metric == perceived)
-            axes.grid(**style.GRID)
+    metrics = ["psnr_pooled"] if [*costs] == ["stored_bytes"] else [perceived, "psnr_pooled"]
+    figure = style.new_figure(title, PANEL[0] * len(metrics), 0.9 + PANEL[1] * len(costs))
+    panels = figure.subplots(len(costs), len(metrics), sharex="row", sharey="col", squeeze=False)
+    drawn = [*table["look"][~table["key"].isin([*LINES, RAY_TRACED])]]
+    looks = dict.fromkeys([*(look for look in LOOKS.values() if look in drawn), *drawn])
+    entries = [Line2D([], [], label=look.name, **_drawn(look)) for look in looks]
+    style.legend_below(figure, entries + style.hollow(table), MOST_IN_LINE * len(metrics))
+    named = []
+    for row, cost in zip(panels, costs):
+        for axes, metric in zip(row, metrics):
+            points = table.rename(columns=dict(zip(with_ends(metric), ("value", "low", "high"))))
+            points = points.assign(cost=points[cost] * COSTS[cost][1])
+            axes.set(xscale="log", xlabel=COSTS[cost][0], ylabel=HEADINGS[metric])
+            if metric == perceived:
+                axes.set_yscale("log")
+                style.plain_numbers(axes.yaxis)
             style.plain_numbers(axes.xaxis)
-            axes.tick_params(axis="x", labelsize="x-small")
-            if metric != perceived:
-                axes.set_xlabel(label)
-    panels[0, 0].set_ylabel(f"{perceived.upper()}, mean [95 % interval]")
-    panels[1, 0].set_ylabel("pooled PSNR, dB [95 % interval]")
-    style.plain_numbers(panels[0, 0].yaxis)
-    drawn = [kind for kind in table["kind"] if kind not in (*LINES, "ray traced", NOT_SHOWN)]
-    kinds = [kind for kind in dict.fromkeys([*STYLES, *drawn]) if kind in drawn]
-    entries = [Line2D([], [], label=kind, **_look(kind)) for kind in kinds]
-    style.legend_below(figure, entries + style.hollow(table))
+            axes.xaxis.set_major_formatter(_short)
+            axes.margins(x=0.1)
+            axes.grid(**style.GRID)
+            named.append((axes, _draw_panel(axes, points, metric)))
+    figure.draw_without_rendering()  # names are placed when the layout is done
+    for axes, points in named:
+        label_points(axes, points[["cost", "value"]].to_numpy(), [*points["method"]], fontsize=8)
     return figure
 
 
-def _look(kind: str) -> dict[str, Any]:
-    colour, marker = STYLES.get(kind, OTHER)
-    return {"color": colour, "marker": marker, "linestyle": "", "markersize": 7}
+def _short(cost: float, _: int) -> str:
+    """A tick's label that its neighbours leave room for: 0.5, 20, 5k."""
+    return f"{cost:g}" if cost < 1000 else f"{cost / 1000:g}k"
 
 
-def _draw_panel(axes: Axes, points: pd.DataFrame, lower_is_better: bool) -> None:
-    """The methods at their costs, and lines of what has a quality but no cost here."""
-    methods = points[~points["kind"].isin([*LINES, "ray traced", NOT_SHOWN])]
+def _drawn(look: Look) -> dict[str, Any]:
+    return {"color": look.colour, "marker": look.marker, "linestyle": "", "markersize": 7}
+
+
+def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
+    """The methods at their costs, and lines of what has a quality but no cost here.
+
+    Returns: the methods that are points, first those that no other betters in both.
+    """
+    errors = metric != "psnr_pooled"
+    methods = points[~points["key"].isin([*LINES, RAY_TRACED])]
     measured = methods.dropna(subset="cost")
     for row in measured.itertuples():
         spread = [[row.value - row.low], [row.high - row.value]]
-        look = _look(row.kind) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
-        axes.errorbar(row.cost, row.value, spread, capsize=2, **look)
-    lines = points[points["kind"].isin(LINES)]
-    if measured["kind"].ne("shadow map").all():  # maps are rendered anew in each frame
-        lines = pd.concat([lines, methods[methods["kind"] == "shadow map"]])
+        look = _drawn(row.look) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
+        bar = axes.errorbar(row.cost, row.value, spread, capsize=2, **look)
+        value = f"{row.value:.3g} [{row.low:.3g}, {row.high:.3g}]{'' if errors else ' dB'}"
+        cost = f"{row.cost:,.0f}" if row.cost >= 100 else f"{row.cost:.3g}"
+        say(bar.lines[0], f"{row.method}: {value}; {axes.get_xlabel()}: {cost}")
+    _draw_lines(axes, points, methods, errors)
+    error = measured["value"].to_numpy() * (1 if errors else -1)
+    first = measured.iloc[front(measured["cost"].to_numpy(), error)]
+    axes.plot(first["cost"], first["value"], color="#bbbbbb", linewidth=1, zorder=0)
+    return pd.concat([first, measured.drop(first.index)])
+
+
+def _draw_lines(axes: Axes, points: pd.DataFrame, methods: pd.DataFrame, errors: bool) -> None:
+    """What has a quality and no cost, across the panel, and the cost of what has no error."""
+    lines, maps = points[points["key"].isin(LINES)], methods["look"].eq(LOOKS["map"])
+    if methods["cost"][maps].isna().all():  # maps are rendered anew in each frame
+        lines = pd.concat([lines, methods[maps]])
     if len(lines) > 2:
         axes.set_xlim(left=axes.get_xlim()[0] / 4)  # room for their names
     for row in lines.itertuples():
-        look = {"color": "#666666", "linewidth": 0.7, "linestyle": LINES.get(row.kind, "-.")}
-        axes.axhline(row.value, zorder=0, **look)
+        line = LINES.get(row.key, "-.")
+        axes.axhline(row.value, zorder=0, color=GREY, linewidth=0.7, linestyle=line)
+        name = row.method + PRINTED_NOTES[errors] * (row.key == PRINTED)
         place = axes.get_yaxis_transform()
-        name = row.method + PRINTED_NOTES[lower_is_better] * (row.kind == "as printed")
         axes.text(0.01, row.value, name, transform=place, va="bottom", fontsize=7)
-    for cost in points["cost"][points["kind"] == "ray traced"].dropna():
-        axes.axvline(cost, color=STYLES["ray traced"][0], linewidth=0.7, zorder=0)
+    for cost in points["cost"][points["key"] == RAY_TRACED].dropna():
+        axes.axvline(cost, color=GREY, linewidth=0.7, zorder=0)
         place = axes.get_xaxis_transform()
         axes.text(cost, 0.02, " ray traced: exact", transform=place, rotation=90, fontsize=7)
-    _draw_front(axes, measured, lower_is_better)
-
-
-def _draw_front(axes: Axes, points: pd.DataFrame, lower_is_better: bool) -> None:
-    """Join and name the methods that no other betters in both, the names within the panel."""
-    error = points["value"].to_numpy() * (1 if lower_is_better else -1)
-    best = points.iloc[front(points["cost"].to_numpy(), error)] if len(points) else points
-    axes.plot(best["cost"], best["value"], color="#bbbbbb", linewidth=1, zorder=0)
-    axes.autoscale_view()
-    places = (axes.transData - axes.transAxes).transform(best[["cost", "value"]])
-    away = -1 if lower_is_better else 1  # the side of the front where nothing is: better
-    lines = 0
-    for i, row in enumerate(best.itertuples()):
-        left = places[i, 0] > 0.5
-        # A line further than the last name where that is too near.
-        lines = lines + 1 if i and np.abs(places[i] - places[i - 1]).max() < 0.06 else 0
-        look = {"ha": "right" if left else "left", "va": "center"}
-        look |= {"xytext": (-6 if left else 6, away * (8 + 9 * lines))}
-        look |= {"textcoords": "offset points", "fontsize": 7}
-        axes.annotate(row.method, (row.cost, row.value), **look)
 
 
 if "snakemake" in globals():

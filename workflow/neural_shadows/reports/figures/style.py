@@ -46,11 +46,11 @@ def plain_numbers(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def legend_below(figure: Figure, entries: Iterable[Artist] = ()) -> None:
+def legend_below(figure: Figure, entries: Iterable[Artist] = (), most: int = MOST_IN_LINE) -> None:
     """One legend for all panels, in lines below them: what is labelled in them, and entries."""
     labelled = [handle for axes in figure.axes for handle in axes.get_legend_handles_labels()[0]]
     handles = {artist.get_label(): artist for artist in (*labelled, *entries)}
-    columns = ceil(len(handles) / ceil(len(handles) / MOST_IN_LINE))
+    columns = ceil(len(handles) / ceil(len(handles) / most))
     figure.legend(handles=[*handles.values()], loc="outside lower center", ncols=columns)
 
 

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from neural_shadows.reports.figures import style
+from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.tables.timing import FRAME_MS, OWN_MS
 from neural_shadows.reports.tables.writing import read_table
@@ -39,7 +40,7 @@ def draw(
     times = read_table(table, ("method", "scene", "lpips_net", "learned"), numbers)
     widths = {(row["scene"], row["label"]): row["width"] for row in rows if row["width"]}
     figure = width_figure(times, widths, title=f"{title} ({run['scale']} scale)")
-    style.write_figure(figure, png, svg)
+    write_chart(figure, png, svg)
 
 
 def width_figure(
@@ -48,7 +49,7 @@ def width_figure(
     """Draw LPIPS and times over width, a line per scene, the thesis's numbers dashed and grey.
 
     Its LPIPS has axes of its own: it is of another network, and the two do not compare. Networks
-    that have not learned are hollow.
+    that have not learned are hollow. Without LPIPS there are no axes for it.
 
     Args:
         table: of frame times, a row for each method and scene.
@@ -57,11 +58,15 @@ def width_figure(
     width = [widths.get(key) for key in zip(table["scene"], table["method"])]
     shown = table.assign(width=width).dropna(subset="width").sort_values("width")
     printed = shown["thesis_lpips"].notna().any()
-    figure = style.new_figure(title, 15 if printed else 11, 4.8)
-    quality, *theirs, speed = figure.subplots(1, 3 if printed else 2)
+    measured = shown["lpips"].notna().any()
+    counts = int(measured), int(printed), 1
+    figure = style.new_figure(title, 1.6 + 4.6 * sum(counts), 4.8)
+    panels = iter(figure.subplots(1, sum(counts), squeeze=False)[0])
+    quality, theirs, (speed,) = ([next(panels) for _ in range(count)] for count in counts)
     for i, (scene, rows) in enumerate(shown.groupby("scene", sort=False)):
         colour = style.COLOURS[i % len(style.COLOURS)]
-        _draw_line(quality, rows, with_ends("lpips"), color=colour, label=scene)
+        for axes in quality:
+            _draw_line(axes, rows, with_ends("lpips"), color=colour, label=scene)
         _draw_line(speed, rows, FRAME_MS, color=colour, label=scene)
         own = "own time, without the rest of the frame" if i == 0 else ""  # once in the legend
         _draw_line(speed, rows, OWN_MS, color=colour, linestyle=":", label=own)
@@ -70,14 +75,15 @@ def width_figure(
             if rows[column].notna().any():
                 axes.plot(rows["width"], rows[column], label=f"{scene}, thesis", **look)
     ticks = sorted(set(shown["width"].astype(int)))
-    for axes in (quality, *theirs, speed):
+    for axes in (*quality, *theirs, speed):
         axes.set_xscale("log", base=2)
         axes.set_xticks(ticks, ticks)
         axes.set_xlabel("neurons per layer")
         axes.grid(**style.GRID)
-    for axes in (quality, *theirs):
+    for axes in (*quality, *theirs):
         axes.set_ylim(bottom=0)
-    quality.set_ylabel(f"LPIPS ({_net(shown)}), mean [95 % interval]")
+    for axes in quality:
+        axes.set_ylabel(f"LPIPS ({shown['lpips_net'].iloc[0]}), mean [95 % interval]")
     for axes in theirs:
         axes.set_ylabel("LPIPS as the thesis prints it", color=GREY)
         axes.set_title("another LPIPS network: compare slopes only", fontsize=9, color=GREY)
@@ -94,12 +100,8 @@ def _draw_line(axes: Axes, rows: pd.DataFrame, columns: Sequence[str], **look: s
     axes.errorbar(rows["width"], value, [value - low, high - value], capsize=3, **look)
     for row in rows.assign(value=value).itertuples():
         face = "none" if row.learned == "False" else look["color"]
-        axes.plot(row.width, row.value, marker="o", color=look["color"], markerfacecolor=face)
-
-
-def _net(table: pd.DataFrame) -> str:
-    """The LPIPS network of the run."""
-    return str(table["lpips_net"].iloc[0]) if table["lpips_net"].notna().any() else "missing"
+        (point,) = axes.plot(row.width, row.value, "o", color=look["color"], markerfacecolor=face)
+        say(point, f"{row.scene}, {row.method}: {row.value:.3g} ({columns[0].replace('_', ' ')})")
 
 
 if "snakemake" in globals():

@@ -1,0 +1,56 @@
+import base64
+import io
+from xml.etree import ElementTree
+
+import pandas as pd
+from PIL import Image
+
+from neural_shadows.reports.figures.chart import write_chart
+from neural_shadows.reports.figures.style import new_figure, write_figure
+from neural_shadows.reports.page_figures import LARGEST_SVG, figure_blocks, inline_svg
+
+
+def test_large_drawings_are_shown_as_pixels_and_pictures_as_images(tmp_path):
+    svg, png = tmp_path / "figure_3_1.svg", tmp_path / "figure_3_1.png"
+    Image.new("RGB", (9, 9), "red").save(png)
+    for size, kind in ((LARGEST_SVG, "svg+xml"), (LARGEST_SVG + 1, "webp")):
+        svg.write_bytes(b"<image".ljust(size, b"x"))
+        (block,) = figure_blocks([svg, png], {"figure_3_1": "How"}, {})
+        assert f'src="data:image/{kind};base64,' in block.html
+        assert (block.anchor, block.title) == ("figure-figure_3_1", "Figure 3.1: How")
+    # Only figures of the thesis have numbers.
+    table = tmp_path / "cost.csv"
+    table.write_text("a\n1\n")
+    png = png.rename(tmp_path / "figure_cost.png")
+    (block,) = figure_blocks([png], {"figure_cost": "Cost"}, {"figure_cost": table})
+    assert (block.title, block.caption, [*block.files]) == ("Cost", "", ["cost.csv"])
+
+
+def test_a_drawing_in_the_page_is_whole_and_follows_its_colours(tmp_path):
+    figure = new_figure("A <b>title</b>", 4, 3)
+    axes = figure.subplots()
+    axes.plot([1, 2], [3, 4], "o", color="#0072b2")
+    axes.plot([1, 2], [4, 4], color="#777777")
+    write_figure(figure, tmp_path / "f.png", tmp_path / "f.svg")
+    html = inline_svg((tmp_path / "f.svg").read_bytes(), "figure_x", "Title")
+    root = ElementTree.fromstring(html.replace("xlink:", ""))
+    assert root.get("aria-label") == "Title" and root.get("viewBox") == "0 0 288 216"
+    ids = [element.get("id") for element in root.iter() if element.get("id")]
+    assert ids and all(name.startswith("figure_x-") for name in ids)
+    used = [element.get("href") for element in root.iter("use")]
+    clips = [e.get("clip-path") for e in root.iter() if e.get("clip-path")]
+    named = {name.removeprefix("#") for name in used} | {clip[5:-1] for clip in clips}
+    assert used and clips and named == {*ids}
+    assert "<style" not in html and "metadata" not in html and "&#10;" not in html
+    assert "fill: var(--paper)" in html and "#ffffff" not in html
+    assert "stroke: #0072b2" in html and "stroke: var(--soft)" in html
+
+
+def test_a_chart_s_own_data_can_be_saved(tmp_path):
+    svg = tmp_path / "figure_4_1.svg"
+    data = pd.DataFrame({"curve": ["a, b"], "loss": [0.5]})
+    write_chart(new_figure("Loss", 3, 2), svg.with_suffix(".png"), svg, data)
+    (block,) = figure_blocks([svg], {}, {})
+    saved = base64.b64decode(block.files["figure_4_1.csv"].removeprefix("data:text/csv;base64,"))
+    pd.testing.assert_frame_equal(pd.read_csv(io.BytesIO(saved)), data)
+    assert "a, b" not in block.html

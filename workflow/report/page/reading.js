@@ -1,0 +1,94 @@
+"use strict";
+
+// The contents follow the reading: the last heading that has passed a line below the top.
+const links = [...document.querySelectorAll("nav li > a")];
+const places = links.map((link) => document.getElementById(link.hash.slice(1)));
+function follow() {
+  const passed = places.map((place) => place.getBoundingClientRect().top < 120);
+  const current = links[Math.max(0, passed.lastIndexOf(true))];
+  for (const link of links) link.classList.toggle("current", link === current);
+  for (const item of document.querySelectorAll("nav > details > ul > li")) {
+    item.classList.toggle("reading", item.contains(current));
+  }
+}
+addEventListener("scroll", () => requestAnimationFrame(follow), { passive: true });
+follow();
+const contents = document.querySelector("nav > details");
+const narrow = matchMedia("(max-width: 1279px)");
+const fold = () => { contents.open = !narrow.matches; };
+narrow.addEventListener("change", fold);
+fold();
+contents.addEventListener("click", (event) => {
+  if (narrow.matches && event.target.closest("a")) contents.open = false;
+});
+
+// Claims of one verdict, or all of them.
+const filter = document.querySelector(".filter");
+if (filter) {
+  filter.hidden = false;
+  filter.addEventListener("click", (event) => {
+    const chosen = event.target.closest("button");
+    if (!chosen) return;
+    for (const button of filter.children) {
+      button.setAttribute("aria-pressed", String(button === chosen));
+    }
+    for (const card of document.querySelectorAll(".card")) {
+      card.hidden = !["", card.dataset.verdict].includes(chosen.dataset.verdict);
+    }
+  });
+}
+
+// A viewer is a page of its own, and starts when asked for.
+for (const figure of document.querySelectorAll(".viewer")) {
+  const poster = figure.querySelector(".poster"), start = figure.querySelector("button");
+  start.hidden = false;
+  start.addEventListener("click", () => {
+    const frame = document.createElement("iframe");
+    frame.title = "Viewer: drag the light";
+    frame.allow = "fullscreen";
+    frame.srcdoc = JSON.parse(figure.querySelector("script").textContent);
+    poster.replaceWith(frame);
+    frame.focus();
+  });
+}
+
+// A picture is shown in its own size, and back.
+for (const image of document.querySelectorAll("figure .scroll img")) {
+  image.addEventListener("click", () => image.classList.toggle("whole"));
+}
+
+// What a chart's point says: under the pointer, or by the arrow keys when the chart is chosen.
+const tip = document.getElementById("tip");
+function say(point) {
+  tip.hidden = !point;
+  document.querySelector(".said")?.classList.remove("said");
+  if (!point) return;
+  point.classList.add("said");
+  tip.textContent = point.dataset.says;
+  const box = point.getBoundingClientRect();
+  const left = box.left + box.width / 2 - tip.offsetWidth / 2;
+  const right = document.documentElement.clientWidth - tip.offsetWidth - 4;
+  tip.style.left = `${Math.max(4, Math.min(left, right))}px`;
+  const above = box.top - tip.offsetHeight - 6;
+  tip.style.top = `${scrollY + (above > 0 ? above : box.bottom + 6)}px`;
+}
+for (const chart of document.querySelectorAll(".chart")) {
+  const points = [...chart.querySelectorAll(".says")];
+  for (const point of points) {
+    const title = point.querySelector("title");
+    point.dataset.says = title.textContent;
+    title.remove(); // or the browser shows it as well
+  }
+  let at = -1;
+  chart.addEventListener("pointerover", (event) => say(event.target.closest(".says")));
+  chart.addEventListener("pointerleave", () => say(null));
+  chart.addEventListener("blur", () => say(null));
+  chart.addEventListener("keydown", (event) => {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step || !points.length) return;
+    at = (at + step + points.length) % points.length;
+    points[at].scrollIntoView({ block: "nearest", inline: "nearest" });
+    say(points[at]);
+    event.preventDefault();
+  });
+}
