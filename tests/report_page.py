@@ -30,7 +30,9 @@ CLAIMS = (
     'more,4.3,More is more.,undecided (scale),1 seed,"loss of A 3 against B 2: +1; too few",10,1000\n'
 )
 VIEWER = """<!DOCTYPE html><title>Viewer</title><p id="said">waits</p>
-<script>document.getElementById("said").textContent = "runs" + ("</scr" + "ipt>").length</script>"""
+<script>document.getElementById("said").textContent = "runs" + ("</scr" + "ipt>").length;
+addEventListener("message", ({ data }) => { document.getElementById("said").textContent = data.open; });
+parent.postMessage({ viewer: "left=map_64" }, "*");</script>"""
 LABELS = {"shadow_map_128": "128² map", "shadow_map_512": "512² map", "dragon": "Network"}
 
 
@@ -74,7 +76,7 @@ def make_page(folder: Path, **changes) -> Path:
         "template": TEMPLATE,
         "tables": tables[:3],
         "figures": [figure, drawing],
-        "viewers": [viewer],
+        "viewer": viewer,
         "claims_md": tables[3],
         **write_evaluated(folder),
         "meshes": [samples.write_mesh(folder, name=HOSTILE)],

@@ -1,26 +1,7 @@
-"""The report's page in a real browser: Debian's `chromium`, driven by Playwright."""
-
-import shutil
+"""The report's page in a real browser."""
 
 import pytest
 from report_page import HOSTILE, LABELS, make_page
-
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-pytestmark = pytest.mark.skipif(
-    CHROMIUM is None, reason="no Chromium on this machine: apt-get install chromium"
-)
-playwright_api = pytest.importorskip(
-    "playwright.sync_api", reason="no Playwright: pip install -r envs/browser.txt"
-)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with playwright_api.sync_playwright() as playwright:
-        # Without its sandbox, which containers do not allow; the page is our own.
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +11,7 @@ def address(tmp_path_factory):
 
 @pytest.fixture
 def open_page(browser, address):
-    def open_page(width=1280, height=900, scheme="light"):
+    def open_page(width=1280, height=900, scheme="light", state=""):
         size = {"width": width, "height": height}
         page = browser.new_page(viewport=size, color_scheme=scheme)
         page.set_default_timeout(10_000)
@@ -38,7 +19,7 @@ def open_page(browser, address):
         page.on("console", lambda message: page.messages.append(message.text))
         page.on("pageerror", lambda error: page.messages.append(str(error)))
         page.on("request", lambda request: page.requested.append(request.url))
-        page.goto(address)
+        page.goto(address + state)
         return page
 
     return open_page
@@ -90,6 +71,13 @@ def test_the_viewer_starts_when_asked_for_and_the_page_s_policy_lets_it(open_pag
     said.wait_for()
     assert said.inner_text() == "runs9" and page.locator(".poster").count() == 0
     assert page.messages == [] and {*page.requested} <= {address, "about:srcdoc"}
+    assert page.url.endswith("#viewer?left=map_64")
+
+
+def test_an_address_with_the_viewers_state_opens_it(open_page):
+    page = open_page(state="#viewer?left=map_128&divider=30")
+    page.frame_locator("iframe").get_by_text("left=map_128&divider=30").wait_for()
+    assert page.messages == []
 
 
 def test_claims_of_one_verdict_are_shown_and_all_again(open_page):

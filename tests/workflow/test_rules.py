@@ -18,10 +18,12 @@ from neural_shadows.reports.figures import opengl
 
 EXAMPLES = {"scene": "dragon", "sampling": "poisson_quadtree", "over": "width", "value": "64"}
 EXAMPLES |= dict(experiment="dragon_field", method="dragon_field", batch="000", shard="000")
+EXAMPLES |= {"viewer": "viewer"}
 
 # Of a function that does not have the rule's name.
 FUNCTIONS = {"table": "write", "figure": "draw", "preview_scene": "draw"}
 FUNCTIONS |= {"claims": "write_claims", "page": "write_page", "available": "write_page"}
+FUNCTIONS |= {"viewer": "write_viewer"}
 
 
 @pytest.fixture(scope="module")

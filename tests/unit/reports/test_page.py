@@ -51,7 +51,7 @@ def test_notes_are_shown_once_and_what_is_past_the_thesis_apart(text):
 def test_page_shows_what_is_there(tmp_path, there):
     parts = {"tables", "figures", "claims_md", "references", "meshes", "trainings", "lpips_json"}
     missing = {name: None if "_" in name else [] for name in parts - {there}}
-    text = make_page(tmp_path, **missing, viewers=[], kinds={}).read_text()
+    text = make_page(tmp_path, **missing, viewer=None, kinds={}).read_text()
     section = {"claims_md": "claims", "references": "compare"}.get(there, there)
     sections = re.findall(r'<section id="(\w+)"', text)
     assert [name for name in sections if name != "beyond"] == [section, "run"]
@@ -62,7 +62,7 @@ def test_page_shows_what_is_there(tmp_path, there):
 def test_the_first_screen_has_the_findings_the_viewer_and_the_front(text):
     first = text[text.index('<header id="found">') : text.index("</header>")]
     assert "Of 2 claims of the thesis" in first and "no table of networks" in first
-    assert first.index('id="viewer-viewer"') < first.index('id="figure-figure_front"')
+    assert first.index('id="viewer"') < first.index('id="figure-figure_front"')
     assert text.count('id="figure-figure_front"') == 1
 
 

@@ -54,7 +54,7 @@ def page_files(layout: Layout) -> dict[str, Any]:
     scenes = tables.unique(row["scene"] for row in rows)
     return _reports(layout, default_tables(layout), default_figures(layout)) | {
         "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
-        "viewers": [paths.report(f"{name}.html") for name in settings["viewers"]],
+        "viewer": [paths.report(f"{name}.html") for name in settings["viewers"]][:1],  # 2 MiB each
         "references": tables.references(layout, scenes),
         "visibilities": tables.visibilities(layout, rows),
         "metrics": tables.metrics(layout, rows),

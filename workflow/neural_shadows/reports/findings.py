@@ -11,7 +11,8 @@ from neural_shadows.reports.published import NETWORKS
 from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.verdicts import CONTRADICTED, REASONS, SUPPORTED
 
-OF_NETWORKS = {"scene", "method", "encoding", "samples", "stored_bytes", "psnr_pooled", "views"}
+OF_NETWORKS = {"scene", "method", "encoding", "samples", "psnr_pooled", "views"}
+OF_NETWORKS |= {"stored_bytes", "resident_bytes"}
 MAPS = {"map_lpips": "LPIPS", "map_psnr": "PSNR"}  # what a map's equality is by
 ALIKE = 1.02  # times the bytes: as many
 SAME_GRID = 1.05  # times the parameters: the same grid
@@ -72,7 +73,8 @@ def best_of_its_size(table: pd.DataFrame) -> Markup | None:
     elif side < 0:
         said = (
             "The best trained network, the {best}, is not worth its {size}: the {other} takes "
-            "{less}, and has {factor} times less squared error."
+            "{less}, and has {factor} times less squared error. In memory they take {memory} and "
+            "{others}."
         )
     else:
         said = "In {size} the {best} and the {other} are too close to tell which is better."
@@ -82,6 +84,8 @@ def best_of_its_size(table: pd.DataFrame) -> Markup | None:
         other=_with_psnr(other),
         worth=worth,
         less=size_of(other["stored_bytes"]),
+        memory=size_of(best["resident_bytes"]),
+        others=size_of(other["resident_bytes"]),
         factor=_factor(difference),
     )
 

@@ -30,7 +30,7 @@ def write_page(
     template: list[Path],
     tables: list[Path],
     figures: list[Path],
-    viewers: list[Path],
+    viewer: Path | None,
     claims_md: Path | None,
     references: list[Path],
     visibilities: list[Path],
@@ -54,7 +54,7 @@ def write_page(
         template: `template.html`, `style.css` and `SCRIPTS`, of one folder.
         tables: Markdown, with a CSV beside each, as beside `claims_md`.
         figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
-        viewers: self-contained HTML of each viewer, with its poster, a PNG, beside it.
+        viewer: self-contained HTML of the first viewer, with its poster, a PNG, beside it.
         references, visibilities, metrics: of all batches of each scene, and of each method.
         front: the figure of quality over bytes that is shown first, if there is one.
         data: the tables that figures show, by the figures' names.
@@ -102,7 +102,7 @@ def write_page(
         cards=cards,
         verdicts=counted(cards),
         budget=budget(claims_csv) if claims_csv else "",
-        viewers=[_viewer(path) for path in viewers],
+        viewer=_viewer(viewer) if viewer else None,
         front=next((block for block in drawings if block.name == front), None),
         comparisons=frame_comparisons(references, visibilities, metrics, rows, described),
         tables=[block for block in blocks if block.name not in beyond],
@@ -118,9 +118,9 @@ def write_page(
 
 
 def _viewer(html: Path) -> dict[str, str]:
-    """A viewer's name, its poster as an address within the page, and its own page."""
+    """A viewer's poster as an address within the page, and its own page."""
     poster = data_uri("image/png", html.with_suffix(".png").read_bytes())
-    return {"name": html.stem, "poster": poster, "html": html.read_text(encoding="utf-8")}
+    return {"poster": poster, "html": html.read_text(encoding="utf-8")}
 
 
 if "snakemake" in globals():

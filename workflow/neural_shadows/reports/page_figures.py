@@ -55,7 +55,7 @@ def _block(svg: Path, drawn: bool, title: str, table: Path | None) -> Block:
             source = data_uri("image/svg+xml", svg.read_bytes())
         else:
             with Image.open(svg.with_suffix(".png")) as image:
-                source = webp_uri(image)
+                source = webp_uri(image, lossless=False)
         html = Markup('<img alt="{}" src="{}">').format(title, source)
     title = f"{caption}: {title}" if caption else title
     return Block("figure", svg.stem, title, html, caption, files=files)

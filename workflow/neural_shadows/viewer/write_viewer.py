@@ -134,7 +134,7 @@ def _jpeg(image: Image.Image) -> str:
     """An image within the page, for the while in which the viewer starts."""
     file = io.BytesIO()
     image.save(file, "JPEG", quality=80)
-    return data_uri("jpeg", file.getvalue())
+    return data_uri("image/jpeg", file.getvalue())
 
 
 def _text(template: Sequence[Path], ending: str) -> str:

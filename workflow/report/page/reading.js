@@ -38,9 +38,12 @@ if (filter) {
   });
 }
 
-// A viewer is a page of its own, and starts when asked for.
-for (const figure of document.querySelectorAll(".viewer")) {
+// The viewer is a page of its own, and starts when asked for, or by an address that has its state.
+const figure = document.querySelector(".viewer");
+if (figure) {
   const poster = figure.querySelector(".poster"), start = figure.querySelector("button");
+  const mark = "#viewer?";
+  let asked = location.hash.startsWith(mark) ? location.hash.slice(mark.length) : "";
   start.hidden = false;
   start.addEventListener("click", () => {
     const frame = document.createElement("iframe");
@@ -49,7 +52,14 @@ for (const figure of document.querySelectorAll(".viewer")) {
     frame.srcdoc = JSON.parse(figure.querySelector("script").textContent);
     poster.replaceWith(frame);
     frame.focus();
+    addEventListener("message", ({ source, data }) => {
+      if (source !== frame.contentWindow || typeof data?.viewer !== "string") return;
+      if (asked) source.postMessage({ open: asked }, "*");
+      else history.replaceState(null, "", mark + data.viewer);
+      asked = "";
+    });
   });
+  if (asked) start.click();
 }
 
 // A picture is shown in its own size, and back.
