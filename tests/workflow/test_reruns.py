@@ -20,8 +20,8 @@ TRAINED = ANSWERED | {"find_depth_bias", "measure_frame_times"}
         ("reports/figures/preview.py", {"preview_scene", "table", "page"}),
         ("evaluation/evaluate.py", SHOWN | {"evaluate"}),
         ("evaluation/query_network.py", ANSWERED),
-        ("shadow_maps/shadow_map.py", TRAINED | {"render_references"}),
-        ("training/training_run.py", TRAINED | {"train"}),
+        ("shadow_maps/shadow_map.py", TRAINED | {"render_references", "viewer"}),
+        ("training/training_run.py", TRAINED | {"train", "viewer"}),
         ("running/stage.py", set()),
     ],
 )
@@ -45,7 +45,7 @@ def test_edited_kind_of_network(finished):
         ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "page"}),
         ({"experiments": {"dragon": {"bias": 0.01}}}, ANSWERED),
         ({"experiments": {"dragon": {"label": "Another"}}}, SHOWN),
-        ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train"}),
+        ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train", "viewer"}),
     ],
     ids=["title", "bias", "label", "learning_rate"],
 )

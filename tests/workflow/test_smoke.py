@@ -24,7 +24,15 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
     figures += [f"beyond_{part}" for part in ("dragon", "fence", "landscape", "slice")]
     figures += ["learning_sampling", "beyond_pictures_dragon", "views_dragon"]
     names += [f"figure_{name}.{ending}" for name in figures for ending in ("png", "svg")]
-    names += ["claims.csv", "claims.md", "index.html", "beyond.csv", "beyond.md"]
+    names += [
+        "claims.csv",
+        "claims.md",
+        "index.html",
+        "viewer.html",
+        "viewer.png",
+        "beyond.csv",
+        "beyond.md",
+    ]
     names += ["learning_sampling.csv", "learning_sampling.md"]
     scenes = ("dragon", "fence", "landscape")
     names += [f"scenes/{name}.{ending}" for name in scenes for ending in ("png", "svg")]

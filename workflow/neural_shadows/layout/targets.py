@@ -151,6 +151,8 @@ def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
             if line.startswith(("#", "|")):  # not the notes
                 lines.append(line if len(line) <= width else f"{line[: width - 1]}…")
     pages = [path for path in reports if path.endswith(".html")]
-    if opened := pages or [path for path in reports if path.endswith((".png", ".md"))]:
+    # The page of the run holds the viewer.
+    whole = [path for path in pages if path.endswith("/index.html")]
+    if opened := whole or pages or [path for path in reports if path.endswith((".png", ".md"))]:
         lines.append(f"Open {', '.join(opened)}")
     return "\n".join(lines)
