@@ -12,7 +12,7 @@ from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.scenes.cameras import Viewpoint
+from neural_shadows.scenes.cameras import VIEW_SETS, Viewpoint
 from neural_shadows.scenes.lights import arc_directions
 from neural_shadows.scenes.scene import Scene
 
@@ -28,7 +28,9 @@ def shown_views(scene: Scene, frames: Mapping[str, Any], count: int) -> list[dic
     aspect = frames["width"] / frames["height"]
     sets, seed, least = frames["view_sets"], frames["seed"], frames.get("least_shadow", 0.0)
     drawn = draw_viewpoints(scene, sets, range(count), aspect, seed, least)
-    named = {"Whole object": _hero_view(scene)} | {f"{v.view_set} {v.index}": v for v in drawn}
+    named = {"Whole object": _hero_view(scene)}
+    # As the page names them (`reports.frames`).
+    named |= {f"View {view.index}, {VIEW_SETS[view.view_set]}": view for view in drawn}
     return [
         {"name": name, "fov": view.fov}
         | {key: getattr(view, key).tolist() for key in ("eye", "target", "light")}
