@@ -24,7 +24,7 @@ def viewer(tmp_path_factory):
 
 @pytest.fixture
 def open_viewer(browser, viewer):
-    def open_viewer(state="", width=900, height=700, browser=browser):
+    def open_viewer(state="", width=480, height=440, browser=browser):
         page = browser.new_page(viewport={"width": width, "height": height})
         page.set_default_timeout(20_000)
         page.messages, page.requested = [], []
@@ -152,9 +152,9 @@ def test_mouse_and_keyboard_turn_the_view(open_viewer):
     page = open_viewer("right=no_shadow&left=map_64")
     views = [settled(page)["eye"]]
     box = page.locator("canvas").bounding_box()
-    page.mouse.move(box["x"] + 200, box["y"] + 200)
+    page.mouse.move(box["x"] + 100, box["y"] + 100)
     page.mouse.down()
-    page.mouse.move(box["x"] + 260, box["y"] + 230, steps=3)
+    page.mouse.move(box["x"] + 160, box["y"] + 130, steps=3)
     page.mouse.up()
     views.append(settled(page)["eye"])
     page.locator("canvas").focus()
