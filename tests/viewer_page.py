@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 import trimesh
 from shapes import SPHERE_OF_LIGHTS, bumpy_sphere, prepared
 
@@ -11,7 +12,7 @@ from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.scenes.scene import Scene, make_scene
-from neural_shadows.viewer.mesh_arrays import mesh_arrays, restored_mesh
+from neural_shadows.viewer.mesh_arrays import BITS, MeshArrays, mesh_arrays
 from neural_shadows.viewer.write_viewer import write_viewer
 
 TEMPLATE = Path(__file__).parents[1] / "workflow/report/viewer"
@@ -31,6 +32,16 @@ class ViewerPage(NamedTuple):
     scene: Scene  # of the mesh in the steps that the page holds
     networks: dict[str, ShadowNetwork]
     biases: dict[str, float]
+
+
+def restored_mesh(arrays: MeshArrays) -> tuple[np.ndarray, np.ndarray]:
+    """The vertices (V, 3) float32 and triangles (F, 3) int32 that mesh.js makes of them."""
+    zigzag = arrays.steps.astype(np.int64)
+    places = np.where(zigzag & 1, -(zigzag + 1) // 2, zigzag // 2).cumsum(1).T
+    codes = arrays.codes.astype(np.int64)
+    before = np.concatenate([[0], np.cumsum(codes == 0)[:-1]])
+    faces = (before - codes).reshape(-1, 3).astype(np.int32)
+    return (places / (2**BITS - 1) * 2 - 1).astype(np.float32), faces
 
 
 def make_viewer(folder: Path, settings=NETWORKS, shape=None, light=SPHERE_OF_LIGHTS) -> ViewerPage:

@@ -142,8 +142,17 @@ def test_address_holds_the_state(open_viewer):
     assert "false shadow" in page.locator(".facts.left").inner_text()
 
 
+def test_a_link_pasted_into_the_open_viewer_is_followed(open_viewer):
+    page = open_viewer("right=no_shadow&left=map_64&errors=1")
+    settled(page)
+    page.evaluate("() => { location.hash = 'left=map_128&divider=20'; }")
+    found = settled(page)
+    assert (found["left"], found["right"], found["divider"]) == ("map_128", "no_shadow", "20.0")
+    assert "errors" not in found
+
+
 def test_nonsense_in_the_address_is_left_out(open_viewer):
-    page = open_viewer("left=nobody&right=map_64&divider=-3&eye=1,2&light=x,y,z&fov=nan")
+    page = open_viewer("left=nobody&right=map_64&divider=-3&eye=1,2&light=0,0,0&fov=nan")
     found = settled(page)
     assert found["left"] == "field" and found["divider"] == "50.0" and page.messages == []
 
@@ -151,6 +160,8 @@ def test_nonsense_in_the_address_is_left_out(open_viewer):
 def test_mouse_and_keyboard_turn_the_view(open_viewer):
     page = open_viewer("right=no_shadow&left=map_64")
     views = [settled(page)["eye"]]
+    chosen = "select => select.selectedIndex"
+    assert page.locator("select.view").evaluate(chosen) == 0
     box = page.locator("canvas").bounding_box()
     page.mouse.move(box["x"] + 100, box["y"] + 100)
     page.mouse.down()
@@ -162,6 +173,9 @@ def test_mouse_and_keyboard_turn_the_view(open_viewer):
         page.keyboard.press(key)
         views.append(settled(page)["eye"])
     assert len(set(views)) == len(views) and page.messages == []
+    assert page.locator("select.view").evaluate(chosen) == -1
+    page.locator("select.view").select_option("0")
+    assert settled(page)["eye"] == views[0]
 
 
 def test_divider_parts_two_methods(open_viewer):
@@ -180,7 +194,8 @@ def test_day_plays_and_still_is_saved(open_viewer):
     height = page.locator(".dome").get_attribute("aria-valuetext")
     page.locator(".play").click()
     page.wait_for_timeout(600)
-    page.locator(".play").click()
+    page.locator(".dome").click()  # stops it
+    assert page.locator(".play").get_attribute("aria-pressed") == "false"
     assert page.locator(".dome").get_attribute("aria-valuetext") != height
     with page.expect_download() as saved:
         page.locator(".still").click()

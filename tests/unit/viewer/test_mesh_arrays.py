@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 import trimesh
 from shapes import bumpy_sphere
+from viewer_page import restored_mesh
 
-from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays, restored_mesh
+from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays
 from neural_shadows.viewer.packed import packed
 
 

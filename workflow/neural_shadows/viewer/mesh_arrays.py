@@ -39,16 +39,6 @@ def mesh_arrays(vertices: np.ndarray, faces: np.ndarray) -> MeshArrays:
     return MeshArrays(zigzag.astype(np.uint16), (newest + 1 - corners).astype(np.uint32))
 
 
-def restored_mesh(arrays: MeshArrays) -> tuple[np.ndarray, np.ndarray]:
-    """The vertices (V, 3) float32 and triangles (F, 3) int32 that the viewer draws."""
-    zigzag = arrays.steps.astype(np.int64)
-    places = np.where(zigzag & 1, -(zigzag + 1) // 2, zigzag // 2).cumsum(1).T
-    codes = arrays.codes.astype(np.int64)
-    before = np.concatenate([[0], np.cumsum(codes == 0)[:-1]])
-    faces = (before - codes).reshape(-1, 3).astype(np.int32)
-    return (places / (2**BITS - 1) * 2 - 1).astype(np.float32), faces
-
-
 def _newest_last(faces: np.ndarray) -> np.ndarray:
     """Each triangle (F, 3) turned so that its largest number comes last: a quarter fewer bytes."""
     turned = (faces.argmax(1)[:, None] + np.array([1, 2, 3])) % 3

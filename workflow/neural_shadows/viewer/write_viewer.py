@@ -19,6 +19,7 @@ from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET
 from neural_shadows.rendering.shading import AMBIENT, BACKGROUND
 from neural_shadows.reports.page_blocks import data_uri
 from neural_shadows.reports.phrases import describe_mesh, describe_run
+from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays
@@ -27,7 +28,7 @@ from neural_shadows.viewer.packed import packed
 from neural_shadows.viewer.views import poster, shown_views
 
 # Some 3 bytes each: with these, a 256³ field and a network 64 wide a viewer takes 2 MiB.
-MOST_TRIANGLES = 210_000
+MOST_TRIANGLES, MOST_BYTES = 210_000, 2 << 20
 
 
 def write_viewer(
@@ -108,6 +109,12 @@ def write_viewer(
         about=f"Mesh: {describe_mesh(report, about)}. {quantised} {describe_run(run)}",
         data=data,
     )
+    if len(page) > MOST_BYTES:
+        print(
+            f"{html}: {len(page):,} bytes, more than the {MOST_BYTES:,} that are quick to open; take "
+            "a field of fewer cells",
+            file=progress.TERMINAL,
+        )
     write_text(html, page)
 
 

@@ -48,14 +48,13 @@ if (figure) {
   start.addEventListener("click", () => {
     const frame = document.createElement("iframe");
     frame.title = "Viewer: drag the light";
-    frame.allow = "fullscreen";
     frame.srcdoc = JSON.parse(figure.querySelector("script").textContent);
     poster.replaceWith(frame);
     frame.focus();
     addEventListener("message", ({ source, data }) => {
       if (source !== frame.contentWindow || typeof data?.viewer !== "string") return;
       if (asked) source.postMessage({ open: asked }, "*");
-      else history.replaceState(null, "", mark + data.viewer);
+      else if (data.viewer) history.replaceState(null, "", mark + data.viewer);
       asked = "";
     });
   });

@@ -12,15 +12,17 @@ function stateText({ left, right, divider, errors, view, light }) {
 }
 
 // What of a text makes sense; the rest stays as it was.
+const isWay = (a, b = [0, 0, 0]) => Math.hypot(...plus(a, b, -1)) > 0.01;
 function stateOf(text, keys) {
   const found = new URLSearchParams(text), state = {};
   for (const side of ["left", "right"]) if (keys.includes(found.get(side))) state[side] = found.get(side);
   const divider = Number(found.get("divider") ?? NaN), fov = Number(found.get("fov"));
   if (divider >= 0 && divider <= 100) state.divider = divider;
-  if (found.has("errors")) state.errors = true;
-  if (isVector(found.get("light"))) state.light = parted(found.get("light"));
-  if (isVector(found.get("eye")) && isVector(found.get("target")) && fov >= 5 && fov <= 120) {
-    state.view = { eye: parted(found.get("eye")), target: parted(found.get("target")), fov };
+  if (found.size) state.errors = found.has("errors");
+  const [light, eye, target] = ["light", "eye", "target"].map((name) => found.get(name));
+  if (isVector(light) && isWay(parted(light))) state.light = parted(light);
+  if (isVector(eye) && isVector(target) && isWay(parted(eye), parted(target)) && fov >= 5 && fov <= 120) {
+    state.view = { eye: parted(eye), target: parted(target), fov };
   }
   return state;
 }

@@ -25,7 +25,7 @@ class Dome {
     });
     svg.addEventListener("pointermove", (event) => { if (this.held) point(event); });
     for (const end of ["pointerup", "pointercancel"]) {
-      svg.addEventListener(end, () => { this.held = false; moved(false); });
+      svg.addEventListener(end, () => { this.held = false; });
     }
     svg.addEventListener("keydown", (event) => {
       const steps = { ArrowLeft: [-0.06, 0], ArrowRight: [0.06, 0], ArrowUp: [0, 0.06], ArrowDown: [0, -0.06] };
@@ -33,7 +33,6 @@ class Dome {
       event.preventDefault();
       const [x, y] = this.#place(this.light), [right, ahead] = steps[event.key];
       this.#to(x + right, y + ahead);
-      moved(false);
     });
   }
 
@@ -70,6 +69,13 @@ class Dome {
     return this.#allowed(unit(plus(light, about, 0.45)));
   }
 
+  // The share of a day at which the light is nearest to where it stands.
+  time() {
+    const shares = Array.from({ length: 200 }, (_, i) => i / 200);
+    const near = shares.map((share) => dot(this.atTime(share), this.light));
+    return shares[near.indexOf(Math.max(...near))];
+  }
+
   // What is to the right of the camera and ahead of it.
   #sides() {
     const right = unit(cross(this.ahead, this.up));
@@ -87,7 +93,7 @@ class Dome {
     const [right, ahead] = this.#sides(), length = Math.min(1, Math.hypot(x, y)), angle = length * Math.PI / 2;
     const level = unit(plus(right.map((a) => a * (x || 1e-9)), ahead, y));
     this.set(plus(this.up.map((a) => a * Math.cos(angle)), level, Math.sin(angle)));
-    this.moved(true);
+    this.moved();
   }
 
   set(light) {

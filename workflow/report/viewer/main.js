@@ -1,74 +1,93 @@
 // The viewer: two methods of the same frame on both sides of a divider, live.
 
 const MOVING_MS = 40, RESTING_MS = 700; // what a frame may take: at most so many pixels are asked
-const FINEST = 1, COARSEST = 1 / 16; // pixels of an answer by those of the canvas, along an axis
+const SCALES = [1, 1 / 2, 1 / 4, 1 / 8, 1 / 16]; // pixels of an answer by those of the canvas
 const DAY_SECONDS = 12;
 
 async function startViewer(root, data) {
   const find = (selector) => root.querySelector(selector), canvas = find("canvas");
   const mesh = await unpackMesh(data.mesh), methods = await allMethods(data.networks);
   const byKey = Object.fromEntries(methods.map((method) => [method.key, method]));
+  const keys = Object.keys(byKey);
   const renderer = new Renderer(canvas, data.shaders, data.constants, mesh, data.scene);
   const state = {
     left: data.networks[0]?.key ?? "map_1024", right: "reference", divider: 50, errors: false,
     view: data.views[0], light: data.views[0].light,
   };
   const cost = new Map(); // by method: milliseconds a pixel, once it is measured
-  let view = state.view, asked = 0, moving = false, rest = 0, playing = null;
+  let view = state.view, asked = 0, moving = false, rest = 0, playing = null, told = false;
 
-  const orbit = new Orbit(canvas, data.scene, (still) => {
+  const orbit = new Orbit(canvas, data.scene, () => {
     state.view = orbit.view;
+    find("select.view").selectedIndex = -1;
     dome.turn(state.view);
-    changed(still);
+    changed();
   });
-  const dome = new Dome(find(".dome"), { up: data.scene.up, domain: data.scene.light }, (still) => {
+  const dome = new Dome(find(".dome"), { up: data.scene.up, domain: data.scene.light }, () => {
+    if (playing) play();
     state.light = dome.light;
-    changed(still);
+    changed();
   });
 
-  // Something moved, or came to rest: then the frame is drawn as finely as there is time for.
-  function changed(still) {
-    moving = still;
-    asked ||= requestAnimationFrame(draw);
+  // Something moved; a quarter of a second after the last the frame is drawn as finely as there is
+  // time for. A page's address tells what its reader did here, and not that its window was resized.
+  function changed(byReader = true) {
+    moving = true;
+    told ||= byReader;
+    asked ||= requestAnimationFrame(() => guarded(draw));
     clearTimeout(rest);
-    rest = setTimeout(() => { moving = false; settle(); }, 250);
+    rest = setTimeout(() => { moving = false; guarded(settle); }, 250);
+  }
+
+  function guarded(step) {
+    try {
+      step();
+    } catch (error) {
+      fail(root, error);
+    }
   }
 
   // Milliseconds of a frame's pixel; infinite as long as nobody knows how long a method takes.
   function pixelCost() {
-    const share = state.divider / 100, of = (side) => cost.get(state[side]) ?? Infinity;
-    return (share > 0 && of("left") * share) + (share < 1 && of("right") * (1 - share));
+    const share = state.divider / 100, of = (key) => cost.get(key) ?? Infinity;
+    return (share > 0 && of(state.left) * share) + (share < 1 && of(state.right) * (1 - share))
+      + (state.errors && of(reference.key));
   }
 
-  // A method's answers, and the milliseconds that they took.
-  function timed(side, name, size, from, to) {
-    const method = byKey[state[side]], { light } = state;
-    if (!renderer.made.has(method.key)) renderer.answer(method, name, view, light, ...size, 0, 1);
-    const start = performance.now();
-    const answer = renderer.answer(method, name, view, light, ...size, from, to);
+  // A method's answers, and the milliseconds that they took, with those of a map for this light.
+  function timed(method, name, size, from = 0, to = size[0]) {
+    renderer.look(view, ...size);
+    const { uniforms } = renderer.prepare(method);
     renderer.finish();
-    const took = performance.now() - start;
-    if (to > from) cost.set(method.key, took / ((to - from) * size[1]));
-    return [answer, took];
+    const start = performance.now();
+    uniforms(state.light);
+    renderer.finish();
+    const begun = performance.now();
+    const answer = renderer.answer(method, name, view, state.light, ...size, from, to);
+    renderer.finish();
+    const end = performance.now();
+    if (to > from) cost.set(method.key, (end - begun) / ((to - from) * size[1]));
+    return [answer, end - start];
   }
 
   // Asks as many pixels as there is time for; few if that is not known, and then once more.
   function frame(milliseconds, again = true) {
     const box = canvas.getBoundingClientRect(), dots = Math.min(2, devicePixelRatio || 1);
-    canvas.width = Math.max(1, Math.round(box.width * dots));
-    canvas.height = Math.max(1, Math.round(box.height * dots));
-    const each = pixelCost(), most = Math.sqrt(milliseconds / (each * canvas.width * canvas.height));
-    const scale = clamped(most, COARSEST, FINEST);
-    const size = [canvas.width, canvas.height].map((x) => Math.max(1, Math.round(x * scale)));
-    const divider = Math.round(size[0] * state.divider / 100), { light } = state;
+    const shown = [box.width, box.height].map((x) => Math.max(1, Math.round(x * dots)));
+    if (canvas.width !== shown[0]) canvas.width = shown[0];
+    if (canvas.height !== shown[1]) canvas.height = shown[1];
+    const each = pixelCost(), whole = each * shown[0] * shown[1];
+    const scale = SCALES.find((scale) => scale ** 2 * whole <= milliseconds) ?? SCALES.at(-1);
+    const size = shown.map((x) => Math.max(1, Math.round(x * scale)));
+    const divider = Math.round(size[0] * state.divider / 100), { light, errors } = state;
     view = wideEnough(state.view, size[0] / size[1]);
-    const [left, leftTook] = timed("left", "left", size, 0, divider);
-    const [right, rightTook] = timed("right", "right", size, divider, size[0]);
-    const truth = state.errors ? renderer.answer(reference, "reference", view, light, ...size) : right;
-    renderer.show({ left, right, reference: truth, light, divider, errors: state.errors });
-    const took = leftTook + rightTook;
-    find(".rate").textContent =
-      `${size[0]} × ${size[1]}: ${took.toFixed(1)} ms, ${(1000 / took).toPrecision(2)} frames a second`;
+    const [left, leftTook] = timed(byKey[state.left], "left", size, 0, divider);
+    const [right, rightTook] = timed(byKey[state.right], "right", size, divider);
+    const [truth, truthTook] = errors ? timed(reference, "reference", size) : [right, 0];
+    renderer.show({ left, right, reference: truth, light, divider, errors });
+    const took = leftTook + rightTook + truthTook;
+    const rate = took > 100 ? (1000 / took).toFixed(1) : Math.round(1000 / Math.max(took, 1));
+    find(".rate").textContent = `${size[0]} × ${size[1]}: ${took.toFixed(1)} ms, ${rate} frames a second`;
     return again && each === Infinity ? frame(milliseconds, false) : size;
   }
 
@@ -80,15 +99,16 @@ async function startViewer(root, data) {
   // At rest: the whole frame by both methods, how far each is from the reference, and the address.
   function settle() {
     if (playing) return;
-    const size = frame(RESTING_MS), { light } = state;
-    renderer.answer(reference, "reference", view, light, ...size);
+    const size = frame(RESTING_MS), [, truthTook] = timed(reference, "reference", size);
     const truth = renderer.read("reference");
     for (const side of ["left", "right"]) {
-      const [, took] = timed(side, "whole", size, 0, size[0]);
-      const shares = wrongShares(renderer.read("whole"), truth), method = byKey[state[side]];
-      find(`.facts.${side}`).textContent = method === reference ? "" : factsOf(method, took, shares);
+      const method = byKey[state[side]];
+      renderer.dropMaps();
+      const took = method === reference ? truthTook : timed(method, "whole", size)[1];
+      const shares = method === reference ? null : wrongShares(renderer.read("whole"), truth);
+      find(`.facts.${side}`).textContent = factsOf(method, took, shares);
     }
-    writeAddress(stateText(state));
+    if (told || window.parent === window) writeAddress(stateText(state));
     root.dataset.settled = String(Number(root.dataset.settled ?? 0) + 1);
   }
 
@@ -101,31 +121,38 @@ async function startViewer(root, data) {
     find(".play").setAttribute("aria-pressed", String(Boolean(playing)));
   }
 
-  function take(given) {
+  function take(given, byReader = true) {
     Object.assign(state, given);
     if (given.light) dome.set(given.light);
     state.light = dome.light;
-    if (given.view) orbit.set(given.view);
+    if (given.view) {
+      orbit.set(given.view);
+      state.view = orbit.view;
+      find("select.view").selectedIndex = data.views.indexOf(given.view);
+      dome.turn(state.view);
+    }
+    if (playing && given.light) play();
     place();
-    changed(false);
+    changed(byReader);
   }
 
+  // A day of light from where it stands, or no longer.
   function play() {
     if (playing) {
       cancelAnimationFrame(playing);
       playing = null;
     } else {
-      const start = performance.now();
+      const start = performance.now() - 1000 * DAY_SECONDS * dome.time();
       const step = (now) => {
         dome.set(dome.atTime((now - start) / 1000 / DAY_SECONDS % 1));
         state.light = dome.light;
         playing = requestAnimationFrame(step);
-        draw();
+        guarded(draw);
       };
       playing = requestAnimationFrame(step);
     }
     place();
-    changed(false);
+    changed();
   }
 
   function saveStill() {
@@ -157,21 +184,26 @@ async function startViewer(root, data) {
   dragDivider(find(".over"), find(".stage"), (divider) => {
     state.divider = divider ?? state.divider;
     place();
-    changed(true);
+    changed();
   }, () => state.divider);
   new ResizeObserver(() => changed(false)).observe(canvas);
-  addEventListener("message", ({ data: told }) => {
-    if (typeof told?.open === "string") take(stateOf(told.open, Object.keys(byKey)));
+  canvas.addEventListener("webglcontextlost", () => fail(root, new Unavailable(
+    "The graphics driver has stopped this page's drawing. Load it anew.")));
+  const open = (text) => take(stateOf(text, keys));
+  addEventListener("hashchange", () => open(location.hash.slice(1)));
+  addEventListener("message", ({ data: given }) => {
+    if (typeof given?.open === "string") open(given.open);
   });
 
   dome.turn(state.view);
-  take({ ...state, ...stateOf(location.hash.slice(1), Object.keys(byKey)) });
+  take({ ...state, ...stateOf(location.hash.slice(1), keys) }, false);
   root.classList.add("ready");
+  if (window.parent !== window) writeAddress(""); // the page may have a state for it
 
   // For tests and scripts: a method's answers at each pixel, rows from the top; 0 to 255, and 255
   // for what is not asked, is −1: (height · width) numbers.
   return {
-    methods: Object.keys(byKey),
+    methods: keys,
     answers(key, view, light, width, height) {
       renderer.answer(byKey[key], "asked", { up: data.scene.up, ...view }, light, width, height);
       const pixels = renderer.read("asked");
@@ -186,13 +218,18 @@ function wideEnough(view, aspect) {
   return { ...view, fov: Math.atan(half) * 360 / Math.PI };
 }
 
-function factsOf({ stored, resident }, milliseconds, { falseShadow, lightLeak }) {
+// shares: null for the reference.
+function factsOf({ stored, resident }, milliseconds, shares) {
   const percent = (share) => `${(100 * share).toFixed(2)} %`, mebi = 1 << 20;
   const bytes = (count) => count < mebi / 10 ? `${(count / 1024).toFixed(0)} KiB` : `${(count / mebi).toFixed(2)} MiB`;
-  const kept = stored === undefined ? [] : [`${bytes(stored)} stored`];
-  if (resident) kept.push(`${bytes(resident)} in memory`);
-  return [...kept, `${milliseconds.toFixed(1)} ms`, `false shadow ${percent(falseShadow)}`,
-    `light leak ${percent(lightLeak)} of the pixels`].join(" · ");
+  const facts = [`${milliseconds.toFixed(1)} ms a frame`];
+  if (resident) facts.unshift(`${bytes(resident)} in memory`);
+  if (stored !== undefined) facts.unshift(`${bytes(stored)} stored`);
+  if (shares) {
+    facts.push(`false shadow ${percent(shares.falseShadow)}`,
+      `light leak ${percent(shares.lightLeak)} of the points seen`);
+  }
+  return facts.join(" · ");
 }
 
 // moved: told where the divider is, in per cent of the stage's width.
@@ -216,11 +253,14 @@ function dragDivider(handle, stage, moved, at) {
   });
 }
 
-const root = document.getElementById("viewer");
-startViewer(root, JSON.parse(document.getElementById("data").textContent)).then((viewer) => {
-  window.viewer = viewer;
-}, (error) => {
+// Once it cannot go on: a still, and the reason.
+function fail(root, error) {
+  root.classList.remove("ready");
   root.classList.add("failed");
   root.querySelector(".reason").textContent = error instanceof Unavailable
-    ? `${error.message} This is a still of what it would show.` : `The viewer cannot start: ${error.message}`;
-});
+    ? `${error.message} This is a still of what it would show.` : `The viewer cannot go on: ${error.message}`;
+}
+
+const root = document.getElementById("viewer");
+startViewer(root, JSON.parse(document.getElementById("data").textContent)).then(
+  (viewer) => { window.viewer = viewer; }, (error) => fail(root, error));

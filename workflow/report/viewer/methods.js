@@ -2,8 +2,8 @@
 // what its shader is told; those made for a light (maps) are made anew when it moves.
 
 const MAP_SIZES = [64, 128, 256, 512, 1024, 2048, 4096];
-const SOLID = -(1 << 20); // as field_marching.py has it
-const ROW_BRICKS = 16;
+const SOLID = -(1 << 20); // in the grid: a brick that the surface encloses
+const ROW_BRICKS = 32; // of the values' texture: 4,000 texels, within every device's limit
 
 function mapMethod(size, filtered) {
   return {
@@ -11,6 +11,7 @@ function mapMethod(size, filtered) {
     name: `Shadow map ${size}²${filtered ? ", 2 × 2 PCF" : ""}`,
     source: "map",
     resident: 4 * size * size,
+    size, // of the map that is drawn for each light
     make: (renderer) => ({ uniforms: (light) => ({ ...renderer.mapOf(light, size), filtered }) }),
   };
 }
@@ -55,22 +56,25 @@ function fieldMethod(data) {
 // The 125 values of each brick, from those of all vertices, which bricks share, in order of place.
 function brickValues(grid, size, bricks, values) {
   const whole = 4 * size + 1, count = 125 * bricks, found = new Int8Array(count);
-  const keys = new Float64Array(count); // a vertex's place · count + where its value goes
+  const places = new Uint32Array(count);
   grid.forEach((brick, i) => {
     if (brick < 0) return;
     const x = 4 * Math.floor(i / size / size), y = 4 * (Math.floor(i / size) % size), z = 4 * (i % size);
     for (let k = 0; k < 125; k++) {
       const row = (x + Math.floor(k / 25)) * whole + y + Math.floor(k / 5) % 5;
-      keys[125 * brick + k] = (row * whole + z + k % 5) * count + 125 * brick + k;
+      places[125 * brick + k] = row * whole + z + k % 5;
     }
   });
-  let next = -1, before = -1;
-  for (const key of keys.sort()) {
-    const place = Math.floor(key / count);
-    if (place !== before) next++;
-    before = place;
-    found[key - place * count] = values[next];
-  }
+  const sorted = places.slice().sort().filter((place, i, all) => i === 0 || place !== all[i - 1]);
+  places.forEach((place, at) => {
+    let low = 0, high = sorted.length - 1;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (sorted[middle] < place) low = middle + 1;
+      else high = middle;
+    }
+    found[at] = values[low];
+  });
   return found;
 }
 

@@ -35,7 +35,7 @@ class Renderer {
   }
 
   // The surface points that a viewpoint sees, kept while it stands still.
-  #look(view, width, height) {
+  look(view, width, height) {
     const { gl } = this, points = this.#target("points", [FLOATS, FLOATS, FLOATS], width, height, true);
     const seen = JSON.stringify([view.eye, view.target, view.up, view.fov]);
     if (seen === this.seen) return points.textures;
@@ -61,10 +61,16 @@ class Renderer {
     return points.textures;
   }
 
-  // A shadow map of a light, as a shader's uniforms (shadow_maps/shadow_map.py).
+  // Forget which light the maps are of, so that the next is drawn.
+  dropMaps() {
+    for (const map of this.maps.values()) map.light = [];
+  }
+
+  // A shadow map of a light, as a shader's uniforms (shadow_maps/shadow_map.py). Those of the last
+  // two sizes are kept: one of 4096² takes 128 MiB with its depths.
   mapOf(light, size) {
     const known = this.maps.get(size), { gl } = this;
-    if (known && known.light.every((x, i) => x === light[i])) return known.uniforms;
+    if (known && light.every((x, i) => x === known.light[i])) return known.uniforms;
     const rows = basisOf(light), low = [Infinity, Infinity, Infinity], high = low.map((x) => -x);
     const { vertices } = this;
     for (let i = 0; i < vertices.length; i += 3) {
@@ -87,20 +93,31 @@ class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, this.occluder.count);
     gl.disable(gl.DEPTH_TEST);
     const uniforms = { heights: target.textures[0], basis, corner, side };
+    this.maps.delete(size);
     this.maps.set(size, { light: [...light], target, uniforms });
+    const [oldest] = this.maps.keys();
+    if (this.maps.size > 2) {
+      this.maps.get(oldest).target.free();
+      this.maps.delete(oldest);
+    }
     return uniforms;
+  }
+
+  // A method's program, and what it is told of a light; made when it is first asked for.
+  prepare(method) {
+    if (!this.made.has(method.key)) {
+      const source = this.shaders.visibility_frag + this.shaders[method.source];
+      const program = makeProgram(this.gl, this.shaders.screen_vert, source, method.constants);
+      this.made.set(method.key, { program, ...method.make(this) });
+    }
+    return this.made.get(method.key);
   }
 
   // A method's answers at the points of a viewpoint, between two columns: a texture.
   answer(method, name, view, light, width, height, from = 0, to = width) {
     const { gl } = this;
-    const [points, faceNormals] = this.#look(view, width, height);
-    if (!this.made.has(method.key)) {
-      const source = this.shaders.visibility_frag + this.shaders[method.source];
-      const program = makeProgram(gl, this.shaders.screen_vert, source, method.constants);
-      this.made.set(method.key, { program, ...method.make(this) });
-    }
-    const { program, uniforms } = this.made.get(method.key), told = uniforms(light);
+    const [points, faceNormals] = this.look(view, width, height);
+    const { program, uniforms } = this.prepare(method), told = uniforms(light);
     const target = this.#target(name, [BYTES], width, height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
     gl.viewport(0, 0, width, height);
@@ -152,13 +169,15 @@ function groundQuad(up, height, radius) {
   return { position: Float32Array.from(position), normal, faceNormal: normal };
 }
 
-// Shares of all pixels that a method calls dark where the reference is lit, and lit where it is dark.
+// Shares of the points seen that a method calls dark where the reference is lit, and lit where it is
+// dark, as metrics/shadow_error.py counts them.
 function wrongShares(answers, truth) {
-  let dark = 0, lit = 0;
+  let dark = 0, lit = 0, seen = 0;
   for (let i = 0; i < answers.length; i += 4) {
+    seen += truth[i + 1] > 0;
     const wrong = (answers[i] - truth[i]) / 255;
     if (wrong < 0) dark -= wrong;
     else lit += wrong;
   }
-  return { falseShadow: 4 * dark / answers.length, lightLeak: 4 * lit / answers.length };
+  return { falseShadow: dark / Math.max(1, seen), lightLeak: lit / Math.max(1, seen) };
 }

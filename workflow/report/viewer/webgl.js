@@ -13,7 +13,10 @@ function openWebgl(canvas) {
 
 function makeProgram(gl, vertex, fragment, constants = {}) {
   const defines = Object.entries(constants).map(([name, value]) => `#define ${name} ${value}\n`);
-  const head = `#version 300 es\nprecision highp float;\nprecision highp int;\n${defines.join("")}`;
+  // Without the latter phones may read positions and heights as half floats.
+  const exact = ["float", "int", "sampler2D", "isampler2D", "isampler3D"];
+  const precisions = exact.map((type) => `precision highp ${type};\n`);
+  const head = ["#version 300 es\n", ...precisions, ...defines].join("");
   const program = gl.createProgram();
   for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(kind);
@@ -37,6 +40,10 @@ function makeProgram(gl, vertex, fragment, constants = {}) {
 // format: [internal, format, type]; data null for a target. Texels are fetched, never filtered.
 function makeTexture(gl, format, [width, height, depth], data = null) {
   const texture = gl.createTexture(), kind = depth ? gl.TEXTURE_3D : gl.TEXTURE_2D;
+  const most = gl.getParameter(depth ? gl.MAX_3D_TEXTURE_SIZE : gl.MAX_TEXTURE_SIZE);
+  if (Math.max(width, height, depth ?? 0) > most) {
+    throw new Unavailable(`This device's textures end at ${most} texels, too few for this method.`);
+  }
   gl.bindTexture(kind, texture);
   gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
   const [internal, ...rest] = format.map((name) => gl[name]);

@@ -1,7 +1,7 @@
 // The first crossing of a ray with an occupancy field; see field_marching.py, of which this is a
 // translation. Only the values of bricks that the surface touches are there.
-uniform highp isampler3D grid;   // a brick's number; −how many may be skipped; or SOLID
-uniform highp isampler2D values; // ROW_BRICKS bricks a row, 125 values each
+uniform isampler3D grid;   // a brick's number; −how many may be skipped; or SOLID
+uniform isampler2D values; // ROW_BRICKS bricks a row, 125 values each
 uniform float level;
 uniform float depthBias;
 uniform bool sheet;

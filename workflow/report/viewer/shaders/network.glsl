@@ -1,6 +1,6 @@
 // The thesis's network [3.3]: frequency encoding and layers without biases, ReLU after each. A
 // texel of `weights` is a column of a 4 × 4 block; blocks are in order of outputs, then inputs.
-uniform highp sampler2D weights;
+uniform sampler2D weights;
 uniform float depthBias;
 
 const int INPUTS = (6 * (1 + 2 * FREQUENCIES) + 3) / 4; // in fours, as all sizes here
@@ -24,11 +24,10 @@ float shadowDepth(vec3 o, vec3 d) {
   vec4 x[INPUTS];
   for (int i = 0; i < INPUTS; i++) x[i] = vec4(0.0);
   for (int i = 0; i < 6; i++) {
-    float value = (rays[i] + 1.0) / 2.0;
+    float value = (rays[i] + 1.0) / 2.0, turns = value / 2.0;
     x[i / 4][i % 4] = value;
-    for (int k = 0; k < FREQUENCIES; k++) {
+    for (int k = 0; k < FREQUENCIES; k++, turns *= 2.0) {
       // 2ᵏ x is exact, and so is what is left of it in one turn; a sine of 2ᵏ π x is not.
-      float turns = value * exp2(float(k - 1));
       float phase = 6.283185307179586 * (turns - floor(turns));
       int sine = 6 + i * FREQUENCIES + k, cosine = sine + 6 * FREQUENCIES;
       x[sine / 4][sine % 4] = sin(phase);

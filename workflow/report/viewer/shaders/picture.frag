@@ -1,5 +1,5 @@
 // The grey picture (rendering/shading.py) of two methods' answers, left and right of the divider; or
-// where a method is wrong: red where it has a false shadow, blue where light leaks.
+// where a method is wrong: vermilion where it has a false shadow, blue where light leaks.
 uniform sampler2D shadingNormals;
 uniform sampler2D left;
 uniform sampler2D right;
@@ -22,6 +22,6 @@ void main() {
   colour = vec4(vec3(grey), 1.0);
   if (!errors) return;
   float wrong = answer.x - texelFetch(reference, at, 0).x;
-  vec3 hue = wrong < 0.0 ? vec3(0.835, 0.0, 0.0) : vec3(0.0, 0.447, 0.698);
+  vec3 hue = wrong < 0.0 ? vec3(0.835, 0.369, 0.0) : vec3(0.0, 0.447, 0.698);
   colour.rgb = mix(vec3(0.55 + 0.4 * grey), hue, min(abs(wrong), 1.0));
 }

@@ -1,7 +1,7 @@
 // The reference: a shadow ray through the mesh's tree of boxes (bvh.js), in the order of its nodes,
 // from each to its first child or, if it is missed or a leaf, to where its `skip` says.
-uniform highp sampler2D nodes;     // (lowest corner, skip), (highest corner, leaf's triangles)
-uniform highp sampler2D triangles; // three corners each; w of the first: unused
+uniform sampler2D nodes;     // (lowest corner, skip), (highest corner, leaf's triangles)
+uniform sampler2D triangles; // three corners each; w of the first: unused
 uniform int nodeCount;
 
 vec4 at(sampler2D data, int i) {
