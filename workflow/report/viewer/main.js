@@ -70,14 +70,19 @@ async function startViewer(root, data) {
     return [answer, end - start];
   }
 
-  // Asks as many pixels as there is time for; few if that is not known, and then once more.
-  function frame(milliseconds, again = true) {
+  // How many pixels there is time for; few if that is not known.
+  function scaleFor(milliseconds) {
+    const whole = pixelCost() * canvas.width * canvas.height;
+    return SCALES.find((scale) => scale ** 2 * whole <= milliseconds) ?? SCALES.at(-1);
+  }
+
+  // Draws, and gives the scale that it was drawn at and the size.
+  function frame(milliseconds) {
     const box = canvas.getBoundingClientRect(), dots = Math.min(2, devicePixelRatio || 1);
     const shown = [box.width, box.height].map((x) => Math.max(1, Math.round(x * dots)));
     if (canvas.width !== shown[0]) canvas.width = shown[0];
     if (canvas.height !== shown[1]) canvas.height = shown[1];
-    const each = pixelCost(), whole = each * shown[0] * shown[1];
-    const scale = SCALES.find((scale) => scale ** 2 * whole <= milliseconds) ?? SCALES.at(-1);
+    const scale = scaleFor(milliseconds);
     const size = shown.map((x) => Math.max(1, Math.round(x * scale)));
     const divider = Math.round(size[0] * state.divider / 100), { light, errors } = state;
     view = wideEnough(state.view, size[0] / size[1]);
@@ -88,7 +93,16 @@ async function startViewer(root, data) {
     const took = leftTook + rightTook + truthTook;
     const rate = took > 100 ? (1000 / took).toFixed(1) : Math.round(1000 / Math.max(took, 1));
     find(".rate").textContent = `${size[0]} × ${size[1]}: ${took.toFixed(1)} ms, ${rate} frames a second`;
-    return again && each === Infinity ? frame(milliseconds, false) : size;
+    return [scale, size];
+  }
+
+  // Draws as finely as there is time for: what few pixels cost says too much of what many will.
+  function restingFrame() {
+    let [scale, size] = frame(RESTING_MS);
+    for (let tries = 0; tries < SCALES.length && scaleFor(RESTING_MS) > scale; tries++) {
+      [scale, size] = frame(RESTING_MS);
+    }
+    return size;
   }
 
   function draw() {
@@ -99,7 +113,7 @@ async function startViewer(root, data) {
   // At rest: the whole frame by both methods, how far each is from the reference, and the address.
   function settle() {
     if (playing) return;
-    const size = frame(RESTING_MS), [, truthTook] = timed(reference, "reference", size);
+    const size = restingFrame(), [, truthTook] = timed(reference, "reference", size);
     const truth = renderer.read("reference");
     for (const side of ["left", "right"]) {
       const method = byKey[state[side]];
@@ -156,7 +170,7 @@ async function startViewer(root, data) {
   }
 
   function saveStill() {
-    frame(RESTING_MS);
+    restingFrame();
     const link = document.createElement("a");
     link.href = canvas.toDataURL("image/png");
     link.download = `${data.name}_${state.left}_${state.right}.png`;
