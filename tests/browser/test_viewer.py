@@ -39,8 +39,7 @@ def open_viewer(browser, viewer):
 
 def settled(page):
     """Waits until the viewer has come to rest after what was done before, and gives its state."""
-    before = page.locator("#viewer").get_attribute("data-settled") or "0"
-    page.locator(f"#viewer[data-settled]:not([data-settled='{before}'])").wait_for()
+    page.locator("#viewer[data-moving='false']").wait_for()
     return dict(part.split("=") for part in page.url.partition("#")[2].split("&"))
 
 

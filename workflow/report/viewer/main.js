@@ -33,6 +33,7 @@ async function startViewer(root, data) {
   // time for. A page's address tells what its reader did here, and not that its window was resized.
   function changed(byReader = true) {
     moving = true;
+    root.dataset.moving = "true";
     told ||= byReader;
     asked ||= requestAnimationFrame(() => guarded(draw));
     clearTimeout(rest);
@@ -123,7 +124,7 @@ async function startViewer(root, data) {
       find(`.facts.${side}`).textContent = factsOf(method, took, shares);
     }
     if (told || window.parent === window) writeAddress(stateText(state));
-    root.dataset.settled = String(Number(root.dataset.settled ?? 0) + 1);
+    root.dataset.moving = "false"; // tests wait for it
   }
 
   function place() {

@@ -73,6 +73,7 @@ class Orbit {
   // A movement by so much, spread over its slowing down.
   #push(way) {
     this.speed = this.speed.map((speed, i) => speed + SLOWING * way[i]);
+    this.moved();
     this.#coast();
   }
 
