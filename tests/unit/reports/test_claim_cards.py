@@ -1,18 +1,20 @@
-from neural_shadows.reports.claim_cards import Verdict, counted, number_of, read_cards
-from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, TOO_SMALL, VERDICTS
+import pytest
 
-EVIDENCE = [
-    "LPIPS of A 0.09 against B 0.09: 6 views are too few",
-    "PSNR of A 11.8 dB against B 11.2 dB: +0.6 [+0.1, +1.1]",
-    "loss of A 0.32 against B 0.27: -0.058 [-0.06, -0.05], moving away",
-]
+from neural_shadows.reports.claim_cards import Verdict, counted, number_text, read_cards
+from neural_shadows.reports.verdicts import SUPPORTED, TOO_SMALL, VERDICTS
 
 
-def test_a_card_has_the_number_that_decides():
-    assert number_of(EVIDENCE, SUPPORTED) == "advantage in PSNR: +0.6 [+0.1, +1.1] (3 comparisons)"
-    assert number_of(EVIDENCE[1:2], TOO_SMALL) == "advantage in PSNR: +0.6 [+0.1, +1.1]"
-    assert number_of(EVIDENCE, CONTRADICTED).startswith("advantage in loss: −0.058 [−0.06, −0.05]")
-    assert number_of(EVIDENCE[:1], TOO_SMALL) == ""
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (("PSNR", "-0.6 [-1.1, -0.1]", 3), "advantage in PSNR: −0.6 [−1.1, −0.1] (3 comparisons)"),
+        (("PSNR", "+1.2e+03", 1), "advantage in PSNR: +1.2e+03"),
+        (("own milliseconds", "ratio 2 [1.9, 2.1]", 1), "own milliseconds: ratio 2 [1.9, 2.1]"),
+        (("", "", 1), ""),
+    ],
+)
+def test_a_card_has_its_number_whole(given, said):
+    assert number_text(*given) == said
 
 
 def test_cards_and_their_counts(tmp_path):

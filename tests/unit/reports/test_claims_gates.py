@@ -15,7 +15,7 @@ from claim_samples import (
 from report_samples import row
 
 from neural_shadows.reports import verdicts
-from neural_shadows.reports.claims.comparison import Comparison, verdict_of
+from neural_shadows.reports.claims.comparison import Comparison, most_against, verdict_of
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES
 
@@ -262,3 +262,14 @@ def test_a_support_needs_every_comparison():
     good = Comparison("lpips", "a", "a", "+1", supports=True, against=1.0)
     assert verdict_of([good, good]) == "supported"
     assert verdict_of([good, Comparison("lpips", "a", "a", "+1", False, 1.0)]) == "undecided"
+
+
+def test_the_number_of_a_claim_is_of_the_comparison_that_decides():
+    few = Comparison("lpips", "a", "a", "", False, 1.0, untested="6 views are too few")
+    held = Comparison("psnr", "b", "b", "+1.2e+03", True, 1.0)
+    chance = Comparison("ssim", "c", "c", "-1", False, 0.4)
+    lost = Comparison("flip", "d", "d", "-0.1", False, 0.001)
+    assert most_against([few, held, chance, lost]) is lost  # not the first that is negative
+    assert most_against([few, held]) is held and most_against([few]) is None
+    found = judged(**FAILURES[verdicts.CONTRADICTED])
+    assert (found["number_of"], found["number"][:6]) == ("LPIPS", "-0.05 ")

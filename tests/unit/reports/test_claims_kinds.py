@@ -31,7 +31,7 @@ BUILT = ("good", "bad")
 
 def advantage(comparison):
     """The advantage and the ends of its interval as printed."""
-    value, low, high = comparison.numbers.replace("[", "").replace("]", "").split(" ")
+    value, low, high = comparison.number.replace("[", "").replace("]", "").split(" ")
     return float(value), float(low.strip(",")), float(high)
 
 
@@ -189,6 +189,7 @@ def test_own_times_are_compared_as_ratios_of_frames(least, most, expected):
     claim |= {"at_least": least, "at_most": most, "overhead_ms": 0.0}
     found = judge(claim, timed())
     assert found["verdict"] == expected
+    assert (found["number_of"], found["number"][:7]) == ("own milliseconds", "ratio 2")
     assert found["evidence"].startswith("own time of slower 20.1 ms (frame 120 ms) against ")
 
 

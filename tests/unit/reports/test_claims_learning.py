@@ -52,7 +52,7 @@ def test_a_licensed_extrapolation_decides(as_loss):
     assert found["verdict"] == "supported"
     assert "at the thesis's samples, extrapolated" in found["reason"]
     assert (found["direction"], found["trend"] > 0) == ("towards", True)
-    assert "(20 times the largest budget; the hold-out tries 3 times)" in found["evidence"]
+    assert "(20 times the largest budget, the hold-out tries 3 times)" in found["evidence"]
     at = float(found["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
     assert at == pytest.approx(0.04 + 0.005 / 20**0.5 - 0.0112 - 0.0388 / 20**0.5, abs=0.002)
     ahead_no_more = followed(*AHEAD_LATER[::-1], most=0.05, as_loss=as_loss)

@@ -58,8 +58,8 @@ def test_the_thesis_is_judged_by_its_own_tables(about, metrics, expected):
 def test_the_thesis_is_worth_a_map_of_386_texels_by_lpips_and_of_191_by_psnr():
     claim = {"kind": "printed", "table": "4.3", "row": "network", "equivalent_to": 512}
     found = judge({**claim, "metrics": ["lpips", "psnr"]}, measured())["evidence"]
-    assert "LPIPS of Our method 0.0379, as a map of 386²" in found
-    assert "PSNR of Our method 27.39, as a map of 191²" in found
+    assert "LPIPS of Our method 0.0379: as a map of 386² [" in found
+    assert "PSNR of Our method 27.39: as a map of 191² [" in found
 
 
 @pytest.mark.parametrize(("lpips", "expected"), [(0.0354, "undecided"), (0.0352, "supported")])

@@ -80,6 +80,7 @@ def test_claims_are_written_with_verdict_reason_and_scale(written):
     )
     assert first["budget_fraction"] == pytest.approx(1 / 3200)
     assert (first["samples"], first["thesis_samples"]) == (20_480_000, 65_536_000_000)
+    assert found["kind"].tolist() == ["better", "better", "lower_loss", "frame_time", "printed"]
     assert found["samples"].isna().tolist() == [False, False, False, True, True]
 
 
@@ -102,7 +103,10 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
 def test_the_page_shows_them_as_cards(written):
     _, md = written
     scale, *others = read_cards(md.with_suffix(".csv"))
-    assert (scale.verdict.style, scale.number[:10]) == ("undecided-scale", "advantage ")
+    assert scale.verdict.style == "undecided-scale"
+    assert scale.number.startswith("advantage in LPIPS: −0.1 [−0.") and scale.number.endswith(
+        "(2 comparisons)"
+    )
     assert len(scale.evidence) == 2 and scale.evidence[0].startswith("LPIPS of net 0.2 against")
     assert {"not-comparable", "contradicted"} <= {card.verdict.style for card in others}
     assert budget(md.with_suffix(".csv")) == md.read_text().split("\n")[2].split(" A verdict")[0]

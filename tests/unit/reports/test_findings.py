@@ -102,5 +102,14 @@ def test_claims_are_counted(verdicts, end):
     assert said.startswith(f"Of {len(verdicts)} claims") and end in said
 
 
+def test_claims_that_the_thesis_s_tables_decide_are_no_result_of_the_run():
+    claims = pd.DataFrame({"verdict": [SUPPORTED, CONTRADICTED, CONTRADICTED]})
+    claims["kind"] = ["better", "printed", "printed"]
+    own = "The thesis's own tables test 2 of its claims: they support 0 and contradict 2."
+    said = claims_counted(claims).striptags()
+    assert said == f"Of 1 claims of the thesis this run supports 1 and contradicts 0. {own}"
+    assert claims_counted(claims[1:]).striptags() == own
+
+
 def test_sizes():
     assert [size_of(size) for size in (2**10, 783_360, 2**24)] == ["1 KiB", "765 KiB", "16 MiB"]

@@ -1,17 +1,14 @@
 """The thesis's claims as cards: statement, verdict, one number, and the evidence to unfold."""
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 
 from neural_shadows.reports.phrases import describe_samples
-from neural_shadows.reports.verdicts import CONTRADICTED, MEANINGS, SYMBOLS, css_class
+from neural_shadows.reports.verdicts import MEANINGS, SYMBOLS, css_class
 
-# An advantage in the evidence: signed, with its interval if it has one.
-ADVANTAGE = re.compile(r": ([+-][\d.e-]+(?: \[[^\]]+\])?)")
-METRIC = re.compile(r"(.+?) of ")  # what the evidence of a comparison begins with
+COLUMNS = ["claim", "statement", "section", "verdict", "reason", "number_of", "number", "evidence"]
 
 
 @dataclass(frozen=True)
@@ -39,7 +36,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Card:
-    """A claim; `number` is the advantage in one comparison of `evidence`, or empty."""
+    """A claim; `number` is of the comparison that speaks most against it, or empty."""
 
     name: str
     statement: str
@@ -51,28 +48,25 @@ class Card:
 
 
 def read_cards(csv: Path) -> list[Card]:
-    """The claims of claims.csv, in its order."""
+    """The claims of claims.csv, in its order; one of an older version may have no numbers."""
     claims = pd.read_csv(csv, dtype=str, keep_default_na=False)
+    claims = claims.reindex(columns=COLUMNS, fill_value="")
     cards = []
     for claim in claims.itertuples():
         evidence = claim.evidence.split("; ")
-        number = number_of(evidence, claim.verdict)
+        number = number_text(claim.number_of, claim.number, len(evidence))
         texts = claim.claim, claim.statement, claim.section
         cards.append(Card(*texts, Verdict(claim.verdict), claim.reason, number, evidence))
     return cards
 
 
-def number_of(evidence: list[str], verdict: str) -> str:
-    """The first advantage in the evidence; of a contradicted claim the first that is negative."""
-    found = [(METRIC.match(text), ADVANTAGE.search(text)) for text in evidence]
-    numbers = [(metric[1] if metric else "", number[1]) for metric, number in found if number]
-    against = [pair for pair in numbers if pair[1].startswith("-")]
-    chosen = against if verdict == CONTRADICTED and against else numbers
-    if not chosen:
+def number_text(metric: str, number: str, comparisons: int) -> str:
+    """A number of claims.csv in words; one with a sign is an advantage."""
+    if not number:
         return ""
-    metric, advantage = chosen[0]
-    of = f" ({len(evidence)} comparisons)" if len(evidence) > 1 else ""
-    return f"advantage in {metric}: {advantage}{of}".replace("-", "−")
+    advantage = "advantage in " if number.startswith(("+", "-")) else ""
+    of = f" ({comparisons} comparisons)" if comparisons > 1 else ""
+    return f"{advantage}{metric}: {number.replace('-', '−')}{of}"
 
 
 def counted(cards: list[Card]) -> list[Verdict]:

@@ -151,13 +151,28 @@ def unlearned(table: pd.DataFrame) -> Markup | None:
 
 
 def claims_counted(claims: pd.DataFrame) -> Markup:
-    """How the thesis's claims came out, and the verdict that most of the others share."""
-    counts = claims["verdict"].value_counts()
+    """How the thesis's claims came out, and the verdict that most of the others share.
+
+    Those that the thesis's own tables decide say nothing of the run, and are counted apart.
+    """
+    printed = claims.get("kind", pd.Series("", claims.index)).eq("printed")
+    said = [_tested(claims.loc[~printed, "verdict"])] * bool((~printed).any())
+    if printed.any():
+        counts = claims.loc[printed, "verdict"].value_counts()
+        own = "The thesis's own tables test {} of its claims: they support {} and contradict {}."
+        held, lost = (counts.get(verdict, 0) for verdict in (SUPPORTED, CONTRADICTED))
+        said.append(Markup(own).format(printed.sum(), held, lost))
+    return Markup(" ").join(said)
+
+
+def _tested(verdicts: pd.Series) -> Markup:
+    """The verdicts that a run's data gave."""
+    counts = verdicts.value_counts()
     held, lost = (counts.get(verdict, 0) for verdict in (SUPPORTED, CONTRADICTED))
     said = Markup(
         "Of {} claims of the thesis this run supports <strong>{}</strong> and contradicts "
         "<strong>{}</strong>"
-    ).format(len(claims), held, lost)
+    ).format(len(verdicts), held, lost)
     rest = counts.drop([SUPPORTED, CONTRADICTED], errors="ignore")
     if rest.empty:
         return said + "."

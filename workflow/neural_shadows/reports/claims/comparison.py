@@ -25,7 +25,8 @@ class Comparison:
     Args:
         metric, methods: what is compared, and of which methods.
         text: the methods and their values.
-        numbers: the advantage and its interval, as text.
+        number: the advantage, or what else is judged, and its interval, as text; empty if there is
+            too little for one. remark: what follows it.
         supports: its interval lies wholly on the claim's side.
         against: p-value of its lying on the claim's side in truth; 1 if it does as measured.
         seeds, samples: of the trainings that it compares; None if nothing is trained.
@@ -37,7 +38,7 @@ class Comparison:
     metric: str
     methods: str
     text: str
-    numbers: str
+    number: str
     supports: bool
     against: float
     seeds: int | None = None
@@ -45,12 +46,13 @@ class Comparison:
     learning: Learning | None = None
     incomparable: str = ""
     untested: str = ""
+    remark: str = ""
 
     @property
     def evidence(self) -> str:
         """The comparison in words and numbers."""
         learnt = f", {self.learning.text}" if self.learning else ""
-        return f"{self.text}: {self.numbers}{learnt}"
+        return f"{self.text}: {self.number}{self.remark}{learnt}"
 
     @property
     def extrapolated(self) -> "Comparison | None":
@@ -63,7 +65,7 @@ class Comparison:
 def unjudged(**why: str) -> dict[str, object]:
     """What says nothing, as a `Comparison` has it; `why`: its `incomparable` or `untested`."""
     (said,) = why.values()
-    return {"numbers": said, "supports": False, "against": 1.0, **why}
+    return {"number": "", "remark": said, "supports": False, "against": 1.0, **why}
 
 
 def judged(value: float, low: float, high: float, p: float) -> dict[str, object]:
@@ -72,7 +74,7 @@ def judged(value: float, low: float, high: float, p: float) -> dict[str, object]
     0 itself is neither side: methods that are alike in every view decide nothing.
     """
     return {
-        "numbers": interval_text(value, low, high),
+        "number": interval_text(value, low, high),
         "supports": low > 0,
         "against": p if value < 0 else 1.0,
     }
@@ -99,3 +101,13 @@ def against(comparisons: Sequence[Comparison]) -> list[Comparison]:
     """The comparisons that contradict a claim, by Holm's correction over all of them."""
     adjusted = holm([comparison.against for comparison in comparisons])
     return [one for one, p in zip(comparisons, adjusted) if p <= LEVEL]
+
+
+def most_against(comparisons: Sequence[Comparison]) -> Comparison | None:
+    """The comparison with a number that speaks most against a claim; None if none has a number.
+
+    That of the least p-value: the one that contradicts it, if one does. Of those that lie on the
+    claim's side the first that does not support it.
+    """
+    known = [one for one in comparisons if one.number]
+    return min(known, key=lambda one: (one.against, one.supports), default=None)

@@ -55,7 +55,8 @@ def _compared(claim: Mapping[str, Any], pair: Sequence[Row], data: Measured) -> 
     above = quantile_test(ratios, q=most, alternative="greater").pvalue
     return Comparison(
         **kept,
-        numbers=f"ratio {np.median(ratios):.3g} [{low:.3g}, {high:.3g}]{with_rest} ({limits})",
+        number=f"ratio {np.median(ratios):.3g} [{low:.3g}, {high:.3g}]",
+        remark=f"{with_rest} ({limits})",
         supports=bool(low > least and high < most),
         against=min(1.0, 2 * min(below, above)),
     )

@@ -8,7 +8,13 @@ import numpy as np
 from neural_shadows.metrics.power_law import LARGEST_STEP
 from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims import better, frame_time, lower_loss, printed, violations
-from neural_shadows.reports.claims.comparison import Comparison, against, verdict_of
+from neural_shadows.reports.claims.comparison import (
+    NAMES,
+    Comparison,
+    against,
+    most_against,
+    verdict_of,
+)
 from neural_shadows.reports.claims.learning import AWAY, NEITHER, TOWARDS
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured, rows_of
 from neural_shadows.reports.claims.unlearned import not_learned
@@ -55,6 +61,7 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
     }
     verdict, reason = next((verdict, reason) for verdict, reason in gates.items() if reason)
     samples = [one.samples for one in found if one.samples is not None]
+    shown = most_against(final)
     return {
         "verdict": verdict,
         "reason": reason,
@@ -63,6 +70,8 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
         "budget_fraction": min(samples, default=np.nan) / THESIS_SAMPLES,
         **trend_of(found),
         "null_verdict": null,
+        "number_of": NAMES.get(shown.metric, shown.metric) if shown else "",
+        "number": shown.number if shown else "",
         "evidence": "; ".join(one.evidence for one in found),
         "samples": min(samples, default=np.nan),
     }

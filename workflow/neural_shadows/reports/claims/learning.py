@@ -58,7 +58,7 @@ class Learning:
             far, tried = self.steps
             said += (
                 f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}] ({far:.3g} "
-                f"times the largest budget; the hold-out tries {tried:.3g} times)"
+                f"times the largest budget, the hold-out tries {tried:.3g} times)"
             )
         return said
 

@@ -45,7 +45,8 @@ def _pair(values: Any, labels: Any, pair: list[str], metric: str, margin: float)
         metric=metric,
         methods=" against ".join(labels[row] for row in pair),
         text=f"{NAMES[metric]} of {named}",
-        numbers=f"{advantage:+.3g}, {abs(times):.2g} times that from run to run ({margin:.3g})",
+        number=f"{advantage:+.3g}",
+        remark=f", {abs(times):.2g} times that from run to run ({margin:.3g})",
         supports=bool(times >= COUNTS_FROM),
         against=float(times > -COUNTS_FROM),
     )
@@ -70,10 +71,10 @@ def _equivalent(
     return Comparison(
         metric=metric,
         methods=label,
-        text=f"{NAMES[metric]} of {label} {values[row, metric]:.4g}, as a map of {at:.0f}²",
-        numbers=f"{COUNTS_FROM} times the difference from run to run ({margin:.3g}) either way "
-        f"{low:.0f}² to {high:.0f}², where {asked}² is the nearest from "
-        f"{least:.0f}² to {most:.0f}²",
+        text=f"{NAMES[metric]} of {label} {values[row, metric]:.4g}",
+        number=f"as a map of {at:.0f}² [{low:.0f}², {high:.0f}²]",
+        remark=f", with {COUNTS_FROM} times the difference from run to run ({margin:.3g}) either "
+        f"way, where {asked}² is the nearest from {least:.0f}² to {most:.0f}²",
         supports=bool(low > least and high < most),
         against=float(not (high < least or low > most)),
     )

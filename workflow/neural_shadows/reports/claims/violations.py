@@ -45,7 +45,7 @@ def _compared(label: str, row: Row, data: Measured) -> Comparison:
         return Comparison(**kept, **unjudged(untested=f"the {nowhere} point"))
     kept["text"] = (
         f"{label}: false shadow at {100 * false / lit:.3g} % of the {lit:,.0f} points that are "
-        f"lit, of {lower:,.0f} with a violated lower bound; light leak at "
+        f"lit, of {lower:,.0f} with a violated lower bound, and light leak at "
         f"{100 * leak / shadowed:.3g} % of the {shadowed:,.0f} in shadow, of {upper:,.0f} with a "
         "violated upper one"
     )

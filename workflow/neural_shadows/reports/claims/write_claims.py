@@ -22,10 +22,11 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
 COLUMNS = [
-    *("claim", "section", "statement", "verdict", "reason", "metric", "seeds", "budget_fraction"),
-    *("trend_of", "trend", "trend_low", "trend_high", "direction", "null_verdict", "evidence"),
-    *("scale", "samples", "thesis_samples"),
+    *("claim", "section", "statement", "kind", "verdict", "reason", "metric", "seeds"),
+    *("budget_fraction", "trend_of", "trend", "trend_low", "trend_high", "direction"),
+    *("null_verdict", "number_of", "number", "evidence", "scale", "samples", "thesis_samples"),
 ]
+SAID = ("section", "statement", "kind")
 
 
 def write_claims(
@@ -44,6 +45,8 @@ def write_claims(
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
     """Write the thesis's claims with our verdicts, as CSV and Markdown.
+
+    CSV: `number` is of the comparison that speaks most against the claim, `number_of` its metric.
 
     Args:
         metrics: per-view metrics of all methods that claims name, of `no_shadow` on their scenes,
@@ -72,8 +75,7 @@ def write_claims(
         seed=run["seed"],
     )
     found = pd.DataFrame(
-        {"claim": name, "section": claim["section"], "statement": claim["statement"]}
-        | judge(claim, data)
+        {"claim": name} | {key: claim[key] for key in SAID} | judge(claim, data)
         for name, claim in claims.items()
     ).assign(scale=run["scale"], thesis_samples=THESIS_SAMPLES)
     found = found[COLUMNS].astype({"seeds": "Int64", "samples": "Int64"})  # with gaps
