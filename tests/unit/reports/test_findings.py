@@ -3,7 +3,8 @@
 import pandas as pd
 import pytest
 
-from neural_shadows.reports.findings import claims_counted, findings, size_of
+from neural_shadows.reports.finding_words import size_of
+from neural_shadows.reports.findings import claims_counted, findings
 from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, TOO_SMALL
 
 NAN = float("nan")
@@ -17,8 +18,8 @@ NETWORKS = {  # label: encoding, samples, stored bytes, pooled PSNR, learned, eq
 }
 
 
-def found(folder, half=0.5, views=48, **changes):
-    """The findings of a table with intervals of ± `half` dB, and why some are missing."""
+def found_table(half=0.5, views=48, **changes):
+    """A table of networks with intervals of ± `half` dB."""
     names = ["encoding", "samples", "stored_bytes", "psnr_pooled", "learned", "map_lpips"]
     table = pd.DataFrame.from_dict(NETWORKS, orient="index", columns=names)
     for label, values in changes.items():
@@ -27,11 +28,20 @@ def found(folder, half=0.5, views=48, **changes):
     table = table.rename_axis("method").reset_index().assign(scene="dragon", views=views)
     table = table.assign(parameters=1000, map_psnr=table["map_lpips"])
     table = table.assign(resident_bytes=3 * table["stored_bytes"])
-    for end, sign in (("low", -1), ("high", 1)):
-        table[f"psnr_pooled_{end}"] = table["psnr_pooled"] + sign * half
+    ends = {"psnr_pooled_low": -half, "psnr_pooled_high": half}
+    return table.assign(**{name: table["psnr_pooled"] + by for name, by in ends.items()})
+
+
+def said_of(folder, table):
+    """The findings of a table, and why some are missing."""
     table.to_csv(folder / "beyond.csv", index=False)
     said, gaps = findings([folder / "beyond.csv"], None)
     return [str(sentence.striptags()) for sentence in said], gaps
+
+
+def found(folder, **given):
+    """The findings of `found_table`."""
+    return said_of(folder, found_table(**given))
 
 
 def test_what_is_best_at_equal_bytes_turns_round_with_the_data(tmp_path):
@@ -48,13 +58,45 @@ def test_what_is_best_at_equal_bytes_turns_round_with_the_data(tmp_path):
 
     (best, trained, _), _ = found(tmp_path, Grid={"psnr_pooled": 44.0})
     assert best.startswith("The best trained network, the Field (41.0 dB [40.5, 41.5]), is not")
-    assert "the Grid (44.0 dB [43.5, 44.5]) takes 684 KiB, and has 2 times less" in best
+    assert "the Grid (44.0 dB [43.5, 44.5]) takes as many bytes, and has 2 times less" in best
     assert best.endswith("In memory they take 2.03 MiB and 2 MiB.")
     assert trained.startswith("Training does not pay: the Field is 3.0 dB worse")
 
     (best, trained, _), _ = found(tmp_path, half=2.5)
     assert best.endswith("are too close to tell which is better.")
     assert trained.startswith("Whether training pays is not clear")
+
+
+@pytest.mark.parametrize(
+    ("grid", "said"),
+    [
+        ({"psnr_pooled": 63.0}, "takes as many bytes, and has 158 times less squared error. In"),
+        ({"psnr_pooled": 41.5}, "takes as many bytes, and is 0.5 dB better. In"),
+        ({"psnr_pooled": 44.0, "stored_bytes": 717_000}, "takes as many bytes, and has 2"),
+        ({"psnr_pooled": 44.0, "stored_bytes": 512_000}, "takes 500 KiB, and has 2 times less"),
+        ({"psnr_pooled": 40.5}, "the Grid (40.5 dB [40.4, 40.6]), is 0.5 dB worse."),
+        ({"psnr_pooled": 15.0}, "the 256² map (32.0 dB [31.9, 32.1]), has 7.9 times its"),
+    ],
+)
+def test_numbers_are_told_in_words_that_suit_their_size(tmp_path, grid, said):
+    (best, *_), _ = found(tmp_path, half=0.1, Grid=grid)
+    assert said in best
+
+
+def test_nothing_is_said_of_memory_that_is_not_known(tmp_path):
+    table = found_table(half=0.5, Grid={"psnr_pooled": 44.0}).assign(resident_bytes=NAN)
+    (best, *_), _ = said_of(tmp_path, table)
+    assert best.endswith("has 2 times less squared error.")
+
+
+def test_of_several_scenes_the_one_that_is_meant_is_named(tmp_path):
+    table = found_table()
+    # Of another scene there are too few views; what is said is of the first.
+    other = table.assign(scene="fence", views=6, psnr_pooled=10.0)
+    (best, trained, thesis), _ = said_of(tmp_path, pd.concat([table, other]))
+    assert best.startswith("On the dragon, in 693 KiB nothing comes closer")
+    assert trained.startswith("On the dragon, training pays: the Field is 2.0 dB better")
+    assert thesis.startswith("On the dragon, the thesis's network")
 
 
 def test_a_paired_difference_decides_where_intervals_overlap(tmp_path):

@@ -7,6 +7,18 @@ import pandas as pd
 from markupsafe import Markup
 
 from neural_shadows.metrics.intervals import FEWEST_VIEWS
+from neural_shadows.reports.finding_words import (
+    ALIKE,
+    bytes_beside,
+    error_beside,
+    in_memory,
+    map_of,
+    name_of,
+    on_scene,
+    size_of,
+    with_psnr,
+    worth_of,
+)
 from neural_shadows.reports.published import NETWORKS
 from neural_shadows.reports.tables.quality import with_ends
 from neural_shadows.reports.verdicts import CONTRADICTED, REASONS, SUPPORTED
@@ -14,7 +26,6 @@ from neural_shadows.reports.verdicts import CONTRADICTED, REASONS, SUPPORTED
 OF_NETWORKS = {"scene", "method", "encoding", "samples", "psnr_pooled", "views"}
 OF_NETWORKS |= {"stored_bytes", "resident_bytes"}
 MAPS = {"map_lpips": "LPIPS", "map_psnr": "PSNR"}  # what a map's equality is by
-ALIKE = 1.02  # times the bytes: as many
 SAME_GRID = 1.05  # times the parameters: the same grid
 MOST_NAMED = 3
 
@@ -33,15 +44,17 @@ def findings(tables: Iterable[Path], claims_csv: Path | None) -> tuple[list[Mark
     gaps = []
     if networks is None:
         gaps.append("Nothing is said of quality: no table of networks has been made.")
-    elif (views := networks["views"].min()) < FEWEST_VIEWS:
+    elif (views := _first_scene(networks)["views"].min()) < FEWEST_VIEWS:
         gaps.append(
             f"Nothing is said of quality: {views:.0f} views of a scene are too few. Tables and "
             "figures show that everything works, and nothing more."
         )
     else:
-        scene = networks[networks["scene"] == networks["scene"].iloc[0]]
-        found += [best_of_its_size(scene), training_adds(scene), thesis_network(scene)]
-        found.append(unlearned(networks))
+        scene = _first_scene(networks)
+        said = [best_of_its_size(scene), training_adds(scene), thesis_network(scene)]
+        if networks["scene"].nunique() > 1:
+            said = [on_scene(scene["scene"].iloc[0], sentence) for sentence in said if sentence]
+        found += [*said, unlearned(networks)]
     if claims_csv is None:
         gaps.append("The thesis's claims have not been tested.")
     else:
@@ -59,34 +72,32 @@ def best_of_its_size(table: pd.DataFrame) -> Markup | None:
     size = Markup("<strong>{}</strong>").format(size_of(best["stored_bytes"]))
     alike = known["encoding"].eq(best["encoding"]) & known["samples"].gt(0)
     fits = known[~alike & (known["stored_bytes"] <= ALIKE * best["stored_bytes"])]
-    worth = _worth(best, "map_psnr")
+    worth = worth_of(best, "map_psnr")
     if fits.empty:
         said = Markup("The best trained network is the {}, in {}{}.")
-        return said.format(_with_psnr(best), size, worth)
+        return said.format(with_psnr(best), size, worth)
     other = _best(fits)
     difference, side = _compared(best, other)
     if side > 0:
         said = (
             "In {size} nothing comes closer to the exact shadow than the {best}{worth}. The best of "
-            "another kind, the {other}, has {factor} times its squared error."
+            "another kind, the {other}, {error}."
         )
     elif side < 0:
         said = (
             "The best trained network, the {best}, is not worth its {size}: the {other} takes "
-            "{less}, and has {factor} times less squared error. In memory they take {memory} and "
-            "{others}."
+            "{bytes}, and {error}.{memory}"
         )
     else:
         said = "In {size} the {best} and the {other} are too close to tell which is better."
     return Markup(said).format(
         size=size,
-        best=_with_psnr(best),
-        other=_with_psnr(other),
+        best=with_psnr(best),
+        other=with_psnr(other),
         worth=worth,
-        less=size_of(other["stored_bytes"]),
-        memory=size_of(best["resident_bytes"]),
-        others=size_of(other["resident_bytes"]),
-        factor=_factor(difference),
+        bytes=bytes_beside(best["stored_bytes"], other["stored_bytes"]),
+        memory=in_memory(best["resident_bytes"], other["resident_bytes"]),
+        error=error_beside(difference),
     )
 
 
@@ -110,7 +121,7 @@ def training_adds(table: pd.DataFrame) -> Markup | None:
         "within what chance does.",
     }
     decibels = Markup("<strong>{:.1f} dB</strong>").format(abs(difference))
-    return Markup(said[side]).format(_name(trained), decibels, _name(other))
+    return Markup(said[side]).format(name_of(trained), decibels, name_of(other))
 
 
 def thesis_network(table: pd.DataFrame) -> Markup | None:
@@ -121,15 +132,15 @@ def thesis_network(table: pd.DataFrame) -> Markup | None:
     best = _best(own)
     if _failed(own).all():
         said = "The thesis's network has learned nothing here: not even its best variant, {}, is "
-        return Markup(said + "better than drawing no shadow at all.").format(_name(best))
+        return Markup(said + "better than drawing no shadow at all.").format(name_of(best))
     for column, metric in MAPS.items():
         if isinstance(best[column], str):
             printed = table.loc[table["method"].isin(NETWORKS.values()), column].dropna()
             said = Markup("The thesis's network, at its best here ({}), is worth {} by {}").format(
-                _name(best), _map(best[column]), metric
+                name_of(best), map_of(best[column]), metric
             )
             theirs = (
-                Markup("; in the thesis {}").format(_map(printed.iloc[0])) if any(printed) else ""
+                Markup("; in the thesis {}").format(map_of(printed.iloc[0])) if any(printed) else ""
             )
             return said + theirs + "."
     return None
@@ -180,11 +191,6 @@ def _tested(verdicts: pd.Series) -> Markup:
     return said + Markup(others).format(rest.sum(), rest.iloc[0], REASONS[rest.index[0]])
 
 
-def size_of(stored: float) -> str:
-    """Bytes as KiB or MiB, three digits."""
-    return f"{stored / 2**20:.3g} MiB" if stored >= 1000 * 2**10 else f"{stored / 2**10:.3g} KiB"
-
-
 def _best(rows: pd.DataFrame) -> pd.Series:
     return rows.loc[rows["psnr_pooled"].idxmax()]
 
@@ -213,30 +219,5 @@ def _compared(a: pd.Series, b: pd.Series) -> tuple[float, int]:
     return value, int(min(ends) > 0) - int(max(ends) < 0)
 
 
-def _factor(decibels: float) -> str:
-    return f"{10 ** (abs(decibels) / 10):.2g}"
-
-
-def _name(row: pd.Series) -> Markup:
-    return Markup("<strong>{}</strong>").format(row["method"])
-
-
-def _with_psnr(row: pd.Series) -> Markup:
-    """A method's name and its pooled PSNR with the interval."""
-    value, low, high = row[with_ends("psnr_pooled")]
-    interval = f" [{low:.1f}, {high:.1f}]" if pd.notna(low) else ""
-    return Markup("{} ({:.1f} dB{})").format(_name(row), value, interval)
-
-
-def _worth(row: pd.Series, column: str) -> Markup:
-    """Which shadow map is as good, and what that would store."""
-    if not isinstance(row[column], str):
-        return Markup()
-    stored = size_of(4 * float(row[column].lstrip("<> ")) ** 2)
-    return Markup(", worth {} of {}").format(_map(row[column]), stored)
-
-
-def _map(size: str) -> Markup:
-    """A size of `equivalent_maps` in words: `386`, `< 128`, `> 2048`."""
-    than = {"<": "less than ", ">": "more than "}.get(size[0], "")
-    return Markup("{}a <strong>{}²</strong> shadow map").format(than, size.lstrip("<> "))
+def _first_scene(table: pd.DataFrame) -> pd.DataFrame:
+    return table[table["scene"] == table["scene"].iloc[0]]
