@@ -33,6 +33,7 @@ VIEWER = """<!DOCTYPE html><title>Viewer</title><p id="said">waits</p>
 <script>document.getElementById("said").textContent = "runs" + ("</scr" + "ipt>").length;
 addEventListener("message", ({ data }) => { document.getElementById("said").textContent = data.open; });
 parent.postMessage({ viewer: "left=map_64" }, "*");</script>"""
+POINTS = "second", "third"
 LABELS = {"shadow_map_128": "128² map", "shadow_map_512": "512² map", "dragon": "Network"}
 
 
@@ -65,8 +66,10 @@ def make_page(folder: Path, **changes) -> Path:
     Image.new("RGB", (9, 9)).save(figure)
     drawing = folder / "figure_front.svg"
     chart = Figure(figsize=(5, 3))
-    (point,) = chart.subplots().plot([1], [2], "o")
-    say(point, HOSTILE)
+    axes = chart.subplots()
+    for x, text in enumerate((HOSTILE, *POINTS)):
+        (point,) = axes.plot([x], [2], "o")
+        say(point, text)
     write_chart(chart, drawing.with_suffix(".png"), drawing)
     viewer = folder / "viewer.html"
     viewer.write_text(VIEWER)

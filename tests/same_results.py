@@ -22,7 +22,7 @@ MEASURED = {
 NO_RESULTS = re.compile(r"(^|/)(logs|benchmarks|checkpoints|[^/]+\.unfinished)/")
 
 # A run may pass midnight, and the page says how long the jobs took.
-CHANGING = re.compile(rb"made on \d{4}-\d\d-\d\d|<dt>(made on|durations)</dt><dd>[^<]*")
+CHANGING = re.compile(rb"made on \d{4}-\d\d-\d\d|<dt>(page made on|durations)</dt><dd>[^<]*")
 
 
 def results_of(checkout: Checkout) -> dict[str, bytes]:

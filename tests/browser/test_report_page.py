@@ -1,7 +1,7 @@
 """The report's page in a real browser."""
 
 import pytest
-from report_page import HOSTILE, LABELS, make_page
+from report_page import HOSTILE, LABELS, POINTS, make_page
 
 
 @pytest.fixture(scope="module")
@@ -94,7 +94,7 @@ def test_points_of_a_chart_say_their_values_to_pointer_and_keyboard(open_page):
     page = open_page()
     chart, tip = page.locator(".chart"), page.locator("#tip")
     assert tip.is_hidden()
-    page.locator(".says circle").hover()
+    page.locator(".says circle").first.hover()
     assert tip.inner_text() == HOSTILE
     page.mouse.move(0, 0)
     assert tip.is_hidden()
@@ -103,6 +103,23 @@ def test_points_of_a_chart_say_their_values_to_pointer_and_keyboard(open_page):
     assert tip.inner_text() == HOSTILE
     chart.blur()
     assert tip.is_hidden()
+
+
+def test_the_left_key_begins_at_the_last_point(open_page):
+    page = open_page()
+    page.locator(".chart").focus()
+    for text in (*POINTS[::-1], HOSTILE, POINTS[-1]):
+        page.keyboard.press("ArrowLeft")
+        assert page.locator("#tip").inner_text() == text
+
+
+def test_a_touched_point_says_its_value_until_another_place_is_touched(browser, address):
+    page = browser.new_context(has_touch=True).new_page()
+    page.goto(address)
+    page.locator(".says circle").nth(1).tap()
+    assert page.locator("#tip").inner_text() == POINTS[0]
+    page.locator("#found h1").tap()
+    assert page.locator("#tip").is_hidden()
 
 
 def test_contents_follow_the_reading(open_page):

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import pandas as pd
 from PIL import Image
 
-from neural_shadows.reports.figures.chart import write_chart
+from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.figures.style import new_figure, write_figure
 from neural_shadows.reports.page_figures import LARGEST_SVG, figure_blocks, inline_svg
 
@@ -49,8 +49,14 @@ def test_a_drawing_in_the_page_is_whole_and_follows_its_colours(tmp_path):
 def test_a_chart_s_own_data_can_be_saved(tmp_path):
     svg = tmp_path / "figure_4_1.svg"
     data = pd.DataFrame({"curve": ["a, b"], "loss": [0.5]})
-    write_chart(new_figure("Loss", 3, 2), svg.with_suffix(".png"), svg, data)
+    figure = new_figure("Loss", 3, 2)
+    write_chart(figure, svg.with_suffix(".png"), svg, data)
     (block,) = figure_blocks([svg], {}, {})
     saved = base64.b64decode(block.files["figure_4_1.csv"].removeprefix("data:text/csv;base64,"))
     pd.testing.assert_frame_equal(pd.read_csv(io.BytesIO(saved)), data)
     assert "a, b" not in block.html
+    assert "tabindex" not in block.html  # it has no point that the arrow keys could choose
+    (point,) = figure.subplots().plot([1], [2], "o")
+    say(point, "a: 2")
+    write_chart(figure, svg.with_suffix(".png"), svg)
+    assert 'tabindex="0"' in figure_blocks([svg], {}, {})[0].html

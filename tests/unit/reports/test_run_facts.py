@@ -41,14 +41,28 @@ def test_facts(tmp_path):
     facts = run_facts(RUN, meshes, records, lpips_json, tmp_path / "benchmarks")
     assert facts["mesh of dragon"] == "wyrm, 10 triangles"
     assert (
-        facts["training"]
+        facts["networks"]
         == "3 networks, 640 or 20,480,000 samples each; 1 more built without training"
     )
-    assert facts["hardware"] == "a CPU, 2 cores; a CPU, 2 cores, A GPU"
+    assert facts["networks made on"] == "a CPU, 2 cores; a CPU, 2 cores, A GPU"
     assert facts["LPIPS"] == "network alex"
     assert facts["durations"] == "evaluate 2 s (1 job); train 3 min (2 jobs)"
     said = run_sentence(RUN, SCENES, facts)
     assert said.startswith(
         "3 networks beside shadow maps, on the meshes wyrm and fence (test scale"
     )
+    assert "networks made on a CPU, 2 cores and on a CPU, 2 cores, A GPU; page made on 2" in said
     assert facts["versions"].startswith(f"Python {python_version()}, snakemake ")
+
+
+def test_a_run_of_little_is_told_in_the_singular(tmp_path):
+    scene = {"dragon": SCENES["dragon"]}
+    facts = run_facts(RUN, {}, [], None, tmp_path)
+    said = run_sentence(RUN, scene, facts)
+    assert said.startswith("No network yet beside shadow maps, on the mesh wyrm (test scale, ")
+    assert "60 × 40); page made on 2" in said
+    # Two scenes may have one mesh.
+    assert "on the mesh wyrm (" in run_sentence(RUN, scene | {"other": SCENES["dragon"]}, facts)
+    built = write_record(tmp_path / "built.json", {**TRAINING, "training": None, "samples": 0})
+    said = run_sentence(RUN, scene, run_facts(RUN, {}, [built], None, tmp_path))
+    assert said.startswith("1 network beside shadow maps")

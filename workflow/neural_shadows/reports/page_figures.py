@@ -77,11 +77,12 @@ def inline_svg(content: bytes, name: str, title: str) -> Markup:
         "viewBox": root.get("viewBox"),
         "class": "chart",
         "role": "img",
-        "tabindex": "0",
         "aria-label": title,
         # Its letters are of 8 points and more: a narrower screen scrolls it.
         "style": f"min-width: {width:.0f}px; aspect-ratio: {width:g} / {height:g}",
     }
+    if any(element.get("class") == "says" for element in root.iter()):
+        root.set("tabindex", "0")  # for the arrow keys
     for element in root.iter():
         element.tag = element.tag.removeprefix(SVG)
         if "id" in element.attrib and element.tag not in ("clipPath", "path", "marker"):

@@ -29,13 +29,10 @@ def run_facts(
     facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
     facts["frames"] = f"{run['width']} × {run['height']}"
     if records:
-        trained = [record for record in records if record["training"]]
-        samples = sorted({record["samples"] for record in trained})
-        counts = " or ".join(f"{count:,}" for count in samples) or "no"
-        facts["training"] = f"{_counted(len(trained), 'network')}, {counts} samples each"
-        if built := len(records) - len(trained):
-            facts["training"] += f"; {built} more built without training"
-        facts["hardware"] = "; ".join(dict.fromkeys(_machine(one["machine"]) for one in records))
+        facts["networks"] = _networks(records)
+        facts["networks made on"] = "; ".join(
+            dict.fromkeys(_machine(one["machine"]) for one in records)
+        )
     if lpips_json:
         lpips = read_json(lpips_json)
         facts["LPIPS"] = f"network {lpips['net']}" if lpips["available"] else "not available"
@@ -45,20 +42,21 @@ def run_facts(
     facts["commit"] = commit_of(Path.cwd())
     if spent := by_folder(sorted(benchmarks.glob("*/*.tsv"))):
         facts["durations"] = "; ".join(_duration(*rule) for rule in spent.items())
-    return facts | {"made on": datetime.date.today().isoformat()}
+    return facts | {"page made on": datetime.date.today().isoformat()}
 
 
 def run_sentence(
     run: Mapping[str, Any], scenes: Mapping[str, Mapping[str, Any]], facts: Mapping[str, str]
 ) -> str:
     """What was run, on what and when, in one sentence; `facts` as `run_facts` gives them."""
-    meshes = [scene["mesh_name"] for scene in scenes.values()]
-    named = " and ".join([", ".join(meshes[:-1]), meshes[-1]]) if len(meshes) > 1 else meshes[0]
-    networks = facts.get("training", "no network yet").split(",")[0]
-    hardware = f" on {facts['hardware']}" if "hardware" in facts else ""
+    *first, last = dict.fromkeys(scene["mesh_name"] for scene in scenes.values())
+    meshes = f"meshes {', '.join(first)} and {last}" if first else f"mesh {last}"
+    networks = facts.get("networks", "No network yet").split(",")[0]
+    machines = facts.get("networks made on", "").replace("; ", " and on ")
     return (
-        f"{networks} beside shadow maps, on the meshes {named} ({run['scale']} scale, frames of "
-        f"{facts['frames']}); run{hardware}, {facts['made on']}."
+        f"{networks} beside shadow maps, on the {meshes} ({run['scale']} scale, frames of "
+        f"{facts['frames']}){machines and f'; networks made on {machines}'}; page made on "
+        f"{facts['page made on']}."
     )
 
 
@@ -71,6 +69,18 @@ def commit_of(folder: Path) -> str:
         ).strip()
     except (OSError, subprocess.CalledProcessError):
         return "not a git checkout"
+
+
+def _networks(records: Sequence[Mapping[str, Any]]) -> str:
+    """How many networks were trained and on how many samples, and how many only built."""
+    trained = [record for record in records if record["training"]]
+    built = len(records) - len(trained)
+    if not trained:
+        return f"{_counted(built, 'network')}, built without training"
+    samples = sorted({record["samples"] for record in trained})
+    counts = " or ".join(f"{count:,}" for count in samples)
+    said = f"{_counted(len(trained), 'network')}, {counts} samples each"
+    return f"{said}; {built} more built without training" if built else said
 
 
 def _duration(rule: str, jobs: Sequence[Path]) -> str:

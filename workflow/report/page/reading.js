@@ -81,6 +81,9 @@ function say(point) {
   const above = box.top - tip.offsetHeight - 6;
   tip.style.top = `${scrollY + (above > 0 ? above : box.bottom + 6)}px`;
 }
+addEventListener("pointerdown", ({ target }) => {
+  if (!target.closest(".chart")) say(null);
+});
 for (const chart of document.querySelectorAll(".chart")) {
   const points = [...chart.querySelectorAll(".says")];
   for (const point of points) {
@@ -90,12 +93,15 @@ for (const chart of document.querySelectorAll(".chart")) {
   }
   let at = -1;
   chart.addEventListener("pointerover", (event) => say(event.target.closest(".says")));
-  chart.addEventListener("pointerleave", () => say(null));
+  chart.addEventListener("pointerleave", ({ pointerType }) => {
+    if (pointerType !== "touch") say(null); // a finger that lifts leaves, too
+  });
   chart.addEventListener("blur", () => say(null));
   chart.addEventListener("keydown", (event) => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step || !points.length) return;
-    at = (at + step + points.length) % points.length;
+    const from = Math.max(at, step < 0 ? 0 : -1); // at first the left key goes to the last
+    at = (from + step + points.length) % points.length;
     points[at].scrollIntoView({ block: "nearest", inline: "nearest" });
     say(points[at]);
     event.preventDefault();
