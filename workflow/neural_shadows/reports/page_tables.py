@@ -18,6 +18,7 @@ DIGITS = r"([+-]?\d[\d,]*(?:\.\d+)?)"
 NUMBER = re.compile(rf"{DIGITS}(?: \[{DIGITS}, {DIGITS}\])?")
 LOGARITHMIC = 20  # times the smallest: values so far apart are drawn so
 DRAWN = 82  # width of a cell's drawing, px
+INCOMPARABLE = "LPIPS"  # with the thesis's, whose network is not known (`describe_lpips`)
 UNRIVALLED = (*NETWORKS.values(), *NULL.values())  # cannot be a column's best
 MARKDOWN = MarkdownIt("commonmark", {"html": False}).enable("table")
 
@@ -55,13 +56,15 @@ class Cell:
 class Part:
     """A table of one scene: its headings, and rows of which the first cell is a method.
 
-    `looks` are the methods' where they are known; `scene` is empty in a table without scenes.
+    `looks` are the methods' where they are known; `scene` is empty in a table without scenes;
+    `logarithmic`: of the headings those whose columns are drawn so.
     """
 
     scene: str
     heads: list[str]
     rows: list[tuple[Cell, ...]]
     looks: list[Look | None]
+    logarithmic: list[str]
 
 
 def table_block(path: Path, looks: Mapping[str, Look]) -> Block:
@@ -111,13 +114,17 @@ def _part(
         elif any(texts):
             columns.append((head, [*map(Cell, texts)]))
     names = [cell.text.removesuffix(" (**not learned**)") for cell in columns[0][1]]
+    printed = [name in NETWORKS.values() for name in names]
+    logarithmic = []
     for head, cells in columns[1:]:
         rivals = [cell for name, cell in zip(names, cells) if name not in UNRIVALLED]
         _mark_best(head, rivals)
-        _place(cells)
+        if _place(cells, printed, not head.startswith(INCOMPARABLE)):
+            logarithmic.append(head)
     known = looks | dict.fromkeys(NETWORKS.values(), LOOKS["frequency"])
     heads, cells = zip(*columns)
-    return Part(scene, [*heads], [*zip(*cells)], [known.get(name) for name in names])
+    looked_up = [known.get(name) for name in names]
+    return Part(scene, [*heads], [*zip(*cells)], looked_up, logarithmic)
 
 
 def _mark_best(head: str, cells: Sequence[Cell]) -> None:
@@ -129,16 +136,28 @@ def _mark_best(head: str, cells: Sequence[Cell]) -> None:
             cell.best = bool(value == np.nanmax(values))
 
 
-def _place(cells: Sequence[Cell]) -> None:
-    """Where the numbers of a column are drawn, if one has an interval or a number of the thesis's."""
+def _place(cells: Sequence[Cell], printed: Sequence[bool], comparable: bool) -> bool:
+    """Where the numbers of a column are drawn, if one has an interval or a number of the thesis's.
+
+    Args:
+        printed: the rows of the thesis's own values, which are drawn as its numbers are.
+        comparable: whether its numbers can stand on the scale of ours.
+
+    Returns: whether the scale is logarithmic.
+    """
     drawn = np.array([cell.numbers for cell in cells])
+    if not comparable:
+        drawn[printed, 0] = drawn[:, 3] = np.nan
     if not np.isfinite(drawn[:, 1:]).any():
-        return
-    if np.nanmin(drawn) > 0 and np.nanmax(drawn) > LOGARITHMIC * np.nanmin(drawn):
+        return False
+    drawn[printed, 3], drawn[printed, 0] = drawn[printed, 0], np.nan
+    logarithmic = np.nanmin(drawn) > 0 and np.nanmax(drawn) > LOGARITHMIC * np.nanmin(drawn)
+    if logarithmic:
         drawn = np.log(drawn)
     low, high = np.nanmin(drawn), np.nanmax(drawn)
     for cell, row in zip(cells, DRAWN * (drawn - low) / (high - low or 1)):
         cell.places = row.round(1).tolist()
+    return bool(logarithmic)
 
 
 def _numbers(text: str) -> list[float]:
