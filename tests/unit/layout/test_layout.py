@@ -176,6 +176,7 @@ def test_a_page_is_told_its_first_figure_and_every_method_s_kind(desk):
     assert targets.front(desk) == "figure_front" and targets.front(layout_of("claims")) is None
     told = targets.page_arguments(desk)
     assert told["data"]["figure_front"] == "beyond"
+    assert told["missing"] == {}
     kinds = {"Poisson-disk quadtree sampling": "frequency", "No shadow": "null"}
     assert kinds.items() <= told["kinds"].items()
 
@@ -188,6 +189,15 @@ def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     made.touch()
     told = targets.available_arguments(desk)
     assert told["tables"] == ["reports/table_4_1.md"]
+    assert told["viewers"] == [] and "viewer.html" in told["missing"]["found"]
+    assert "figure_front.svg" in told["missing"]["found"]
+    assert "table_4_1.md" not in told["missing"]["tables"] and told["missing"]["compare"]
+    assert not {*told["missing"]["figures"]} & {*told["missing"]["beyond"]}
+    # The second viewer is shown where the first is not there.
+    second = f"reports/{[*desk.settings['viewers']][1]}.html"
+    (tmp_path / second).touch()
+    assert targets.available_arguments(desk)["viewers"] == [second]
+    (tmp_path / second).unlink()
     assert told["figures"] == told["claims_md"] == told["lpips_json"] == []
     assert targets.newest(desk) == made.stat().st_mtime
 

@@ -51,7 +51,7 @@ def test_notes_are_shown_once_and_what_is_past_the_thesis_apart(text):
 def test_page_shows_what_is_there(tmp_path, there):
     parts = {"tables", "figures", "claims_md", "references", "meshes", "trainings", "lpips_json"}
     missing = {name: None if "_" in name else [] for name in parts - {there}}
-    text = make_page(tmp_path, **missing, viewer=None, kinds={}).read_text()
+    text = make_page(tmp_path, **missing, viewers=[], kinds={}).read_text()
     section = {"claims_md": "claims", "references": "compare"}.get(there, there)
     sections = re.findall(r'<section id="(\w+)"', text)
     assert [name for name in sections if name != "beyond"] == [section, "run"]
@@ -68,3 +68,21 @@ def test_the_first_screen_has_the_findings_the_viewer_and_the_front(text):
 
 def test_nothing_of_the_machine_s_paths_enters_the_page(tmp_path):
     assert str(tmp_path) not in make_page(tmp_path).read_text()
+
+
+def test_what_is_asked_for_and_not_there_is_named_once_where_it_would_stand(tmp_path):
+    names = {"found": "viewer.html", "compare": "frames of 1", "tables": "table_4_1.md"}
+    names |= {"figures": "figure_4_4.svg", "beyond": "figure_cost.svg"}
+    none = dict.fromkeys(("tables", "figures", "references", "viewers"), [])
+    missing = {section: [name] for section, name in names.items()}
+    text = make_page(tmp_path, **none, missing=missing).read_text()
+    for section, name in names.items():
+        assert text.count(f"Not made yet: {name}.") == 1
+        assert text.index(f'id="{section}"') < text.index(name) < text.index('<section id="run"')
+        assert f'href="#{section}"' in text
+    assert "Drag the divider" not in text and "A dot is our number" not in text
+
+
+def test_the_first_viewer_is_in_the_page_and_the_others_are_named(text):
+    assert "files of the same folder: viewer_fence.html" in text
+    assert "Not made yet" not in text

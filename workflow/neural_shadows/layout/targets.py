@@ -54,7 +54,7 @@ def page_files(layout: Layout) -> dict[str, Any]:
     scenes = tables.unique(row["scene"] for row in rows)
     return _reports(layout, default_tables(layout), default_figures(layout)) | {
         "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
-        "viewer": [paths.report(f"{name}.html") for name in settings["viewers"]][:1],  # 2 MiB each
+        "viewers": [paths.report(f"{name}.html") for name in settings["viewers"]],
         "references": tables.references(layout, scenes),
         "visibilities": tables.visibilities(layout, rows),
         "metrics": tables.metrics(layout, rows),
@@ -94,6 +94,7 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
         "front": front(layout),
         "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "beyond": beyond(layout),
+        "missing": {},
         "rows": pictured(layout),
         "kinds": {
             row["label"]: kind_of(row)
@@ -114,7 +115,39 @@ def available(layout: Layout) -> dict[str, Any]:
 
 def available_arguments(layout: Layout) -> dict[str, Any]:
     """What `write_page` is told for a page of these."""
-    return page_arguments(layout) | available(layout)
+    return page_arguments(layout) | available(layout) | {"missing": missing(layout)}
+
+
+def missing(layout: Layout) -> dict[str, list[str]]:
+    """What a whole run's page shows and is not there now, by the section where it would stand."""
+    past, first, tables = beyond(layout), front(layout), default_tables(layout)
+    figures = [name for name in default_figures(layout) if name != first]
+    reports = {
+        "found": [f"{name}.html" for name in layout.settings["viewers"]],
+        "tables": [f"{name}.md" for name in tables if name not in past],
+        "figures": [f"{name}.svg" for name in figures if name not in past],
+        "beyond": [f"{name}.md" for name in tables if name in past],
+    }
+    reports["found"] += [f"{first}.svg"] if first else []
+    reports["beyond"] += [f"{name}.svg" for name in figures if name in past]
+    found = {
+        section: [name for name in names if not Path(layout.paths.report(name)).exists()]
+        for section, names in reports.items()
+    }
+    return found | {"compare": _missing_frames(layout)}
+
+
+def _missing_frames(layout: Layout) -> list[str]:
+    """Of how many methods of each scene the frames are not whole."""
+    rows, said = pictured(layout), []
+    for scene in tables.unique(row["scene"] for row in rows):
+        shared = tables.references(layout, [scene])
+        here = [row for row in rows if row["scene"] == scene]
+        paths = [[*shared, *tables.visibilities(layout, [row])] for row in here]
+        count = sum(not all(Path(path).exists() for path in some) for some in paths)
+        if count:
+            said.append(f"frames of {count} of {len(here)} methods on {scene}")
+    return said
 
 
 def newest(layout: Layout) -> float:

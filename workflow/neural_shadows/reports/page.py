@@ -30,7 +30,7 @@ def write_page(
     template: list[Path],
     tables: list[Path],
     figures: list[Path],
-    viewer: Path | None,
+    viewers: list[Path],
     claims_md: Path | None,
     references: list[Path],
     visibilities: list[Path],
@@ -42,6 +42,7 @@ def write_page(
     front: str | None,
     data: Mapping[str, str],
     beyond: Sequence[str],
+    missing: Mapping[str, Sequence[str]],
     rows: Sequence[Mapping[str, Any]],
     kinds: Mapping[str, str],
     run: Mapping[str, Any],
@@ -54,11 +55,13 @@ def write_page(
         template: `template.html`, `style.css` and `SCRIPTS`, of one folder.
         tables: Markdown, with a CSV beside each, as beside `claims_md`.
         figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
-        viewer: self-contained HTML of the first viewer, with its poster, a PNG, beside it.
+        viewers: self-contained HTML, with a poster, a PNG, beside each; 2 MiB each, so that the
+            first is within the page and the others are named.
         references, visibilities, metrics: of all batches of each scene, and of each method.
         front: the figure of quality over bytes that is shown first, if there is one.
         data: the tables that figures show, by the figures' names.
         beyond: names of the tables and figures that are not the thesis's.
+        missing: what is asked for and not there, by the section where it would stand.
         rows: `method`, `scene` and `label` of the methods that have pictures.
         kinds: of methods (`method_look.kind_of`), by label.
         benchmarks: Snakemake's, a folder for each rule.
@@ -102,7 +105,9 @@ def write_page(
         cards=cards,
         verdicts=counted(cards),
         budget=budget(claims_csv) if claims_csv else "",
-        viewer=_viewer(viewer) if viewer else None,
+        viewer=_viewer(viewers[0]) if viewers else None,
+        other_viewers=[path.name for path in viewers[1:]],
+        missing=missing,
         front=next((block for block in drawings if block.name == front), None),
         comparisons=frame_comparisons(references, visibilities, metrics, rows, described),
         tables=[block for block in blocks if block.name not in beyond],
