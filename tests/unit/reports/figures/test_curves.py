@@ -207,6 +207,7 @@ def test_panels_name_points_and_what_costs_nothing(drawn):
     assert [line.get_xdata().tolist() for line in hollow] == [[2e6 / 1024]]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend[0] == "shadow map" and legend[-1] == "not learned"
+    assert legend[-2] == "no method is better in both"  # what the grey line says
     assert "exact shadow" not in legend and "no method" not in legend
 
 
@@ -230,6 +231,23 @@ def test_names_cover_neither_points_nor_lines_nor_each_other():
     along = axes.transData.transform(np.linspace(0, 1, 500)[:, None].repeat(2, axis=1))
     for crossed in (axes.transData.transform(points), along):
         assert not any(box.count_contains(crossed) for box in boxes)
+
+
+def test_a_line_leads_to_a_name_that_another_point_is_as_near_to():
+    axes = new_figure("Names", 5, 4).subplots()
+    points = np.random.default_rng(0).uniform(0, 1, (80, 2))
+    axes.plot(*points.T, "o")
+    axes.figure.draw_without_rendering()
+    limits = *axes.get_xlim(), *axes.get_ylim()
+    label_points(axes, points, [str(i) + " is its name" for i in range(80)], fontsize=7)
+    leaders = {tuple(line.get_xydata()[0].round(9)) for line in axes.lines[1:]}
+    places = axes.transData.transform(points)
+    for text in axes.texts:
+        box, own = text.get_window_extent(), int(text.get_text().split(" ")[0])
+        far = np.linalg.norm(places - np.clip(places, box.min, box.max), axis=1)
+        clear = 1.5 * far[own] <= np.delete(far, own).min()
+        assert clear or tuple(points[own].round(9)) in leaders
+    assert 3 < len(leaders) < len(axes.texts) and (*axes.get_xlim(), *axes.get_ylim()) == limits
 
 
 def test_points_say_their_values_in_the_svg(tmp_path):

@@ -36,6 +36,7 @@ LINES = {NO_SHADOW: ":", PRINTED: "--"}  # what has a quality and no cost here
 NOT_SHOWN = "all_dark"
 PRINTED_NOTES = {True: " (of another LPIPS network)", False: " (mean, not pooled)"}
 GREY = "#777777"
+FRONT = {"color": "#bbbbbb", "linewidth": 1}
 MOST_IN_LINE = 2  # of the legend below a panel
 PANEL = 4.75, 3.8  # inches: 342 points, so that one panel fits a phone's 375 px
 
@@ -100,7 +101,8 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> F
     drawn = [*table["look"][~table["key"].isin([*LINES, RAY_TRACED])]]
     looks = dict.fromkeys([*(look for look in LOOKS.values() if look in drawn), *drawn])
     entries = [Line2D([], [], label=look.name, **_drawn(look)) for look in looks]
-    style.legend_below(figure, entries + style.hollow(table), MOST_IN_LINE * len(metrics))
+    entries += [Line2D([], [], label="no method is better in both", **FRONT), *style.hollow(table)]
+    style.legend_below(figure, entries, MOST_IN_LINE * len(metrics))
     named = []
     for row, cost in zip(panels, costs):
         for axes, metric in zip(row, metrics):
@@ -148,7 +150,7 @@ def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
     _draw_lines(axes, points, methods, errors)
     error = measured["value"].to_numpy() * (1 if errors else -1)
     first = measured.iloc[front(measured["cost"].to_numpy(), error)]
-    axes.plot(first["cost"], first["value"], color="#bbbbbb", linewidth=1, zorder=0)
+    axes.plot(first["cost"], first["value"], **FRONT, zorder=0)
     return pd.concat([first, measured.drop(first.index)])
 
 
