@@ -120,13 +120,13 @@ def available_arguments(layout: Layout) -> dict[str, Any]:
 
 def missing(layout: Layout) -> dict[str, list[str]]:
     """What a whole run's page shows and is not there now, by the section where it would stand."""
-    past, first, tables = beyond(layout), front(layout), default_tables(layout)
+    past, first, shown = beyond(layout), front(layout), default_tables(layout)
     figures = [name for name in default_figures(layout) if name != first]
     reports = {
         "found": [f"{name}.html" for name in layout.settings["viewers"]],
-        "tables": [f"{name}.md" for name in tables if name not in past],
+        "tables": [f"{name}.md" for name in shown if name not in past],
         "figures": [f"{name}.svg" for name in figures if name not in past],
-        "beyond": [f"{name}.md" for name in tables if name in past],
+        "beyond": [f"{name}.md" for name in shown if name in past],
     }
     reports["found"] += [f"{first}.svg"] if first else []
     reports["beyond"] += [f"{name}.svg" for name in figures if name in past]
