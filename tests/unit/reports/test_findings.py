@@ -5,7 +5,7 @@ import pytest
 
 from neural_shadows.reports.finding_words import size_of
 from neural_shadows.reports.findings import claims_counted, findings
-from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, TOO_SMALL
+from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, TOO_SMALL, VACUOUS
 
 NAN = float("nan")
 NETWORKS = {  # label: encoding, samples, stored bytes, pooled PSNR, learned, equal map
@@ -136,7 +136,8 @@ def test_what_is_missing_is_said_in_place_of_findings(tmp_path):
     ("verdicts", "end"),
     [
         ([SUPPORTED, CONTRADICTED], "supports 1 and contradicts 1."),
-        ([SUPPORTED, TOO_SMALL, TOO_SMALL], "cannot decide the other 2: 2 of them since the run"),
+        ([SUPPORTED, TOO_SMALL, TOO_SMALL], "cannot decide the other 2, since the run"),
+        ([TOO_SMALL, VACUOUS, TOO_SMALL], "cannot decide the other 3, 2 of them since the run"),
     ],
 )
 def test_claims_are_counted(verdicts, end):

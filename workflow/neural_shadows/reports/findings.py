@@ -187,8 +187,9 @@ def _tested(verdicts: pd.Series) -> Markup:
     rest = counts.drop([SUPPORTED, CONTRADICTED], errors="ignore")
     if rest.empty:
         return said + "."
-    others = "; it cannot decide the other {}: {} of them since {}."
-    return said + Markup(others).format(rest.sum(), rest.iloc[0], REASONS[rest.index[0]])
+    most = "" if len(rest) == 1 else f"{rest.iloc[0]} of them "
+    others = "; it cannot decide the other {}, {}since {}."
+    return said + Markup(others).format(rest.sum(), most, REASONS[rest.index[0]])
 
 
 def _best(rows: pd.DataFrame) -> pd.Series:
