@@ -105,6 +105,16 @@ def test_answers_of_an_open_sheet(browser, tmp_path):
     assert np.mean(np.abs(found - expected) > 0.5) <= 0.001
 
 
+def test_scene_without_a_network_shows_maps(browser, tmp_path):
+    page = browser.new_page()
+    page.goto(make_viewer(tmp_path, settings={}).html.as_uri())
+    page.locator("#viewer[data-moving='false']").wait_for()
+    methods = page.evaluate("viewer.methods")
+    assert {name.partition("_")[0] for name in methods} == {"map", "pcf", "no", "reference"}
+    assert page.locator("select.left").input_value() == "map_1024"
+    assert "light leak" in page.locator(".facts.left").inner_text()
+
+
 def test_page_is_one_file_that_asks_for_nothing(open_viewer, viewer):
     page = open_viewer("right=no_shadow&left=map_64")
     settled(page)

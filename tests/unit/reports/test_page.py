@@ -59,6 +59,12 @@ def test_page_shows_what_is_there(tmp_path, there):
     assert said == (there != "claims_md")
 
 
+def test_a_contact_sheet_is_folded_and_no_other_figure(text):
+    figures = re.findall(r'<figure id="figure-(\w+)">(.+?)</figure>', text, re.DOTALL)
+    assert len(figures) > 1
+    assert [name for name, inside in figures if "<details>" in inside] == ["figure_4_1"]
+
+
 def test_the_first_screen_has_the_findings_the_viewer_and_the_front(text):
     first = text[text.index('<header id="found">') : text.index("</header>")]
     assert "Of 2 claims of the thesis" in first and "no table of networks" in first

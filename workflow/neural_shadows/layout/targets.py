@@ -94,6 +94,7 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
         "front": front(layout),
         "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "beyond": beyond(layout),
+        "folded": [name for name, one in figures.items() if one["kind"] == "contact_sheet"],
         "missing": {},
         "rows": pictured(layout),
         "kinds": {

@@ -33,11 +33,16 @@ def bytes_beside(stored: float, other: float) -> str:
     return "as many bytes" if other * ALIKE >= stored else size_of(other)
 
 
-def in_memory(best: float, other: float) -> str:
-    """A sentence on the bytes in memory, where both are known."""
-    if pd.isna([best, other]).any():
-        return ""
-    return f" In memory they take {size_of(best)} and {size_of(other)}."
+def in_memory(best: pd.Series, other: pd.Series, difference: float, side: int) -> Markup:
+    """A sentence on the strongest rival that takes no more memory.
+
+    Args:
+        difference, side: by how many dB `best` is better, and whether that is clear.
+    """
+    size = size_of(best["resident_bytes"])
+    told = error_beside(difference) if side else "is too close to tell which is better"
+    said = Markup(" Counted in memory, {}, the best of another kind is the {}, which {}.")
+    return said.format(size, with_psnr(other), told)
 
 
 def name_of(row: pd.Series) -> Markup:

@@ -63,25 +63,29 @@ def findings(tables: Iterable[Path], claims_csv: Path | None) -> tuple[list[Mark
 
 
 def best_of_its_size(table: pd.DataFrame) -> Markup | None:
-    """How the best trained network compares with what is of another kind and takes no more bytes."""
+    """How the best trained network compares with what is of another kind and takes no more bytes.
+
+    In a file, and then in memory, where another rival may be the strongest.
+    """
     known = table.dropna(subset=["psnr_pooled", "stored_bytes"])
     networks = known[known["samples"].gt(0) & ~_failed(known)]
     if networks.empty:
         return None
     best = _best(networks)
     size = Markup("<strong>{}</strong>").format(size_of(best["stored_bytes"]))
-    alike = known["encoding"].eq(best["encoding"]) & known["samples"].gt(0)
-    fits = known[~alike & (known["stored_bytes"] <= ALIKE * best["stored_bytes"])]
     worth = worth_of(best, "map_psnr")
-    if fits.empty:
-        said = Markup("The best trained network is the {}, in {}{}.")
-        return said.format(with_psnr(best), size, worth)
-    other = _best(fits)
+    other, held = (_rival(known, best, kept) for kept in ("stored_bytes", "resident_bytes"))
+    memory = Markup()
+    if held is not None and (other is None or held["method"] != other["method"]):
+        memory = in_memory(best, held, *_compared(best, held))
+    if other is None:
+        said = Markup("The best trained network is the {}, in {}{}.{}")
+        return said.format(with_psnr(best), size, worth, memory)
     difference, side = _compared(best, other)
     if side > 0:
         said = (
             "In {size} nothing comes closer to the exact shadow than the {best}{worth}. The best of "
-            "another kind, the {other}, {error}."
+            "another kind, the {other}, {error}.{memory}"
         )
     elif side < 0:
         said = (
@@ -89,16 +93,23 @@ def best_of_its_size(table: pd.DataFrame) -> Markup | None:
             "{bytes}, and {error}.{memory}"
         )
     else:
-        said = "In {size} the {best} and the {other} are too close to tell which is better."
+        said = "In {size} the {best} and the {other} are too close to tell which is better.{memory}"
     return Markup(said).format(
         size=size,
         best=with_psnr(best),
         other=with_psnr(other),
         worth=worth,
         bytes=bytes_beside(best["stored_bytes"], other["stored_bytes"]),
-        memory=in_memory(best["resident_bytes"], other["resident_bytes"]),
+        memory=memory,
         error=error_beside(difference),
     )
+
+
+def _rival(known: pd.DataFrame, best: pd.Series, column: str) -> pd.Series | None:
+    """The best of another kind that has no more bytes than `best` in a column; None for none."""
+    alike = known["encoding"].eq(best["encoding"]) & known["samples"].gt(0)
+    fits = known[~alike & (known[column] <= ALIKE * best[column])]
+    return None if fits.empty else _best(fits)
 
 
 def training_adds(table: pd.DataFrame) -> Markup | None:

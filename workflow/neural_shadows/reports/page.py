@@ -42,6 +42,7 @@ def write_page(
     front: str | None,
     data: Mapping[str, str],
     beyond: Sequence[str],
+    folded: Sequence[str],
     missing: Mapping[str, Sequence[str]],
     rows: Sequence[Mapping[str, Any]],
     kinds: Mapping[str, str],
@@ -61,6 +62,7 @@ def write_page(
         front: the figure of quality over bytes that is shown first, if there is one.
         data: the tables that figures show, by the figures' names.
         beyond: names of the tables and figures that are not the thesis's.
+        folded: names of the figures that are shown when asked for: contact sheets.
         missing: what is asked for and not there, by the section where it would stand.
         rows: `method`, `scene` and `label` of the methods that have pictures.
         kinds: of methods (`method_look.kind_of`), by label.
@@ -100,6 +102,7 @@ def write_page(
         findings=found,
         gaps=gaps,
         facts=facts,
+        folded=folded,
         legend=[look for look in LOOKS.values() if look in looks.values()],
         claims=claims,
         cards=cards,

@@ -2,7 +2,7 @@
 
 Triangles go from neighbour to neighbour, vertices are numbered as they first come, and a corner is
 told by how far it lies behind the next new number: mostly 0 to 2. The Stanford dragon (201,031
-triangles) takes 2.9 bytes a triangle so, deflated.
+triangles) takes 3.4 bytes a triangle so, deflated.
 """
 
 from typing import NamedTuple
@@ -40,7 +40,10 @@ def mesh_arrays(vertices: np.ndarray, faces: np.ndarray) -> MeshArrays:
 
 
 def _newest_last(faces: np.ndarray) -> np.ndarray:
-    """Each triangle (F, 3) turned so that its largest number comes last: a quarter fewer bytes."""
+    """Each triangle (F, 3) turned so that its largest number comes last.
+
+    The Stanford dragon's corners take 371 KiB so, and 428 as they come.
+    """
     turned = (faces.argmax(1)[:, None] + np.array([1, 2, 3])) % 3
     return np.take_along_axis(faces, turned, 1)
 

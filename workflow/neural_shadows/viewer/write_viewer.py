@@ -27,7 +27,7 @@ from neural_shadows.viewer.network_arrays import network_arrays
 from neural_shadows.viewer.packed import packed
 from neural_shadows.viewer.views import poster, shown_views
 
-# Some 3 bytes each: with these, a 256³ field and a network 64 wide a viewer takes 2 MiB.
+# Some 3.4 bytes each: with these, a 256³ field and a network 64 wide a viewer takes 2 MiB.
 MOST_TRIANGLES, MOST_BYTES = 210_000, 2 << 20
 
 

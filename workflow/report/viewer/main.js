@@ -92,8 +92,8 @@ async function startViewer(root, data) {
     const [truth, truthTook] = errors ? timed(reference, "reference", size) : [right, 0];
     renderer.show({ left, right, reference: truth, light, divider, errors });
     const took = leftTook + rightTook + truthTook;
-    const rate = took > 100 ? (1000 / took).toFixed(1) : Math.round(1000 / Math.max(took, 1));
-    find(".rate").textContent = `${size[0]} × ${size[1]}: ${took.toFixed(1)} ms, ${rate} frames a second`;
+    find(".rate").textContent =
+      `${size[0]} × ${size[1]}: ${took.toFixed(1)} ms, ${rateOf(took)} frames a second`;
     return [scale, size];
   }
 
@@ -215,8 +215,8 @@ async function startViewer(root, data) {
   root.classList.add("ready");
   if (window.parent !== window) writeAddress(""); // the page may have a state for it
 
-  // For tests and scripts: a method's answers at each pixel, rows from the top; 0 to 255, and 255
-  // for what is not asked, is −1: (height · width) numbers.
+  // For tests and scripts: a method's answers at each pixel, rows from the top, (height · width)
+  // numbers from 0, dark, to 255, lit; −1 where there is no surface.
   return {
     methods: keys,
     answers(key, view, light, width, height) {
@@ -233,11 +233,16 @@ function wideEnough(view, aspect) {
   return { ...view, fov: Math.atan(half) * 360 / Math.PI };
 }
 
+// Frames a second; a clock may be coarse, and no more than 1,000 are told.
+function rateOf(milliseconds) {
+  return milliseconds > 100 ? (1000 / milliseconds).toFixed(1) : Math.round(1000 / Math.max(milliseconds, 1));
+}
+
 // shares: null for the reference.
 function factsOf({ stored, resident }, milliseconds, shares) {
   const percent = (share) => `${(100 * share).toFixed(2)} %`, mebi = 1 << 20;
   const bytes = (count) => count < mebi / 10 ? `${(count / 1024).toFixed(0)} KiB` : `${(count / mebi).toFixed(2)} MiB`;
-  const facts = [`${milliseconds.toFixed(1)} ms a frame`];
+  const facts = [`${milliseconds.toFixed(1)} ms a frame, ${rateOf(milliseconds)} a second`];
   if (resident) facts.unshift(`${bytes(resident)} in memory`);
   if (stored !== undefined) facts.unshift(`${bytes(stored)} stored`);
   if (shares) {

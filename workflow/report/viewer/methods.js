@@ -3,7 +3,7 @@
 
 const MAP_SIZES = [64, 128, 256, 512, 1024, 2048, 4096];
 const SOLID = -(1 << 20); // in the grid: a brick that the surface encloses
-const ROW_BRICKS = 32; // of the values' texture: 4,000 texels, within every device's limit
+const ROW_BRICKS = 32; // of the values' texture: 4,000 texels; most phones end at 4,096
 
 function mapMethod(size, filtered) {
   return {
