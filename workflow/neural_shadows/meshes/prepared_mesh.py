@@ -1,5 +1,6 @@
 """A clean mesh in its unit sphere, as the stages read it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -52,4 +53,17 @@ def read_prepared(mesh_ply: str | Path) -> PreparedMesh:
         faces=faces.astype(np.int32),
         vertex_normals=vertex_normals.astype(np.float32),
         face_normals=normals.astype(np.float32),
+    )
+
+
+def joined_meshes(meshes: Sequence[PreparedMesh]) -> PreparedMesh:
+    """Several meshes as one, theirs one after the other."""
+    firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    return PreparedMesh(
+        vertices=np.concatenate([mesh.vertices for mesh in meshes]),
+        faces=np.concatenate([mesh.faces + first for mesh, first in zip(meshes, firsts)]).astype(
+            np.int32
+        ),
+        vertex_normals=np.concatenate([mesh.vertex_normals for mesh in meshes]),
+        face_normals=np.concatenate([mesh.face_normals for mesh in meshes]),
     )

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from neural_shadows.scenes.cameras import Viewpoint, camera_axes
+from neural_shadows.scenes.cameras import Camera, Viewpoint, camera_axes
 from neural_shadows.scenes.scene import Scene
 
 # Every method shades p + SHADING_OFFSET n_g (normalised space): some 10,000 roundings of a
@@ -39,12 +39,17 @@ class GBuffer:
         return visible
 
 
-def _pixel_directions(view: Viewpoint, width: int, height: int) -> np.ndarray:
-    """Rays through the pixel centres, rows from the top: (height · width, 3) float32, not unit."""
+def pixel_directions(
+    view: Camera, width: int, height: int, place: tuple[float, float] = (0.5, 0.5)
+) -> np.ndarray:
+    """Rays through a place in each pixel, rows from the top: (height · width, 3) float32, not unit.
+
+    Along the camera's axis they are 1 long. The place is from the pixel's left and top.
+    """
     right, upward, forward = camera_axes(view.eye, view.target, view.up)
     half = np.tan(np.radians(view.fov) / 2)
-    x = (2 * (np.arange(width) + 0.5) / width - 1) * half * width / height
-    y = (1 - 2 * (np.arange(height) + 0.5) / height) * half
+    x = (2 * (np.arange(width) + place[0]) / width - 1) * half * width / height
+    y = (1 - 2 * (np.arange(height) + place[1]) / height) * half
     directions = np.empty((height, width, 3), np.float32)
     for k in range(3):  # by component: a broadcast over a last axis of 3 is several times slower
         column = (forward[k] + y * upward[k]).astype(np.float32)
@@ -63,7 +68,7 @@ def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GB
     """
     (mesh,) = scene.objects
     light = view.light.astype(np.float32)
-    directions = _pixel_directions(view, width, height)
+    directions = pixel_directions(view, width, height)
     eye = view.eye.astype(np.float32)
     hit, face, u, v = scene.tracer.first_hit_barycentric(
         np.tile(eye, (len(directions), 1)), directions
@@ -80,10 +85,10 @@ def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GB
     side, cos_geometric, u, v = side[lit_side], cos_geometric[lit_side], u[lit_side], v[lit_side]
     corners = np.take(mesh.faces, face[lit_side], axis=0).T
     # From the triangle and not from t, whose rounding grows with the distance of the eye.
-    p = _interpolate(mesh.vertices, corners, u, v)
+    p = interpolate(mesh.vertices, corners, u, v)
     n_g = np.take(n_g, lit_side, axis=0)
     p += (np.float32(SHADING_OFFSET) * side)[:, None] * n_g
-    n = _interpolate(mesh.vertex_normals, corners, u, v)
+    n = interpolate(mesh.vertex_normals, corners, u, v)
     # The normal is turned to its own face's side: the Stanford dragon has 1,329 flaps of two
     # opposite faces, of which one is kept, and where that is the inner one the vertices' normals
     # oppose it: dark speckles, 264 pixels in 12 frames, in all methods alike.
@@ -126,7 +131,7 @@ def with_ground(frame: GBuffer, pixel: np.ndarray, p: np.ndarray) -> GBuffer:
     )
 
 
-def _interpolate(values: np.ndarray, corners: np.ndarray, u: np.ndarray, v: np.ndarray):
+def interpolate(values: np.ndarray, corners: np.ndarray, u: np.ndarray, v: np.ndarray):
     """Values (V, 3) at weights u, v of the second and third of `corners` (3, n): (n, 3)."""
     result = (1 - u - v)[:, None] * np.take(values, corners[0], axis=0)
     result += u[:, None] * np.take(values, corners[1], axis=0)
@@ -149,7 +154,7 @@ def ground_points(
     view: Viewpoint, width: int, height: int, pixel: np.ndarray, ground: float
 ) -> np.ndarray:
     """Where the rays of pixels (g,) that show the ground meet it: (g, 3) float32."""
-    return _on_plane(view, _pixel_directions(view, width, height), width, pixel, ground)
+    return _on_plane(view, pixel_directions(view, width, height), width, pixel, ground)
 
 
 def _slopes(view: Viewpoint, directions: np.ndarray, width: int) -> np.ndarray:

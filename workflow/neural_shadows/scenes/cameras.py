@@ -13,6 +13,16 @@ VIEW_SETS = {
 
 
 @dataclass(frozen=True, eq=False)
+class Camera:
+    """A pinhole camera without roll, in its scene's unit; vectors (3,) float64."""
+
+    eye: np.ndarray
+    target: np.ndarray
+    up: np.ndarray
+    fov: float  # vertical, degrees
+
+
+@dataclass(frozen=True, eq=False)
 class Viewpoint:
     """A pinhole camera and the light of its frame, in normalised space; vectors (3,) float64."""
 

@@ -26,6 +26,18 @@ class Scene:
     tracer: Tracer
 
     @cached_property
+    def joined(self) -> "PreparedMesh":
+        """All objects as one mesh, whose faces are in the tracer's order."""
+        from neural_shadows.meshes.prepared_mesh import joined_meshes
+
+        return joined_meshes(self.objects)
+
+    @cached_property
+    def size(self) -> float:
+        """The longest side of the box round all objects."""
+        return float(np.ptp(self.joined.vertices, axis=0).max())
+
+    @cached_property
     def cumulative_area(self) -> np.ndarray:
         """Running sum of twice the areas of the faces: (F,) float64."""
         (mesh,) = self.objects

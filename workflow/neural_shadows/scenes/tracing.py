@@ -4,6 +4,8 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
+_NEARLY_ALL = 1 - 1e-4  # of a way that ends at a goal
+
 
 class Tracer:
     """Embree's acceleration structure over a mesh; safe to share between threads.
@@ -58,3 +60,12 @@ class Tracer:
     def occluded(self, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
         """Whether each ray o + t d, t > 0, hits anything: (n,) bool; inputs (n, 3) float32."""
         return self._scene.run(origins, directions, query="OCCLUDED") >= 0
+
+    def blocked(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
+        """Whether anything lies between each point and where its way leads: (n,) bool.
+
+        Args:
+            points, ways: (n, 3) float32; the whole way from a point to its goal, not of unit
+                length. Its last ten thousandth is left out, so that a goal may lie on a surface.
+        """
+        return self._scene.run(points, ways, query="OCCLUDED", dists=_NEARLY_ALL) >= 0

@@ -1,0 +1,124 @@
+"""Soft shadows of a spherical light beside closed forms, and few rays beside many."""
+
+import numpy as np
+import pytest
+import trimesh
+from shapes import prepared, sheet
+
+from neural_shadows.rendering.light_samples import ring_shares, ring_ways
+from neural_shadows.rendering.soft_shadows import soft_visibility
+from neural_shadows.rendering.surface import see_surface
+from neural_shadows.scenes.cameras import Camera
+from neural_shadows.scenes.scene import make_scene
+
+UP = np.array([0.0, 1.0, 0.0])
+LIGHT = {"domain": "sphere", "min_elevation_deg": 0}
+CENTRE = np.array([0.0, 4.0, 0.0])
+
+
+def scene_of(*shapes):
+    """A scene of several shapes as they lie, in metres."""
+    mesh, _ = prepared(trimesh.util.concatenate([*shapes]))
+    return make_scene(mesh, up=UP, ground=False, light=LIGHT)
+
+
+def down(height, half):
+    """A camera over the origin that sees a square of the ground, twice `half` along a side."""
+    fov = np.degrees(2 * np.arctan(half / height))
+    return Camera(np.array([0, height, 0.001]), np.zeros(3), np.array([0, 0, -1.0]), fov)
+
+
+def half_plane(height):
+    """It covers x > 0."""
+    shape = sheet(height, 20.0)
+    shape.apply_translation([20, 0, 0])
+    return shape
+
+
+def share_seen(x, height, radius):
+    """Of a disc light that faces points at x on the ground, past the edge of a half-plane."""
+    way = np.stack([CENTRE[0] - x, np.full_like(x, CENTRE[1])])
+    edge = np.stack([-x, np.full_like(x, height)])
+    across = np.stack([way[1], -way[0]]) / np.linalg.norm(way, axis=0)
+    edge = edge * (way * way).sum(0) / (edge * way).sum(0)
+    t = np.clip((edge * across).sum(0) / radius, -1, 1)
+    return 1 - (np.arccos(t) - t * np.sqrt(1 - t * t)) / np.pi
+
+
+@pytest.mark.parametrize("height", [0.5, 1.5])
+def test_half_plane_before_a_disc(height):
+    scene = scene_of(sheet(0.0, 30.0), half_plane(height))
+    # Under the half-plane, so that it sees the ground on both sides of the edge's shadow.
+    camera, radii = down(0.4, 0.3 / 16), [0.1, 0.3]
+    found = soft_visibility(
+        scene, camera, 256, 16, centre=CENTRE, radii=radii, samples=64, adaptive=False
+    )
+    surface = see_surface(scene, camera, 256, 16)
+    x = surface.image(surface.p)[..., 0].astype(float)
+    for radius, visibility in zip(radii, found):
+        expected = share_seen(x, height, radius)
+        assert expected.min() < 0.1 and expected.max() > 0.9
+        assert np.abs(visibility - expected).max() < 0.04
+        assert abs((visibility - expected).mean()) < 2e-3
+
+
+def test_point_and_next_to_it():
+    scene = scene_of(sheet(0.0, 30.0), half_plane(1.0))
+    point, tiny = soft_visibility(
+        scene, down(0.4, 0.3), 64, 8, centre=CENTRE, radii=[0, 1e-5], samples=2, adaptive=False
+    )
+    assert 0.2 < point.mean() < 0.8 and np.abs(point - tiny).max() < 0.13  # a place of eight
+    assert np.mean(point != tiny) < 0.02
+
+
+def test_light_below_the_ground_and_no_surface():
+    scene = scene_of(sheet(0.0, 0.2))
+    under = soft_visibility(
+        scene, down(2.0, 0.4), 32, 32, centre=-CENTRE, radii=[0, 0.3], samples=2, adaptive=True
+    )
+    assert under[:, 16, 16].tolist() == [0, 0] and under[:, 0, 0].tolist() == [1, 1]
+
+
+def forest(seed=0):
+    """Boxes over a ground: umbrae, penumbrae of all widths, thin gaps."""
+    rng = np.random.default_rng(seed)
+    boxes = [sheet(0.0, 6.0)]
+    for _ in range(60):
+        shape = trimesh.creation.box(rng.uniform(0.02, 0.4, 3))
+        shape.apply_translation([*rng.uniform(-1.5, 1.5, 2), 0])
+        shape.apply_transform(trimesh.geometry.align_vectors([0, 0, 1], UP))
+        shape.apply_translation([0, rng.uniform(0.2, 1.2), 0])
+        boxes.append(shape)
+    return scene_of(*boxes)
+
+
+def test_few_rays_where_neighbours_agree():
+    scene = forest()
+    camera = Camera(np.array([2.5, 2.0, 2.5]), np.array([0, 0.2, 0]), UP, 50.0)
+    told = {"centre": np.array([0.5, 3.0, 0.3]), "radii": [0, 0.06, 0.12, 0.18, 0.25], "samples": 4}
+    whole = soft_visibility(scene, camera, 128, 64, **told, adaptive=False)
+    found = soft_visibility(scene, camera, 128, 64, **told)
+    assert np.abs(found - whole).mean() < 5e-4
+    # A larger light leaves less wholly dark, and nothing dark under it is lit under a smaller one.
+    for small, large in zip(found[1:], found[2:]):
+        assert np.all(small[large == 0] == 0) and (large == 0).sum() < (small == 0).sum()
+
+
+def test_rings_add_up_to_the_disc():
+    radii = np.array([0.1, 0.2, 0.4])
+    shares = ring_shares(radii)
+    assert np.allclose(shares.sum(1), 1)
+    assert np.allclose(shares[2], np.array([1, 3, 12]) / 16)
+    points, count = np.zeros((1, 3), np.float32), np.full(3, 4096)
+    ways = np.empty((1, count.sum(), 3), np.float32)
+    ring_ways(points, np.array([7]), np.array([0]), CENTRE, radii, count, ways)
+    away = (ways[0] - CENTRE).astype(float)
+    assert np.abs(away[:, 1]).max() < 1e-6  # across the way to the centre
+    radius = np.hypot(away[:, 0], away[:, 2]).reshape(3, -1)
+    edges = np.concatenate([[0], radii])
+    for ring, (inner, outer) in zip(radius, zip(edges, edges[1:])):
+        assert ring.min() >= inner - 1e-6 and ring.max() <= outer + 1e-6
+        # Evenly by area: the squares are uniform between the edges'.
+        shared = np.sort((ring**2 - inner**2) / (outer**2 - inner**2))
+        assert np.abs(shared - (np.arange(4096) + 0.5) / 4096).max() < 0.005
+    assert np.abs(away.mean(0)).max() < 1e-3

@@ -1,0 +1,78 @@
+"""Points on a spherical light as shading points see it: a disc, in rings of equal shares.
+
+One set of samples serves lights of several radii about the same centre: a light of the k-th radius
+is made of the first k rings, each weighted by its area (Datta et al. 2022, supplement 5).
+"""
+
+import numpy as np
+from numba import njit
+
+# The generalised golden ratio's plane sequence (Roberts 2018): any run of it is evenly spread.
+_GOLDEN = (0.7548776662466927, 0.5698402909980532)
+
+
+def ring_shares(radii: np.ndarray) -> np.ndarray:
+    """Of each light, how much each ring is of its area: (K, K) float32, rows by light.
+
+    Args:
+        radii: (K,), growing, above 0.
+    """
+    squares = np.square(radii, dtype=np.float64)
+    areas = np.diff(squares, prepend=0.0)
+    shares = np.tril(np.broadcast_to(areas, (len(radii), len(radii)))) / squares[:, None]
+    return shares.astype(np.float32)
+
+
+@njit(cache=True, nogil=True)
+def _hashed(value):
+    """An integer's bits mixed, as a number in [0, 1) (Wellons 2018, lowbias32)."""
+    x = np.uint32(value)
+    x ^= x >> np.uint32(16)
+    x = np.uint32(x * np.uint32(0x7FEB352D))
+    x ^= x >> np.uint32(15)
+    x = np.uint32(x * np.uint32(0x846CA68B))
+    x ^= x >> np.uint32(16)
+    return x / 4294967296.0
+
+
+@njit(cache=True, nogil=True)
+def ring_ways(points, keys, first, centre, radii, counts, ways):
+    """Fill `ways` (n, Σ counts, 3) from each point to its samples of the rings, ring by ring.
+
+    Args:
+        points: (n, 3) float32.
+        keys: (n,) int64; points of one key draw from one sequence, those of another from one
+            that is turned and shifted.
+        first: (n,) int64, how many samples of a ring of its key were drawn before.
+        centre: (3,) float64 of the light; radii: (K,) float64 of the rings' outer edges.
+        counts: (K,) int64, samples of each ring.
+    """
+    for i in range(len(points)):
+        x, y, z = (
+            centre[0] - points[i, 0],
+            centre[1] - points[i, 1],
+            centre[2] - points[i, 2],
+        )
+        length = np.sqrt(x * x + y * y + z * z)
+        nx, ny, nz = x / length, y / length, z / length
+        # Two directions across the one to the light (Duff et al. 2017).
+        sign = 1.0 if nz >= 0 else -1.0
+        a = -1 / (sign + nz)
+        b = nx * ny * a
+        ux, uy, uz = 1 + sign * nx * nx * a, sign * b, -sign * nx
+        vx, vy, vz = b, sign + ny * ny * a, -ny
+        at, inner = 0, 0.0
+        for ring in range(len(radii)):
+            outer = radii[ring] * radii[ring]
+            turn = _hashed(keys[i] * 16 + 2 * ring)
+            shift = _hashed(keys[i] * 16 + 2 * ring + 1)
+            for k in range(counts[ring]):
+                j = first[i] + k + 0.5
+                radius = np.sqrt(inner + (outer - inner) * ((j * _GOLDEN[0] + shift) % 1))
+                angle = 2 * np.pi * ((j * _GOLDEN[1] + turn) % 1)
+                p, q = radius * np.cos(angle), radius * np.sin(angle)
+                ways[i, at, 0] = x + p * ux + q * vx
+                ways[i, at, 1] = y + p * uy + q * vy
+                ways[i, at, 2] = z + p * uz + q * vz
+                at += 1
+            inner = outer
