@@ -1,0 +1,79 @@
+"""Visibility from moments of depth beside distributions whose answer is known."""
+
+import numpy as np
+import pytest
+
+from neural_shadows.shadow_maps.moments import (
+    blurred,
+    box,
+    exponential_visibility,
+    gaussian,
+    hamburger_visibility,
+    powers,
+    variance_visibility,
+    warped,
+)
+
+ANSWERS = {
+    "variance": (lambda depth: powers(depth, 2), variance_visibility),
+    "exponential": (warped, exponential_visibility),
+    "four moments": (lambda depth: powers(depth, 4), hamburger_visibility),
+}
+
+
+def mixed(of, depths, weights):
+    """Moments of a distribution, (1, moments)."""
+    return np.average(of(np.array(depths)), axis=0, weights=weights)[None]
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_one_depth_is_lit_before_and_dark_behind(name):
+    of, visibility = ANSWERS[name]
+    moments = mixed(of, [0.4], [1])
+    assert visibility(moments, np.array([0.4])) == pytest.approx(1, abs=0.02)
+    assert visibility(moments, np.array([0.3])) == pytest.approx(1, abs=1e-3)
+    assert visibility(moments, np.array([0.6])) == pytest.approx(0, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_two_depths_seen_from_the_farther(name):
+    """A receiver that is the farther of two: lit as much as it weighs, exactly."""
+    of, visibility = ANSWERS[name]
+    for weight in (0.2, 0.5, 0.9):
+        moments = mixed(of, [0.3, 0.7], [1 - weight, weight])
+        # Of the exponentials the bound is exact as well, but for the least variance.
+        assert visibility(moments, np.array([0.7])) == pytest.approx(weight, abs=2e-3)
+
+
+def test_published_vectors_of_four_moments():
+    """Two occluders: exact between them; three: a light leak, which is the method's."""
+    two = mixed(lambda depth: powers(depth, 4), [0.3, 0.8], [0.4, 0.6])
+    assert 1 - hamburger_visibility(two, np.array([0.55])) == pytest.approx(0.4, abs=1e-3)
+    assert 1 - hamburger_visibility(two, np.array([0.95])) == pytest.approx(1, abs=5e-3)
+    three = mixed(lambda depth: powers(depth, 4), [0.2, 0.5, 0.85], [0.3, 0.4, 0.3])
+    assert 1 - hamburger_visibility(three, np.array([0.899])) == pytest.approx(0.812, abs=2e-3)
+
+
+def test_bound_of_variance_is_kept_by_any_distribution():
+    """At least as much is lit as the distribution has behind the receiver, for all of them."""
+    rng = np.random.default_rng(0)
+    depths, weights = rng.uniform(0, 1, (200, 5)), rng.dirichlet(np.ones(5), 200)
+    receivers = rng.uniform(0, 1, 200)
+    lit = np.where(depths >= receivers[:, None], weights, 0).sum(1)
+    for name, slack in (("variance", 1e-5), ("exponential", 1e-5), ("four moments", 5e-3)):
+        of, visibility = ANSWERS[name]
+        moments = np.einsum("nd,ndm->nm", weights, of(depths))
+        found = visibility(moments, receivers)
+        assert np.all(found >= lit - slack), name
+    # Four moments know more than two: their bound is nearer.
+    by_two = variance_visibility(np.einsum("nd,ndm->nm", weights, powers(depths, 2)), receivers)
+    assert found.mean() < by_two.mean() - 0.02
+
+
+def test_filters_keep_the_mean_and_the_rim():
+    moments = powers(np.random.default_rng(1).uniform(0, 1, (16, 16)), 2)
+    flat = np.broadcast_to(moments[3, 4], moments.shape)
+    for kernel in (box(5), gaussian(15, 3.0)):
+        assert kernel.sum() == pytest.approx(1)
+        assert np.allclose(blurred(flat, kernel), flat)
+    assert blurred(moments, box(3))[5, 7] == pytest.approx(moments[4:7, 6:9].mean((0, 1)))

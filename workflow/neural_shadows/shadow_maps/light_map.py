@@ -1,0 +1,116 @@
+"""Shadow maps of a light at a place: one perspective picture, or the six of a cube.
+
+Each texel holds the radial distance from the light to the first surface through its centre, in the
+scene's unit; infinite where there is none. A map is looked up by direction, so that filters go on
+from one face of a cube to the next.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from neural_shadows.scenes.tracing import Tracer
+
+_RAYS = 1 << 18  # traced at once
+
+
+@dataclass(frozen=True, eq=False)
+class LightMap:
+    """Where the texels of a light's map look; texel (face · N + row) · N + column."""
+
+    centre: np.ndarray  # (3,) float64
+    faces: np.ndarray  # (F, 3, 3) float64, rows right, down, forward of each
+    half: float  # tangent of half a face's angle
+    resolution: int  # N
+
+    @property
+    def count(self) -> int:
+        """How many texels there are."""
+        return len(self.faces) * self.resolution**2
+
+    def texels_of(self, directions: np.ndarray) -> np.ndarray:
+        """The texel in which each direction (n, 3) from the light lies, (n,) int64; −1 for none."""
+        texels = np.empty(len(directions), np.int64)
+        _fill_texels(directions, self.faces, self.half, self.resolution, texels)
+        return texels
+
+    def directions_of(self, texels: np.ndarray) -> np.ndarray:
+        """Unit directions (t, 3) float32 through the centres of texels (t,)."""
+        size = self.resolution
+        face, row, column = texels // size**2, texels // size % size, texels % size
+        right, down, forward = self.faces[face].transpose(1, 0, 2)
+        x, y = ((2 * (place + 0.5) / size - 1)[:, None] * self.half for place in (column, row))
+        ways = forward + x * right + y * down
+        return (ways / np.linalg.norm(ways, axis=1, keepdims=True)).astype(np.float32)
+
+    def depths(self, tracer: Tracer, texels: np.ndarray | None = None) -> np.ndarray:
+        """Distances in texels (t,) float32, of all of them if none are named."""
+        texels = np.arange(self.count) if texels is None else texels
+        found = np.empty(len(texels), np.float32)
+        origins = np.broadcast_to(self.centre.astype(np.float32), (_RAYS, 3)).copy()
+        for begin in range(0, len(texels), _RAYS):
+            ways = self.directions_of(texels[begin : begin + _RAYS])
+            found[begin : begin + _RAYS], _ = tracer.first_hit(origins[: len(ways)], ways)
+        return found
+
+    def texel_size(self, directions: np.ndarray) -> np.ndarray:
+        """A texel's side at distance 1, across a direction (n, 3): (n,) float32.
+
+        At a face's corner it is smaller than in its middle: the mean of both sides there.
+        """
+        along = np.max(np.einsum("fk,nk->nf", self.faces[:, 2], directions), axis=1)
+        return (2 * self.half / self.resolution * np.maximum(along, 1e-3)).astype(np.float32)
+
+
+def cube_map(centre: np.ndarray, resolution: int) -> LightMap:
+    """Six faces along the axes, all round a light."""
+    faces = []
+    for axis in range(3):
+        for sign in (1, -1):
+            forward = sign * np.eye(3)[axis]
+            right = np.eye(3)[(axis + 1) % 3]
+            faces.append([right, np.cross(forward, right), forward])
+    return LightMap(np.asarray(centre, np.float64), np.array(faces), 1.0, resolution)
+
+
+def perspective_map(
+    centre: np.ndarray, forward: np.ndarray, fov: float, resolution: int
+) -> LightMap:
+    """One face along `forward`; `fov`: its whole angle in degrees."""
+    forward = np.asarray(forward, np.float64) / np.linalg.norm(forward)
+    right = np.cross(forward, np.eye(3)[np.argmin(np.abs(forward))])
+    right /= np.linalg.norm(right)
+    face = [right, np.cross(forward, right), forward]
+    half = float(np.tan(np.radians(fov) / 2))
+    return LightMap(np.asarray(centre, np.float64), np.array([face]), half, resolution)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def texel_of(x, y, z, faces, half, resolution):
+    """The texel in which a direction lies, or −1."""
+    best, along = -1, 0.0
+    for face in range(len(faces)):
+        forward = faces[face, 2, 0] * x + faces[face, 2, 1] * y + faces[face, 2, 2] * z
+        if forward > along:
+            best, along = face, forward
+    if best < 0:
+        return -1
+    scale = 0.5 * resolution / (half * along)
+    right = faces[best, 0, 0] * x + faces[best, 0, 1] * y + faces[best, 0, 2] * z
+    down = faces[best, 1, 0] * x + faces[best, 1, 1] * y + faces[best, 1, 2] * z
+    column = int(np.floor(right * scale + 0.5 * resolution))
+    row = int(np.floor(down * scale + 0.5 * resolution))
+    if len(faces) == 6:  # rounding at an edge of the cube
+        column = min(max(column, 0), resolution - 1)
+        row = min(max(row, 0), resolution - 1)
+    elif column < 0 or row < 0 or column >= resolution or row >= resolution:
+        return -1
+    return (best * resolution + row) * resolution + column
+
+
+@njit(cache=True, nogil=True)
+def _fill_texels(directions, faces, half, resolution, texels):
+    for i in range(len(directions)):
+        x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
+        texels[i] = texel_of(x, y, z, faces, half, resolution)

@@ -1,0 +1,108 @@
+"""Shadows from filtered powers of depth: variance and moment shadow maps.
+
+A map that holds moments of depth may be blurred before it is looked up; what is left of the depths'
+distribution bounds how much of a receiver is in shadow.
+
+Donnelly and Lauritzen 2006 (variance), Lauritzen and McCool 2008 (exponential variance), Peters and
+Klein 2015 (four moments, "Hamburger"). Depths are in [0, 1], 0 nearest to the light; all functions
+give visibilities in [0, 1], float32.
+"""
+
+import numpy as np
+from numba import njit
+from scipy.ndimage import convolve1d
+
+LEAST_VARIANCE = 1e-6
+MOMENT_BIAS = 3e-5  # towards (½, ½, ½, ½); with float32 moments
+# Lauritzen's constants of float32 maps.
+POSITIVE, NEGATIVE = 40.0, 5.0
+
+
+def powers(depth: np.ndarray, count: int) -> np.ndarray:
+    """The first `count` powers of depths (…): (…, count) float64, whose fourth keeps its digits."""
+    depth = np.asarray(depth, np.float64)[..., None]
+    return depth ** np.arange(1, count + 1)
+
+
+def blurred(moments: np.ndarray, kernel: np.ndarray) -> np.ndarray:
+    """A map (H, W, moments) filtered along rows and columns; its rim goes on outside."""
+    once = convolve1d(moments, kernel, axis=0, mode="nearest")
+    return convolve1d(once, kernel, axis=1, mode="nearest")
+
+
+def box(size: int) -> np.ndarray:
+    """The kernel of a mean over `size` texels."""
+    return np.full(size, 1 / size)
+
+
+def gaussian(size: int, sigma: float) -> np.ndarray:
+    """A Gaussian over `size` texels; sigma in texels."""
+    place = np.arange(size) - (size - 1) / 2
+    weights = np.exp(-0.5 * (place / sigma) ** 2)
+    return weights / weights.sum()
+
+
+def variance_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray:
+    """Chebyshev's bound from two moments (n, 2), of receivers at depths (n,)."""
+    mean = moments[:, 0]
+    variance = np.maximum(moments[:, 1] - mean**2, LEAST_VARIANCE)
+    behind = np.maximum(depth - mean, 0)
+    return (variance / (variance + behind**2)).astype(np.float32)
+
+
+def warped(depth: np.ndarray) -> np.ndarray:
+    """Two exponentials of depth and their squares, (…, 4) float64: what an EVSM holds."""
+    place = 2 * np.asarray(depth, np.float64) - 1
+    near, far = np.exp(POSITIVE * place), -np.exp(-NEGATIVE * place)
+    return np.stack([near, near**2, far, far**2], axis=-1)
+
+
+def exponential_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray:
+    """The lesser of the bounds of both exponentials (n, 4), of receivers at depths (n,)."""
+    goal = warped(depth)
+    bounds = []
+    for k, constant in ((0, POSITIVE), (2, NEGATIVE)):
+        mean, behind = moments[:, k], np.maximum(goal[:, k] - moments[:, k], 0)
+        # What a depth off by 1e-4 changes of the warped one.
+        least = (1e-4 * constant * goal[:, k]) ** 2
+        variance = np.maximum(moments[:, k + 1] - mean**2, least)
+        bounds.append(variance / (variance + behind**2))
+    return np.minimum(*bounds).astype(np.float32)
+
+
+@njit(cache=True, nogil=True)
+def hamburger_visibility(moments, depth):
+    """From four moments (n, 4), of receivers at depths (n,): the least shadow that they allow.
+
+    The distribution of three depths, one of them the receiver's, that has these moments.
+    """
+    visibility = np.empty(len(depth), np.float32)
+    for i in range(len(depth)):
+        z = np.float64(depth[i])
+        b1, b2, b3, b4 = (
+            (1 - MOMENT_BIAS) * np.float64(moments[i, 0]) + MOMENT_BIAS * 0.5,
+            (1 - MOMENT_BIAS) * np.float64(moments[i, 1]) + MOMENT_BIAS * 0.5,
+            (1 - MOMENT_BIAS) * np.float64(moments[i, 2]) + MOMENT_BIAS * 0.5,
+            (1 - MOMENT_BIAS) * np.float64(moments[i, 3]) + MOMENT_BIAS * 0.5,
+        )
+        # [[1, b1, b2], [b1, b2, b3], [b2, b3, b4]] c = (1, z, z²) by its LDLᵀ.
+        l32d22 = b3 - b1 * b2
+        d22 = b2 - b1 * b1
+        l32 = l32d22 / d22
+        d33 = b4 - b2 * b2 - l32d22 * l32
+        c1, c2 = z - b1, z * z - b2
+        c2 = (c2 - l32 * c1) / d33
+        c1 = c1 / d22 - l32 * c2
+        c0 = 1 - c1 * b1 - c2 * b2
+        # The other two depths: roots of c0 + c1 t + c2 t².
+        middle, product = -c1 / (2 * c2), c0 / c2
+        half = np.sqrt(max(middle * middle - product, 0.0))
+        near, far = middle - half, middle + half
+        if z <= near:
+            shadow = 0.0
+        elif z <= far:
+            shadow = (z * far - b1 * (z + far) + b2) / ((far - near) * (z - near))
+        else:
+            shadow = 1 - (near * far - b1 * (near + far) + b2) / ((z - near) * (z - far))
+        visibility[i] = 1 - min(max(shadow, 0.0), 1.0)
+    return visibility
