@@ -1,0 +1,86 @@
+"""Filtered maps of a light at a place beside the half-plane's closed form."""
+
+import numpy as np
+import pytest
+import trimesh
+from shapes import prepared, sheet
+
+from neural_shadows.shadow_maps.light_filters import (
+    disc_visibility,
+    hard_visibility,
+    receiver_bias,
+    soft_disc_visibility,
+)
+from neural_shadows.shadow_maps.light_map import cube_map, perspective_map
+
+CENTRE, EDGE, RADIUS = np.array([0.0, 4.0, 0.0]), 1.5, 0.3
+MAPS = {
+    "cube": cube_map(CENTRE, 1024),
+    "picture": perspective_map(CENTRE, np.array([0, -1.0, 0]), 90.0, 1024),
+}
+
+
+def half_plane_scene():
+    """Ground at 0, and x > 0 covered at `EDGE`."""
+    cover = sheet(EDGE, 20.0)
+    cover.apply_translation([20, 0, 0])
+    return prepared(trimesh.util.concatenate([sheet(0.0, 30.0), cover]))[1]
+
+
+@pytest.fixture(scope="module")
+def receivers():
+    """Of the ground, from well lit to well covered: ways from the light, biases, keys, x."""
+    x = np.linspace(-0.6, 0.6, 241)
+    points = np.stack([x, np.zeros_like(x), np.full_like(x, 0.05)], axis=1)
+    ways = points - CENTRE
+    cosines = -ways[:, 1] / np.linalg.norm(ways, axis=1)
+    return ways, cosines, np.arange(len(x)), x
+
+
+def share_seen(x):
+    """Of a disc light that faces points at x on the ground (Datta et al. 2022, supplement)."""
+    way, edge = np.stack([-x, np.full_like(x, CENTRE[1])]), np.stack([-x, np.full_like(x, EDGE)])
+    across = np.stack([way[1], -way[0]]) / np.linalg.norm(way, axis=0)
+    edge = edge * (way * way).sum(0) / (edge * way).sum(0)
+    t = np.clip((edge * across).sum(0) / RADIUS, -1, 1)
+    return 1 - (np.arccos(t) - t * np.sqrt(1 - t * t)) / np.pi
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_hard_shadow_of_a_half_plane(name, receivers):
+    ways, cosines, _, x = receivers
+    light_map, tracer = MAPS[name], half_plane_scene()
+    bias = receiver_bias(light_map, ways, cosines, 60.0)
+    lit = hard_visibility(light_map, light_map.depths(tracer), ways, bias)
+    texel = light_map.texel_size(np.array([[0, -1.0, 0]]))[0] * CENTRE[1]
+    sure = np.abs(x) > 2 * texel
+    assert np.array_equal(lit[sure], (x < 0)[sure])
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_blocker_search_finds_the_penumbra_of_a_half_plane(name, receivers):
+    """One edge, one distance: there the method is exact but for its samples and texels."""
+    ways, cosines, keys, x = receivers
+    light_map, tracer = MAPS[name], half_plane_scene()
+    depths = light_map.depths(tracer)
+    bias = receiver_bias(light_map, ways, cosines, 60.0)
+    told = {"radius": RADIUS, "keys": keys}
+    found = soft_disc_visibility(light_map, depths, ways, bias, **told, searched=256, samples=512)
+    expected = share_seen(x)
+    assert expected.min() == 0 and expected.max() == 1
+    assert np.abs(found - expected).max() < 0.05
+    assert abs((found - expected).mean()) < 0.01
+    # A filter of one width has the same shadow's middle, and another width.
+    even = disc_visibility(light_map, depths, ways, bias, texels=4, samples=64, keys=keys)
+    assert abs(np.interp(0.5, even[::-1], x[::-1])) < 0.01
+    assert ((even > 0.05) & (even < 0.95)).sum() < ((found > 0.05) & (found < 0.95)).sum() / 2
+
+
+def test_a_point_light_has_no_penumbra(receivers):
+    ways, cosines, keys, _ = receivers
+    light_map, tracer = MAPS["cube"], half_plane_scene()
+    depths = light_map.depths(tracer)
+    bias = receiver_bias(light_map, ways, cosines, 60.0)
+    soft = soft_disc_visibility(light_map, depths, ways, bias, radius=0.0, keys=keys)
+    hard = hard_visibility(light_map, depths, ways, bias)
+    assert np.mean(np.abs(soft - hard) > 0.6) < 0.01  # a texel is its least width
