@@ -1,0 +1,59 @@
+"""Points of one frame are found again in the frame before."""
+
+import numpy as np
+import pytest
+import trimesh
+from shapes import prepared, sheet
+
+from neural_shadows.rendering.reprojection import looked_up, projected, seen_before
+from neural_shadows.rendering.surface import see_surface
+from neural_shadows.scenes.cameras import Camera
+from neural_shadows.scenes.scene import make_scene
+
+UP = np.array([0.0, 1.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def scene():
+    cube = trimesh.creation.box([0.5] * 3)
+    cube.apply_translation([0, 0.25, 0])
+    mesh, _ = prepared(trimesh.util.concatenate([sheet(0.0, 4.0), cube]))
+    light = {"domain": "sphere", "min_elevation_deg": 0}
+    return make_scene(mesh, up=UP, ground=False, light=light)
+
+
+def camera(shift=0.0):
+    return Camera(np.array([1.5 + shift, 1.2, 1.8]), np.array([shift, 0.2, 0]), UP, 40.0)
+
+
+def test_a_frames_own_points_project_to_their_pixels(scene):
+    surface = see_surface(scene, camera(), 60, 40)
+    column, row, depth = projected(camera(), 60, 40, surface.p)
+    assert np.allclose(np.round(row) * 60 + np.round(column), surface.pixel)
+    assert np.abs(column - np.round(column)).max() < 1e-3 and depth.min() > 0.5
+
+
+def test_points_are_found_where_they_were_and_hidden_ones_are_not(scene):
+    before, now = (see_surface(scene, camera(shift), 120, 80) for shift in (0.0, 0.1))
+    accepted, places = seen_before(now, before)
+    assert 0.75 < accepted.mean() < 0.98
+    # The world's x there is the point's own, but for the slope within a pixel.
+    found = looked_up(before.image(before.p)[..., 0], places[:, accepted])
+    assert np.abs(found - now.p[accepted, 0]).max() < 5e-3
+    # Ground that the cube hid before is not accepted.
+    ways = before.camera.eye - now.p
+    hidden = scene.tracer.blocked(
+        (now.p + 1e-3 * now.n_g).astype(np.float32), ways.astype(np.float32)
+    )
+    assert hidden.any() and accepted[hidden].mean() < 0.2
+
+
+def test_a_moved_object_is_looked_up_where_it_was(scene):
+    before = see_surface(scene, camera(), 240, 160)
+    shifted = before.p + np.array([0.3, 0, 0], np.float32)
+    accepted, places = seen_before(before, before, was=before.p)
+    assert accepted.mean() > 0.7
+    column, _ = places
+    moved_column, *_ = projected(camera(), 240, 160, shifted)
+    assert np.abs(column - before.pixel % 240).max() < 1e-3
+    assert np.abs(moved_column - column).min() > 1

@@ -1,0 +1,60 @@
+"""How far a soft visibility is from its target, and where."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.ndimage import binary_dilation
+
+UMBRA, LIT = 0.02, 0.98  # of the target: below and above it there is no penumbra
+EDGE_PIXELS = 3  # on each side of an edge of the hard target
+
+
+def visibility_errors(
+    found: np.ndarray, target: np.ndarray, valid: np.ndarray, hard: np.ndarray
+) -> Mapping[str, float]:
+    """Errors over the valid pixels of a frame: mean square, mean absolute, and parts of the former.
+
+    `mse_umbra`, `mse_penumbra` and `mse_lit` are of those pixels by their target, and `mse_edge` of
+    those near an edge of the hard shadow; NaN where there are none. `false_shadow` and `light_leak`
+    are means of what is too dark and too bright.
+
+    Args:
+        found, target, hard: (H, W) float32 in [0, 1], the last of the light's centre; valid: bool.
+
+    Raises:
+        ValueError: no pixel is valid.
+    """
+    if not valid.any():
+        raise ValueError("visibility_errors: no pixel shows a surface")
+    difference = np.subtract(found, target, dtype=np.float64)
+    square = difference**2
+    parts = {
+        "": valid,
+        "_umbra": valid & (target < UMBRA),
+        "_penumbra": valid & (target >= UMBRA) & (target <= LIT),
+        "_lit": valid & (target > LIT),
+        "_edge": valid & _near_edges(hard),
+    }
+    errors = {
+        f"mse{name}": float(square[part].mean()) if part.any() else float("nan")
+        for name, part in parts.items()
+    }
+    of_valid = difference[valid]
+    return errors | {
+        "l1": float(np.abs(of_valid).mean()),
+        "false_shadow": float((-of_valid).clip(0).mean()),
+        "light_leak": float(of_valid.clip(0).mean()),
+    }
+
+
+def _near_edges(hard: np.ndarray) -> np.ndarray:
+    lit = hard > 0.5
+    edge = np.zeros_like(lit)
+    across = lit[1:] != lit[:-1]
+    edge[1:] |= across
+    edge[:-1] |= across
+    along = lit[:, 1:] != lit[:, :-1]
+    edge[:, 1:] |= along
+    edge[:, :-1] |= along
+    square = np.ones((2 * EDGE_PIXELS - 1,) * 2, bool)
+    return binary_dilation(edge, square)

@@ -1,0 +1,62 @@
+"""What a frame's points showed in the frame before: for instability, and for temporal filters."""
+
+import numpy as np
+from scipy.ndimage import map_coordinates
+
+from neural_shadows.rendering.surface import Surface
+from neural_shadows.scenes.cameras import camera_axes
+
+DEPTH_SHARE, NORMAL_DISTANCE = 0.02, 0.4  # what differs by more is another surface
+
+
+def projected(camera, width: int, height: int, points: np.ndarray) -> np.ndarray:
+    """Where points (n, 3) lie in a camera's frame: column, row and depth along its axis, (3, n).
+
+    In pixels; a pixel's centre has whole numbers.
+    """
+    right, upward, forward = camera_axes(camera.eye, camera.target, camera.up) @ (
+        points - camera.eye
+    ).T.astype(np.float64)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scale = height / 2 / np.tan(np.radians(camera.fov) / 2) / forward
+    column = width / 2 + scale * right - 0.5
+    row = height / 2 - scale * upward - 0.5
+    return np.stack([column, row, forward])
+
+
+def seen_before(
+    surface: Surface, before: Surface, was: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Which of a frame's points the frame before shows as well, and where.
+
+    A point counts if all four pixels round it show a surface of its depth, to 2 %, and of its normal,
+    to 0.4 (Datta et al. 2022, 3.4; thresholds of Hu et al. 2025's code).
+
+    Args:
+        was: (n, 3), where the points were then; where they are, if nothing moved.
+
+    Returns:
+        accepted (n,) bool, and column and row in the frame before, (2, n).
+    """
+    points = surface.p if was is None else was
+    width, height = before.width, before.height
+    column, row, depth = projected(before.camera, width, height, points)
+    inside = (depth > 0) & (column >= 0) & (row >= 0) & (column <= width - 1) & (row <= height - 1)
+    accepted = inside.copy()
+    c = np.clip(np.nan_to_num(np.floor(column)), 0, width - 2).astype(np.int64)
+    r = np.clip(np.nan_to_num(np.floor(row)), 0, height - 2).astype(np.int64)
+    depths = before.image(projected(before.camera, width, height, before.p)[2])
+    normals = before.image(before.n_g)
+    for down in (0, 1):
+        for along in (0, 1):
+            there = depths[r + down, c + along]
+            accepted &= np.abs(there - depth) <= DEPTH_SHARE * np.abs(depth)
+            away = normals[r + down, c + along] - surface.n_g
+            accepted &= np.linalg.norm(away, axis=1) <= NORMAL_DISTANCE
+    return accepted, np.stack([column, row])
+
+
+def looked_up(image: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """An image (H, W) at columns and rows (2, n), bilinear: (n,) float32."""
+    column, row = places
+    return map_coordinates(image.astype(np.float32), [row, column], order=1, mode="nearest")
