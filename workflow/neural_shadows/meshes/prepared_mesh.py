@@ -33,7 +33,15 @@ def read_prepared(mesh_ply: str | Path) -> PreparedMesh:
     Raises:
         InputError: as `read_mesh`.
     """
-    vertices, faces = read_mesh(mesh_ply)
+    return with_normals(*read_mesh(mesh_ply))
+
+
+def with_normals(vertices: np.ndarray, faces: np.ndarray) -> PreparedMesh:
+    """A mesh as it lies, with its normals.
+
+    Args:
+        vertices: (V, 3) positions. faces: (F, 3) indices of vertices, none without area.
+    """
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)

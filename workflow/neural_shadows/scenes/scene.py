@@ -17,10 +17,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Objects and lights in normalised space, and the tracer over all objects."""
+    """Objects and lights in one space, and the tracer over all objects.
 
-    objects: tuple["PreparedMesh", ...]  # so far one
-    lights: tuple[Mapping[str, Any], ...]  # so far one: the domain that a frame's light is from
+    The space is the normalised one of a single object, or metres.
+    """
+
+    objects: tuple["PreparedMesh", ...]
+    lights: tuple[Mapping[str, Any], ...]  # the domain of the light's direction; none in metres
     up: np.ndarray  # (3,) float64, unit vector
     ground: float | None  # height of the ground plane along `up`; None for a scene without one
     tracer: Tracer
@@ -46,18 +49,22 @@ class Scene:
 
 
 def make_scene(
-    mesh: "PreparedMesh", *, up: np.ndarray, ground: bool, light: Mapping[str, Any]
+    *objects: "PreparedMesh", up: np.ndarray, ground: bool, light: Mapping[str, Any] | None
 ) -> Scene:
-    """A scene of one object, under which a ground plane may lie.
+    """A scene of objects as they lie, under which a ground plane may lie.
 
     Args:
         up: (3,) unit vector.
-        ground: whether there is a ground plane, at the height of the object's lowest vertex.
-        light: the domain of the light's direction, see `draw_light`.
+        ground: whether there is a ground plane, at the height of the objects' lowest vertex.
+        light: the domain of the light's direction, see `draw_light`; None where lights have places.
     """
+    from neural_shadows.meshes.prepared_mesh import joined_meshes
+
     up = np.asarray(up, np.float64)
-    height = float((mesh.vertices @ up.astype(np.float32)).min()) if ground else None
-    return Scene((mesh,), (light,), up, height, Tracer(mesh.vertices, mesh.faces))
+    joined = joined_meshes(objects)
+    height = float((joined.vertices @ up.astype(np.float32)).min()) if ground else None
+    lights = () if light is None else (light,)
+    return Scene(objects, lights, up, height, Tracer(joined.vertices, joined.faces))
 
 
 def open_scene(mesh_ply: Path, *, up: str, ground: bool, light: Mapping[str, Any]) -> Scene:

@@ -1,0 +1,1 @@
+"""Seeded scenes in metres, one module each: `arrange(rng)` draws its arrangement."""

@@ -1,0 +1,28 @@
+"""A ground with one object over it, for the study of penumbrae by depth (Datta et al. 2022, 3.6)."""
+
+import numpy as np
+
+from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
+from neural_shadows.scenes.generators.furniture import floor
+from neural_shadows.scenes.generators.shapes import placed
+
+LIGHT = 3.0  # metres above the ground
+OBJECT = 0.4  # height of the inserted object: a radius of 0.2 m
+
+
+def arrange_plate(height: float) -> Arrangement:
+    """A ground of 4 m × 4 m and one spot over its middle, from which the object's shadow falls.
+
+    Args:
+        height: of the spot over the ground, metres, at most 2.3 to keep clear of the light.
+    """
+    middle = np.array([0.0, height, 0.0])
+    return Arrangement(
+        "plate",
+        (placed("ground", floor(4, 4)),),
+        (Spot(middle, OBJECT, 0.0),),
+        lights=Region(np.array([-0.1, LIGHT, -0.1]), np.array([0.1, LIGHT, 0.1])),
+        cameras=Region(np.array([-1.5, 0.8, 1.0]), np.array([1.5, 2.0, 1.8])),
+        targets=Region(np.array([-0.3, 0.0, -0.3]), np.array([0.3, 0.1, 0.3])),
+        mover="ground",
+    )

@@ -1,0 +1,29 @@
+"""Which scenes there are, and where the module of each lies."""
+
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.errors import InputError
+from neural_shadows.scenes.arrangement import Arrangement
+
+TRAINED = ("room", "atrium", "hall", "classroom", "gallery")
+UNTRAINED = ("garden", "workshop", "stairs", "blinds", "tree")
+
+
+def generator_module(name: str) -> Path:
+    """The module of a scene: `room.py` for `room`."""
+    return Path(__file__).with_name(f"{name}.py")
+
+
+def arrange(name: str, seed: int) -> Arrangement:
+    """A scene's arrangement, drawn from a seed.
+
+    Raises:
+        InputError: there is no such scene.
+    """
+    if name not in TRAINED + UNTRAINED:
+        raise InputError(f"{name!r} is no scene; use one of {', '.join(TRAINED + UNTRAINED)}")
+    module = import_module(f"neural_shadows.scenes.generators.{name}")
+    return module.arrange(np.random.default_rng(seed))
