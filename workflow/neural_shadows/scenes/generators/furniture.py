@@ -12,23 +12,9 @@ from neural_shadows.scenes.generators.shapes import (
     joined,
     lathe,
     leaves,
-    sheet,
 )
 
 SEAT = 0.45  # height of a chair's seat
-
-
-def floor(width: float, depth: float) -> Shape:
-    """A floor about the origin, `width` along x."""
-    return sheet((-width / 2, -depth / 2), (width / 2, depth / 2))
-
-
-def walls(width: float, depth: float, height: float, thickness: float = 0.1) -> Shape:
-    """Four walls round a floor of that size, outside of it."""
-    w, d, t = width / 2, depth / 2, thickness
-    lows = [[-w - t, 0, -d - t], [-w - t, 0, d], [-w - t, 0, -d], [w, 0, -d]]
-    highs = [[w + t, height, -d], [w + t, height, d + t], [-w, height, d], [w + t, height, d]]
-    return boxes(lows, highs)
 
 
 def table(width: float, depth: float, height: float = 0.75, leg: float = 0.025) -> Shape:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.furniture import floor
+from neural_shadows.scenes.generators.building import floor
 from neural_shadows.scenes.generators.shapes import placed
 
 LIGHT = 3.0  # metres above the ground

@@ -6,15 +6,14 @@ It stands for their living room and bar: much before and behind each other, thin
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
+from neural_shadows.scenes.generators.building import floor, walls
 from neural_shadows.scenes.generators.furniture import (
     chair,
-    floor,
     grille,
     plant,
     shelf,
     table,
     vase,
-    walls,
 )
 from neural_shadows.scenes.generators.shapes import Shape, at, bars, joined, lathe, placed, ring
 

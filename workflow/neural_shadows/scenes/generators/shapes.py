@@ -91,6 +91,27 @@ def sheet(low, high) -> Shape:
     return Shape(corners, [[0, 1, 2], [0, 2, 3]], process=False)
 
 
+def prisms(outlines, depth: float) -> Shape:
+    """Blocks with flat sides over outlines (n, 4, 2) in x and y, counter-clockwise, across z."""
+    outlines = np.asarray(outlines, float)
+    near = np.concatenate([outlines, np.full((*outlines.shape[:2], 1), depth / 2)], axis=2)
+    corners = np.concatenate([near * [1, 1, -1], near], axis=1)
+    around = [[k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k] for k in range(4)]
+    quads = np.array([[4, 5, 6, 7], [3, 2, 1, 0], *around])
+    triangles = corners[:, quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)]
+    vertices = triangles.reshape(-1, 3)
+    return Shape(vertices, np.arange(len(vertices)).reshape(-1, 3), process=False)
+
+
+def smooth(points) -> Shape:
+    """A smooth open sheet over a grid of points (m, n, 3)."""
+    m, n = points.shape[:2]
+    corner = np.arange(m * n).reshape(m, n)
+    a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
+    faces = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
+    return Shape(points.reshape(-1, 3), faces, process=False)
+
+
 def leaves(feet, tips, width: float) -> Shape:
     """Leaves from foot to tip (n, 3), folded along the midrib: two triangles each."""
     points = [[0, 0, -0.5], [0.5, 0.15, 0], [0, 0, 0.5], [-0.5, 0.15, 0]]
