@@ -122,3 +122,15 @@ def grille(width: float, height: float, apart: float = 0.06, bar: float = 0.005)
         beams(corners, np.roll(corners, -1, axis=0), 0.03, 0.03),
         boxes(feet - [0.02, 0, 0], feet + [0.02, base, 0.36]),
     )
+
+
+def bench(width: float) -> Shape:
+    """A slatted bench, `width` along x, without a back."""
+    x, z = width / 2, np.linspace(-0.22, 0.22, 7)[:, None] * [0, 0, 1]
+    sides = [-x + 0.2, x - 0.2]
+    legs = np.array([[side, 0, z] for side in sides for z in (-0.2, 0.2)])
+    return joined(
+        beams(z + [-x, 0.43, 0], z + [x, 0.43, 0], 0.045, 0.03),
+        boxes(legs - [0.025, 0, 0.025], legs + [0.025, 0.38, 0.025]),
+        boxes([[s - 0.025, 0.38, -0.24] for s in sides], [[s + 0.025, 0.415, 0.24] for s in sides]),
+    )

@@ -5,7 +5,7 @@ import trimesh
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
 from neural_shadows.scenes.generators.building import floor, walls
-from neural_shadows.scenes.generators.furniture import vase
+from neural_shadows.scenes.generators.furniture import bench, vase
 from neural_shadows.scenes.generators.shapes import (
     Shape,
     at,
@@ -45,7 +45,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
             for k, (piece, own) in enumerate(zip(pieces, order))
         ),
         placed("rope", at(_rope(), (4.9, 0, 0), np.pi / 2)),
-        placed("bench", _bench()),
+        placed("bench", bench(1.8)),
     )
     spots = [Spot(places[k] + [0, PLINTH, 0], 0.6, rng.uniform(0, 2 * np.pi)) for k in order[5:]]
     return Arrangement(
@@ -123,17 +123,3 @@ def _rope() -> Shape:
     sag = 0.88 - 0.25 * (1 - (((t - x[0]) / 1.2 % 1) * 2 - 1) ** 2)
     line = np.stack([t, sag, np.zeros_like(t)], axis=1)
     return joined(*(at(post, (p, 0, 0)) for p in x), bars(line[:-1], line[1:], 0.014))
-
-
-def _bench() -> Shape:
-    """A slatted bench in the middle."""
-    z = np.linspace(-0.22, 0.22, 7)[:, None] * [0, 0, 1]
-    legs = [[x, 0, z] for x in (-0.7, 0.7) for z in (-0.2, 0.2)]
-    return joined(
-        beams(z + [-0.9, 0.43, 0], z + [0.9, 0.43, 0], 0.045, 0.03),
-        boxes(np.array(legs) - [0.025, 0, 0.025], np.array(legs) + [0.025, 0.415, 0.025]),
-        boxes(
-            [[x - 0.025, 0.38, -0.24] for x in (-0.7, 0.7)],
-            [[x + 0.025, 0.415, 0.24] for x in (-0.7, 0.7)],
-        ),
-    )

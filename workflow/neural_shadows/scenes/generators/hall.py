@@ -92,7 +92,7 @@ def _screen() -> Shape:
     """A screen on a stand with thin legs that faces +z."""
     legs = np.array([[-0.5, 0, 0.25], [0.5, 0, 0.25], [0.5, 0, -0.25], [-0.5, 0, -0.25]])
     return joined(
-        bars(legs, legs * [1, 0, 0.1] + [0, 1.0, 0], 0.012, 12),
+        bars(legs + [0, 0.012, 0], legs * [1, 0, 0.1] + [0, 1.0, 0], 0.012, 12),
         boxes(legs[:2] * [1, 0, -1] - 0.02 * np.eye(3)[0], legs[:2] + [0.02, 0.02, 0]),
         box((-0.8, 1.0, -0.02), (0.8, 1.95, 0.02)),
         boxes(
