@@ -14,7 +14,7 @@ from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.generators.plate import arrange_plate
 from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED, arrange, generator_module
 
-NAMES = [name for name in TRAINED + UNTRAINED if generator_module(name).is_file()]
+NAMES = TRAINED + UNTRAINED
 BALL = trimesh.creation.icosphere(2)
 # Evenly over the sphere, by the golden angle.
 _HEIGHTS = (2 * np.arange(256) + 1) / 256 - 1
@@ -115,7 +115,8 @@ def test_a_motion_moves_only_the_mover(name):
         np.testing.assert_allclose(after.vertices, before.vertices + by, atol=1e-5)
 
 
-def test_an_unknown_scene():
+def test_scenes_by_name():
+    assert all(generator_module(name).is_file() for name in NAMES)
     with pytest.raises(InputError, match="'cellar' is no scene; use one of room"):
         arrange("cellar", 0)
 

@@ -51,7 +51,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
         objects,
         spots,
         lights=Region(np.array([-2.2, 3.4, -1.2]), np.array([2.2, 5.2, 1.2])),
-        cameras=Region(np.array([-6.2, 1.2, -3.0]), np.array([6.2, 2.2, 3.0])),
+        cameras=Region(np.array([-6.2, 1.2, -1.6]), np.array([6.2, 2.2, 1.6])),
         targets=Region(np.array([-2.5, 0.2, -1.5]), np.array([2.5, 2.6, 1.5])),
         mover="urn 1",
     )

@@ -20,6 +20,7 @@ from neural_shadows.scenes.generators.shapes import (
 
 PANEL = 2.0  # width of a panel of the fence
 PERGOLA = 2.2  # height of its slats
+LAWN = np.array([1.2, 0.0, -0.4])
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
@@ -43,7 +44,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     )
     spots = (
         Spot(np.array([-1.7, 0.0, 0.2]), 0.9, rng.uniform(0, 2 * np.pi)),
-        Spot(np.array([1.2, 0.0, -0.4]), 1.0, rng.uniform(0, 2 * np.pi)),
+        Spot(LAWN, 1.0, rng.uniform(0, 2 * np.pi)),
     )
     return Arrangement(
         "garden",
@@ -77,8 +78,9 @@ def _pergola() -> Shape:
 
 def _grass(rng: np.random.Generator, blades: int) -> Shape:
     """Blades in tufts over the lawn's right half."""
-    tufts = rng.uniform([0.3, -2.0], [3.4, 2.4], (40, 2))
-    feet = tufts[rng.integers(40, size=blades)] + rng.normal(0, 0.07, (blades, 2))
+    tufts = rng.uniform([0.3, -2.0], [3.4, 2.4], (50, 2))
+    tufts = tufts[np.linalg.norm(tufts - LAWN[[0, 2]], axis=1) > 0.85]  # clear of the spot
+    feet = tufts[rng.integers(len(tufts), size=blades)] + rng.normal(0, 0.07, (blades, 2))
     feet = np.stack([feet[:, 0], np.full(blades, 1e-3), feet[:, 1]], axis=1)
     bent = rng.normal(0, 0.06, (blades, 3)) * [1, 0, 1]
     return leaves(feet, feet + bent + rng.uniform(0.1, 0.3, (blades, 1)) * [0, 1, 0], 0.012)
