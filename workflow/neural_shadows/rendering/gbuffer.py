@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from neural_shadows.scenes.cameras import Camera, Viewpoint, camera_axes
+from neural_shadows.scenes.cameras import Camera, Viewpoint, Window, camera_axes
 from neural_shadows.scenes.scene import Scene
 
 # Every method shades p + SHADING_OFFSET n_g (normalised space): some 10,000 roundings of a
@@ -48,8 +48,11 @@ def pixel_directions(
     """
     right, upward, forward = camera_axes(view.eye, view.target, view.up)
     half = np.tan(np.radians(view.fov) / 2)
-    x = (2 * (np.arange(width) + place[0]) / width - 1) * half * width / height
-    y = (1 - 2 * (np.arange(height) + place[1]) / height) * half
+    whole = view.window or Window(width, height, 0, 0)
+    columns, rows = np.arange(width) + whole.left, np.arange(height) + whole.top
+    x = (2 * (columns + place[0]) / whole.full_width - 1) * half
+    x = x * whole.full_width / whole.full_height
+    y = (1 - 2 * (rows + place[1]) / whole.full_height) * half
     directions = np.empty((height, width, 3), np.float32)
     for k in range(3):  # by component: a broadcast over a last axis of 3 is several times slower
         column = (forward[k] + y * upward[k]).astype(np.float32)

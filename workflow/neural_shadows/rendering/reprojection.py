@@ -4,7 +4,7 @@ import numpy as np
 from scipy.ndimage import map_coordinates
 
 from neural_shadows.rendering.surface import Surface
-from neural_shadows.scenes.cameras import camera_axes
+from neural_shadows.scenes.cameras import Window, camera_axes
 
 DEPTH_SHARE, NORMAL_DISTANCE = 0.02, 0.4  # what differs by more is another surface
 
@@ -17,10 +17,11 @@ def projected(camera, width: int, height: int, points: np.ndarray) -> np.ndarray
     right, upward, forward = camera_axes(camera.eye, camera.target, camera.up) @ (
         points - camera.eye
     ).T.astype(np.float64)
+    whole = camera.window or Window(width, height, 0, 0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        scale = height / 2 / np.tan(np.radians(camera.fov) / 2) / forward
-    column = width / 2 + scale * right - 0.5
-    row = height / 2 - scale * upward - 0.5
+        scale = camera.focal(height) / forward
+    column = whole.full_width / 2 + scale * right - 0.5 - whole.left
+    row = whole.full_height / 2 - scale * upward - 0.5 - whole.top
     return np.stack([column, row, forward])
 
 

@@ -1,6 +1,7 @@
 """Pinhole cameras, and the ways in which those of the evaluation frames are aimed [4.1]."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -12,6 +13,16 @@ VIEW_SETS = {
 }
 
 
+@dataclass(frozen=True)
+class Window:
+    """Which part of a larger frame an image is, in that frame's pixels."""
+
+    full_width: int
+    full_height: int
+    left: int
+    top: int
+
+
 @dataclass(frozen=True, eq=False)
 class Camera:
     """A pinhole camera without roll, in its scene's unit; vectors (3,) float64."""
@@ -19,7 +30,13 @@ class Camera:
     eye: np.ndarray
     target: np.ndarray
     up: np.ndarray
-    fov: float  # vertical, degrees
+    fov: float  # vertical, degrees; of the whole frame
+    window: Window | None = None  # None: its images are whole frames
+
+    def focal(self, height: int) -> float:
+        """The focal length in pixels of an image of that height."""
+        whole = self.window.full_height if self.window else height
+        return whole / 2 / float(np.tan(np.radians(self.fov) / 2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +50,7 @@ class Viewpoint:
     up: np.ndarray
     fov: float  # vertical, degrees
     light: np.ndarray  # unit vector towards the light
+    window: ClassVar[None] = None  # its images are whole frames
 
 
 def camera_axes(eye: np.ndarray, target: np.ndarray, up: np.ndarray) -> np.ndarray:
