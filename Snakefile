@@ -17,6 +17,7 @@ include: "workflow/rules/meshes.smk"
 include: "workflow/rules/rays.smk"
 include: "workflow/rules/networks.smk"
 include: "workflow/rules/evaluation.smk"
+include: "workflow/rules/frames.smk"
 include: "workflow/rules/reports.smk"
 include: "workflow/rules/viewer.smk"
 

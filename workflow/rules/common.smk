@@ -29,10 +29,12 @@ os.environ.update(NUMBA_CACHE_DIR=kernels)
 from neural_shadows.config.reading import check_duplicates, check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.layout import claims, figures, parts, tables, targets, viewers
+from neural_shadows.layout import claims, figures, frame_sets, parts, tables, targets
+from neural_shadows.layout import viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.running.module_graph import modules_of
+from neural_shadows.scenes.generators.registry import generator_module
 from neural_shadows.training.checkpoints import remove_finished
 
 try:
@@ -70,6 +72,8 @@ wildcard_constraints:
     value="[0-9]+",
     shard="[0-9]+",
     batch=f"[0-9]+|{parts.HELD_OUT}",
+    frame_set="[a-z][a-z0-9_]*",
+    part="[a-z]+_[0-9]+",
     # Names that no entry of the configuration has are refused by what looks them up.
     table=r"(?!claims\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",
@@ -94,13 +98,14 @@ def of(function):
     return answer
 
 
-def code(stage, encodings=()):
+def code(stage, encodings=(), generators=()):
     """The package's modules that the result of a stage depends on.
 
-    A network's module is imported by its kind's name, so that it is among them only for the
-    jobs that use such a network.
+    A network's module is imported by its kind's name, that of a scene by its generator's, so that
+    they are among them only for the jobs that use such a network, or such a scene.
     """
     sources = [STAGES / f"{stage}.py", *map(kind_module, sorted(encodings))]
+    sources += map(generator_module, generators)
     modules = {module for source in sources for module in modules_of(source)}
     return sorted(os.path.relpath(path) for path in modules)
 

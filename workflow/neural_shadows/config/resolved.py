@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 from neural_shadows.config.claims import compared, rows_of_claim
 from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
 from neural_shadows.config.figures import LossFigure, TableFigure, rows_of_figure, scene_of
+from neural_shadows.config.frame_sets import as_settings
 from neural_shadows.config.learning_curves import points_of
 from neural_shadows.config.scenes import mesh_name
 from neural_shadows.config.tables import rows_of
@@ -31,6 +32,8 @@ def resolved(config: "Config") -> Section:
     curves = {name: points_of(config, name) for name in names}
     return config.model_dump() | {
         "scenes": {name: _scene(config, name) for name in config.scenes},
+        "soft_scenes": {name: _soft_scene(config, name) for name in config.soft_scenes},
+        "frame_sets": {name: as_settings(config, name) for name in config.frame_sets},
         "experiments": {
             **{
                 point["experiment"]: _experiment_at(config, name, point)
@@ -62,6 +65,14 @@ def _scene(config: "Config", name: str) -> Section:
         "scene": {key: scene[key] for key in ("up", "ground", "light")},
         "frames": size | {key: scene[key] for key in ("view_sets", "least_shadow", "seed")},
     }
+
+
+def _soft_scene(config: "Config", name: str) -> Section:
+    """What `SoftScene` takes beside the meshes, of whose names it has the axes that point up."""
+    scene = config.soft_scenes[name]
+    seed = config.seed if scene.seed is None else scene.seed
+    ups = {inserted: config.scenes[inserted].up for inserted in scene.inserted}
+    return {"generate": scene.generate, "seed": seed, "inserted": ups}
 
 
 def _experiment(config: "Config", name: str) -> Section:

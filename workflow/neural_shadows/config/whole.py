@@ -14,6 +14,7 @@ from neural_shadows.config import (
     figures,
     learning_curves,
     scenes,
+    soft_scenes,
     tables,
     viewers,
 )
@@ -22,6 +23,7 @@ from neural_shadows.config.claims import Claim
 from neural_shadows.config.compute import Compute
 from neural_shadows.config.experiments import Experiment
 from neural_shadows.config.figures import Figure
+from neural_shadows.config.frame_sets import FrameSet
 from neural_shadows.config.frame_times import FrameTimes
 from neural_shadows.config.learning_curves import LearningCurves
 from neural_shadows.config.metrics import Metrics
@@ -29,6 +31,7 @@ from neural_shadows.config.networks import Network
 from neural_shadows.config.rendering import Rendering
 from neural_shadows.config.samplings import Sampling
 from neural_shadows.config.scenes import Scene
+from neural_shadows.config.soft_scenes import SoftScene
 from neural_shadows.config.tables import Table
 from neural_shadows.config.trainings import Training
 from neural_shadows.config.viewers import Viewer
@@ -38,6 +41,7 @@ from neural_shadows.config.viewers import Viewer
 RESERVED_SCALES = {
     *("scenes", "rays", "networks", "references", "answers", "evaluations", "depth_biases"),
     *("frame_times", "cost", "logs", "benchmarks", "reference"),
+    *("frames", "soft_constants", "soft_evaluations", "soft_times"),
 }
 
 
@@ -59,6 +63,12 @@ class Config(Model):
         None, description="networks trained anew at several budgets, from several seeds"
     )
     rendering: Rendering = Field(description="frames and viewpoints of all scenes")
+    soft_scenes: dict[Name, SoftScene] = Field(
+        {}, description="several objects in metres, lit by a light at a place, by name"
+    )
+    frame_sets: dict[Name, FrameSet] = Field(
+        {}, description="frames with buffers and exact soft shadows, by name"
+    )
     metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
     frame_times: FrameTimes = Field(FrameTimes(), description="how frame times are measured")
     tables: dict[Name, Table] = Field({}, description="by name: `table_` and the thesis's number")
@@ -76,6 +86,15 @@ class Config(Model):
             raise ValueError(
                 f"scale = {self.scale!r}: is the name of a folder of results; choose another"
             )
-        for section in (scenes, experiments, learning_curves, tables, figures, viewers, claims):
+        for section in (
+            scenes,
+            soft_scenes,
+            experiments,
+            learning_curves,
+            tables,
+            figures,
+            viewers,
+            claims,
+        ):
             section.check(self)
         return self

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
+from neural_shadows.files.arrays import new_array, open_array
 from neural_shadows.rays.labels import check_bounds, dual_bounds
-from neural_shadows.rays.ray_set import open_array, read_directions
-from neural_shadows.rays.shards import new_shard, open_tracer, run_tasks
+from neural_shadows.rays.ray_set import read_directions
+from neural_shadows.rays.shards import open_tracer, run_tasks
 from neural_shadows.running.stage import run_stage
 
 
@@ -37,7 +38,7 @@ def label_rays(
     points = origins.shape[1]
     tracer = open_tracer(mesh_ply)
 
-    with new_shard(bounds_npy, (len(directions), points, 2)) as bounds:
+    with new_array(bounds_npy, (len(directions), points, 2)) as bounds:
 
         def label(begin: int, end: int) -> None:
             t_lb, t_ub = dual_bounds(

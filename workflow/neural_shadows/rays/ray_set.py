@@ -17,6 +17,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.errors import InputError
+from neural_shadows.files.arrays import open_array
 
 
 class RaySet:
@@ -67,27 +68,6 @@ class RaySet:
 def read_directions(path: Path) -> np.ndarray:
     """The directions file as an array in memory: (D, 3) float32."""
     return np.array(open_array(path, (None, 3)))
-
-
-def open_array(path: Path, shape: tuple[int | None, ...]) -> np.ndarray:
-    """A float32 `.npy` file, memory-mapped; `None` in `shape` is any length.
-
-    Raises:
-        InputError: it is damaged, or of another type or shape.
-    """
-    try:
-        array = np.lib.format.open_memmap(path, mode="r")  # which refuses pickles
-    except ValueError as error:
-        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
-    fits = len(array.shape) == len(shape) and all(
-        wanted in (None, length) for length, wanted in zip(array.shape, shape, strict=True)
-    )
-    if array.dtype != np.float32 or not fits:
-        raise InputError(
-            f"{path}: holds {array.dtype} {array.shape} where float32 {shape} belongs (None: any "
-            "length); delete it and run again"
-        )
-    return np.asarray(array)  # a plain view of the mapping: numba takes no memmap
 
 
 @njit(cache=True, nogil=True)

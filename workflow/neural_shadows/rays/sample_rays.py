@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.files.arrays import new_array
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.ray_set import read_directions
 from neural_shadows.rays.sampling import sample_direction
-from neural_shadows.rays.shards import new_shard, open_tracer, run_tasks
+from neural_shadows.rays.shards import open_tracer, run_tasks
 from neural_shadows.rays.streams import PATTERNS, POINTS
 from neural_shadows.running.stage import run_stage
 
@@ -42,7 +43,7 @@ def sample_rays(
     tracer = open_tracer(mesh_ply)
     bank = PatternBank((seed, PATTERNS))
 
-    with new_shard(origins_npy, (last - first, points, 3)) as origins:
+    with new_array(origins_npy, (last - first, points, 3)) as origins:
 
         def sample(begin: int, end: int) -> None:
             for i in range(begin, end):

@@ -1,14 +1,9 @@
-"""How the stages go through a shard: a tracer, a file, tasks in threads."""
+"""How the stages go through a shard: a tracer, tasks in threads."""
 
-import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
-
-from neural_shadows.files.whole_files import whole_file
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.scenes.tracing import Tracer
@@ -39,16 +34,3 @@ def open_tracer(mesh_ply: Path) -> Tracer:
     """A tracer of a prepared mesh."""
     mesh = read_prepared(mesh_ply)
     return Tracer(mesh.vertices, mesh.faces)
-
-
-@contextmanager
-def new_shard(path: Path, shape: tuple[int, ...]) -> Iterator[np.ndarray]:
-    """A new float32 `.npy` file, memory-mapped, for it may be larger than memory; whole or not."""
-    with whole_file(path) as part:
-        array = np.lib.format.open_memmap(part, mode="w+", dtype=np.float32, shape=shape)
-        if hasattr(os, "posix_fallocate"):
-            # A full disk is an error here; found when a page is written, it kills the process.
-            with part.open("rb+") as file:
-                os.posix_fallocate(file.fileno(), 0, part.stat().st_size)
-        yield array
-        array.flush()

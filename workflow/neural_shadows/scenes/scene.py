@@ -36,6 +36,12 @@ class Scene:
         return joined_meshes(self.objects)
 
     @cached_property
+    def owner(self) -> np.ndarray:
+        """Which object each face of the joined mesh is of: (F,) int64."""
+        counts = [len(mesh.faces) for mesh in self.objects]
+        return np.repeat(np.arange(len(counts)), counts)
+
+    @cached_property
     def size(self) -> float:
         """The longest side of the box round all objects."""
         return float(np.ptp(self.joined.vertices, axis=0).max())

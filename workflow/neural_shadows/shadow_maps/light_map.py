@@ -46,13 +46,17 @@ class LightMap:
 
     def depths(self, tracer: Tracer, texels: np.ndarray | None = None) -> np.ndarray:
         """Distances in texels (t,) float32, of all of them if none are named."""
-        texels = np.arange(self.count) if texels is None else texels
-        found = np.empty(len(texels), np.float32)
+        return self.first_hits(tracer, np.arange(self.count) if texels is None else texels)[0]
+
+    def first_hits(self, tracer: Tracer, texels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Distances in texels (t,) float32, and the face that each shows, int32; −1 for none."""
+        found, faces = np.empty(len(texels), np.float32), np.empty(len(texels), np.int32)
         origins = np.broadcast_to(self.centre.astype(np.float32), (_RAYS, 3)).copy()
         for begin in range(0, len(texels), _RAYS):
-            ways = self.directions_of(texels[begin : begin + _RAYS])
-            found[begin : begin + _RAYS], _ = tracer.first_hit(origins[: len(ways)], ways)
-        return found
+            part = slice(begin, begin + _RAYS)
+            ways = self.directions_of(texels[part])
+            found[part], faces[part] = tracer.first_hit(origins[: len(ways)], ways)
+        return found, faces
 
     def texel_size(self, directions: np.ndarray) -> np.ndarray:
         """A texel's side at distance 1, across a direction (n, 3): (n,) float32.

@@ -89,15 +89,19 @@ def hamburger_visibility(moments, depth):
         l32d22 = b3 - b1 * b2
         d22 = b2 - b1 * b1
         l32 = l32d22 / d22
-        d33 = b4 - b2 * b2 - l32d22 * l32
+        # 0 where all depths are 1: with the bias's, at 0 and 1, these are two depths and not three.
+        d33 = max(b4 - b2 * b2 - l32d22 * l32, 1e-12)
         c1, c2 = z - b1, z * z - b2
         c2 = (c2 - l32 * c1) / d33
         c1 = c1 / d22 - l32 * c2
         c0 = 1 - c1 * b1 - c2 * b2
-        # The other two depths: roots of c0 + c1 t + c2 t².
+        # The other two depths: roots of c0 + c1 t + c2 t², the one by the other lest digits cancel.
+        c2 = c2 if c2 != 0 else 1e-30
         middle, product = -c1 / (2 * c2), c0 / c2
         half = np.sqrt(max(middle * middle - product, 0.0))
-        near, far = middle - half, middle + half
+        one = middle + half if middle >= 0 else middle - half
+        other = product / one if one != 0 else 0.0
+        near, far = min(one, other), max(one, other)
         if z <= near:
             shadow = 0.0
         elif z <= far:

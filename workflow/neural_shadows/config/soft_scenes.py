@@ -1,0 +1,32 @@
+"""`soft_scenes`: several objects in metres, lit by a light at a place."""
+
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field
+
+from neural_shadows.config.base import Model, Seed, name_in
+from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED
+
+if TYPE_CHECKING:
+    from neural_shadows.config.whole import Config
+
+
+class SoftScene(Model):
+    """A generated scene, and objects of `scenes` that stand in it."""
+
+    generate: Literal[TRAINED + UNTRAINED] = Field(
+        description="a file in workflow/neural_shadows/scenes/generators/"
+    )
+    inserted: list[name_in("scenes")] = Field(
+        [], description="names in `scenes`, whose meshes stand on the scene's spots in this order"
+    )
+    seed: Seed | None = Field(None, description="without it the configuration's")
+
+
+def check(config: "Config") -> None:
+    """Check that no object stands in a scene twice."""
+    for name, scene in config.soft_scenes.items():
+        if len(set(scene.inserted)) < len(scene.inserted):
+            raise ValueError(
+                f"soft_scenes.{name}.inserted = {scene.inserted}: must name each only once"
+            )

@@ -1,0 +1,152 @@
+"""Cameras and lights of frames, drawn so that there is something to see [Hu et al. 2025, 4]."""
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from neural_shadows.errors import InputError
+from neural_shadows.frames.setting import Setting
+from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.rendering.soft_shadows import OFFSET
+from neural_shadows.rendering.surface import see_surface
+from neural_shadows.scenes.arrangement import UP
+from neural_shadows.scenes.cameras import Camera, Window
+from neural_shadows.scenes.scene import Scene
+from neural_shadows.shadow_maps.light_map import LightMap, cube_map, perspective_map
+
+EYE_CLEARANCE, LIGHT_CLEARANCE = 0.02, 0.03  # of the scene's size
+LIT = (0.05, 0.95)  # the share of a frame that the light's centre reaches
+IN_MAP = 0.99  # of a frame's points, at least (Datta et al. 2022 have no others)
+_DRAWS = 500
+_PREVIEW = 64  # pixels along a frame's longer side
+
+
+@dataclass(frozen=True)
+class FrameKind:
+    """What all frames of a set have in common.
+
+    Args:
+        width, height: in pixels; fov: vertical, in degrees, of the whole frame.
+        of: width and height of the whole frame where frames are windows of one; else None.
+        light_map: `kind` (`perspective` or `cube`), `resolution`, and the former's `fov`.
+        radius: of the largest light, in metres.
+    """
+
+    width: int
+    height: int
+    fov: float
+    of: tuple[int, int] | None
+    light_map: Mapping[str, Any]
+    radius: float
+
+
+def light_map_of(settings: Mapping[str, Any], scene: SoftScene, centre: np.ndarray) -> LightMap:
+    """The map of a light at a place; a perspective one looks at the middle of what cameras see."""
+    if settings["kind"] == "cube":
+        return cube_map(centre, settings["resolution"])
+    looked_at = scene.arrangement.targets
+    forward = (looked_at.low + looked_at.high) / 2 - centre
+    return perspective_map(centre, forward, settings["fov"], settings["resolution"])
+
+
+def draw_setting(scene: SoftScene, kind: FrameKind, rng: np.random.Generator) -> Setting:
+    """A camera and a light, both clear of objects, of which one sees a shadow of the other.
+
+    Raises:
+        InputError: none of 500 draws is such; says why they were not.
+    """
+    why: Counter[str] = Counter()
+    opened = scene.at_rest
+    for _ in range(_DRAWS):
+        setting = _drawn(scene, kind, rng)
+        wrong = _wrong(scene, opened, kind, setting)
+        if wrong is None:
+            return setting
+        why[wrong] += 1
+    told = ", ".join(f"{wrong} ({count})" for wrong, count in why.most_common())
+    raise InputError(
+        f"{scene.arrangement.name}: none of {_DRAWS} draws of a camera and a light can be used: "
+        f"{told}; change its regions, or the frame set's light map"
+    )
+
+
+def twin_of(
+    setting: Setting, size: float, amplitudes: Mapping[str, float], rng: np.random.Generator
+) -> Setting:
+    """The setting with light, eye and view a little elsewhere: what a flicker is trained away on.
+
+    Args:
+        size: the scene's. amplitudes: `light` and `eye`, how far each coordinate moves at most, in
+            shares of that size; `turn_deg`, how far the view turns about each axis.
+    """
+    camera = setting.camera
+    eye = camera.eye + size * amplitudes["eye"] * rng.uniform(-1, 1, 3)
+    turn = Rotation.from_rotvec(amplitudes["turn_deg"] * rng.uniform(-1, 1, 3), degrees=True)
+    target = eye + turn.apply(camera.target - camera.eye)
+    centre = setting.centre + size * amplitudes["light"] * rng.uniform(-1, 1, 3)
+    return replace(setting, camera=replace(camera, eye=eye, target=target), centre=centre)
+
+
+def _drawn(scene: SoftScene, kind: FrameKind, rng: np.random.Generator) -> Setting:
+    arrangement = scene.arrangement
+    eye, target, centre = (
+        region.draw(rng)
+        for region in (arrangement.cameras, arrangement.targets, arrangement.lights)
+    )
+    window = None
+    if kind.of is not None:
+        places = [rng.integers(0, whole - part + 1) for whole, part in _sides(kind)]
+        window = Window(*kind.of, *map(int, places))
+    return Setting(Camera(eye, target, UP, kind.fov, window), centre, np.eye(4))
+
+
+def _sides(kind: FrameKind):
+    return zip(kind.of, (kind.width, kind.height), strict=True)
+
+
+def _wrong(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Setting) -> str | None:
+    """Why a setting cannot be used; None if it can."""
+    if not is_clear(opened, setting.camera.eye, EYE_CLEARANCE * opened.size):
+        return "the camera is in an object or near one"
+    if not is_clear(opened, setting.centre, LIGHT_CLEARANCE * opened.size + kind.radius):
+        return "the light is in an object or near one"
+    camera, width, height = _preview(setting.camera, kind)
+    surface = see_surface(opened, camera, width, height)
+    if len(surface.p) < 0.5 * width * height:
+        return "the camera sees little"
+    light_map = light_map_of(kind.light_map, scene, setting.centre)
+    ways = setting.centre - surface.p
+    if np.mean(light_map.texels_of(-ways) >= 0) < IN_MAP:
+        return "what is seen lies outside the light's map"
+    start = surface.p + np.float32(OFFSET * opened.size) * surface.n_g
+    lit = ~opened.tracer.blocked(start, ways.astype(np.float32))
+    lit &= np.einsum("ij,ij->i", surface.n_g, ways) > 0
+    return None if LIT[0] <= lit.mean() <= LIT[1] else "nearly all is lit, or all dark"
+
+
+def _preview(camera: Camera, kind: FrameKind) -> tuple[Camera, int, int]:
+    """The same camera with few pixels."""
+    scale = _PREVIEW / max(kind.width, kind.height)
+    width, height = (max(1, round(side * scale)) for side in (kind.width, kind.height))
+    if camera.window is None:
+        return camera, width, height
+    window = camera.window
+    parts = (round(side * scale) for side in vars(window).values())
+    return replace(camera, window=Window(*parts)), width, height
+
+
+def is_clear(scene: Scene, place: np.ndarray, distance: float) -> bool:
+    """Whether no object is nearer to a place than a distance, or round it, by 64 rays."""
+    k = np.arange(64) + 0.5
+    height, angle = 1 - 2 * k / 64, np.pi * (1 + 5**0.5) * k
+    across = np.sqrt(1 - height**2)
+    ways = np.stack([across * np.cos(angle), height, across * np.sin(angle)], axis=1)
+    ways = ways.astype(np.float32)
+    t, face = scene.tracer.first_hit(np.tile(place.astype(np.float32), (64, 1)), ways)
+    away = np.einsum("ij,ij->i", scene.joined.face_normals[face], ways) > 0
+    inside = np.mean(away & (face >= 0)) > 0.5  # most of what is round it shows its inner side
+    return bool(t.min() >= distance and not inside)

@@ -1,0 +1,112 @@
+"""A part of a frame set on disk: settings, buffers, targets, and which pixels count.
+
+Of F frames with T twins each, C channels, K radii:
+
+- `NAME.json`: the settings of each frame and of its twins; `channels`, `radii` (metres), the scene's
+  `size` (metres), how it was drawn (`seed`), and units;
+- `NAME.buffers.npy`: (F, 1 + T, C, H, W) float16, of a frame and of its twins, see `buffers`;
+- `NAME.targets.npy`: (F, K, H, W) float16, the exact soft shadow of the frame itself;
+- `NAME.valid.npy`: (F, 1 + T, H, W) bool, whether a pixel shows a surface inside the light's map.
+
+A frame set of a user's own has the same files.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from neural_shadows.errors import InputError
+from neural_shadows.files.arrays import open_array
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.frames.buffers import CHANNELS
+from neural_shadows.frames.setting import Setting, setting_of
+
+UNITS = (
+    "settings and radii in metres; z, gap and d of the buffers in shares of `size`; "
+    "visibilities from 0 (dark) to 1 (lit)"
+)
+
+
+@dataclass(frozen=True)
+class FrameSetPart:
+    """A part that is opened: nothing of its arrays is read before it is asked for.
+
+    Args:
+        frames_json: its JSON; the arrays lie beside it.
+    """
+
+    frames_json: Path
+
+    @cached_property
+    def about(self) -> Mapping[str, Any]:
+        """What the JSON says.
+
+        Raises:
+            InputError: it cannot be read, or lacks a key.
+        """
+        found = read_json(self.frames_json)
+        for key in ("frames", "channels", "radii", "size", "width", "height"):
+            if key not in found:
+                raise InputError(f"{self.frames_json}: has no {key!r}")
+        if tuple(found["channels"]) != CHANNELS:
+            raise InputError(
+                f"{self.frames_json}: channels {', '.join(found['channels'])}; "
+                f"should be {', '.join(CHANNELS)}"
+            )
+        if any(radius < 0 for radius in found["radii"]) or found["size"] <= 0:
+            raise InputError(f"{self.frames_json}: a radius below 0, or a size that is not above 0")
+        return found
+
+    def __len__(self) -> int:
+        return len(self.about["frames"])
+
+    @property
+    def radii(self) -> list[float]:
+        """Of the lights, in metres."""
+        return list(self.about["radii"])
+
+    def setting(self, number: int) -> Setting:
+        """The setting of a frame."""
+        return setting_of(self.about["frames"][number]["setting"])
+
+    @cached_property
+    def buffers(self) -> np.ndarray:
+        """(F, 1 + T, C, H, W) float16."""
+        twins = len(self.about["frames"][0]["twins"]) if len(self) else 0
+        return self._open("buffers", np.float16, 1 + twins, len(CHANNELS))
+
+    @cached_property
+    def targets(self) -> np.ndarray:
+        """(F, K, H, W) float16."""
+        return self._open("targets", np.float16, len(self.radii))
+
+    @cached_property
+    def valid(self) -> np.ndarray:
+        """(F, 1 + T, H, W) bool."""
+        return self._open("valid", np.bool_, self.buffers.shape[1])
+
+    def _open(self, stem: str, kind: type, *inner: int) -> np.ndarray:
+        path = self.frames_json.with_suffix(f".{stem}.npy")
+        shape = (len(self), *inner, self.about["height"], self.about["width"])
+        return open_array(path, shape, kind)
+
+
+def check_values(part: FrameSetPart) -> None:
+    """Check the arrays of a part that a user brings.
+
+    Raises:
+        InputError: a value is no number, or a visibility is not from 0 to 1.
+    """
+    for number in range(len(part)):
+        arrays = {"buffers": part.buffers[number], "targets": part.targets[number]}
+        for stem, array in arrays.items():
+            if not np.isfinite(array).all():
+                raise InputError(
+                    f"{part.frames_json}: {stem} of frame {number} has NaN or infinity"
+                )
+        if arrays["targets"].min() < 0 or arrays["targets"].max() > 1:
+            raise InputError(f"{part.frames_json}: targets of frame {number} leave [0, 1]")

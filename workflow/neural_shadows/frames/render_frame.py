@@ -1,0 +1,60 @@
+"""One frame: the buffers of its setting and of its twins, the soft shadows of all radii."""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+
+import numpy as np
+from scipy.ndimage import gaussian_filter
+
+from neural_shadows.frames.buffers import buffers_of
+from neural_shadows.frames.draw_settings import FrameKind, light_map_of
+from neural_shadows.frames.setting import Setting
+from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.rendering.soft_shadows import soft_visibility
+from neural_shadows.rendering.surface import see_surface
+
+
+def render_buffers(
+    scene: SoftScene, kind: FrameKind, setting: Setting
+) -> tuple[np.ndarray, np.ndarray]:
+    """The buffers of a setting, (channels, height, width) float16, and which pixels are valid: those
+    that show a surface inside the light's map, (height, width) bool.
+    """
+    opened = scene.moved(setting.motion)
+    surface = see_surface(opened, setting.camera, kind.width, kind.height)
+    light_map = light_map_of(kind.light_map, scene, setting.centre)
+    inside = light_map.texels_of(surface.p - setting.centre) >= 0
+    return buffers_of(opened, surface, light_map), surface.image(inside, False)
+
+
+def render_target(
+    scene: SoftScene,
+    kind: FrameKind,
+    setting: Setting,
+    *,
+    radii: Sequence[float],
+    samples: int,
+    blur: float,
+    pool: Executor | None = None,
+) -> np.ndarray:
+    """The exact soft shadow for each radius, (radii, height, width) float32.
+
+    Args:
+        radii, samples: see `soft_visibility`. blur: σ in pixels of a Gaussian over all but a point
+            light's (Datta et al. 2022, 3.1); 0 for none.
+    """
+    opened = scene.moved(setting.motion)
+    target = soft_visibility(
+        opened,
+        setting.camera,
+        kind.width,
+        kind.height,
+        centre=setting.centre,
+        radii=radii,
+        samples=samples,
+        pool=pool,
+    )
+    for image, radius in zip(target, radii):
+        if blur and radius:
+            image[:] = gaussian_filter(image, blur, mode="nearest", radius=1)
+    return target

@@ -1,0 +1,40 @@
+"""What a frame is of: a camera, a light, and how far the scene's mover has moved."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from neural_shadows.scenes.arrangement import UP
+from neural_shadows.scenes.cameras import Camera, Window
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A camera, the centre of a spherical light, and the motion of the scene's mover; in metres."""
+
+    camera: Camera
+    centre: np.ndarray  # (3,) float64
+    motion: np.ndarray  # (4, 4) float64, rigid; the identity where it stands at rest
+
+    def as_json(self) -> dict[str, Any]:
+        """The setting as plain data."""
+        camera, window = self.camera, self.camera.window
+        return {
+            "eye": camera.eye.tolist(),
+            "target": camera.target.tolist(),
+            "fov_deg": camera.fov,
+            "window": None if window is None else vars(window),
+            "light": self.centre.tolist(),
+            "motion": self.motion.tolist(),
+        }
+
+
+def setting_of(data: Mapping[str, Any]) -> Setting:
+    """The setting that `as_json` told."""
+    window = data["window"] and Window(**data["window"])
+    eye, target, light, motion = (
+        np.array(data[key], np.float64) for key in ("eye", "target", "light", "motion")
+    )
+    return Setting(Camera(eye, target, UP, data["fov_deg"], window), light, motion)

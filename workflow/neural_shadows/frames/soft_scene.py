@@ -1,0 +1,64 @@
+"""A scene in metres, opened from its settings, with its mover at any place."""
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared, with_normals
+from neural_shadows.scenes.arrangement import Arrangement, scene_of
+from neural_shadows.scenes.generators.registry import arrange
+from neural_shadows.scenes.scene import Scene
+
+
+class SoftScene:
+    """An arrangement with the meshes that are inserted into it.
+
+    Args:
+        scene: `generate`, the generator's name; `seed`; `inserted`, of each mesh by name the axis
+            that points up.
+        meshes: the prepared mesh of each, in that order.
+
+    Raises:
+        InputError: there is no such generator, it has fewer spots than meshes, or a mesh cannot be
+            read.
+    """
+
+    def __init__(self, scene: Mapping[str, Any], meshes: Sequence[Path]):
+        self.arrangement: Arrangement = arrange(scene["generate"], scene["seed"])
+        ups = scene["inserted"].items()
+        self._inserted = {
+            name: _upright(read_prepared(path), up) for (name, up), path in zip(ups, meshes)
+        }
+
+    @cached_property
+    def at_rest(self) -> Scene:
+        """The scene with its mover where it stands at rest."""
+        return scene_of(self.arrangement, self._inserted)
+
+    def moved(self, motion: np.ndarray) -> Scene:
+        """The scene after a (4, 4) motion of its mover."""
+        if np.array_equal(motion, np.eye(4)):
+            return self.at_rest
+        return scene_of(self.arrangement, self._inserted, motion)
+
+    def before(self, scene: Scene, face: np.ndarray, p: np.ndarray, now, then) -> np.ndarray:
+        """Where points (n, 3) of the scene after the motion `now` were after the motion `then`.
+
+        Args:
+            face: (n,) of the scene's joined mesh.
+        """
+        mover = [part.name for part in self.arrangement.objects].index(self.arrangement.mover)
+        moves = scene.owner[face] == mover
+        way = then @ np.linalg.inv(now)
+        was = p.copy()
+        was[moves] = p[moves] @ way[:3, :3].T + way[:3, 3]
+        return was
+
+
+def _upright(mesh: PreparedMesh, up: str) -> PreparedMesh:
+    """The mesh turned so that its axis `up` becomes y."""
+    turn = np.roll(np.eye(3, dtype=np.float32), 1 - "xyz".index(up), axis=0)
+    return with_normals(mesh.vertices @ turn.T, mesh.faces)

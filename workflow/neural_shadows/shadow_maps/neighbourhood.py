@@ -1,0 +1,64 @@
+"""The texels round a direction, for filters that touch only what receivers look up."""
+
+import numpy as np
+from numba import njit
+
+from neural_shadows.shadow_maps.light_map import LightMap, texel_of
+
+
+def neighbourhood(
+    light_map: LightMap, directions: np.ndarray, reach: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """The square of 2 (reach + 1) texels' side round each direction; over a cube's edges, too.
+
+    Returns:
+        texels: (n, side, side) int64, rows downwards; −1 where the map has none.
+        weights: (n, side, side) float64 of a bilinear look-up: 0 but for the four innermost.
+    """
+    side = 2 * (reach + 1)
+    texels = np.empty((len(directions), side, side), np.int64)
+    fractions = np.empty((len(directions), 2))
+    maps = light_map.faces, light_map.half, light_map.resolution
+    _fill(directions, *maps, reach, texels, fractions)
+    x, y = fractions[:, :1], fractions[:, 1:]
+    outer = np.zeros((len(directions), reach))
+    columns, rows = (np.concatenate([outer, 1 - one, one, outer], axis=1) for one in (x, y))
+    return texels, rows[:, :, None] * columns[:, None, :]
+
+
+@njit(cache=True, nogil=True)
+def _fill(directions, faces, half, resolution, reach, texels, fractions):
+    side = 2 * (reach + 1)
+    for i in range(len(directions)):
+        x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
+        best, along = -1, 0.0
+        for face in range(len(faces)):
+            forward = faces[face, 2, 0] * x + faces[face, 2, 1] * y + faces[face, 2, 2] * z
+            if forward > along:
+                best, along = face, forward
+        if best < 0:
+            texels[i] = -1
+            fractions[i] = 0
+            continue
+        right, down, forward = faces[best, 0], faces[best, 1], faces[best, 2]
+        scale = 0.5 * resolution / (half * along)
+        u = (right[0] * x + right[1] * y + right[2] * z) * scale + 0.5 * resolution - 0.5
+        v = (down[0] * x + down[1] * y + down[2] * z) * scale + 0.5 * resolution - 0.5
+        column, row = int(np.floor(u)), int(np.floor(v))
+        fractions[i, 0], fractions[i, 1] = u - column, v - row
+        for a in range(side):
+            for b in range(side):
+                r, c = row + a - reach, column + b - reach
+                if 0 <= r < resolution and 0 <= c < resolution:
+                    texels[i, a, b] = (best * resolution + r) * resolution + c
+                else:
+                    p = ((c + 0.5) / resolution * 2 - 1) * half
+                    q = ((r + 0.5) / resolution * 2 - 1) * half
+                    texels[i, a, b] = texel_of(
+                        forward[0] + p * right[0] + q * down[0],
+                        forward[1] + p * right[1] + q * down[1],
+                        forward[2] + p * right[2] + q * down[2],
+                        faces,
+                        half,
+                        resolution,
+                    )
