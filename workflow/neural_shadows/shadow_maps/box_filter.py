@@ -12,8 +12,8 @@ def box_visibility(
 ) -> np.ndarray:
     """Mean over size × size texels of bilinearly weighted tests, (n,) float32; off the map 1.
 
-    Of size 1 it is the four tests round a receiver. Of 15 × 15, 2 million receivers in one face of
-    1024² took 1.3 s on one core.
+    Of size 1 it is the four tests round a receiver. 15 × 15 take 0.5 s on one core, for 2048 × 1024
+    receivers in one face of 1024².
 
     Args:
         depths: (texels,) float32 of the whole map. ways: (n, 3) from the light to receivers.

@@ -26,7 +26,7 @@ def filtered_moments(
     """The map's filtered moments where receivers look, bilinearly: (n, moments) float64.
 
     Filtered are only the faces that receivers look into, one at a time: of 2048² texels and four
-    moments 0.5 GB. In float64, since the fourth moments' differences are lost in float32.
+    moments 0.4 GB. In float64, since the fourth moments' differences are lost in float32.
 
     Args:
         depths: (texels,) float32 of the whole map. ways: (n, 3) from the light to receivers.
