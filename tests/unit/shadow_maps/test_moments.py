@@ -45,6 +45,15 @@ def test_two_depths_seen_from_the_farther(name):
         assert visibility(moments, np.array([0.7])) == pytest.approx(weight, abs=2e-3)
 
 
+@pytest.mark.parametrize("ends", [0.0, 0.5, 1.0])
+def test_four_moments_of_nothing_but_the_ends_of_the_range(ends):
+    """Where the bias adds no third depth to them: what is at 0 hides as much as it weighs."""
+    moments = mixed(lambda depth: powers(depth, 4), [0, 1], [1 - ends, ends])
+    depth = np.array([1e-3, 0.3, 0.999, 1.0])
+    found = hamburger_visibility(np.repeat(moments, 4, axis=0), depth)
+    assert found == pytest.approx(ends, abs=2e-3)
+
+
 def test_published_vectors_of_four_moments():
     """Two occluders: exact between them; three: a light leak, which is the method's."""
     two = mixed(lambda depth: powers(depth, 4), [0.3, 0.8], [0.4, 0.6])

@@ -86,7 +86,7 @@ def soft_disc_visibility(
     widest = np.float32(radius) * (1 / (nearest * distance) - 1 / distance)
     blockers = np.empty(len(ways), np.float32)
     _mean_blocker(ways, bias, widest.astype(np.float32), searched, keys, depths, *maps, blockers)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):  # where nothing hides a receiver
         angles = radius * (distance - blockers) / (distance * blockers)
     texel = light_map.half / light_map.resolution  # half of one: no narrower than that
     angles = np.where(blockers > 0, np.maximum(angles, texel), 0).astype(np.float32)

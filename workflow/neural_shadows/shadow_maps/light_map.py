@@ -35,6 +35,16 @@ class LightMap:
         _fill_texels(directions, self.faces, self.half, self.resolution, texels)
         return texels
 
+    def places_of(self, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The face (n,) int64 into which each direction (n, 3) looks, −1 for none, and where there.
+
+        Places are (n, 2) float64, row and column in texels from the face's upper left corner.
+        """
+        faces = np.empty(len(directions), np.int64)
+        places = np.empty((len(directions), 2))
+        _fill_places(directions, self.faces, self.half, self.resolution, faces, places)
+        return faces, places
+
     def directions_of(self, texels: np.ndarray) -> np.ndarray:
         """Unit directions (t, 3) float32 through the centres of texels (t,)."""
         size = self.resolution
@@ -57,6 +67,12 @@ class LightMap:
             ways = self.directions_of(texels[part])
             found[part], faces[part] = tracer.first_hit(origins[: len(ways)], ways)
         return found, faces
+
+    def widened(self, face: int, margin: int) -> "LightMap":
+        """One face with so many texels more on each side, as wide each as its own."""
+        resolution = self.resolution + 2 * margin
+        half = self.half * resolution / self.resolution
+        return LightMap(self.centre, self.faces[face : face + 1], half, resolution)
 
     def texel_size(self, directions: np.ndarray) -> np.ndarray:
         """A texel's side at distance 1, across a direction (n, 3): (n,) float32.
@@ -91,26 +107,34 @@ def perspective_map(
 
 
 @njit(cache=True, nogil=True, inline="always")
-def texel_of(x, y, z, faces, half, resolution):
-    """The texel in which a direction lies, or −1."""
+def place_of(x, y, z, faces, half, resolution):
+    """The face into which a direction looks, or −1, and its row and column there in texels."""
     best, along = -1, 0.0
     for face in range(len(faces)):
         forward = faces[face, 2, 0] * x + faces[face, 2, 1] * y + faces[face, 2, 2] * z
         if forward > along:
             best, along = face, forward
     if best < 0:
-        return -1
+        return -1, 0.0, 0.0
     scale = 0.5 * resolution / (half * along)
     right = faces[best, 0, 0] * x + faces[best, 0, 1] * y + faces[best, 0, 2] * z
     down = faces[best, 1, 0] * x + faces[best, 1, 1] * y + faces[best, 1, 2] * z
-    column = int(np.floor(right * scale + 0.5 * resolution))
-    row = int(np.floor(down * scale + 0.5 * resolution))
-    if len(faces) == 6:  # rounding at an edge of the cube
-        column = min(max(column, 0), resolution - 1)
-        row = min(max(row, 0), resolution - 1)
-    elif column < 0 or row < 0 or column >= resolution or row >= resolution:
+    column, row = right * scale + 0.5 * resolution, down * scale + 0.5 * resolution
+    if len(faces) < 6 and not (0 <= column < resolution and 0 <= row < resolution):
+        return -1, 0.0, 0.0
+    return best, row, column
+
+
+@njit(cache=True, nogil=True, inline="always")
+def texel_of(x, y, z, faces, half, resolution):
+    """The texel in which a direction lies, or −1."""
+    face, row, column = place_of(x, y, z, faces, half, resolution)
+    if face < 0:
         return -1
-    return (best * resolution + row) * resolution + column
+    # Rounding at an edge of the cube.
+    row = min(max(int(np.floor(row)), 0), resolution - 1)
+    column = min(max(int(np.floor(column)), 0), resolution - 1)
+    return (face * resolution + row) * resolution + column
 
 
 @njit(cache=True, nogil=True)
@@ -118,3 +142,10 @@ def _fill_texels(directions, faces, half, resolution, texels):
     for i in range(len(directions)):
         x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
         texels[i] = texel_of(x, y, z, faces, half, resolution)
+
+
+@njit(cache=True, nogil=True)
+def _fill_places(directions, faces, half, resolution, into, places):
+    for i in range(len(directions)):
+        x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
+        into[i], places[i, 0], places[i, 1] = place_of(x, y, z, faces, half, resolution)

@@ -89,14 +89,15 @@ def hamburger_visibility(moments, depth):
         l32d22 = b3 - b1 * b2
         d22 = b2 - b1 * b1
         l32 = l32d22 / d22
-        # 0 where all depths are 1: with the bias's, at 0 and 1, these are two depths and not three.
-        d33 = max(b4 - b2 * b2 - l32d22 * l32, 1e-12)
+        # 0 of depths that are all 0 or 1, such as of texels that see nothing.
+        d33 = max(b4 - b2 * b2 - l32d22 * l32, 1e-14)
         c1, c2 = z - b1, z * z - b2
         c2 = (c2 - l32 * c1) / d33
+        if abs(c2) < 1e-9:  # two depths, one the receiver's, say it all: the third is far away
+            c2 = 1e-9
         c1 = c1 / d22 - l32 * c2
         c0 = 1 - c1 * b1 - c2 * b2
         # The other two depths: roots of c0 + c1 t + c2 t², the one by the other lest digits cancel.
-        c2 = c2 if c2 != 0 else 1e-30
         middle, product = -c1 / (2 * c2), c0 / c2
         half = np.sqrt(max(middle * middle - product, 0.0))
         one = middle + half if middle >= 0 else middle - half

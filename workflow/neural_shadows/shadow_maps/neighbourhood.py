@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-from neural_shadows.shadow_maps.light_map import LightMap, texel_of
+from neural_shadows.shadow_maps.light_map import LightMap, place_of, texel_of
 
 
 def neighbourhood(
@@ -31,26 +31,18 @@ def _fill(directions, faces, half, resolution, reach, texels, fractions):
     side = 2 * (reach + 1)
     for i in range(len(directions)):
         x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
-        best, along = -1, 0.0
-        for face in range(len(faces)):
-            forward = faces[face, 2, 0] * x + faces[face, 2, 1] * y + faces[face, 2, 2] * z
-            if forward > along:
-                best, along = face, forward
-        if best < 0:
-            texels[i] = -1
-            fractions[i] = 0
+        face, v, u = place_of(x, y, z, faces, half, resolution)
+        if face < 0:
+            texels[i], fractions[i] = -1, 0
             continue
-        right, down, forward = faces[best, 0], faces[best, 1], faces[best, 2]
-        scale = 0.5 * resolution / (half * along)
-        u = (right[0] * x + right[1] * y + right[2] * z) * scale + 0.5 * resolution - 0.5
-        v = (down[0] * x + down[1] * y + down[2] * z) * scale + 0.5 * resolution - 0.5
-        column, row = int(np.floor(u)), int(np.floor(v))
-        fractions[i, 0], fractions[i, 1] = u - column, v - row
+        right, down, forward = faces[face, 0], faces[face, 1], faces[face, 2]
+        column, row = int(np.floor(u - 0.5)), int(np.floor(v - 0.5))
+        fractions[i, 0], fractions[i, 1] = u - 0.5 - column, v - 0.5 - row
         for a in range(side):
             for b in range(side):
                 r, c = row + a - reach, column + b - reach
                 if 0 <= r < resolution and 0 <= c < resolution:
-                    texels[i, a, b] = (best * resolution + r) * resolution + c
+                    texels[i, a, b] = (face * resolution + r) * resolution + c
                 else:
                     p = ((c + 0.5) / resolution * 2 - 1) * half
                     q = ((r + 0.5) / resolution * 2 - 1) * half

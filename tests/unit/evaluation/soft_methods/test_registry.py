@@ -1,0 +1,80 @@
+"""Every method on one frame of a plate over a ground, beside many rays."""
+
+import numpy as np
+import pytest
+import trimesh
+from shapes import prepared
+
+from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_methods.soft_method import facing
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.soft_shadows import soft_visibility
+from neural_shadows.rendering.surface import see_surface
+from neural_shadows.scenes.arrangement import scene_of
+from neural_shadows.scenes.cameras import Camera
+from neural_shadows.scenes.generators.plate import LIGHT, arrange_plate
+from neural_shadows.shadow_maps.light_map import cube_map, perspective_map
+
+CENTRE, RADIUS, SIZE = np.array([0.0, LIGHT, 0.0]), 0.1, (96, 64)
+DOWN = np.array([0.0, -1.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def frame():
+    box = prepared(trimesh.creation.box((1.2, 0.2, 1.2)))[0]
+    scene = scene_of(arrange_plate(0.9), {"box": box})
+    camera = Camera(np.array([0.6, 1.5, 1.4]), np.array([0.05, 0, 0]), np.array([0, 1.0, 0]), 18.0)
+    surface = see_surface(scene, camera, *SIZE)
+    return SoftFrame(scene, surface, CENTRE, perspective_map(CENTRE, DOWN, 90.0, 512))
+
+
+@pytest.fixture(scope="module")
+def target(frame):
+    """Of a point and of a sphere: (2, n) float32."""
+    told = {"centre": CENTRE, "radii": [0.0, RADIUS], "samples": 32}
+    images = soft_visibility(frame.scene, frame.surface.camera, *SIZE, **told)
+    return images.reshape(2, -1)[:, frame.surface.pixel]
+
+
+def answers_of(method, frame, radius):
+    """With all of its constants; those of the least error are what is used."""
+    for constants in method.settings():
+        found = facing(frame, method.answer(frame, radius, **constants))
+        assert found.shape == (len(frame.surface.p),) and found.dtype == np.float32
+        assert found.min() >= 0 and found.max() <= 1
+        yield found
+
+
+@pytest.mark.parametrize("key", METHODS)
+def test_hard_shadows_of_a_point(key, frame, target):
+    """All are near; what they blur is a band round the edge."""
+    assert 0.1 < np.mean(target[0] < 0.5) < 0.5
+    method = METHODS[key]
+    errors = [np.mean((one - target[0]) ** 2) for one in answers_of(method, frame, 0.0)]
+    assert min(errors) < (0.02 if key == "pcf_15" else 0.01)
+
+
+def test_soft_shadows_of_a_sphere(frame, target):
+    assert np.mean((target[1] > 0.02) & (target[1] < 0.98)) > 0.1
+    errors = {
+        key: min(np.mean((one - target[1]) ** 2) for one in answers_of(method, frame, RADIUS))
+        for key, method in METHODS.items()
+    }
+    # One blocker at one height, whose penumbra is 9 texels wide.
+    assert errors["pcss"] < 1e-4 and errors["pcf_disc"] < 1e-4
+    assert errors["pcss_post"] < 3e-4  # it blurs, and there is no noise to lessen
+    for family in ("pcf", "vsm", "msm"):
+        assert 2 * errors[f"{family}_9"] < errors[f"{family}_3"] < errors["hard"]
+    assert errors["evsm_9"] < errors["vsm_3"]
+
+
+@pytest.fixture(scope="module")
+def cube_frame(frame):
+    return SoftFrame(frame.scene, frame.surface, CENTRE, cube_map(CENTRE, 512))
+
+
+@pytest.mark.parametrize("key", ["hard", "pcf_9", "pcss", "msm_9"])
+def test_a_cube_tells_what_a_picture_does(key, frame, cube_frame):
+    constants = METHODS[key].settings()[0]
+    found = [METHODS[key].answer(of, RADIUS, **constants) for of in (cube_frame, frame)]
+    assert np.mean((found[0] - found[1]) ** 2) < 2e-3

@@ -1,0 +1,43 @@
+"""Percentage-closer filtering by a kernel of one width (Reeves et al. 1987).
+
+A kernel fits one width of penumbra. That of k × k texels knows nothing of the light; the disc's
+radius is tuned for each.
+"""
+
+from functools import partial
+
+import numpy as np
+
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.shadow_maps.box_filter import box_visibility
+from neural_shadows.shadow_maps.light_filters import disc_visibility
+
+# Times the bias of a test against one texel: a wide kernel has texels far before a slanted receiver.
+BIASES = (1.0, 3.0, 9.0)
+_SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
+
+
+def box_pcf(size: int) -> SoftMethod:
+    """The mean of size × size bilinearly weighted tests; size is odd."""
+    return SoftMethod(f"PCF {size} × {size}", partial(_box, size=size), {"bias": BIASES})
+
+
+def _box(frame: SoftFrame, radius: float, *, size: int, bias: float) -> np.ndarray:
+    biases = np.float32(bias) * frame.bias
+    return box_visibility(frame.light_map, frame.depths, frame.ways, biases, size=size)
+
+
+def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.ndarray:
+    return disc_visibility(
+        frame.light_map,
+        frame.depths,
+        frame.ways,
+        np.float32(bias) * frame.bias,
+        texels=texels,
+        samples=_SAMPLES,
+        keys=frame.surface.pixel,
+    )
+
+
+DISC_PCF = SoftMethod("PCF, disc", _disc, {"texels": (1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES})

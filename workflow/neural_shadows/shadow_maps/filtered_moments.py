@@ -1,0 +1,60 @@
+"""A light's map as moments of depth, filtered before receivers look them up.
+
+Donnelly and Lauritzen 2006; the margin that a kernel needs at a cube's seams is in `face_views`, and
+what the moments say of a receiver in `moments`.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numba import njit
+
+from neural_shadows.shadow_maps.face_views import face_views
+from neural_shadows.shadow_maps.light_map import LightMap
+from neural_shadows.shadow_maps.moments import blurred
+
+
+def filtered_moments(
+    light_map: LightMap,
+    depths: np.ndarray,
+    ways: np.ndarray,
+    *,
+    of: Callable[[np.ndarray], np.ndarray],
+    far: float,
+    kernel: np.ndarray,
+) -> np.ndarray:
+    """The map's filtered moments where receivers look, bilinearly: (n, moments) float64.
+
+    Filtered are only the faces that receivers look into, one at a time: of 2048² texels and four
+    moments 0.4 GB. In float64, since the fourth moments' differences are lost in float32.
+
+    Args:
+        depths: (texels,) float32 of the whole map. ways: (n, 3) from the light to receivers.
+        of: the moments (…, moments) of depths (…) in [0, 1], such as `moments.powers`.
+        far: the distance of depth 1, which also a texel that sees nothing has; receivers off the
+            map find that depth.
+        kernel: weights of an odd number of texels along rows and columns.
+    """
+    nothing = of(np.ones(1))[0]
+    found = np.tile(nothing, (len(ways), 1))
+    for view in face_views(light_map, depths, ways, len(kernel)):
+        # scipy's filter takes 57 and 77 ms of 1040² texels, four moments, 3 and 15 wide; one
+        # written in numba 23 and 67 ms.
+        moments = blurred(of(np.minimum(view.depths / np.float32(far), 1)), kernel)
+        found[view.receivers] = _bilinear(moments, view.places)
+    return found
+
+
+@njit(cache=True, nogil=True)
+def _bilinear(moments, places):
+    """Values (N, N, moments) at places (m, 2), of which all four neighbours are within."""
+    found = np.empty((len(places), moments.shape[2]))
+    for i in range(len(places)):
+        row, column = int(np.floor(places[i, 0])), int(np.floor(places[i, 1]))
+        down, right = places[i, 0] - row, places[i, 1] - column
+        for k in range(moments.shape[2]):
+            above = (1 - right) * moments[row, column, k] + right * moments[row, column + 1, k]
+            row_below = moments[row + 1]
+            below = (1 - right) * row_below[column, k] + right * row_below[column + 1, k]
+            found[i, k] = (1 - down) * above + down * below
+    return found
