@@ -18,6 +18,7 @@ include: "workflow/rules/rays.smk"
 include: "workflow/rules/networks.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/frames.smk"
+include: "workflow/rules/soft_methods.smk"
 include: "workflow/rules/reports.smk"
 include: "workflow/rules/viewer.smk"
 

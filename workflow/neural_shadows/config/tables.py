@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Text, by_kind, check_among, name_in, section_or
+from neural_shadows.config.base import Model, Name, Text, by_kind, check_among, name_in, section_or
 from neural_shadows.config.experiments import formatted, network_of, training_of
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
@@ -18,6 +18,7 @@ from neural_shadows.evaluation.method_names import (
     is_classic,
     is_null,
 )
+from neural_shadows.evaluation.soft_methods.registry import METHODS
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -92,7 +93,21 @@ class CostTable(AnyTable):
     frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(description="pixels of 3:2")
 
 
-Table = by_kind("kind", TableOfOneScene, TableByScene, CostTable, default="comparison")
+class SoftMethodsTable(AnyTable):
+    """A table of methods for soft shadows on a frame set: errors, flicker, time, bytes, by radius."""
+
+    kind: Literal["soft_methods"] = Field(description="`soft_methods`")
+    frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
+    methods: list[Name] = Field(
+        min_length=1,
+        description="keys of evaluation/soft_methods/registry.py, in the table's order; `no_shadow` "
+        "and `all_dark` are there without being named",
+    )
+
+
+Table = by_kind(
+    "kind", TableOfOneScene, TableByScene, CostTable, SoftMethodsTable, default="comparison"
+)
 
 # What stands in each table of a kind beside its methods: a network that is not better than no
 # shadow at all has learned nothing that such a table could show.
@@ -105,8 +120,10 @@ Row = dict[str, Any]  # method, label, published, scene, experiment, encoding, t
 
 
 def settings_by_scene(config: "Config", table: AnyTable) -> dict[str, list[RowSettings]]:
-    """The rows of a table by scene, null predictors among them; none of a table of costs."""
-    if isinstance(table, CostTable):
+    """The rows of a table by scene, null predictors among them; none of a table of costs, or of
+    soft shadows.
+    """
+    if isinstance(table, CostTable | SoftMethodsTable):
         return {}
     rows = table.rows
     if isinstance(table, TableOfOneScene):
@@ -123,7 +140,7 @@ def _null_rows(table: AnyTable, given: list[RowSettings]) -> list[RowSettings]:
 
 
 def rows_of(config: "Config", name: str) -> list[Row]:
-    """The rows of a table; none of a table of costs.
+    """The rows of a table; none of a table of costs, or of soft shadows.
 
     Returns: of each row `method`, the method's key; `label`; `published`, its key in
         published.csv or None if the table is not the thesis's; `scene`; `experiment` and the
@@ -174,6 +191,9 @@ def check(config: "Config") -> None:
             for size in STAGES:
                 if (values := getattr(table, size)) != sorted(set(values)):
                     raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
+        if isinstance(table, SoftMethodsTable):
+            for method in table.methods:
+                check_among(f"{key}.methods", method, METHODS)
         if table.kind == "learning_curves" and config.learning_curves is None:
             raise ValueError(f"{key}.kind: {table.kind!r} needs the section `learning_curves`")
         for scene, rows in settings_by_scene(config, table).items():

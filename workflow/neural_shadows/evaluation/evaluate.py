@@ -62,7 +62,7 @@ def evaluate(
     else:
         bias = read_json(depth_bias_json)["depth_bias"] if depth_bias_json else 0.0
         answer = _of_classic(unbiased(method), mesh_ply, scene, bias)
-    metrics = {"psnr": psnr, "ssim": ssim, "flip": flip} | _lpips(lpips_json, threads)
+    metrics = {"psnr": psnr, "ssim": ssim, "flip": flip} | lpips_metric(lpips_json, threads)
     batch = References(references)
     rows: list[dict[str, Any]] = []
     lit: list[np.ndarray] = []
@@ -93,7 +93,8 @@ def _of_classic(method: str, mesh_ply: Path, scene: Mapping[str, Any], bias: flo
     return lambda number, frame: (asked(frame)(bias), {})
 
 
-def _lpips(lpips_json: Path, threads: int) -> dict[str, Callable[..., float]]:
+def lpips_metric(lpips_json: Path, threads: int) -> dict[str, Callable[..., float]]:
+    """LPIPS by its name, for images (H, W) in [0, 1]; nothing where it is not available."""
     found = read_json(lpips_json)
     if not found["available"]:
         return {}

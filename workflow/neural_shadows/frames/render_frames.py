@@ -97,7 +97,12 @@ def render_frames(
     ]
     about = {"use": use, "first": first, "seed": scene["seed"], "scene": dict(scene)}
     about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
-    about |= {"channels": CHANNELS, "units": UNITS, "frames": described}
+    about |= {
+        "light_map": kind.light_map,
+        "channels": CHANNELS,
+        "units": UNITS,
+        "frames": described,
+    }
     write_json(frames_json, about)
 
 

@@ -10,6 +10,7 @@ from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_filters import receiver_bias
 from neural_shadows.shadow_maps.light_map import LightMap
+from neural_shadows.shadow_maps.rasterised_light_map import rasterised_depths
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +29,8 @@ class SoftFrame:
     @cached_property
     def depths(self) -> np.ndarray:
         """The whole map, (texels,) float32: distances from the light, ∞ where there is nothing."""
-        return self.light_map.depths(self.scene.tracer)
+        mesh = self.scene.joined
+        return rasterised_depths(self.light_map, mesh.vertices, mesh.faces)
 
     @cached_property
     def ways(self) -> np.ndarray:

@@ -5,6 +5,7 @@ from typing import Any
 
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED, biased_key, unbiased
+from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_names
 
@@ -34,6 +35,7 @@ FILES = {
     "learning_curves": ("metrics", "losses", "trainings", "meshes", "lpips_json", "published_csv"),
     "memory": ("weights", "published_csv"),
     "cost": ("costs",),
+    "soft_methods": ("soft_metrics", "soft_times", "soft_constants", "lpips_json"),
 }
 TOLD = {
     "comparison": ("published", "against", "rows", "run", "scenes"),
@@ -42,6 +44,7 @@ TOLD = {
     "learning_curves": ("published", "rows", "curves", "run", "scenes"),
     "memory": ("published", "rows", "run"),
     "cost": ("run",),
+    "soft_methods": ("labels", "unseen", "run"),
 }
 
 
@@ -66,6 +69,10 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "published_csv": layout.source("config/published.csv"),
         "costs": costs(layout, table) if kind == "cost" else [],
     }
+    if kind == "soft_methods":
+        values["soft_metrics"] = soft_methods.evaluations(layout, table, "csv")
+        values["soft_times"] = paths.soft_times(table)
+        values["soft_constants"] = soft_methods.constants(layout, table)
     found = {name: values[name] for name in FILES[kind]}
     # Not read: asking for a table makes the figures and the previews that belong to it.
     found["beside"] = [paths.report(f"{name}.png") for name in settings["figures"]]
@@ -85,6 +92,10 @@ def arguments(layout: Layout, table: str) -> dict[str, Any]:
         "curves": curves(layout, rows),
         "durations": {name: before_training(layout, name) for name in experiments_of(rows)},
     }
+    if settings["kind"] == "soft_methods":
+        frame_set = layout.entry("frame_sets", settings["frame_set"])
+        values["labels"] = soft_methods.labels(layout, table)
+        values["unseen"] = frame_set.get("unseen", [])
     return {key: values[key] for key in ("title", *TOLD[settings["kind"]])}
 
 

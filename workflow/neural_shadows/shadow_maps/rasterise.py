@@ -29,12 +29,15 @@ def rasterised_heights(
     scale = resolution / square.side
     u, v, height = square.basis @ vertices.T  # float64
     x, y = (u - square.corner[0]) * scale - 0.5, (v - square.corner[1]) * scale - 0.5
-    return _draw(x, y, height, faces, resolution)
+    return drawn(x, y, height, faces, resolution)
 
 
 @njit(cache=True, nogil=True)
-def _draw(x, y, z, faces, resolution):
-    """Vertices' x, y in texels and z are (V,) float64."""
+def drawn(x, y, z, faces, resolution):
+    """The greatest z of what covers each texel's centre, (resolution, resolution) float32, else −∞.
+
+    Vertices' x, y in texels and z are (V,) float64; between them z is linear in x and y.
+    """
     heights = np.full((resolution, resolution), -np.inf, np.float32)
     last = resolution - 1
     for face in range(len(faces)):

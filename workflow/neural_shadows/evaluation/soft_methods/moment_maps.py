@@ -30,7 +30,7 @@ def moment_method(
         visibility: of moments (n, moments) and depths (n,), in [0, 1].
     """
     answer = partial(_answer, kernel=kernel, of=of, visibility=visibility)
-    return SoftMethod(label, answer, CONSTANTS)
+    return SoftMethod(label, answer, CONSTANTS, of_radius=False)
 
 
 def _answer(

@@ -20,7 +20,8 @@ _SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
 
 def box_pcf(size: int) -> SoftMethod:
     """The mean of size × size bilinearly weighted tests; size is odd."""
-    return SoftMethod(f"PCF {size} × {size}", partial(_box, size=size), {"bias": BIASES})
+    answer = partial(_box, size=size)
+    return SoftMethod(f"PCF {size} × {size}", answer, {"bias": BIASES}, of_radius=False)
 
 
 def _box(frame: SoftFrame, radius: float, *, size: int, bias: float) -> np.ndarray:
@@ -40,4 +41,5 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
     )
 
 
-DISC_PCF = SoftMethod("PCF, disc", _disc, {"texels": (1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES})
+_DISC = {"texels": (1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES}
+DISC_PCF = SoftMethod("PCF, disc", _disc, _DISC, of_radius=False)  # but by its constants

@@ -20,12 +20,14 @@ class SoftMethod:
         constants: the values that are tried of each on validation frames; those that give the least
             error there are used, one set for each radius.
         with_map: whether it looks at the light's map.
+        of_radius: whether its answer depends on the light's radius.
     """
 
     label: str
     answer: Callable[..., np.ndarray]
     constants: Mapping[str, Sequence[float]] = field(default_factory=dict)
     with_map: bool = True
+    of_radius: bool = True
 
     def settings(self) -> list[dict[str, float]]:
         """Every combination of the constants that is tried; one without any, if it has none."""

@@ -1,0 +1,73 @@
+"""Frames of a frame set with their exact soft shadows, opened for methods to answer."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, facing
+from neural_shadows.frames.draw_settings import light_map_of
+from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.rendering.surface import see_surface
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredFrame:
+    """One frame of a part; images are (height, width)."""
+
+    part: FrameSetPart
+    number: int
+    scene: SoftScene
+
+    @cached_property
+    def frame(self) -> SoftFrame:
+        """What methods are given."""
+        about, setting = self.part.about, self.part.setting(self.number)
+        scene = self.scene.moved(setting.motion)
+        surface = see_surface(scene, setting.camera, about["width"], about["height"])
+        light_map = light_map_of(about["light_map"], self.scene, setting.centre)
+        return SoftFrame(scene, surface, setting.centre, light_map)
+
+    @property
+    def target(self) -> np.ndarray:
+        """The exact soft shadow of each radius, (radii, height, width) float32."""
+        return self.part.targets[self.number].astype(np.float32)
+
+    @property
+    def valid(self) -> np.ndarray:
+        """Which pixels count, bool."""
+        return np.asarray(self.part.valid[self.number, 0])
+
+    def answered(
+        self, method: SoftMethod, radius: float, constants: Mapping[str, float]
+    ) -> np.ndarray:
+        """The method's visibility of a light of a radius, float32; 1 without a surface."""
+        found = method.answer(self.frame, radius, **constants)
+        return self.frame.surface.image(facing(self.frame, found).astype(np.float32), 1.0)
+
+
+def measured_frames(parts: Sequence[Path], meshes: Sequence[Path]) -> Iterator[MeasuredFrame]:
+    """All frames of some parts, in order.
+
+    Args:
+        meshes: prepared, of all objects that are inserted; their folders have the objects' names.
+
+    Raises:
+        InputError: a part is damaged, or of a user's own and without a scene that could be asked.
+    """
+    known, opened = {path.parent.name: path for path in meshes}, {}
+    for path in parts:
+        part = FrameSetPart(path)
+        if "scene" not in part.about:
+            raise InputError(f"{path}: has no 'scene'; methods need one to look at")
+        scene = part.about["scene"]
+        key = str(scene)
+        if key not in opened:
+            opened[key] = SoftScene(scene, [known[name] for name in scene["inserted"]])
+        for number in range(len(part)):
+            yield MeasuredFrame(part, number, opened[key])

@@ -1,0 +1,32 @@
+"""What a method for soft shadows answered on test frames, on disk, so that any can be drawn later.
+
+One npz file: `PART.FRAME.RADIUS` (height, width) uint8, visibility in steps of 1/255.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.errors import InputError
+from neural_shadows.files.whole_files import whole_file
+
+
+def write_answers(path: Path, answers: Mapping[str, np.ndarray]) -> None:
+    """Write visibilities (height, width) in [0, 1] by name."""
+    steps = {name: np.round(255 * one).astype(np.uint8) for name, one in answers.items()}
+    with whole_file(path) as part:
+        np.savez_compressed(part, **steps)
+
+
+def read_answer(path: Path, part: str, frame: int, radius: int) -> np.ndarray:
+    """Visibility (height, width) float32 of a frame.
+
+    Raises:
+        InputError: the file is missing, damaged, or not of this frame.
+    """
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            return arrays[f"{part}.{frame}.{radius}"] / np.float32(255)
+    except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
+        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error

@@ -1,0 +1,68 @@
+"""The stage that chooses a soft-shadow method's constants, on validation frames alone."""
+
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.evaluation.measured_frames import measured_frames
+from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.stage import run_stage
+
+
+def tune_soft_method(
+    parts: list[Path], meshes: list[Path], constants_json: Path, *, method: str
+) -> None:
+    """Find the constants of least mean squared error for each radius of a frame set.
+
+    Args:
+        parts: of validation frames, of all scenes; meshes: see `measured_frames`.
+        constants_json: by radius in the set's order, `constants` and `mse`; with `tried`, and
+            `at_end`, the constants whose best value is the first or last that was tried.
+
+    Raises:
+        InputError: a part is damaged.
+    """
+    asked = METHODS[method]
+    settings = asked.settings()
+    opened = [FrameSetPart(path) for path in parts]
+    radii = len(opened[0].radii)
+    squares, pixels = np.zeros((len(settings), radii)), 0
+    frames = sum(map(len, opened)) * (len(settings) > 1)  # one setting needs no choice
+    with progress_bar(frames, "frames", f"tune {method}") as bar:
+        for frame in measured_frames(parts, meshes) if frames else ():
+            valid, target = frame.valid, frame.target
+            pixels += valid.sum()
+            for row, constants in enumerate(settings):
+                for k, radius in enumerate(frame.part.radii):
+                    if k == 0 or asked.of_radius:
+                        found = frame.answered(asked, radius, constants)
+                    squares[row, k] += np.square(found - target[k])[valid].sum()
+            bar.update()
+    best = squares.argmin(0)
+    chosen = [settings[row] for row in best]
+    write_json(
+        constants_json,
+        {
+            "method": method,
+            "tried": {name: list(values) for name, values in asked.constants.items()},
+            "radii": [
+                {
+                    "constants": one,
+                    "mse": squares[row, k] / pixels if pixels else None,
+                    "at_end": [
+                        name
+                        for name, values in asked.constants.items()
+                        if one[name] in (values[0], values[-1])
+                    ],
+                }
+                for k, (one, row) in enumerate(zip(chosen, best))
+            ],
+        },
+    )
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, tune_soft_method)

@@ -1,0 +1,94 @@
+"""What tables and figures of methods for soft shadows are made of."""
+
+from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.frames.draw_sequences import SEQUENCES
+from neural_shadows.layout import frame_sets
+from neural_shadows.layout.layout import Layout
+
+NULL = ("no_shadow", "all_dark")
+
+
+def methods(layout: Layout, table: str) -> list[str]:
+    """The methods of a table in its order, with those that know nothing."""
+    named = layout.entry("tables", table)["methods"]
+    return [*named, *(method for method in NULL if method not in named)]
+
+
+def frame_set(layout: Layout, table: str) -> str:
+    """The frame set of a table."""
+    return layout.entry("tables", table)["frame_set"]
+
+
+def evaluations(layout: Layout, table: str, ending: str) -> list[str]:
+    """A file of each method of a table on each scene."""
+    one = frame_set(layout, table)
+    return [
+        layout.paths.soft_evaluation(ending, scene, one, method)
+        for scene in frame_sets.measured_scenes(layout, one)
+        for method in methods(layout, table)
+    ]
+
+
+def constants(layout: Layout, table: str) -> list[str]:
+    """What was chosen for each method of a table, in its order."""
+    one = frame_set(layout, table)
+    return [layout.paths.soft_constants(one, method) for method in methods(layout, table)]
+
+
+def tests(layout: Layout, frame_set: str) -> list[str]:
+    """All test frames of a frame set."""
+    scenes = frame_sets.measured_scenes(layout, frame_set)
+    return [part for one in scenes for part in frame_sets.parts(layout, one, frame_set, "test")]
+
+
+def scene_tests(layout: Layout, scene: str, frame_set: str) -> list[str]:
+    """The test frames of a scene."""
+    return frame_sets.parts(layout, scene, frame_set, "test")
+
+
+def validations(layout: Layout, frame_set: str) -> list[str]:
+    """All validation frames of a frame set."""
+    scenes = frame_sets.tuned_scenes(layout, frame_set)
+    return [p for one in scenes for p in frame_sets.parts(layout, one, frame_set, "validation")]
+
+
+def all_meshes(layout: Layout, frame_set: str) -> list[str]:
+    """The meshes of the objects that stand in a frame set's scenes, each once."""
+    scenes = frame_sets.measured_scenes(layout, frame_set)
+    found = [mesh for scene in scenes for mesh in frame_sets.meshes(layout, scene)]
+    return list(dict.fromkeys(found))
+
+
+def sequences(layout: Layout, scene: str, frame_set: str) -> list[str]:
+    """The sequences of a frame set that a scene has: the first scene has them."""
+    settings = layout.entry("frame_sets", frame_set)
+    if settings["path"] is not None or scene != settings["scenes"][0]:
+        return []
+    return [one for what in SEQUENCES for one in frame_sets.parts(layout, scene, frame_set, what)]
+
+
+def timed_parts(layout: Layout, table: str) -> list[str]:
+    """The parts whose first frames are timed: one of each scene."""
+    one = frame_set(layout, table)
+    scenes = frame_sets.measured_scenes(layout, one)
+    return [frame_sets.parts(layout, scene, one, "test")[0] for scene in scenes]
+
+
+def timed_meshes(layout: Layout, table: str) -> list[str]:
+    """The meshes that stand in the scenes of a table."""
+    return all_meshes(layout, frame_set(layout, table))
+
+
+def timed_generators(layout: Layout, table: str) -> list[str]:
+    """The generators of those scenes."""
+    return all_generators(layout, frame_set(layout, table))
+
+
+def all_generators(layout: Layout, frame_set: str) -> list[str]:
+    """The generators of a frame set's scenes."""
+    return frame_sets.generators(layout, frame_sets.measured_scenes(layout, frame_set))
+
+
+def labels(layout: Layout, table: str) -> dict[str, str]:
+    """What each method of a table is called."""
+    return {method: METHODS[method].label for method in methods(layout, table)}

@@ -1,0 +1,82 @@
+"""Methods for soft shadows: their constants, errors and times."""
+
+
+rule tune_soft_method:
+    input:
+        parts=of(soft_methods.validations),
+        meshes=of(soft_methods.all_meshes),
+        code=lambda wildcards: code(
+            "evaluation/tune_soft_method",
+            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+        ),
+    output:
+        constants_json=PATHS.soft_constants(),
+    log:
+        PATHS.log("tune_soft_method", "frame_set", "method"),
+    benchmark:
+        PATHS.benchmark("tune_soft_method", "frame_set", "method")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=120),
+    message:
+        "Choosing the constants of {wildcards.method} on {wildcards.frame_set}"
+    script:
+        "../neural_shadows/evaluation/tune_soft_method.py"
+
+
+rule evaluate_soft:
+    input:
+        parts=of(soft_methods.scene_tests),
+        sequences=of(soft_methods.sequences),
+        meshes=of(frame_sets.meshes),
+        constants_json=PATHS.soft_constants(),
+        lpips_json=PATHS.lpips,
+        code=lambda wildcards: code(
+            "evaluation/evaluate_soft",
+            generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
+        ),
+    output:
+        metrics_csv=PATHS.soft_evaluation("csv"),
+        answers_npz=PATHS.soft_evaluation("npz"),
+    log:
+        PATHS.log("evaluate_soft", "scene", "frame_set", "method"),
+    benchmark:
+        PATHS.benchmark("evaluate_soft", "scene", "frame_set", "method")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=120),
+    message:
+        "Evaluating {wildcards.method} on {wildcards.scene}, {wildcards.frame_set}"
+    script:
+        "../neural_shadows/evaluation/evaluate_soft.py"
+
+
+rule time_soft_methods:
+    input:
+        parts=of(soft_methods.timed_parts),
+        constants=of(soft_methods.constants),
+        meshes=of(soft_methods.timed_meshes),
+        code=lambda wildcards: code(
+            "evaluation/time_soft_methods",
+            generators=soft_methods.timed_generators(LAYOUT, wildcards.table),
+        ),
+    output:
+        times_json=PATHS.soft_times(),
+    log:
+        PATHS.log("time_soft_methods", "table"),
+    benchmark:
+        PATHS.benchmark("time_soft_methods", "table")
+    conda:
+        ENVIRONMENT
+    # It computes on one: with all that a training takes, nothing disturbs it on a small machine.
+    threads: COMPUTE["threads"]
+    resources:
+        **usual(4000, minutes=120),
+    params:
+        methods=of(soft_methods.methods),
+    message:
+        "Timing the methods of {wildcards.table}"
+    script:
+        "../neural_shadows/evaluation/time_soft_methods.py"
