@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from neural_shadows.rendering.gbuffer import interpolate, pixel_directions
-from neural_shadows.scenes.cameras import Camera
+from neural_shadows.scenes.cameras import Camera, camera_axes
 from neural_shadows.scenes.scene import Scene
 
 
@@ -30,6 +30,12 @@ class Surface:
         whole = np.full((self.height * self.width, *values.shape[1:]), empty, values.dtype)
         whole[self.pixel] = values
         return whole.reshape(self.height, self.width, *values.shape[1:])
+
+    def depth_image(self) -> np.ndarray:
+        """Depths along the camera's axis, (height, width) float32; 0 where there is no surface."""
+        camera = self.camera
+        forward = camera_axes(camera.eye, camera.target, camera.up)[2].astype(np.float32)
+        return self.image((self.p - camera.eye.astype(np.float32)) @ forward)
 
 
 def see_surface(

@@ -1,0 +1,1 @@
+"""What makes a smooth picture of few shadow rays a pixel."""

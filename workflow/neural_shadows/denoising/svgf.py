@@ -1,0 +1,86 @@
+"""An SVGF-like spatial filter: wavelet passes that stop at edges, guided by an estimate of variance.
+
+After Schied et al. 2017, "Spatiotemporal variance-guided filtering". "Like", because depths'
+gradients come from neighbouring pixels instead of a rasteriser, and the weights' exponential is an
+approximation that a processor computes for many pixels at once. All on one thread.
+"""
+
+import numpy as np
+
+from neural_shadows.denoising.wavelet import (
+    fill_moments,
+    fill_next,
+    fill_sharpness,
+    fill_slopes,
+)
+
+SIGMA_LUMINANCE = 4.0  # σ_l: how many standard deviations a value may differ (4.4)
+PASSES = 5  # of the 5 × 5 kernel, its taps 1, 2, 4, 8, 16 pixels apart (4.4)
+
+
+class SvgfFilter:
+    """The filter for pictures (height, width); keeps its buffers, so one thread may use it.
+
+    Args:
+        sigma_luminance: see SIGMA_LUMINANCE.
+    """
+
+    def __init__(self, height: int, width: int, sigma_luminance: float = SIGMA_LUMINANCE):
+        self.sigma_luminance = np.float32(sigma_luminance)
+        self._guides = np.zeros((6, height, width), np.float32)
+        self._images = np.empty((6, height, width), np.float32)
+        self._row = np.empty(width, np.float32)
+
+    def see(self, depth: np.ndarray, normal: np.ndarray) -> None:
+        """Take the surface at which weights stop.
+
+        Args:
+            depth: (H, W) float32 along the camera's axis; 0 where there is no surface.
+            normal: (H, W, 3) float32, unit; 0 where there is no surface.
+        """
+        self._guides[0] = depth
+        self._guides[1:4] = np.moveaxis(normal, 2, 0)
+        fill_slopes(self._guides[0], self._guides[4], self._guides[5])
+
+    def variance(self, mean: np.ndarray, square: np.ndarray) -> np.ndarray:
+        """The variance of a value over the 7 × 7 pixels round each that see its surface (4.2).
+
+        Args:
+            mean, square: (H, W) float32, the value and its square, or means of them.
+        """
+        total, first, second = self._images[:3]
+        fill_moments(self._guides, mean, square, self._row, total, first, second)
+        return np.maximum(second - first * first, 0)
+
+    def smooth(self, visibility: np.ndarray, variance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The picture (H, W) float32 after its first and after its last pass (4.3).
+
+        Args:
+            visibility: (H, W) float32 in [0, 1]. variance: (H, W) float32, of its noise.
+        """
+        light, spread, sharpness, total, next_light, next_spread = self._images
+        light[:], spread[:] = visibility, variance
+        for step in range(PASSES):
+            fill_sharpness(spread, self.sigma_luminance, sharpness)
+            fill_next(
+                self._guides,
+                light,
+                spread,
+                sharpness,
+                1 << step,
+                self._row,
+                total,
+                next_light,
+                next_spread,
+            )
+            light, next_light = next_light, light
+            spread, next_spread = next_spread, spread
+            if step == 0:
+                first = np.clip(light, 0, 1)
+        return first, np.clip(light, 0, 1)
+
+
+def svgf_like(filter_: SvgfFilter, visibility: np.ndarray, depth: np.ndarray, normal: np.ndarray):
+    """One picture without what was before it, (H, W) float32; see `SvgfFilter`."""
+    filter_.see(depth, normal)
+    return filter_.smooth(visibility, filter_.variance(visibility, visibility * visibility))[1]

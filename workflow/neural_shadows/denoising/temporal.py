@@ -1,0 +1,62 @@
+"""The temporal part of an SVGF-like filter: frames of a sequence are added to those before them."""
+
+import numpy as np
+
+from neural_shadows.denoising.svgf import SIGMA_LUMINANCE, SvgfFilter
+from neural_shadows.rendering.reprojection import looked_up, seen_before
+from neural_shadows.rendering.surface import Surface
+
+ALPHA = 0.2  # the least share of a new frame, of values and moments (Schied et al. 2017, 4.1)
+_ENOUGH = 4  # frames from which a variance over time is taken instead of one over pixels (4.2)
+
+
+class TemporalFilter:
+    """The filter for a sequence of frames (height, width), given one by one.
+
+    What a frame's first pass has smoothed is what the next one is added to (4.3).
+
+    Args:
+        sigma_luminance: see `SvgfFilter`.
+    """
+
+    def __init__(self, height: int, width: int, sigma_luminance: float = SIGMA_LUMINANCE):
+        self._spatial = SvgfFilter(height, width, sigma_luminance)
+        self._before: Surface | None = None
+        # The picture, its mean, its mean square, and how many frames are in them.
+        self._history = np.zeros((4, height, width), np.float32)
+
+    def next_frame(
+        self, visibility: np.ndarray, surface: Surface, was: np.ndarray | None = None
+    ) -> np.ndarray:
+        """The next frame's picture, (H, W) float32.
+
+        Args:
+            visibility: (H, W) float32 in [0, 1].
+            was: (n, 3), where the surface's points were a frame ago; see `seen_before`.
+        """
+        new = np.stack([visibility, visibility, visibility * visibility, np.ones_like(visibility)])
+        if self._before is not None:
+            self._add_history(new, surface, was)
+        picture, mean, square, frames = new
+        self._spatial.see(surface.depth_image(), surface.image(surface.n))
+        over_time = np.maximum(square - mean * mean, 0)
+        over_pixels = self._spatial.variance(mean, square)
+        variance = np.where(frames >= _ENOUGH, over_time, over_pixels)
+        new[0], last = self._spatial.smooth(picture, variance)
+        self._history, self._before = new, surface
+        return last
+
+    def _add_history(self, new: np.ndarray, surface: Surface, was: np.ndarray | None) -> None:
+        """Mix into new (4, H, W) what the points showed before, where they were seen.
+
+        The first frames of a point are averaged evenly, as the authors' code does.
+        """
+        accepted, places = seen_before(surface, self._before, was)
+        pixels, places = surface.pixel[accepted], places[:, accepted]
+        *old, frames = (looked_up(image, places) for image in self._history)
+        frames = np.rint(frames) + 1
+        share = np.maximum(np.float32(ALPHA), 1 / frames)
+        flat = new.reshape(4, -1)
+        for image, past in zip(flat, old):
+            image[pixels] = past + share * (image[pixels] - past)
+        flat[3, pixels] = frames

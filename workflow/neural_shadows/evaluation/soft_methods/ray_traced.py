@@ -1,0 +1,60 @@
+"""Ray tracing with few rays a pixel: from its centre's point to points spread over the light."""
+
+import numpy as np
+from numba import njit
+
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.light_samples import ring_ways
+
+_RAYS = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
+
+
+def ray_traced(frame: SoftFrame, radius: float, *, samples: int, first: int = 0) -> np.ndarray:
+    """The share of a pixel's rays that reach the light, (n,) float32, on one thread.
+
+    The rays of a pixel go to a low-discrepancy set of its own, on the disc that the light is from
+    there (`ring_ways`), so that pixels' errors are independent and 0 on average.
+
+    Args:
+        radius: of the light, in the scene's unit; 0 is a point, to which one ray goes.
+        samples: rays of each pixel.
+        first: how many a pixel has had in frames before, so that its next ones go elsewhere.
+    """
+    starts, normals = frame.starts, frame.surface.n_g
+    if radius == 0:
+        ways = frame.centre.astype(np.float32) - starts
+        return _shares(frame, starts, ways[:, None], normals)
+    keys, drawn = frame.surface.pixel, np.full(len(starts), first)
+    radii, counts = np.array([radius], np.float64), np.array([samples], np.int64)
+    size = max(1, _RAYS // samples)
+    ways, origins = (np.empty((size, samples, 3), np.float32) for _ in range(2))
+    found = np.empty(len(starts), np.float32)
+    for begin in range(0, len(starts), size):
+        part = slice(begin, begin + size)
+        some = starts[part]
+        there, here = ways[: len(some)], origins[: len(some)]
+        ring_ways(some, keys[part], drawn[part], frame.centre, radii, counts, there)
+        here[:] = some[:, None]
+        found[part] = _shares(frame, here, there, normals[part])
+    return found
+
+
+def _shares(frame: SoftFrame, starts: np.ndarray, ways: np.ndarray, normals: np.ndarray):
+    """Of each point's ways (n, samples, 3), how many are free: (n,) float32."""
+    blocked = frame.scene.tracer.blocked(starts.reshape(-1, 3), ways.reshape(-1, 3))
+    return _share_free(blocked.reshape(ways.shape[:2]), ways, normals)
+
+
+@njit(cache=True, nogil=True)
+def _share_free(blocked, ways, normals):
+    """As the reference has it: what lies below the surface's own plane is not seen."""
+    points, samples = blocked.shape
+    found = np.empty(points, np.float32)
+    for i in range(points):
+        x, y, z = normals[i, 0], normals[i, 1], normals[i, 2]
+        free = 0
+        for k in range(samples):
+            above = x * ways[i, k, 0] + y * ways[i, k, 1] + z * ways[i, k, 2] > 0
+            free += above and not blocked[i, k]
+        found[i] = free / samples
+    return found
