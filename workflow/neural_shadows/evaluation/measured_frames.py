@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, facing
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.frames.draw_settings import light_map_of
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -47,8 +47,7 @@ class MeasuredFrame:
         self, method: SoftMethod, radius: float, constants: Mapping[str, float]
     ) -> np.ndarray:
         """The method's visibility of a light of a radius, float32; 1 without a surface."""
-        found = method.answer(self.frame, radius, **constants)
-        return self.frame.surface.image(facing(self.frame, found).astype(np.float32), 1.0)
+        return self.frame.surface.image(visibility(method, self.frame, radius, constants), 1.0)
 
 
 def measured_frames(parts: Sequence[Path], meshes: Sequence[Path]) -> Iterator[MeasuredFrame]:

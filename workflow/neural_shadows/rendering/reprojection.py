@@ -7,6 +7,7 @@ from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.cameras import Window, camera_axes
 
 DEPTH_SHARE, NORMAL_DISTANCE = 0.02, 0.4  # what differs by more is another surface
+LEAST_WEIGHT = 1e-3  # of a pixel in the look-up: with less it need not agree
 
 
 def projected(camera, width: int, height: int, points: np.ndarray) -> np.ndarray:
@@ -30,7 +31,7 @@ def seen_before(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Which of a frame's points the frame before shows as well, and where.
 
-    A point counts if all four pixels round it show a surface of its depth, to 2 %, and of its normal,
+    A point counts if all four pixels that its look-up weighs show a surface of its depth, to 2 %, and of its normal,
     to 0.4 (Datta et al. 2022, 3.4; thresholds of Hu et al. 2025's code).
 
     Args:
@@ -42,18 +43,23 @@ def seen_before(
     points = surface.p if was is None else was
     width, height = before.width, before.height
     column, row, depth = projected(before.camera, width, height, points)
-    inside = (depth > 0) & (column >= 0) & (row >= 0) & (column <= width - 1) & (row <= height - 1)
+    near = LEAST_WEIGHT  # rounding must not drop a rim
+    inside = (depth > 0) & (column >= -near) & (row >= -near)
+    inside &= (column <= width - 1 + near) & (row <= height - 1 + near)
     accepted = inside.copy()
     c = np.clip(np.nan_to_num(np.floor(column)), 0, width - 2).astype(np.int64)
     r = np.clip(np.nan_to_num(np.floor(row)), 0, height - 2).astype(np.int64)
     depths = before.image(projected(before.camera, width, height, before.p)[2])
     normals = before.image(before.n_g)
+    x, y = column - c, row - r
     for down in (0, 1):
         for along in (0, 1):
+            weight = np.abs(1 - along - x) * np.abs(1 - down - y)
             there = depths[r + down, c + along]
-            accepted &= np.abs(there - depth) <= DEPTH_SHARE * np.abs(depth)
+            same = np.abs(there - depth) <= DEPTH_SHARE * np.abs(depth)
             away = normals[r + down, c + along] - surface.n_g
-            accepted &= np.linalg.norm(away, axis=1) <= NORMAL_DISTANCE
+            same &= np.linalg.norm(away, axis=1) <= NORMAL_DISTANCE
+            accepted &= same | (weight < LEAST_WEIGHT)
     return accepted, np.stack([column, row])
 
 

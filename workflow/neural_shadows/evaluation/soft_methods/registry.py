@@ -1,13 +1,36 @@
 """All methods for soft shadows by their keys, in the order of tables."""
 
+from functools import partial
+
+from neural_shadows.evaluation.soft_methods.denoised import oidn_denoised, svgf_denoised
 from neural_shadows.evaluation.soft_methods.evsm import evsm
 from neural_shadows.evaluation.soft_methods.hard_map import HARD
 from neural_shadows.evaluation.soft_methods.msm import msm
 from neural_shadows.evaluation.soft_methods.null import null
 from neural_shadows.evaluation.soft_methods.pcf import DISC_PCF, box_pcf
 from neural_shadows.evaluation.soft_methods.pcss import PCSS, PCSS_POST
+from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.evaluation.soft_methods.vsm import vsm
+
+_BY_RAYS = {"with_map": False, "by_rays": True}
+
+
+def _rays(count: int) -> SoftMethod:
+    label = f"{count} ray{'s' if count > 1 else ''}"
+    return SoftMethod(label, partial(ray_traced, samples=count), **_BY_RAYS)
+
+
+def _smoothed(count: int) -> SoftMethod:
+    label = f"{_rays(count).label}, SVGF-like"
+    constants = {"sigma_luminance": (2.0, 4.0, 8.0)}
+    return SoftMethod(label, partial(svgf_denoised, samples=count), constants, **_BY_RAYS)
+
+
+def _denoised(count: int) -> SoftMethod:
+    label = f"{_rays(count).label}, OIDN"
+    return SoftMethod(label, partial(oidn_denoised, samples=count), **_BY_RAYS)
+
 
 METHODS: dict[str, SoftMethod] = {
     "no_shadow": null("No shadow", 1.0),
@@ -25,4 +48,8 @@ METHODS: dict[str, SoftMethod] = {
     "msm_3": msm(3),
     "msm_9": msm(9),
     "msm_15": msm(15, sigma=3.0),
+    # Rays to the light's points, raw and denoised.
+    **{f"rt_{count}": _rays(count) for count in (1, 2, 4, 8, 16, 32, 64)},
+    **{f"rt_{count}_svgf": _smoothed(count) for count in (1, 4, 16)},
+    **{f"rt_{count}_oidn": _denoised(count) for count in (1, 4, 16)},
 }

@@ -15,12 +15,13 @@ class SoftMethod:
     Args:
         label: what tables call it.
         answer: of a frame and the light's radius in the scene's unit, visibilities (n,) float32 in
-            [0, 1]; what faces away from the light is made dark by its caller, for all methods alike.
-            Takes the constants as keyword arguments.
+            [0, 1]. Takes the constants as keyword arguments.
         constants: the values that are tried of each on validation frames; those that give the least
             error there are used, one set for each radius.
         with_map: whether it looks at the light's map.
         of_radius: whether its answer depends on the light's radius.
+        by_rays: whether it sends rays to the light's points. What faces away from the light's centre
+            is made dark for all others: it may see a part of a large light, and rays know.
     """
 
     label: str
@@ -28,6 +29,7 @@ class SoftMethod:
     constants: Mapping[str, Sequence[float]] = field(default_factory=dict)
     with_map: bool = True
     of_radius: bool = True
+    by_rays: bool = False
 
     def settings(self) -> list[dict[str, float]]:
         """Every combination of the constants that is tried; one without any, if it has none."""
@@ -37,6 +39,9 @@ class SoftMethod:
         return found
 
 
-def facing(frame: SoftFrame, visibility: np.ndarray) -> np.ndarray:
-    """The visibility (n,) with what is turned from the light's centre dark."""
-    return np.where(frame.cosines > 0, visibility, np.float32(0))
+def visibility(
+    method: SoftMethod, frame: SoftFrame, radius: float, constants: Mapping[str, float]
+) -> np.ndarray:
+    """How much of a light of a radius each of the frame's points sees, (n,) float32."""
+    found = method.answer(frame, radius, **constants)
+    return found if method.by_rays else np.where(frame.cosines > 0, found, np.float32(0))
