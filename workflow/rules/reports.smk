@@ -37,6 +37,7 @@ rule figure:
         code=lambda wildcards: code(
             f"reports/figures/{SETTINGS['figures'][wildcards.figure]['kind']}",
             figures.encodings(LAYOUT, wildcards.figure),
+            figures.generators(LAYOUT, wildcards.figure),
         ),
     output:
         png=report(

@@ -14,6 +14,7 @@ from neural_shadows.config.base import (
     section_or,
 )
 from neural_shadows.config.experiments import formatted, network_of
+from neural_shadows.config.frame_sets import OwnFrames, measured_scenes
 from neural_shadows.config.scenes import ViewSet
 from neural_shadows.config.tables import Row, rows_of
 from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
@@ -111,6 +112,35 @@ class LearningCurvesFigure(AnyFigure):
     scene: Name | None = Field(None, description="which scene of a table of several")
 
 
+class SoftTableFigure(AnyFigure):
+    """Error over milliseconds of the methods of a table of soft shadows."""
+
+    kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
+    table: Name = Field(description="a table of `soft_methods` in `tables`")
+    radii: list[int] | None = Field(
+        None, min_length=1, description="which radii, counted from 0; by default all but a point"
+    )
+
+
+class SoftPicturesFigure(AnyFigure):
+    """A frame by methods of a table of soft shadows, with their errors, at several radii."""
+
+    kind: Literal["soft_pictures"] = Field(description="`soft_pictures`")
+    table: Name = Field(description="a table of `soft_methods` in `tables`")
+    soft_scene: name_in("soft_scenes") = Field(description="whose first test frame is shown")
+    methods: list[str] = Field(min_length=1, description="which of the table's methods")
+    radii: list[int] | None = Field(
+        None, min_length=1, description="which radii, counted from 0; by default three"
+    )
+
+
+class PenumbraFigure(AnyFigure):
+    """The widths of penumbrae by Neural Shadow Mapping's model, beside what they measure."""
+
+    kind: Literal["penumbra_model"] = Field(description="`penumbra_model`")
+    frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
+
+
 class NetworkFigure(AnyFigure):
     """What a network holds: a slice or the surface of a field, or any one's depths for a light."""
 
@@ -132,6 +162,9 @@ Figure = by_kind(
     DirectionsFigure,
     SceneFigure,
     SamplingFigure,
+    SoftTableFigure,
+    SoftPicturesFigure,
+    PenumbraFigure,
 )
 KINDS_OF_TABLE = {
     "pictures": ("comparison", "networks"),
@@ -141,6 +174,8 @@ KINDS_OF_TABLE = {
     "pareto": ("networks",),
     "learning_curves": ("learning_curves",),
     "cost": ("cost",),
+    "soft_equal_time": ("soft_methods",),
+    "soft_pictures": ("soft_methods",),
 }
 
 
@@ -184,6 +219,8 @@ def check(config: "Config") -> None:
                             f"{key}.curves: {curve.experiment!r} is built without training and has "
                             "no loss; leave it out"
                         )
+            case SoftTableFigure() | SoftPicturesFigure():
+                _check_soft(config, key, figure)
             case NetworkFigure(kind="field_slice" | "field_3d"):
                 encodings = {name: network_of(config, name).encoding for name in config.experiments}
                 fields = [name for name, one in encodings.items() if one == "occupancy_field"]
@@ -200,3 +237,20 @@ def check(config: "Config") -> None:
                 seen = config.scenes[scene_of(config, figure)].view_sets
                 for view_set in getattr(figure, "view_sets", []):
                     check_among(f"{key}.view_sets", view_set, seen)
+
+
+def _check_soft(config: "Config", key: str, figure: SoftTableFigure | SoftPicturesFigure) -> None:
+    table = config.tables[figure.table]
+    frames = config.frame_sets[table.frame_set]
+    if isinstance(frames, OwnFrames):
+        raise ValueError(f"{key}.table: {figure.table!r} is of frames of a user's own")
+    for k in figure.radii or []:
+        if not 0 <= k < len(frames.radii):
+            raise ValueError(
+                f"{key}.radii: {k} is not among 0 to {len(frames.radii) - 1}, the radii of "
+                f"{table.frame_set!r} counted from 0"
+            )
+    if isinstance(figure, SoftPicturesFigure):
+        check_among(f"{key}.soft_scene", figure.soft_scene, measured_scenes(frames))
+        for method in figure.methods:
+            check_among(f"{key}.methods", method, table.methods)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 Section = dict[str, Any]
 
+# Figures of tables whose rows are no methods of a scene's frames.
+WITHOUT_ROWS = ("cost", "soft_equal_time", "soft_pictures")
+
 
 def resolved(config: "Config") -> Section:
     """The sections of a configuration as Snakemake's `lookup` finds them.
@@ -99,7 +102,7 @@ def _figure(config: "Config", name: str) -> Section:
     if isinstance(figure, LossFigure):
         for curve in section["curves"]:
             curve["label"] = formatted(config, curve["experiment"], curve["label"])
-    elif hasattr(figure, "table") and figure.kind != "cost":
+    elif hasattr(figure, "table") and figure.kind not in WITHOUT_ROWS:
         section["rows"] = rows_of_figure(config, figure)
         if not isinstance(figure, TableFigure):
             section["scene"] = scene_of(config, figure)

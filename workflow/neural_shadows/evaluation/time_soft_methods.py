@@ -37,7 +37,7 @@ def time_soft_methods(
         parts: of test frames, one a scene. constants: of the methods, in their order.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, of its answer alone; `map_ms` of rasterising the light's map, which those that
-            look at one need before; and the map's bytes.
+            look at one need before; and the numbers in a texel, and the map's `texels`.
 
     Raises:
         InputError: an input file cannot be read.
@@ -68,11 +68,11 @@ def time_soft_methods(
             "frames": len(frames),
             "repeats": repeats,
             "map_ms": float(np.median(maps)),
-            "map_bytes": 4 * frames[0].frame.light_map.count,
+            "texels": frames[0].frame.light_map.count,
             "methods": {
                 name: {
                     "ms": [float(np.median(each)) for each in taken[name]],
-                    "with_map": METHODS[name].with_map,
+                    "texel_floats": METHODS[name].texel_floats,
                 }
                 for name in methods
             },

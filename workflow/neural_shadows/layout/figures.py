@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from neural_shadows.layout import tables
+from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.layout import frame_sets, soft_methods, tables
 from neural_shadows.layout.layout import Layout
 
 # What a kind's function is told beside its title; those that are not here, the scene alone.
@@ -18,6 +19,9 @@ TOLD = {
     "view_directions": ("seed",),
     "overview": ("scene", "sampling", "seed"),
     "quadtree": ("scene", "sampling", "seed"),
+    "soft_equal_time": ("radii", "run"),
+    "soft_pictures": ("labels", "radii", "run"),
+    "penumbra_model": ("run",),
 }
 
 
@@ -55,8 +59,21 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
                 "losses": tables.networks(layout, curves, "loss.csv"),
                 "trainings": tables.networks(layout, curves, "training.json"),
             }
-        case "widths" | "pareto" | "learning_curves":
+        case "widths" | "pareto" | "learning_curves" | "soft_equal_time":
             return {"table": paths.report(f"{settings['table']}.csv")}
+        case "soft_pictures":
+            where = settings["soft_scene"], soft_methods.frame_set(layout, settings["table"])
+            return {
+                "part": frame_sets.parts(layout, *where, "test")[0],
+                "answers": [
+                    paths.soft_evaluation("npz", *where, method) for method in settings["methods"]
+                ],
+            }
+        case "penumbra_model":
+            return {
+                "parts": soft_methods.first_tests(layout, settings["frame_set"]),
+                "meshes": soft_methods.all_meshes(layout, settings["frame_set"]),
+            }
         case "cost":
             return {"costs": tables.costs(layout, settings["table"])}
         case "view_directions":
@@ -78,6 +95,8 @@ def arguments(layout: Layout, figure: str) -> dict[str, Any]:
         values["seed"] = layout.entry("scenes", scene)["seed"]
     if scene is not None and settings["kind"] != "pareto":
         values["scene"] = layout.entry("scenes", scene)["scene"]
+    if settings["kind"] == "soft_pictures":
+        values["labels"] = {one: METHODS[one].label for one in settings["methods"]}
     if "sampling" in settings:
         values["sampling"] = layout.entry("samplings", settings["sampling"])
     return {key: values[key] for key in ("title", *TOLD.get(settings["kind"], ("scene",)))}
@@ -106,3 +125,11 @@ def encodings(layout: Layout, figure: str) -> set[str]:
     settings = layout.entry("figures", figure)
     rows = settings["rows"] if settings["kind"] == "errors_3d" else [settings]
     return layout.encodings(tables.experiments_of(rows))
+
+
+def generators(layout: Layout, figure: str) -> list[str]:
+    """The generators of the scenes that a figure looks into."""
+    settings = layout.entry("figures", figure)
+    if settings["kind"] != "penumbra_model":
+        return []
+    return soft_methods.all_generators(layout, settings["frame_set"])

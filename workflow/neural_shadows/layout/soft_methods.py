@@ -67,11 +67,15 @@ def sequences(layout: Layout, scene: str, frame_set: str) -> list[str]:
     return [one for what in SEQUENCES for one in frame_sets.parts(layout, scene, frame_set, what)]
 
 
+def first_tests(layout: Layout, frame_set: str) -> list[str]:
+    """The first part of each scene's test frames."""
+    scenes = frame_sets.measured_scenes(layout, frame_set)
+    return [frame_sets.parts(layout, scene, frame_set, "test")[0] for scene in scenes]
+
+
 def timed_parts(layout: Layout, table: str) -> list[str]:
-    """The parts whose first frames are timed: one of each scene."""
-    one = frame_set(layout, table)
-    scenes = frame_sets.measured_scenes(layout, one)
-    return [frame_sets.parts(layout, scene, one, "test")[0] for scene in scenes]
+    """The parts whose first frames are timed."""
+    return first_tests(layout, frame_set(layout, table))
 
 
 def timed_meshes(layout: Layout, table: str) -> list[str]:

@@ -30,7 +30,8 @@ def moment_method(
         visibility: of moments (n, moments) and depths (n,), in [0, 1].
     """
     answer = partial(_answer, kernel=kernel, of=of, visibility=visibility)
-    return SoftMethod(label, answer, CONSTANTS, of_radius=False)
+    floats = of(np.zeros(1)).shape[-1]
+    return SoftMethod(label, answer, CONSTANTS, texel_floats=floats, of_radius=False)
 
 
 def _answer(

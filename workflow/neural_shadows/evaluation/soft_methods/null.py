@@ -12,4 +12,4 @@ def null(label: str, visibility: float) -> SoftMethod:
     def answer(frame: SoftFrame, radius: float) -> np.ndarray:
         return np.full(len(frame.surface.p), visibility, np.float32)
 
-    return SoftMethod(label, answer, with_map=False, of_radius=False)
+    return SoftMethod(label, answer, texel_floats=0, of_radius=False)

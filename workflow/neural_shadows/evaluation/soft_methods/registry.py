@@ -13,7 +13,7 @@ from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.evaluation.soft_methods.vsm import vsm
 
-_BY_RAYS = {"with_map": False, "by_rays": True}
+_BY_RAYS = {"texel_floats": 0, "by_rays": True}
 
 
 def _rays(count: int) -> SoftMethod:

@@ -18,7 +18,7 @@ class SoftMethod:
             [0, 1]. Takes the constants as keyword arguments.
         constants: the values that are tried of each on validation frames; those that give the least
             error there are used, one set for each radius.
-        with_map: whether it looks at the light's map.
+        texel_floats: float32 numbers in a texel of the map that it looks at; 0 for none.
         of_radius: whether its answer depends on the light's radius.
         by_rays: whether it sends rays to the light's points. What faces away from the light's centre
             is made dark for all others: it may see a part of a large light, and rays know.
@@ -27,7 +27,7 @@ class SoftMethod:
     label: str
     answer: Callable[..., np.ndarray]
     constants: Mapping[str, Sequence[float]] = field(default_factory=dict)
-    with_map: bool = True
+    texel_floats: int = 1
     of_radius: bool = True
     by_rays: bool = False
 

@@ -75,7 +75,7 @@ def write(
         *_describe_constants(chosen, labels, times["radii"]),
         f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, one thread "
         f"of {times['machine']['cpu']}; methods that look at a map have {times['map_ms']:.1f} ms of "
-        "rasterising it in theirs. KiB: the map. What only needs rays has none, but the mesh and "
+        "rasterising it in theirs. KiB: the map, with its moments. What only needs rays has none, but the mesh and "
         "its tree, which all have for the primary rays.",
         f"E: mean of exp(3 |change|) − 1 along a point's way through sequences, at a radius of "
         f"{times['radii'][len(times['radii']) // 2]:.3g} m; of the exact shadow itself "
@@ -104,7 +104,7 @@ def soft_table(
     for method, label in labels.items():
         mine = frames[frames["method"] == method]
         timed = times["methods"][method]
-        with_map = timed["with_map"]
+        floats = timed["texel_floats"]
         for radius, length in enumerate(times["radii"]):
             here = mine[mine["radius"] == radius]
             values = {name: one["value"].to_numpy() for name, one in here.groupby("metric")}
@@ -119,9 +119,9 @@ def soft_table(
             some = here[here["scene"].isin(unseen) & (here["metric"] == "mse")]["value"]
             row["mse_unseen"] = _mean(some.to_numpy())
             row["own_ms"] = timed["ms"][radius]
-            row["map_ms"] = times["map_ms"] if with_map else 0.0
+            row["map_ms"] = times["map_ms"] * (floats > 0)
             row["ms"] = row["own_ms"] + row["map_ms"]
-            row["bytes"] = times["map_bytes"] if with_map else 0
+            row["bytes"] = 4 * floats * times["texels"]
             rows.append(row)
     table = pd.DataFrame(rows)
     flicker = found[found["metric"].isin(FLICKER)]

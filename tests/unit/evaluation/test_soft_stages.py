@@ -1,0 +1,136 @@
+"""The stages of methods for soft shadows, on a few tiny frames."""
+
+import json
+
+import numpy as np
+import pytest
+
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.evaluate_soft import evaluate_soft
+from neural_shadows.evaluation.measured_frames import measured_frames
+from neural_shadows.evaluation.soft_answers import read_answer
+from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.time_soft_methods import time_soft_methods
+from neural_shadows.evaluation.tune_soft_method import tune_soft_method
+from neural_shadows.frames.render_frames import render_frames
+
+RADII = [0, 0.1, 0.25]
+FRAMES = {
+    **{"width": 48, "height": 24, "fov": 55, "of": None, "blur": 0.0},
+    "light_map": {"kind": "perspective", "fov": 120, "resolution": 64},
+    **{"radii": RADII, "radius_unit": "metres"},
+    "twins": {"count": 0, "light": 0.0, "eye": 0.0, "turn_deg": 0.0},
+}
+SCENE = {"generate": "blinds", "seed": 3, "inserted": {}}
+NO_LPIPS = {"available": False}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Parts of two uses and of two sequences, as lie in results/frames/<scene>/<set>."""
+    folder = tmp_path_factory.mktemp("results")
+    (folder / "lpips.json").write_text(json.dumps(NO_LPIPS))
+    told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 2, "samples": 8}
+    for use in ("validation", "test", "camera", "light"):
+        stem = folder / f"{use}_000"
+        names = ("json", "buffers.npy", "targets.npy", "valid.npy")
+        render_frames([], *(stem.with_name(f"{stem.name}.{n}") for n in names), use=use, **told)
+    return folder
+
+
+def tune(folder, method):
+    out = folder / f"{method}.json"
+    tune_soft_method([folder / "validation_000.json"], [], out, method=method)
+    return json.loads(out.read_text())
+
+
+def test_the_constants_of_least_error_are_chosen(folder):
+    record = tune(folder, "pcf_disc")
+    method = METHODS["pcf_disc"]
+    frames = [*measured_frames([folder / "validation_000.json"], [])]
+    for k, radius in enumerate(RADII):
+        errors = []
+        for constants in method.settings():
+            pairs = [(f.answered(method, radius, constants), f.target[k], f.valid) for f in frames]
+            square = sum(np.square(found - target)[valid].sum() for found, target, valid in pairs)
+            errors.append(square / sum(valid.sum() for *_, valid in pairs))
+        chosen = record["radii"][k]
+        assert chosen["constants"] == method.settings()[int(np.argmin(errors))]
+        assert chosen["mse"] == pytest.approx(min(errors), rel=1e-4)
+    # A larger light asks for a wider disc.
+    assert record["radii"][0]["constants"]["texels"] < record["radii"][2]["constants"]["texels"]
+
+
+def test_what_has_no_constants_needs_no_frames(folder):
+    assert [one["constants"] for one in tune(folder, "rt_4")["radii"]] == [{}] * 3
+
+
+def evaluate(folder, method):
+    target = folder / "blinds" / "frames"
+    target.mkdir(parents=True, exist_ok=True)
+    tune(folder, method)
+    evaluate_soft(
+        [folder / "test_000.json"],
+        [folder / "camera_000.json", folder / "light_000.json"],
+        [],
+        folder / f"{method}.json",
+        folder / "lpips.json",
+        target / f"{method}.csv",
+        target / f"{method}.npz",
+        method=method,
+    )
+    return read_soft_metrics([target / f"{method}.csv"])
+
+
+def means(table):
+    return table.groupby(["radius", "metric"])["value"].mean().unstack()
+
+
+def test_metrics_of_methods(folder):
+    found = {method: evaluate(folder, method) for method in ("no_shadow", "hard", "rt_64")}
+    table = found["rt_64"]
+    assert set(table["scene"]) == {"blinds"} and set(table["method"]) == {"rt_64"}
+    assert len(table[table["metric"] == "mse"]) == 2 * len(RADII)
+    mse = {method: means(one)["mse"] for method, one in found.items()}
+    assert np.all(mse["rt_64"] < mse["hard"]) and np.all(mse["hard"] < mse["no_shadow"])
+    nothing = means(found["no_shadow"])
+    assert np.allclose(nothing["light_leak"] + nothing["false_shadow"], nothing["l1"])
+    assert np.all(nothing["light_leak"] > 10 * nothing["false_shadow"])
+    # The exact shadow flickers alike, whoever asks; no shadow hardly does.
+    flicker = {method: means(one).loc[1] for method, one in found.items()}
+    same = [one["instability_reference"] for one in flicker.values()]
+    assert np.ptp(same) == 0 < same[0]
+    assert flicker["no_shadow"]["instability"] < flicker["hard"]["instability"]
+
+
+def test_answers_are_kept(folder):
+    evaluate(folder, "hard")
+    (measured, _) = measured_frames([folder / "test_000.json"], [])
+    found = measured.answered(METHODS["hard"], 0.1, {})
+    kept = read_answer(folder / "blinds/frames/hard.npz", "test_000", 0, 1)
+    assert np.array_equal(kept, found)
+    with pytest.raises(InputError, match="hard.npz: damaged"):
+        read_answer(folder / "blinds/frames/hard.npz", "test_001", 0, 1)
+
+
+def test_times(folder):
+    names = ["hard", "msm_3", "rt_1"]
+    files = [folder / f"{name}.json" for name in names]
+    for name in names:
+        tune(folder, name)
+    out = folder / "times.json"
+    time_soft_methods([folder / "test_000.json"], files, [], out, methods=names, repeats=1)
+    found = json.loads(out.read_text())
+    assert found["texels"] == 64**2 and found["map_ms"] > 0 and found["frames"] == 1
+    floats = {name: found["methods"][name]["texel_floats"] for name in names}
+    assert floats == {"hard": 1, "msm_3": 4, "rt_1": 0}
+    assert all(ms > 0 for name in names for ms in found["methods"][name]["ms"])
+
+
+def test_frames_without_a_scene_are_refused(folder, tmp_path):
+    about = json.loads((folder / "test_000.json").read_text())
+    del about["scene"]
+    (tmp_path / "test_000.json").write_text(json.dumps(about))
+    with pytest.raises(InputError, match="has no 'scene'"):
+        next(measured_frames([tmp_path / "test_000.json"], []))

@@ -1,0 +1,117 @@
+"""Settings of frames: clear of objects, the same from the same seed, and refused where none can be."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from neural_shadows.errors import InputError
+from neural_shadows.frames.draw_sequences import SEQUENCES, STEP, draw_sequence
+from neural_shadows.frames.draw_settings import (
+    EYE_CLEARANCE,
+    LIGHT_CLEARANCE,
+    FrameKind,
+    draw_setting,
+    is_clear,
+    light_map_of,
+    twin_of,
+)
+from neural_shadows.frames.setting import setting_of
+from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.rendering.surface import see_surface
+from neural_shadows.scenes.arrangement import Region
+
+PICTURE = {"kind": "perspective", "fov": 120, "resolution": 64}
+KIND = FrameKind(64, 32, 55, None, PICTURE, radius=0.25)
+WINDOW = FrameKind(64, 64, 55, (512, 256), {"kind": "cube", "resolution": 64}, radius=0.03)
+
+
+@pytest.fixture(scope="module")
+def room():
+    return SoftScene({"generate": "room", "seed": 1, "inserted": {}}, [])
+
+
+def drawn(room, kind=KIND, seed=0):
+    return draw_setting(room, kind, np.random.default_rng(seed))
+
+
+@pytest.mark.parametrize("kind", [KIND, WINDOW])
+def test_settings_are_clear_and_see_a_shadow(room, kind):
+    scene = room.at_rest
+    for seed in range(4):
+        setting = drawn(room, kind, seed)
+        assert is_clear(scene, setting.camera.eye, EYE_CLEARANCE * scene.size)
+        assert is_clear(scene, setting.centre, LIGHT_CLEARANCE * scene.size + kind.radius)
+        surface = see_surface(scene, setting.camera, kind.width, kind.height)
+        assert len(surface.p) > 0.45 * kind.width * kind.height
+        light_map = light_map_of(kind.light_map, room, setting.centre)
+        assert np.mean(light_map.texels_of(surface.p - setting.centre) >= 0) > 0.97
+
+
+def test_the_seed_alone_decides_and_json_keeps_all(room):
+    one, same, other = drawn(room, WINDOW), drawn(room, WINDOW), drawn(room, WINDOW, 1)
+    assert one.as_json() == same.as_json() == setting_of(one.as_json()).as_json()
+    assert one.as_json() != other.as_json()
+
+
+def test_a_light_inside_an_object_is_told(room):
+    middle = {o.name: o.vertices for o in room.arrangement.objects}["table"].mean(0)
+    spoiled = SoftScene({"generate": "room", "seed": 1, "inserted": {}}, [])
+    at = Region(middle, middle)
+    spoiled.arrangement = replace(room.arrangement, lights=at)
+    with pytest.raises(InputError, match=r"room: none of .* the light is in an object or near"):
+        drawn(spoiled)
+
+
+def test_a_camera_in_a_wall_is_told(room):
+    spoiled = SoftScene({"generate": "room", "seed": 1, "inserted": {}}, [])
+    wall = np.array([0.0, 0.6, -2.55])
+    spoiled.arrangement = replace(room.arrangement, cameras=Region(wall, wall))
+    with pytest.raises(InputError, match=r"the camera is in an object or near"):
+        drawn(spoiled)
+
+
+def test_a_narrow_map_is_told(room):
+    narrow = replace(KIND, light_map={**PICTURE, "fov": 10})
+    with pytest.raises(InputError, match=r"outside the light's map \(\d+\)"):
+        drawn(room, narrow)
+
+
+def test_twins_are_near(room):
+    setting, size = drawn(room), room.at_rest.size
+    told = {"light": 0.007, "eye": 0.001, "turn_deg": 1.0}
+    twins = [twin_of(setting, size, told, np.random.default_rng(k)) for k in range(30)]
+    moved = np.array([twin.centre - setting.centre for twin in twins])
+    assert 0.006 * size < np.abs(moved).max() <= 0.007 * size
+    eyes = np.array([twin.camera.eye - setting.camera.eye for twin in twins])
+    assert 0.0008 * size < np.abs(eyes).max() <= 0.001 * size
+    views = [t.camera.target - t.camera.eye for t in twins]
+    views /= np.linalg.norm(views, axis=1, keepdims=True)
+    straight = setting.camera.target - setting.camera.eye
+    turned = np.degrees(np.arccos(np.clip(views @ straight / np.linalg.norm(straight), -1, 1)))
+    assert 0.5 < turned.max() <= np.sqrt(3)
+
+
+@pytest.mark.parametrize("what", SEQUENCES)
+def test_sequences_move_what_they_are_named_for(room, what):
+    settings = draw_sequence(room, KIND, what, 5, np.random.default_rng(3))
+    eyes, lights = (np.array(one) for one in zip(*((s.camera.eye, s.centre) for s in settings)))
+    steps = [np.linalg.norm(np.diff(one, axis=0), axis=1) for one in (eyes, lights)]
+    motions = np.array([s.motion for s in settings])
+    moves = {"camera": (1, 0, 0), "light": (0, 1, 0), "both": (1, 1, 0), "object": (0, 0, 1)}[what]
+    assert (steps[0].max() > 0, steps[1].max() > 0, np.ptp(motions, axis=0).max() > 0) == moves
+    assert max(step.max() for step in steps) < 3 * STEP * room.at_rest.size
+    turns = motions[:, :3, :3]
+    assert np.allclose(turns @ turns.transpose(0, 2, 1), np.eye(3))
+
+
+def test_where_the_mover_was(room):
+    """Its points go back with it; those of all else stay."""
+    settings = draw_sequence(room, KIND, "object", 3, np.random.default_rng(3))
+    scene = room.moved(settings[2].motion)
+    vertices, faces = scene.joined.vertices, scene.joined.faces
+    centres = vertices[faces].mean(1)
+    was = room.before(scene, np.arange(len(faces)), centres, *(s.motion for s in settings[2:0:-1]))
+    earlier = room.moved(settings[1].motion).joined
+    assert np.allclose(was, earlier.vertices[faces].mean(1), atol=1e-5)
+    assert 0 < np.count_nonzero(np.linalg.norm(was - centres, axis=1) > 1e-4) < len(faces) / 4

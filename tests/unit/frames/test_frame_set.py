@@ -1,0 +1,101 @@
+"""A part of a frame set, from its stage to its reader; and what is wrong with one."""
+
+import json
+
+import numpy as np
+import pytest
+
+from neural_shadows.errors import InputError
+from neural_shadows.frames.buffers import CHANNELS
+from neural_shadows.frames.frame_set import FrameSetPart, check_values
+from neural_shadows.frames.render_frames import render_frames
+
+FRAMES = {
+    **{"width": 32, "height": 16, "fov": 55, "of": None, "blur": 0.7},
+    "light_map": {"kind": "perspective", "fov": 120, "resolution": 64},
+    **{"radii": [0, 0.1, 0.25], "radius_unit": "metres"},
+    "twins": {"count": 3, "light": 0.007, "eye": 0.001, "turn_deg": 0.0},
+}
+SCENE = {"generate": "blinds", "seed": 3, "inserted": {}}
+
+
+def render(folder, first=0, last=2, use="train", **changed):
+    paths = [folder / f"{use}_000.{end}" for end in ("json", "buffers.npy", "targets.npy")]
+    told = {"use": use, "first": first, "last": last, "samples": 2, "twins": 2} | changed
+    render_frames([], *paths, folder / f"{use}_000.valid.npy", scene=SCENE, frames=FRAMES, **told)
+    return FrameSetPart(paths[0])
+
+
+@pytest.fixture(scope="module")
+def part(tmp_path_factory):
+    return render(tmp_path_factory.mktemp("part"))
+
+
+def test_what_is_kept(part):
+    assert len(part) == 2 and part.radii == [0, 0.1, 0.25]
+    assert part.buffers.shape == (2, 3, len(CHANNELS), 16, 32)
+    assert part.targets.shape == (2, 3, 16, 32) and part.valid.shape == (2, 3, 16, 32)
+    assert part.targets.min() >= 0 and part.targets.max() <= 1
+    check_values(part)
+    # A hard shadow has no blur, but eight places a pixel.
+    assert np.all(np.round(8 * part.targets[:, 0].astype(float)) == 8 * part.targets[:, 0])
+
+
+def test_twins_are_other_pictures_of_nearly_the_same(part):
+    d = part.buffers[:, :, CHANNELS.index("d")].astype(float)
+    z = part.buffers[:, :, CHANNELS.index("z")].astype(float)
+    assert np.all(np.abs(z[:, 1:] - z[:, :1]).max((2, 3)) > 0)
+    assert np.median(np.abs(d[:, 1:] - d[:, :1])) < 0.01
+
+
+def test_a_frame_does_not_depend_on_its_part(part, tmp_path):
+    alone = render(tmp_path, first=1)
+    assert np.array_equal(alone.buffers[0], part.buffers[1])
+    assert np.array_equal(alone.targets[0], part.targets[1])
+
+
+def test_uses_have_frames_of_their_own(part, tmp_path):
+    other = render(tmp_path, use="test", twins=0)
+    assert other.setting(0).as_json() != part.setting(0).as_json()
+    assert other.buffers.shape[1] == 1
+
+
+@pytest.mark.parametrize(
+    "change, told",
+    [
+        ({"width": 31}, "holds float16 .* belongs"),
+        ({"radii": [0, -0.1, 0.2]}, "radius below 0"),
+        ({"channels": ["z"]}, "channels z; should be z, gap"),
+        ({"size": None}, "'size'"),
+    ],
+)
+def test_a_json_that_does_not_fit(part, tmp_path, change, told):
+    about = {key: value for key, value in (dict(part.about) | change).items() if value is not None}
+    copy = tmp_path / part.frames_json.name
+    copy.write_text(json.dumps(about))
+    for stem in ("buffers", "targets", "valid"):
+        name = f"{part.frames_json.stem}.{stem}.npy"
+        (tmp_path / name).symlink_to(part.frames_json.with_name(name))
+    with pytest.raises(InputError, match=told):
+        _ = FrameSetPart(copy).targets
+
+
+def test_a_truncated_shard(part, tmp_path):
+    copy = tmp_path / part.frames_json.name
+    copy.write_bytes(part.frames_json.read_bytes())
+    whole = part.frames_json.with_suffix(".buffers.npy").read_bytes()
+    copy.with_suffix(".buffers.npy").write_bytes(whole[:-100])
+    with pytest.raises(InputError, match=r"test_000|train_000.buffers.npy: damaged"):
+        _ = FrameSetPart(copy).buffers
+
+
+def test_not_a_number(part, tmp_path):
+    copy = tmp_path / part.frames_json.name
+    copy.write_bytes(part.frames_json.read_bytes())
+    for stem in ("buffers", "targets"):
+        array = np.array(getattr(part, stem))
+        if stem == "buffers":
+            array[1, 0, 0, 3, 4] = np.nan
+        np.save(copy.with_suffix(f".{stem}.npy"), array)
+    with pytest.raises(InputError, match="buffers of frame 1 has NaN"):
+        check_values(FrameSetPart(copy))

@@ -1,0 +1,113 @@
+"""The table of methods for soft shadows, and its figures, from made numbers."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from neural_shadows.evaluation.soft_metrics import write_soft_metrics
+from neural_shadows.reports.figures import soft_equal_time, soft_pictures
+from neural_shadows.reports.tables import soft_methods
+
+LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "no_shadow": "No shadow"}
+MSE = {"hard": 0.02, "rt_4": 0.01, "no_shadow": 0.1}
+TIMES = {
+    **{"width": 8, "height": 4, "radii": [0, 0.25], "frames": 2, "repeats": 3},
+    **{"map_ms": 10.0, "texels": 64, "machine": {"cpu": "a CPU"}},
+    "methods": {
+        "hard": {"ms": [1.0, 1.0], "texel_floats": 1},
+        "rt_4": {"ms": [4.0, 16.0], "texel_floats": 0},
+        "no_shadow": {"ms": [0.1, 0.1], "texel_floats": 0},
+    },
+}
+RUN = {"scale": "test", "seed": 1}
+
+
+@pytest.fixture
+def written(tmp_path):
+    paths = []
+    for scene in ("room", "tree"):
+        for method, mse in MSE.items():
+            path = tmp_path / scene / "frames" / f"{method}.csv"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            rows = [
+                {"part": "test_000", "frame": frame, "radius": k, "metric": name, "value": value}
+                for frame in range(6)
+                for k in (0, 1)
+                for name, value in (
+                    ("mse", mse * (1 + k) * (2 if scene == "tree" else 1) + 1e-4 * frame),
+                    ("l1", mse),
+                    ("mse_umbra", np.nan if frame else mse),
+                )
+            ]
+            if scene == "room":
+                key = {"part": "light_000", "frame": 0, "radius": 1}
+                rows.append({**key, "metric": "instability", "value": mse})
+                rows.append({**key, "metric": "instability_reference", "value": 0.5})
+            write_soft_metrics(path, rows)
+            paths.append(path)
+    times, lpips = tmp_path / "times.json", tmp_path / "lpips.json"
+    times.write_text(json.dumps(TIMES))
+    lpips.write_text(json.dumps({"available": False}))
+    constants = []
+    for method in LABELS:
+        tried = {"bias": [1, 3]} if method == "hard" else {}
+        chosen = {"constants": dict.fromkeys(tried, 3), "at_end": [*tried], "mse": 0.1}
+        constants.append(tmp_path / f"{method}.json")
+        record = {"method": method, "tried": tried, "radii": [chosen, chosen]}
+        constants[-1].write_text(json.dumps(record))
+    csv, md = tmp_path / "soft_methods.csv", tmp_path / "soft_methods.md"
+    soft_methods.write(
+        soft_metrics=paths,
+        soft_times=times,
+        soft_constants=constants,
+        lpips_json=lpips,
+        csv=csv,
+        md=md,
+        title="Soft shadows",
+        labels=LABELS,
+        unseen=["tree"],
+        run=RUN,
+    )
+    return csv, md
+
+
+def test_means_over_frames_of_all_scenes(written):
+    table = pd.read_csv(written[0]).set_index(["method", "radius"])
+    assert [*table.index.unique(0)] == [*LABELS]
+    row = table.loc["hard", 1]
+    assert row["mse"] == pytest.approx(0.02 * 2 * 1.5 + 2.5e-4) and row["frames"] == 12
+    assert row["mse_low"] < row["mse"] < row["mse_high"]
+    assert row["mse_unseen"] == pytest.approx(0.02 * 2 * 2 + 2.5e-4)
+    assert row["psnr_pooled"] == pytest.approx(-10 * np.log10(row["mse"]), abs=1e-3)
+    assert row["mse_umbra"] == pytest.approx(0.02)
+    assert row["instability"] == 0.02 and np.isnan(table.loc["hard", 0]["instability"])
+
+
+def test_what_looks_at_a_map_waits_for_it(written):
+    table = pd.read_csv(written[0]).set_index(["method", "radius"])
+    assert table.loc[("hard", 1), "ms"] == 11 and table.loc[("rt_4", 1), "ms"] == 16
+    assert table.loc[("hard", 1), "bytes"] == 256 and table.loc[("rt_4", 1), "bytes"] == 0
+
+
+def test_notes_say_constants_and_where_they_end(written):
+    text = written[1].read_text()
+    assert "Shadow map, by radius: bias 3, 3 (bias at an end of what was tried)." in text
+    assert "unseen scenes*: tree" in text and "FLIP ↓" not in text  # of which there is none here
+
+
+def test_error_over_time(written, tmp_path):
+    outputs = tmp_path / "figure.png", tmp_path / "figure.svg"
+    soft_equal_time.draw(written[0], *outputs, title="Equal time", radii=None, run=RUN)
+    text = outputs[1].read_text()
+    assert "4 rays: MSE 300" not in text and "4 rays: MSE" in text and "16.0 ms" in text
+    assert "light of 0.25 m radius" in text and "point light" not in text
+
+
+def test_strips_show_what_is_too_dark_and_too_bright():
+    error = np.array([[0.0, 0.5, -0.5, 0.25]])
+    colours = soft_pictures.coloured(error)
+    assert np.allclose(colours[0, 0], 1)
+    assert colours[0, 1].argmax() == 2 and colours[0, 2].argmax() == 0  # blue leaks, orange is dark
+    assert np.allclose(colours[0, 3], (1 + colours[0, 1]) / 2)

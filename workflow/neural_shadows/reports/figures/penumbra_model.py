@@ -1,0 +1,117 @@
+"""The width that Neural Shadow Mapping's model gives penumbrae, beside what they measure (3.6)."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from scipy.ndimage import gaussian_gradient_magnitude, maximum_filter, minimum_filter
+
+from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
+from neural_shadows.frames.features import penumbra_model
+from neural_shadows.rendering.light_samples import ring_ways
+from neural_shadows.reports.figures.style import COLOURS, GRID, Section, new_figure, write_figure
+from neural_shadows.running.stage import run_stage
+
+RAYS = 16  # to the largest light, for the nearest and the farthest blocker
+MIDDLE = (0.35, 0.65)  # visibilities of a penumbra's middle, where its slope says its width
+SMOOTH = 1.5  # pixels of the slope's Gaussian
+SHOWN = 4000  # points a radius
+
+
+def draw(
+    parts: list[Path], meshes: list[Path], png: Path, svg: Path, *, title: str, run: Section
+) -> None:
+    """Draw each penumbra pixel's width by the model over its measured width, for each radius.
+
+    Args:
+        parts: of test frames; the first of each is used. meshes: see `measured_frames`.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    frames = [one for one in measured_frames(parts, meshes) if one.number == 0]
+    radii = frames[0].part.radii
+    found = {
+        radius: np.concatenate([widths(one, k) for one in frames], axis=1)
+        for k, radius in enumerate(radii)
+        if radius > 0
+    }
+    figure = model_figure(found, title=f"{title} ({run['scale']} scale)", seed=run["seed"])
+    write_figure(figure, png, svg)
+
+
+def widths(measured: MeasuredFrame, k: int) -> np.ndarray:
+    """Measured width and the model's, in pixels, of a frame's pixels in a penumbra's middle: (2, n).
+
+    Across a straight edge the visibility of a disc falls by 4 / (π w) a pixel in the middle of a
+    penumbra of w pixels. Pixels near another surface are left out.
+    """
+    frame, target = measured.frame, measured.target[k]
+    surface = frame.surface
+    slope = gaussian_gradient_magnitude(target, SMOOTH)
+    depth = surface.depth_image()
+    near = maximum_filter(depth, 5) - minimum_filter(depth, 5) < 0.03 * depth
+    middle = (target > MIDDLE[0]) & (target < MIDDLE[1]) & near & measured.valid & (slope > 1e-4)
+    chosen = middle.ravel()[surface.pixel]
+    nearest, farthest = _blockers(measured, chosen)
+    distances = np.linalg.norm(frame.ways[chosen], axis=1)
+    model = penumbra_model(distances, nearest, farthest, measured.part.radii[k])
+    eye = np.linalg.norm(surface.p[chosen] - surface.camera.eye, axis=1)
+    pixels = model * surface.camera.focal(surface.height) / eye
+    return np.stack([4 / (np.pi * slope.ravel()[surface.pixel[chosen]]), pixels])
+
+
+def _blockers(measured: MeasuredFrame, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distance from the light of the nearest and the farthest first blocker, (n,); NaN for none."""
+    frame, pixel = measured.frame, measured.frame.surface.pixel[chosen]
+    starts = frame.starts[chosen]
+    ways = np.empty((len(starts), RAYS, 3), np.float32)
+    first, counts = np.zeros(len(starts), np.int64), np.array([RAYS])
+    largest = np.array([measured.part.radii[-1]])
+    ring_ways(starts, pixel, first, frame.centre, largest, counts, ways)
+    origins = np.repeat(starts, RAYS, axis=0)
+    share, _ = frame.scene.tracer.first_hit(origins, ways.reshape(-1, 3))
+    blocked = (share < 1).reshape(-1, RAYS)
+    place = origins + np.minimum(share, 1)[:, None] * ways.reshape(-1, 3)
+    away = np.linalg.norm(place - frame.centre, axis=1).reshape(-1, RAYS)
+    with np.errstate(invalid="ignore"):
+        nearest = np.where(blocked, away, np.inf).min(1)
+        farthest = np.where(blocked, away, -np.inf).max(1)
+    known = blocked.any(1)
+    return np.where(known, nearest, np.nan), np.where(known, farthest, np.nan)
+
+
+def model_figure(found: dict[float, np.ndarray], *, title: str, seed: int) -> Figure:
+    """A panel with a cloud of points for each radius, and the share that the model does not exceed."""
+    figure = new_figure(title, 6.5, 6.2)
+    axes = figure.subplots()
+    rng = np.random.default_rng(seed)
+    for (radius, pairs), colour in zip(found.items(), COLOURS):
+        pairs = pairs[:, (pairs > 0).all(0)]
+        if not pairs.size:
+            continue
+        some = pairs[:, rng.permutation(pairs.shape[1])[:SHOWN]]
+        wide = np.percentile(pairs[1], 95)
+        label = (
+            f"{radius:.3g} m: model ≥ measured in {100 * np.mean(pairs[1] >= pairs[0]):.0f} % of "
+            f"pixels, ratio {np.median(pairs[1] / pairs[0]):.2g}, 95 % of its widths ≤ {wide:.0f} px"
+        )
+        axes.plot(*some, ".", color=colour, markersize=1.5, alpha=0.5, rasterized=True)
+        axes.plot([], [], "o", color=colour, label=label)
+    ends = _ends(found.values())
+    axes.plot(ends, ends, color="#777777", linewidth=0.8, label="equal")
+    axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, aspect="equal")
+    axes.set(xlabel="measured width, pixels", ylabel="width by the model, pixels")
+    axes.grid(**GRID)
+    figure.legend(loc="outside lower left", fontsize=8)
+    return figure
+
+
+def _ends(found: Sequence[np.ndarray]) -> tuple[float, float]:
+    values = np.concatenate([pairs[pairs > 0] for pairs in found] or [np.ones(1)])
+    return (1.0, float(max(values.max(initial=10.0), 10.0)))
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

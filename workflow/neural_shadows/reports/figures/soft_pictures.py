@@ -1,0 +1,110 @@
+"""One frame by methods for soft shadows, with their errors, at several radii."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from neural_shadows.evaluation.soft_answers import read_answer
+from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
+from neural_shadows.running.stage import run_stage
+
+NUMBER = 0  # of the part's frames, the one that is shown
+FULL = 0.5  # an error of so much visibility has the whole colour
+WIDTH = 12.0  # inches
+
+
+def draw(
+    part: Path,
+    answers: list[Path],
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    labels: Mapping[str, str],
+    radii: Sequence[int] | None,
+    run: Section,
+) -> None:
+    """Draw the first frame of a part: a line a method, two pictures a radius.
+
+    Args:
+        part: of a frame set, see `FrameSetPart`; answers: of each method on it, by file name.
+        labels: of the methods, in the order to draw them. radii: counted from 0; None for the
+            smallest above 0, the middle one and the largest.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    opened = FrameSetPart(part)
+    count = len(opened.radii)
+    shown = sorted(set(radii or (min(1, count - 1), count // 2, count - 1)))
+    targets = opened.targets[NUMBER].astype(np.float32)
+    valid = np.asarray(opened.valid[NUMBER, 0])
+    files = {path.stem: path for path in answers}
+    pictures = {
+        label: [read_answer(files[method], part.stem, NUMBER, k) for k in shown]
+        for method, label in labels.items()
+    }
+    lengths = [opened.radii[k] for k in shown]
+    heading = f"{title} ({part.parent.parent.name}, {run['scale']} scale)"
+    figure = strips(pictures, [targets[k] for k in shown], valid, lengths, heading)
+    write_figure(figure, png, svg)
+
+
+def strips(
+    pictures: Mapping[str, Sequence[np.ndarray]],
+    targets: Sequence[np.ndarray],
+    valid: np.ndarray,
+    radii: Sequence[float],
+    title: str,
+) -> Figure:
+    """The exact soft shadow of each radius, and below it each method's with its error.
+
+    Args:
+        pictures: (H, W) in [0, 1] of each method, by radius; valid: (H, W) bool, what counts.
+    """
+    rows, columns = 1 + len(pictures), 2 * len(targets)
+    height, width = targets[0].shape
+    inches = WIDTH / columns * height / width + 0.2
+    figure = new_figure(title, WIDTH, 1.1 + rows * inches)
+    figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
+    grid = figure.subplots(rows, columns, squeeze=False)
+    for k, (target, radius) in enumerate(zip(targets, radii)):
+        _show(grid[0, 2 * k], target, f"exact, light of {radius:.3g} m")
+        _show(grid[0, 2 * k + 1], None, "")
+        for line, (label, found) in enumerate(pictures.items(), 1):
+            error = np.where(valid, found[k] - target, 0)
+            square = np.square(error[valid]).mean()
+            _show(grid[line, 2 * k], found[k], label)
+            _show(grid[line, 2 * k + 1], coloured(error), f"MSE {1e4 * square:.1f} × 10⁻⁴")
+    note_below(
+        figure,
+        "Errors: orange is too dark (false shadow), blue too bright (light leak), white none; half "
+        "of the light and more has the whole colour.",
+    )
+    return figure
+
+
+def coloured(error: np.ndarray) -> np.ndarray:
+    """Errors (H, W) as colours (H, W, 3): orange below 0, blue above, white at 0."""
+    from matplotlib.colors import to_rgb
+
+    from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK
+
+    share = np.clip(np.abs(error) / FULL, 0, 1)[..., None]
+    colour = np.where(error[..., None] < 0, to_rgb(FALSE_SHADOW), to_rgb(LIGHT_LEAK))
+    return 1 - share * (1 - colour)
+
+
+def _show(axes: Axes, image: np.ndarray | None, text: str) -> None:
+    axes.set_axis_off()
+    if image is not None:
+        axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation="none")
+    axes.set_title(text, loc="left", fontsize=8, pad=2)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

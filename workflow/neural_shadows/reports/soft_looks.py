@@ -1,0 +1,44 @@
+"""How each family of methods for soft shadows looks, the same everywhere."""
+
+from neural_shadows.reports.figures.style import COLOURS
+from neural_shadows.reports.method_look import Look
+
+BLUE, RED, GREEN, PINK, YELLOW, SKY, _ = COLOURS
+SOFT_LOOKS = {
+    "hard": Look("shadow map", "#777777", "s", "■", "One test a pixel against the light's map."),
+    "pcf": Look(
+        "percentage-closer filtering",
+        SKY,
+        "D",
+        "◆",
+        "Averages the tests round a pixel's texel; as blurred everywhere.",
+    ),
+    "pcss": Look(
+        "percentage-closer soft shadows",
+        BLUE,
+        "P",
+        "✚",
+        "Looks for blockers first, and filters as widely as they ask.",
+    ),
+    "moments": Look(
+        "filtered moments (VSM, EVSM, MSM)",
+        YELLOW,
+        "^",
+        "▲",
+        "Blurs powers of depth before they are looked up.",
+    ),
+    "rt": Look("rays", GREEN, "o", "●", "Sends so many rays from each pixel to the light."),
+    "svgf": Look("rays, SVGF-like filter", PINK, "v", "▼", "Rays, smoothed within surfaces."),
+    "oidn": Look("rays, Open Image Denoise", RED, "X", "✕", "Rays, denoised by a network."),
+    "null": Look("no method", "#777777", "o", "○", "Draws no shadow at all, or all of it."),
+}
+
+
+def family_of(method: str) -> str:
+    """The key in `SOFT_LOOKS` of a method of the registry."""
+    if method in ("no_shadow", "all_dark"):
+        return "null"
+    first, _, rest = method.partition("_")
+    if first == "rt":
+        return rest.partition("_")[2] or "rt"
+    return "moments" if first in ("vsm", "evsm", "msm") else first
