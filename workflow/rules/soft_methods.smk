@@ -27,28 +27,28 @@ rule tune_soft_method:
 
 rule evaluate_soft:
     input:
-        parts=of(soft_methods.scene_tests),
+        parts=of(soft_methods.tests),
         sequences=of(soft_methods.sequences),
-        meshes=of(frame_sets.meshes),
+        meshes=of(soft_methods.all_meshes),
         constants_json=PATHS.soft_constants(),
         lpips_json=PATHS.lpips,
         code=lambda wildcards: code(
             "evaluation/evaluate_soft",
-            generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
+            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
         ),
     output:
         metrics_csv=PATHS.soft_evaluation("csv"),
         answers_npz=PATHS.soft_evaluation("npz"),
     log:
-        PATHS.log("evaluate_soft", "scene", "frame_set", "method"),
+        PATHS.log("evaluate_soft", "frame_set", "method"),
     benchmark:
-        PATHS.benchmark("evaluate_soft", "scene", "frame_set", "method")
+        PATHS.benchmark("evaluate_soft", "frame_set", "method")
     conda:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=120),
     message:
-        "Evaluating {wildcards.method} on {wildcards.scene}, {wildcards.frame_set}"
+        "Evaluating {wildcards.method} on {wildcards.frame_set}"
     script:
         "../neural_shadows/evaluation/evaluate_soft.py"
 

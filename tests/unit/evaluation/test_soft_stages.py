@@ -28,8 +28,9 @@ NO_LPIPS = {"available": False}
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Parts of two uses and of two sequences, as lie in results/frames/<scene>/<set>."""
-    folder = tmp_path_factory.mktemp("results")
+    """Parts of two uses and of two sequences, in the folder of their scene."""
+    folder = tmp_path_factory.mktemp("results") / "blinds"
+    folder.mkdir()
     (folder / "lpips.json").write_text(json.dumps(NO_LPIPS))
     told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 2, "samples": 8}
     for use in ("validation", "test", "camera", "light"):
@@ -67,8 +68,8 @@ def test_what_has_no_constants_needs_no_frames(folder):
 
 
 def evaluate(folder, method):
-    target = folder / "blinds" / "frames"
-    target.mkdir(parents=True, exist_ok=True)
+    target = folder / "frames"
+    target.mkdir(exist_ok=True)
     tune(folder, method)
     evaluate_soft(
         [folder / "test_000.json"],
@@ -108,10 +109,10 @@ def test_answers_are_kept(folder):
     evaluate(folder, "hard")
     (measured, _) = measured_frames([folder / "test_000.json"], [])
     found = measured.answered(METHODS["hard"], 0.1, {})
-    kept = read_answer(folder / "blinds/frames/hard.npz", "test_000", 0, 1)
+    kept = read_answer(folder / "frames/hard.npz", "blinds.test_000.0.1")
     assert np.array_equal(kept, found)
     with pytest.raises(InputError, match="hard.npz: damaged"):
-        read_answer(folder / "blinds/frames/hard.npz", "test_001", 0, 1)
+        read_answer(folder / "frames/hard.npz", "blinds.test_001.0.1")
 
 
 def test_times(folder):
@@ -128,9 +129,16 @@ def test_times(folder):
     assert all(ms > 0 for name in names for ms in found["methods"][name]["ms"])
 
 
-def test_frames_without_a_scene_are_refused(folder, tmp_path):
+def test_of_frames_without_a_scene_the_buffers_can_be_measured(folder, tmp_path):
     about = json.loads((folder / "test_000.json").read_text())
     del about["scene"]
     (tmp_path / "test_000.json").write_text(json.dumps(about))
-    with pytest.raises(InputError, match="has no 'scene'"):
-        next(measured_frames([tmp_path / "test_000.json"], []))
+    for stem in ("buffers", "targets", "valid"):
+        name = f"test_000.{stem}.npy"
+        (tmp_path / name).symlink_to(folder / name)
+    own = next(measured_frames([tmp_path / "test_000.json"], []))
+    ours = next(measured_frames([folder / "test_000.json"], []))
+    held, asked = own.answered(METHODS["base_hard"], 0.1, {}), METHODS["hard"]
+    assert np.mean(held != ours.answered(asked, 0.1, {})) < 0.01
+    with pytest.raises(InputError, match="has no 'scene' to look at; .* base_hard, base_pcf"):
+        own.answered(asked, 0.1, {})

@@ -1,4 +1,4 @@
-"""The stage that measures one method for soft shadows on a scene's test frames and sequences."""
+"""The stage that measures one method for soft shadows on test frames and sequences."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
@@ -9,7 +9,7 @@ import numpy as np
 
 from neural_shadows.evaluation.evaluate import lpips_metric
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
-from neural_shadows.evaluation.soft_answers import write_answers
+from neural_shadows.evaluation.soft_answers import name_of, write_answers
 from neural_shadows.evaluation.soft_methods.registry import METHODS
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
 from neural_shadows.files.whole_files import read_json
@@ -55,6 +55,9 @@ def evaluate_soft(
     constants = [one["constants"] for one in read_json(constants_json)["radii"]]
     images = {"ssim": ssim, "flip": flip} | lpips_metric(lpips_json, threads)
 
+    # What neither the radius nor other constants change is asked once.
+    changes = asked.of_radius or any(one != constants[0] for one in constants)
+
     def answer(measured: MeasuredFrame, k: int) -> np.ndarray:
         return measured.answered(asked, measured.part.radii[k], constants[k])
 
@@ -64,11 +67,11 @@ def evaluate_soft(
     with progress_bar(total, "frames", f"evaluate {method}") as bar:
         for measured in measured_frames(parts, meshes):
             for k in range(len(measured.part.radii)):
-                found = answer(measured, k)
-                key = {"part": measured.part.frames_json.stem, "frame": measured.number}
-                kept[f"{key['part']}.{measured.number}.{k}"] = found
+                found = answer(measured, k) if k == 0 or changes else found
+                kept[name_of(measured.part.frames_json, measured.number, k)] = found
+                key = _key(measured.part, measured.number, k)
                 values = _values(measured, found, k, images)
-                rows += [{**key, "radius": k, "metric": m, "value": v} for m, v in values.items()]
+                rows += [{**key, "metric": name, "value": value} for name, value in values.items()]
             bar.update()
         for path in sequences:
             rows += _flicker([*measured_frames([path], meshes)], answer, bar.update)
@@ -109,11 +112,16 @@ def _flicker(
             changes[name].append(new.ravel()[pixel] - moved)
         last = found
         told()
-    key = {"part": part.frames_json.stem, "frame": 0, "radius": k}
+    key = _key(part, 0, k)
     pixels = part.about["width"] * part.about["height"]
     for name, each in changes.items():
         yield {**key, "metric": f"instability{name}", "value": exponential_instability(each)}
         yield {**key, "metric": f"temporal_error{name}", "value": root_instability(each, pixels)}
+
+
+def _key(part: FrameSetPart, frame: int, radius: int) -> dict[str, Any]:
+    path = part.frames_json
+    return {"scene": path.parent.name, "part": path.stem, "frame": frame, "radius": radius}
 
 
 def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[np.ndarray, np.ndarray]:

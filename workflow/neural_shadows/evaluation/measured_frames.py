@@ -9,6 +9,7 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
+from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.draw_settings import light_map_of
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -22,7 +23,26 @@ class MeasuredFrame:
 
     part: FrameSetPart
     number: int
-    scene: SoftScene
+    opened: SoftScene | None  # None of a user's own frames
+
+    @property
+    def scene_name(self) -> str:
+        """The name of its scene."""
+        return self.part.frames_json.parent.name
+
+    @property
+    def scene(self) -> SoftScene:
+        """The scene that it shows.
+
+        Raises:
+            InputError: it is of a user's own and has none.
+        """
+        if self.opened is None:
+            raise InputError(
+                f"{self.part.frames_json}: has no 'scene' to look at; of such frames only what "
+                f"their buffers hold can be measured: {', '.join(f'base_{name}' for name in LIT)}"
+            )
+        return self.opened
 
     @cached_property
     def frame(self) -> SoftFrame:
@@ -41,12 +61,15 @@ class MeasuredFrame:
     @property
     def valid(self) -> np.ndarray:
         """Which pixels count, bool."""
-        return np.asarray(self.part.valid[self.number, 0])
+        return self.part.valid[self.number, 0]
 
     def answered(
         self, method: SoftMethod, radius: float, constants: Mapping[str, float]
     ) -> np.ndarray:
         """The method's visibility of a light of a radius, float32; 1 without a surface."""
+        if method.channel:
+            buffers = self.part.buffers[self.number, 0]
+            return buffers[CHANNELS.index(method.channel)].astype(np.float32)
         return self.frame.surface.image(visibility(method, self.frame, radius, constants), 1.0)
 
 
@@ -57,15 +80,13 @@ def measured_frames(parts: Sequence[Path], meshes: Sequence[Path]) -> Iterator[M
         meshes: prepared, of all objects that are inserted; their folders have the objects' names.
 
     Raises:
-        InputError: a part is damaged, or of a user's own and without a scene that could be asked.
+        InputError: a part or a mesh is damaged.
     """
-    known, opened = {path.parent.name: path for path in meshes}, {}
+    known, opened = {path.parent.name: path for path in meshes}, {"": None}
     for path in parts:
         part = FrameSetPart(path)
-        if "scene" not in part.about:
-            raise InputError(f"{path}: has no 'scene'; methods need one to look at")
-        scene = part.about["scene"]
-        key = str(scene)
+        scene = part.about.get("scene")
+        key = str(scene or "")
         if key not in opened:
             opened[key] = SoftScene(scene, [known[name] for name in scene["inserted"]])
         for number in range(len(part)):

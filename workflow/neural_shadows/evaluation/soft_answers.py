@@ -1,6 +1,6 @@
 """What a method for soft shadows answered on test frames, on disk, so that any can be drawn later.
 
-One npz file: `PART.FRAME.RADIUS` (height, width) uint8, visibility in steps of 1/255.
+One npz file: `SCENE.PART.FRAME.RADIUS` (height, width) uint8, visibility in steps of 1/255.
 """
 
 from collections.abc import Mapping
@@ -12,6 +12,11 @@ from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import whole_file
 
 
+def name_of(part: Path, frame: int, radius: int) -> str:
+    """What a frame of a part, a JSON in the folder of its scene, is called."""
+    return f"{part.parent.name}.{part.stem}.{frame}.{radius}"
+
+
 def write_answers(path: Path, answers: Mapping[str, np.ndarray]) -> None:
     """Write visibilities (height, width) in [0, 1] by name."""
     steps = {name: np.round(255 * one).astype(np.uint8) for name, one in answers.items()}
@@ -19,14 +24,14 @@ def write_answers(path: Path, answers: Mapping[str, np.ndarray]) -> None:
         np.savez_compressed(part, **steps)
 
 
-def read_answer(path: Path, part: str, frame: int, radius: int) -> np.ndarray:
-    """Visibility (height, width) float32 of a frame.
+def read_answer(path: Path, name: str) -> np.ndarray:
+    """Visibility (height, width) float32 of a frame by its name.
 
     Raises:
         InputError: the file is missing, damaged, or not of this frame.
     """
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return arrays[f"{part}.{frame}.{radius}"] / np.float32(255)
+            return arrays[name] / np.float32(255)
     except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
         raise InputError(f"{path}: damaged ({error}); delete it and run again") from error

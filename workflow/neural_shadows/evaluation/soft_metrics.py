@@ -13,7 +13,9 @@ if TYPE_CHECKING:
 
 # `part` is the frame set's, `radius` counts its radii, `frame` the part's frames; a sequence has
 # one value for all of its frames.
-COLUMNS = dict(part="str", frame="int64", radius="int64", metric="str", value="float64")
+COLUMNS = dict(
+    scene="str", part="str", frame="int64", radius="int64", metric="str", value="float64"
+)
 
 
 def write_soft_metrics(metrics_csv: Path, rows: Iterable[Mapping[str, Any]]) -> None:
@@ -25,9 +27,7 @@ def write_soft_metrics(metrics_csv: Path, rows: Iterable[Mapping[str, Any]]) -> 
 
 
 def read_soft_metrics(paths: Iterable[Path]) -> "pd.DataFrame":
-    """Read and join files of `write_soft_metrics`: its columns, and `scene` and `method`.
-
-    These are the names of a file and of the folder above its own.
+    """Read and join files of `write_soft_metrics`: its columns, and `method`, a file's name.
 
     Raises:
         InputError: a file cannot be read, or is not of such metrics.
@@ -40,5 +40,5 @@ def read_soft_metrics(paths: Iterable[Path]) -> "pd.DataFrame":
             one = pd.read_csv(path, dtype=COLUMNS, usecols=list(COLUMNS))
         except (OSError, ValueError) as error:
             raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
-        found.append(one.assign(scene=path.parent.parent.name, method=path.stem))
+        found.append(one.assign(method=path.stem))
     return pd.concat(found, ignore_index=True)

@@ -34,7 +34,7 @@ def time_soft_methods(
     them alike.
 
     Args:
-        parts: of test frames, one a scene. constants: of the methods, in their order.
+        parts: of test frames, one a scene. constants: of the methods.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, of its answer alone; `map_ms` of rasterising the light's map, which those that
             look at one need before; and the numbers in a texel, and the map's `texels`.
@@ -43,8 +43,9 @@ def time_soft_methods(
         InputError: an input file cannot be read.
     """
     frames = [one for one in measured_frames(parts, meshes) if one.number == 0]
+    methods = [name for name in methods if METHODS[name].channel is None]
     radii = frames[0].part.radii
-    chosen = {name: read_json(path)["radii"] for name, path in zip(methods, constants)}
+    chosen = {record["method"]: record["radii"] for record in map(read_json, constants)}
     taken: dict[str, list[list[float]]] = {name: [[] for _ in radii] for name in methods}
     maps: list[float] = []
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
@@ -53,6 +54,9 @@ def time_soft_methods(
             maps.append(_median(partial(_rasterised, frame), repeats))
             for k, radius in enumerate(radii):
                 for name in methods:
+                    if k and not METHODS[name].of_radius:
+                        taken[name][k].append(taken[name][0][-1])  # it does the same again
+                        continue
                     run = _run(METHODS[name], frame, radius, chosen[name][k]["constants"])
                     if number == k == 0:
                         run()  # compiles

@@ -27,7 +27,7 @@ CHANNELS = (
     *("z", "gap", "d", "c_e", "c_v", "agreement", "hard", "pcf", "msm"),
     *("n_x", "n_y", "n_z"),
 )
-_LIT = ("hard", "pcf", "msm")  # 1 where there is no surface
+LIT = ("hard", "pcf", "msm")  # 1 where there is no surface
 _KERNEL = gaussian(3, 0.55)
 
 
@@ -65,7 +65,7 @@ def buffers_of(scene: Scene, surface: Surface, light_map: LightMap) -> np.ndarra
         **{name: value * (geometric > 0) for name, value in lit.items()},
         **dict(zip(("n_x", "n_y", "n_z"), normal.T)),
     }
-    images = (surface.image(values[name], float(name in _LIT)) for name in CHANNELS)
+    images = (surface.image(values[name], float(name in LIT)) for name in CHANNELS)
     return np.stack([image.astype(np.float16) for image in images])
 
 

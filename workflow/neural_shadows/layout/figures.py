@@ -62,11 +62,12 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
         case "widths" | "pareto" | "learning_curves" | "soft_equal_time":
             return {"table": paths.report(f"{settings['table']}.csv")}
         case "soft_pictures":
-            where = settings["soft_scene"], soft_methods.frame_set(layout, settings["table"])
+            frame_set = soft_methods.frame_set(layout, settings["table"])
             return {
-                "part": frame_sets.parts(layout, *where, "test")[0],
+                "part": frame_sets.parts(layout, settings["soft_scene"], frame_set, "test")[0],
                 "answers": [
-                    paths.soft_evaluation("npz", *where, method) for method in settings["methods"]
+                    paths.soft_evaluation("npz", frame_set, method)
+                    for method in settings["methods"]
                 ],
             }
         case "penumbra_model":

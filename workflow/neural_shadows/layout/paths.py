@@ -68,21 +68,17 @@ class Paths:
         part: str = "{part}",
     ) -> str:
         """`json`, `buffers.npy`, `targets.npy`, `valid.npy` of a part of a frame set."""
-        return f"{self.results}/frames/{scene}/{frame_set}/{part}.{ending}"
+        return f"{self.results}/frames/{frame_set}/{scene}/{part}.{ending}"
 
     def soft_constants(self, frame_set: str = "{frame_set}", method: str = "{method}") -> str:
         """The constants of a method that are best on a frame set's validation frames."""
         return f"{self.results}/soft_constants/{frame_set}/{method}.json"
 
     def soft_evaluation(
-        self,
-        ending: str,
-        scene: str = "{scene}",
-        frame_set: str = "{frame_set}",
-        method: str = "{method}",
+        self, ending: str, frame_set: str = "{frame_set}", method: str = "{method}"
     ) -> str:
-        """`csv`, the errors of a method on a scene's test frames; `npz`, what it answered."""
-        return f"{self.results}/soft_evaluations/{scene}/{frame_set}/{method}.{ending}"
+        """`csv`, the errors of a method on a frame set's test frames; `npz`, what it answered."""
+        return f"{self.results}/soft_evaluations/{frame_set}/{method}.{ending}"
 
     def soft_times(self, table: str = "{table}") -> str:
         """The times of a table's methods for soft shadows."""

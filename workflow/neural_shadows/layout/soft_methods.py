@@ -20,13 +20,9 @@ def frame_set(layout: Layout, table: str) -> str:
 
 
 def evaluations(layout: Layout, table: str, ending: str) -> list[str]:
-    """A file of each method of a table on each scene."""
+    """A file of each method of a table."""
     one = frame_set(layout, table)
-    return [
-        layout.paths.soft_evaluation(ending, scene, one, method)
-        for scene in frame_sets.measured_scenes(layout, one)
-        for method in methods(layout, table)
-    ]
+    return [layout.paths.soft_evaluation(ending, one, method) for method in methods(layout, table)]
 
 
 def constants(layout: Layout, table: str) -> list[str]:
@@ -39,11 +35,6 @@ def tests(layout: Layout, frame_set: str) -> list[str]:
     """All test frames of a frame set."""
     scenes = frame_sets.measured_scenes(layout, frame_set)
     return [part for one in scenes for part in frame_sets.parts(layout, one, frame_set, "test")]
-
-
-def scene_tests(layout: Layout, scene: str, frame_set: str) -> list[str]:
-    """The test frames of a scene."""
-    return frame_sets.parts(layout, scene, frame_set, "test")
 
 
 def validations(layout: Layout, frame_set: str) -> list[str]:
@@ -59,12 +50,13 @@ def all_meshes(layout: Layout, frame_set: str) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def sequences(layout: Layout, scene: str, frame_set: str) -> list[str]:
-    """The sequences of a frame set that a scene has: the first scene has them."""
+def sequences(layout: Layout, frame_set: str) -> list[str]:
+    """The sequences of a frame set: its first scene has them."""
     settings = layout.entry("frame_sets", frame_set)
-    if settings["path"] is not None or scene != settings["scenes"][0]:
+    if settings["path"] is not None:
         return []
-    return [one for what in SEQUENCES for one in frame_sets.parts(layout, scene, frame_set, what)]
+    first = settings["scenes"][0]
+    return [one for what in SEQUENCES for one in frame_sets.parts(layout, first, frame_set, what)]
 
 
 def first_tests(layout: Layout, frame_set: str) -> list[str]:
@@ -74,8 +66,8 @@ def first_tests(layout: Layout, frame_set: str) -> list[str]:
 
 
 def timed_parts(layout: Layout, table: str) -> list[str]:
-    """The parts whose first frames are timed."""
-    return first_tests(layout, frame_set(layout, table))
+    """The parts whose first frames are timed: of the first three scenes."""
+    return first_tests(layout, frame_set(layout, table))[:3]
 
 
 def timed_meshes(layout: Layout, table: str) -> list[str]:

@@ -27,26 +27,24 @@ RUN = {"scale": "test", "seed": 1}
 @pytest.fixture
 def written(tmp_path):
     paths = []
-    for scene in ("room", "tree"):
-        for method, mse in MSE.items():
-            path = tmp_path / scene / "frames" / f"{method}.csv"
-            path.parent.mkdir(parents=True, exist_ok=True)
-            rows = [
-                {"part": "test_000", "frame": frame, "radius": k, "metric": name, "value": value}
-                for frame in range(6)
-                for k in (0, 1)
-                for name, value in (
-                    ("mse", mse * (1 + k) * (2 if scene == "tree" else 1) + 1e-4 * frame),
-                    ("l1", mse),
-                    ("mse_umbra", np.nan if frame else mse),
-                )
-            ]
-            if scene == "room":
-                key = {"part": "light_000", "frame": 0, "radius": 1}
-                rows.append({**key, "metric": "instability", "value": mse})
-                rows.append({**key, "metric": "instability_reference", "value": 0.5})
-            write_soft_metrics(path, rows)
-            paths.append(path)
+    for method, mse in MSE.items():
+        rows = [
+            {"scene": scene, "part": "test_000", "frame": frame, "radius": k, "metric": name}
+            | {"value": value}
+            for scene in ("room", "tree")
+            for frame in range(6)
+            for k in (0, 1)
+            for name, value in {
+                "mse": mse * (1 + k) * (2 if scene == "tree" else 1) + 1e-4 * frame,
+                "l1": mse,
+                "mse_umbra": np.nan if frame else mse,
+            }.items()
+        ]
+        key = {"scene": "room", "part": "light_000", "frame": 0, "radius": 1}
+        rows.append({**key, "metric": "instability", "value": mse})
+        rows.append({**key, "metric": "instability_reference", "value": 0.5})
+        paths.append(tmp_path / f"{method}.csv")
+        write_soft_metrics(paths[-1], rows)
     times, lpips = tmp_path / "times.json", tmp_path / "lpips.json"
     times.write_text(json.dumps(TIMES))
     lpips.write_text(json.dumps({"available": False}))

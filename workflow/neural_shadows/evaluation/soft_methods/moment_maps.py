@@ -14,7 +14,7 @@ from neural_shadows.shadow_maps.filtered_moments import filtered_moments
 
 # `bias`: times that of a test against one texel. `bleeding`: visibilities up to it are made 0, and
 # those above it stretched to [0, 1] again (Lauritzen 2007).
-CONSTANTS = {"bias": (1.0, 3.0, 9.0), "bleeding": (0.0, 0.1, 0.3)}
+CONSTANTS = {"bias": (0.3, 1.0, 3.0), "bleeding": (0.0, 0.1, 0.3)}
 
 
 def moment_method(

@@ -14,7 +14,7 @@ from neural_shadows.shadow_maps.box_filter import box_visibility
 from neural_shadows.shadow_maps.light_filters import disc_visibility
 
 # Times the bias of a test against one texel: a wide kernel has texels far before a slanted receiver.
-BIASES = (1.0, 3.0, 9.0)
+BIASES = (0.3, 1.0, 3.0)
 _SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
 
 
@@ -41,5 +41,5 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
     )
 
 
-_DISC = {"texels": (1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES}
+_DISC = {"texels": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES}
 DISC_PCF = SoftMethod("PCF, disc", _disc, _DISC, of_radius=False)  # but by its constants

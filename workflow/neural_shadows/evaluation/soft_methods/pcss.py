@@ -31,6 +31,6 @@ def _filtered(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> 
     return depth_aware(frame.surface, _answer(frame, radius, scale=scale, bias=bias))
 
 
-_CONSTANTS = {"scale": (0.7, 1.0, 1.4), "bias": (1.0, 3.0, 9.0)}
+_CONSTANTS = {"scale": (0.7, 1.0, 1.4), "bias": (0.3, 1.0, 3.0)}
 PCSS = SoftMethod("PCSS", _answer, _CONSTANTS)
 PCSS_POST = SoftMethod("PCSS, depth-aware filter", _filtered, _CONSTANTS)

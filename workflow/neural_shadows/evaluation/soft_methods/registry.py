@@ -32,6 +32,14 @@ def _denoised(count: int) -> SoftMethod:
     return SoftMethod(label, partial(oidn_denoised, samples=count), **_BY_RAYS)
 
 
+# By channel of the buffers.
+BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
+
+
+def _held(channel: str, label: str) -> SoftMethod:
+    return SoftMethod(label, None, texel_floats=0, of_radius=False, channel=channel)
+
+
 METHODS: dict[str, SoftMethod] = {
     "no_shadow": null("No shadow", 1.0),
     "all_dark": null("All dark", 0.0),
@@ -52,4 +60,6 @@ METHODS: dict[str, SoftMethod] = {
     **{f"rt_{count}": _rays(count) for count in (1, 2, 4, 8, 16, 32, 64)},
     **{f"rt_{count}_svgf": _smoothed(count) for count in (1, 4, 16)},
     **{f"rt_{count}_oidn": _denoised(count) for count in (1, 4, 16)},
+    # What networks begin with, as a frame's buffers hold it, a user's own frames' too.
+    **{f"base_{name}": _held(name, label) for name, label in BASES.items()},
 }

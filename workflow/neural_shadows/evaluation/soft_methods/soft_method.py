@@ -22,14 +22,16 @@ class SoftMethod:
         of_radius: whether its answer depends on the light's radius.
         by_rays: whether it sends rays to the light's points. What faces away from the light's centre
             is made dark for all others: it may see a part of a large light, and rays know.
+        channel: of the frame's buffers, if its answer is there already.
     """
 
     label: str
-    answer: Callable[..., np.ndarray]
+    answer: Callable[..., np.ndarray] | None
     constants: Mapping[str, Sequence[float]] = field(default_factory=dict)
     texel_floats: int = 1
     of_radius: bool = True
     by_rays: bool = False
+    channel: str | None = None
 
     def settings(self) -> list[dict[str, float]]:
         """Every combination of the constants that is tried; one without any, if it has none."""

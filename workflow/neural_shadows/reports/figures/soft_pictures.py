@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from neural_shadows.evaluation.soft_answers import read_answer
+from neural_shadows.evaluation.soft_answers import name_of, read_answer
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
 from neural_shadows.running.stage import run_stage
@@ -31,7 +31,7 @@ def draw(
     """Draw the first frame of a part: a line a method, two pictures a radius.
 
     Args:
-        part: of a frame set, see `FrameSetPart`; answers: of each method on it, by file name.
+        part: of a frame set, see `FrameSetPart`; answers: of each method, by file name.
         labels: of the methods, in the order to draw them. radii: counted from 0; None for the
             smallest above 0, the middle one and the largest.
 
@@ -45,11 +45,11 @@ def draw(
     valid = np.asarray(opened.valid[NUMBER, 0])
     files = {path.stem: path for path in answers}
     pictures = {
-        label: [read_answer(files[method], part.stem, NUMBER, k) for k in shown]
+        label: [read_answer(files[method], name_of(part, NUMBER, k)) for k in shown]
         for method, label in labels.items()
     }
     lengths = [opened.radii[k] for k in shown]
-    heading = f"{title} ({part.parent.parent.name}, {run['scale']} scale)"
+    heading = f"{title} ({part.parent.name}, {run['scale']} scale)"
     figure = strips(pictures, [targets[k] for k in shown], valid, lengths, heading)
     write_figure(figure, png, svg)
 

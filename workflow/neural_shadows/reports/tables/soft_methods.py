@@ -41,7 +41,7 @@ def write(
     CSV: `method, label, radius_m, mse, mse_low, mse_high, …` and all of `soft_table`.
 
     Args:
-        soft_metrics: of each method on each scene; soft_times: what `time_soft_methods` wrote;
+        soft_metrics: of each method; soft_times: what `time_soft_methods` wrote;
             soft_constants: what `tune_soft_method` wrote, in the order of `labels`.
         labels: what each method is called. unseen: scenes that no network trains on.
     """
@@ -103,8 +103,9 @@ def soft_table(
     rows = []
     for method, label in labels.items():
         mine = frames[frames["method"] == method]
-        timed = times["methods"][method]
-        floats = timed["texel_floats"]
+        # What a buffer holds already takes no time of its own.
+        timed = times["methods"].get(method, {"ms": [np.nan] * len(times["radii"])})
+        floats = timed.get("texel_floats", 0)
         for radius, length in enumerate(times["radii"]):
             here = mine[mine["radius"] == radius]
             values = {name: one["value"].to_numpy() for name, one in here.groupby("metric")}
