@@ -59,8 +59,6 @@ def test_the_constants_of_least_error_are_chosen(folder):
         chosen = record["radii"][k]
         assert chosen["constants"] == method.settings()[int(np.argmin(errors))]
         assert chosen["mse"] == pytest.approx(min(errors), rel=1e-4)
-    # A larger light asks for a wider disc.
-    assert record["radii"][0]["constants"]["texels"] < record["radii"][2]["constants"]["texels"]
 
 
 def test_what_has_no_constants_needs_no_frames(folder):

@@ -1,7 +1,7 @@
 """Intel Open Image Denoise, a trained network, on pictures of visibility.
 
-An optional package, see envs/denoise.txt. Its filter RT for colours in [0, 1], with normals and
-albedo beside them.
+By the package `pyoidn`, which there is for x86-64 alone. Its filter RT for colours in [0, 1], with
+normals and albedo beside them.
 """
 
 from functools import cache
@@ -47,7 +47,8 @@ def _package():
         import pyoidn
     except ImportError:
         raise InputError(
-            "Open Image Denoise is not installed: pip install -r envs/denoise.txt"
+            "Open Image Denoise is not installed (pyoidn, for x86-64 alone); leave out the methods "
+            "rt_N_oidn"
         ) from None
     return pyoidn
 
