@@ -89,6 +89,7 @@ def make_page(folder: Path, **changes) -> Path:
         "front": "figure_front",
         "data": {"figure_front": "beyond"},
         "beyond": ["beyond"],
+        "soft": [],
         "folded": ["figure_4_1"],
         "missing": {},
         "rows": [samples.row(method, label) for method, label in LABELS.items()],

@@ -14,6 +14,7 @@ from neural_shadows.evaluation.method_names import (
     shadow_map_key,
     unbiased,
 )
+from neural_shadows.reports.claims.measured import WITHOUT_ROWS
 from neural_shadows.reports.published import read_published
 
 if TYPE_CHECKING:
@@ -48,8 +49,13 @@ class Needs(Model):
 class AnyClaim(Model):
     """What all claims have."""
 
-    section: str = Field(pattern=r"^[1-9](\.[1-9])*$", description="of the thesis, as 4.2.1")
-    statement: str = Field(min_length=1, description="one sentence, as the thesis draws it")
+    text: Literal["thesis", "nsm", "kpnsm"] = Field(
+        "thesis",
+        description="whose claim it is: the thesis's, Neural Shadow Mapping's (Datta et al. 2022), "
+        "Kernel Predicting Neural Shadow Maps' (Hu et al. 2025)",
+    )
+    section: str = Field(pattern=r"^[1-9](\.[1-9])*$", description="of that text, as 4.2.1")
+    statement: str = Field(min_length=1, description="one sentence, as the text draws it")
     needs: Needs = Field(Needs(), description="what a run needs to decide it")
 
 
@@ -137,12 +143,49 @@ class PrintedClaim(AnyClaim):
         return [row for pair in self.pairs for row in pair]
 
 
-Claim = by_kind("kind", BetterClaim, ViolationsClaim, LowerLossClaim, FrameTimeClaim, PrintedClaim)
+class SoftClaim(AnyClaim):
+    """Methods for soft shadows, compared on the same frames at several radii."""
+
+    table: Name = Field(description="a table of `soft_methods` in `tables`")
+    radii: list[Annotated[int, Field(ge=1)]] = Field(
+        min_length=1, description="of its frame set, counted from 0, at all of which it is to hold"
+    )
+
+
+class SoftBetterClaim(SoftClaim):
+    """One method has a smaller error than another."""
+
+    kind: Literal["soft_better"] = Field(description="`soft_better`")
+    pairs: Pairs = Field(description="methods of the table, the claimed winner first")
+    metric: Literal["mse", "l1", "light_leak", "false_shadow", "flip", "lpips"] = Field(
+        "mse", description="of which less is better"
+    )
+
+
+class SoftEqualTimeClaim(SoftClaim):
+    """As many rays as fit into a method's time have a smaller squared error than it."""
+
+    kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
+    methods: list[str] = Field(
+        min_length=1, description="methods of the table that rays are to beat"
+    )
+
+
+Claim = by_kind(
+    "kind",
+    BetterClaim,
+    ViolationsClaim,
+    LowerLossClaim,
+    FrameTimeClaim,
+    PrintedClaim,
+    SoftBetterClaim,
+    SoftEqualTimeClaim,
+)
 
 
 def compared(claim: AnyClaim) -> list[list[str]]:
     """The methods of a claim that are compared with each other, or each alone."""
-    if isinstance(claim, PrintedClaim):
+    if claim.kind in WITHOUT_ROWS:
         return []
     return getattr(claim, "pairs", None) or [[method] for method in claim.methods]
 
@@ -167,6 +210,8 @@ def check(config: "Config") -> None:
             check_among(f"claims.{name}.table", claim.table, timed)
         if isinstance(claim, PrintedClaim):
             _check_printed(f"claims.{name}", claim)
+        if isinstance(claim, SoftClaim):
+            _check_soft(config, f"claims.{name}", claim)
         key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
             _check_methods(config, key, methods, claim)
@@ -207,3 +252,19 @@ def _check_printed(key: str, claim: PrintedClaim) -> None:
         check_among(f"{key}: rows of table {claim.table}", row, printed.index)
     for metric in claim.metrics:
         check_among(f"{key}.metrics of table {claim.table}", metric, printed.columns)
+
+
+def _check_soft(config: "Config", key: str, claim: SoftBetterClaim | SoftEqualTimeClaim) -> None:
+    tables = [name for name, table in config.tables.items() if table.kind == "soft_methods"]
+    check_among(f"{key}.table", claim.table, tables)
+    table = config.tables[claim.table]
+    given = getattr(claim, "methods", None) or [m for pair in claim.pairs for m in pair]
+    for method in given:
+        check_among(f"{key}: {claim.table}.methods", method, table.methods)
+    radii = getattr(config.frame_sets[table.frame_set], "radii", ())
+    for k in claim.radii:
+        if k >= len(radii):
+            raise ValueError(
+                f"{key}.radii: {k} is not below {len(radii)}, the number of radii of "
+                f"{table.frame_set!r}"
+            )

@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from neural_shadows.layout import tables
+from neural_shadows.layout import soft_methods, tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.claims.measured import WITHOUT_ROWS
 
 
 def files(layout: Layout) -> dict[str, Any]:
@@ -28,6 +29,10 @@ def files(layout: Layout) -> dict[str, Any]:
         found["trainings"] += tables.networks(layout, rows, "training.json")
         found["meshes"] += [layout.paths.scene("mesh.json", scene) for scene in scenes]
     found = {name: tables.unique(paths) for name, paths in found.items()}
+    tables_of = soft_tables(layout)
+    soft = [soft_methods.evaluations(layout, table, "csv") for table in tables_of]
+    found["soft_metrics"] = tables.unique(path for paths in soft for path in paths)
+    found["soft_times"] = [layout.paths.soft_times(table) for table in tables_of]
     return found | {"published_csv": layout.source("config/published.csv")}
 
 
@@ -42,12 +47,18 @@ def counts_violations(layout: Layout, method: str) -> bool:
 
 
 def methods(claim: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
-    """The methods of a claim, as rows; none of one on what is printed."""
-    if claim["kind"] == "printed":
+    """The methods of a claim, as rows; none of `WITHOUT_ROWS`."""
+    if claim["kind"] in WITHOUT_ROWS:
         return
     yield from claim.get("methods", ())
     for pair in claim.get("pairs", ()):
         yield from pair
+
+
+def soft_tables(layout: Layout) -> list[str]:
+    """The tables of methods for soft shadows that claims are about."""
+    claims = layout.settings["claims"].values()
+    return tables.unique(one["table"] for one in claims if one["kind"].startswith("soft_"))
 
 
 def arguments(layout: Layout) -> dict[str, Any]:
@@ -56,6 +67,13 @@ def arguments(layout: Layout) -> dict[str, Any]:
     return {
         "claims": layout.settings["claims"],
         "learning_curves": tables.curves(layout, rows),
+        "soft_tables": {
+            table: {
+                "frame_set": soft_methods.frame_set(layout, table),
+                "labels": soft_methods.labels(layout, table),
+            }
+            for table in soft_tables(layout)
+        },
         "run": layout.run(),
         "scenes": layout.scenes(row["scene"] for row in rows),
     }

@@ -94,6 +94,7 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
         "front": front(layout),
         "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "beyond": beyond(layout),
+        "soft": soft(layout),
         "folded": [name for name, one in figures.items() if one["kind"] == "contact_sheet"],
         "missing": {},
         "rows": pictured(layout),
@@ -121,16 +122,20 @@ def available_arguments(layout: Layout) -> dict[str, Any]:
 
 def missing(layout: Layout) -> dict[str, list[str]]:
     """What a whole run's page shows and is not there now, by the section where it would stand."""
-    past, first, shown = beyond(layout), front(layout), default_tables(layout)
+    first, shown = front(layout), default_tables(layout)
+    past, of_soft = beyond(layout), soft(layout)
+    elsewhere = (*past, *of_soft)
     figures = [name for name in default_figures(layout) if name != first]
     reports = {
         "found": [f"{name}.html" for name in layout.settings["viewers"]],
-        "tables": [f"{name}.md" for name in shown if name not in past],
-        "figures": [f"{name}.svg" for name in figures if name not in past],
+        "tables": [f"{name}.md" for name in shown if name not in elsewhere],
+        "figures": [f"{name}.svg" for name in figures if name not in elsewhere],
         "beyond": [f"{name}.md" for name in shown if name in past],
+        "soft": [f"{name}.md" for name in shown if name in of_soft],
     }
     reports["found"] += [f"{first}.svg"] if first else []
     reports["beyond"] += [f"{name}.svg" for name in figures if name in past]
+    reports["soft"] += [f"{name}.svg" for name in figures if name in of_soft]
     found = {
         section: [name for name in names if not Path(layout.paths.report(name)).exists()]
         for section, names in reports.items()
@@ -161,10 +166,20 @@ def beyond(layout: Layout) -> list[str]:
     """Names of the tables and figures that are not the thesis's: those of other networks."""
     entries = layout.settings["tables"].items()
     found = [name for name, table in entries if table["kind"] == "networks"]
+    of_soft = soft(layout)
     for name, figure in layout.settings["figures"].items():
+        if name in of_soft:
+            continue
         if not re.fullmatch(r"figure_\d+_\d+", name) and figure["kind"] != "learning_curves":
             found.append(name)
     return found
+
+
+def soft(layout: Layout) -> list[str]:
+    """Names of the tables and figures of soft shadows."""
+    kinds = ("soft_methods", "soft_equal_time", "soft_pictures", "penumbra_model")
+    entries = [*layout.settings["tables"].items(), *layout.settings["figures"].items()]
+    return [name for name, entry in entries if entry["kind"] in kinds]
 
 
 def front(layout: Layout) -> str | None:

@@ -5,10 +5,20 @@ from pathlib import Path
 
 import pandas as pd
 
-from neural_shadows.reports.phrases import describe_samples
+from neural_shadows.reports.phrases import describe_samples, section_of
 from neural_shadows.reports.verdicts import MEANINGS, SYMBOLS, css_class
 
-COLUMNS = ["claim", "statement", "section", "verdict", "reason", "number_of", "number", "evidence"]
+COLUMNS = [
+    "claim",
+    "text",
+    "statement",
+    "section",
+    "verdict",
+    "reason",
+    "number_of",
+    "number",
+    "evidence",
+]
 
 
 @dataclass(frozen=True)
@@ -55,7 +65,8 @@ def read_cards(csv: Path) -> list[Card]:
     for claim in claims.itertuples():
         evidence = claim.evidence.split("; ")
         number = number_text(claim.number_of, claim.number, len(evidence))
-        texts = claim.claim, claim.statement, claim.section
+        section = section_of({"text": claim.text, "section": claim.section})
+        texts = claim.claim, claim.statement, section
         cards.append(Card(*texts, Verdict(claim.verdict), claim.reason, number, evidence))
     return cards
 

@@ -177,6 +177,7 @@ def claims_counted(claims: pd.DataFrame) -> Markup:
 
     Those that the thesis's own tables decide say nothing of the run, and are counted apart.
     """
+    claims = claims[claims.get("text", pd.Series("thesis", claims.index)).eq("thesis")]
     printed = claims.get("kind", pd.Series("", claims.index)).eq("printed")
     said = [_tested(claims.loc[~printed, "verdict"])] * bool((~printed).any())
     if printed.any():

@@ -42,6 +42,7 @@ def write_page(
     front: str | None,
     data: Mapping[str, str],
     beyond: Sequence[str],
+    soft: Sequence[str],
     folded: Sequence[str],
     missing: Mapping[str, Sequence[str]],
     rows: Sequence[Mapping[str, Any]],
@@ -61,7 +62,7 @@ def write_page(
         references, visibilities, metrics: of all batches of each scene, and of each method.
         front: the figure of quality over bytes that is shown first, if there is one.
         data: the tables that figures show, by the figures' names.
-        beyond: names of the tables and figures that are not the thesis's.
+        beyond: names of the tables and figures that are not the thesis's; soft: of soft shadows.
         folded: names of the figures that are shown when asked for: contact sheets.
         missing: what is asked for and not there, by the section where it would stand.
         rows: `method`, `scene` and `label` of the methods that have pictures.
@@ -113,12 +114,13 @@ def write_page(
         missing=missing,
         front=next((block for block in drawings if block.name == front), None),
         comparisons=frame_comparisons(references, visibilities, metrics, rows, described),
-        tables=[block for block in blocks if block.name not in beyond],
+        tables=[block for block in blocks if block.name not in (*beyond, *soft)],
         figures=[
             block
             for block in sorted(drawings, key=lambda block: block.name)
-            if block.name not in (*beyond, front)
+            if block.name not in (*beyond, *soft, front)
         ],
+        soft=[block for block in blocks + drawings if block.name in soft],
         beyond=[b for b in blocks + drawings if b.name in beyond and b.name != front],
         shared_notes=[note for note, count in notes.items() if count > 1],
     )

@@ -22,6 +22,14 @@ def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = N
     return f"{title} ({'' if same else 'after '}table {published} of the thesis)"
 
 
+TEXTS = {"nsm": "Datta et al. 2022", "kpnsm": "Hu et al. 2025"}
+
+
+def section_of(claim: Mapping[str, str]) -> str:
+    """The section that a claim's `text` draws it in; of the thesis the number alone."""
+    return f"{TEXTS.get(claim['text'], '')} {claim['section']}".strip()
+
+
 def describe_run(run: Mapping[str, Any]) -> str:
     """One sentence on scale and date."""
     return f"Scale: {run['scale']}; made on {datetime.date.today().isoformat()}."

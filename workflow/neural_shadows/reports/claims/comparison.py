@@ -15,6 +15,10 @@ NAMES = {
     "flip": "FLIP",
     "shadow_error": "shadow error",
     "loss": "loss",
+    "mse": "MSE × 10⁻⁴",
+    "l1": "L1 in %",
+    "light_leak": "light leak in %",
+    "false_shadow": "false shadow in %",
 }
 
 

@@ -7,7 +7,14 @@ import numpy as np
 
 from neural_shadows.metrics.power_law import LARGEST_STEP
 from neural_shadows.reports import verdicts
-from neural_shadows.reports.claims import better, frame_time, lower_loss, printed, violations
+from neural_shadows.reports.claims import (
+    better,
+    frame_time,
+    lower_loss,
+    printed,
+    soft,
+    violations,
+)
 from neural_shadows.reports.claims.comparison import (
     NAMES,
     Comparison,
@@ -26,6 +33,8 @@ KINDS = {
     "frame_time": frame_time.comparisons,
     "violations": violations.comparisons,
     "printed": printed.comparisons,
+    "soft_better": soft.better,
+    "soft_equal_time": soft.equal_time,
 }
 OF_TRAININGS = ("better", "lower_loss")
 # One training says nothing of how trainings differ. Two are enough for an interval, of Student's t

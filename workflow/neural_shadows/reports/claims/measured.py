@@ -20,6 +20,9 @@ NO_SHADOW_ROW = {
     "bias": None,
 }
 
+# Kinds of claims whose methods are not those of a scene's viewpoints: printed numbers, soft shadows.
+WITHOUT_ROWS = ("printed", "soft_better", "soft_equal_time")
+
 Row = Mapping[str, Any]  # as `config.rows_of` gives it
 
 
@@ -52,6 +55,7 @@ class Measured:
         curves: the points of each learning curve: `experiment`, `samples` and `seed` each.
         scenes: `procedural` of each: a mesh made to the thesis's description stands in for its own.
         seed: of the resampling of views.
+        soft: of each table of soft methods its per-frame metrics, labels and times.
     """
 
     metrics: Mapping[str, pd.DataFrame]
@@ -64,6 +68,7 @@ class Measured:
     margins: Mapping[str, float]
     curves: Mapping[str, Sequence[Mapping[str, Any]]]
     seed: int
+    soft: Mapping[str, Any]
 
     def budgets(self, rows: Iterable[Row]) -> list[Budget]:
         """The budgets, growing, at which all trained methods among the rows share a seed.
@@ -155,12 +160,12 @@ def labels(rows: Sequence[Row]) -> list[str]:
 
 
 def compared(claim: Mapping[str, Any]) -> list[Sequence[Row]]:
-    """The methods that a claim compares with each other, or each alone; none of printed numbers."""
-    if claim["kind"] == "printed":
+    """The methods that a claim compares with each other, or each alone; none of `WITHOUT_ROWS`."""
+    if claim["kind"] in WITHOUT_ROWS:
         return []
     return [*claim.get("pairs", ()), *([row] for row in claim.get("methods", ()))]
 
 
 def rows_of(claim: Mapping[str, Any]) -> list[Row]:
-    """The methods of a claim; none of one on printed numbers."""
+    """The methods of a claim; none of `WITHOUT_ROWS`."""
     return [row for rows in compared(claim) for row in rows]

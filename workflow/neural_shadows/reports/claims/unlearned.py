@@ -6,7 +6,7 @@ from typing import Any
 from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.metrics.intervals import FEWEST_VIEWS
 from neural_shadows.reports.claims.comparison import NAMES, interval_text
-from neural_shadows.reports.claims.measured import Budget, Measured, Row, compared
+from neural_shadows.reports.claims.measured import WITHOUT_ROWS, Budget, Measured, Row, compared
 from neural_shadows.reports.learned import THESIS_METRICS, has_learned, learned
 
 LOSS_MARGIN = 0.02  # of no shadow's loss: what chance does to the end of a curve
@@ -18,8 +18,8 @@ def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
     Each training of the budget that is compared must be, in the metrics of the thesis's tables
     and those of the claim. Of too few views nothing is said.
     """
-    if claim["kind"] in ("frame_time", "printed"):
-        return ""  # neither is about what a network answers
+    if claim["kind"] in ("frame_time", *WITHOUT_ROWS):
+        return ""  # none is about what a network answers
     tested = [
         (row, budget)
         for rows in compared(claim)

@@ -7,10 +7,12 @@ from typing import Any
 import pandas as pd
 
 from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured
+from neural_shadows.reports.claims.soft import SoftTable, soft_values
 from neural_shadows.reports.claims.violations import counts_by_view
 from neural_shadows.reports.inputs import by_folder, read_meshes
 from neural_shadows.reports.learned import margins
@@ -22,11 +24,11 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
 COLUMNS = [
-    *("claim", "section", "statement", "kind", "verdict", "reason", "metric", "seeds"),
+    *("claim", "text", "section", "statement", "kind", "verdict", "reason", "metric", "seeds"),
     *("budget_fraction", "trend_of", "trend", "trend_low", "trend_high", "direction"),
     *("null_verdict", "number_of", "number", "evidence", "scale", "samples", "thesis_samples"),
 ]
-SAID = ("section", "statement", "kind")
+SAID = ("text", "section", "statement", "kind")
 
 
 def write_claims(
@@ -36,11 +38,14 @@ def write_claims(
     trainings: list[Path],
     times: list[Path],
     meshes: list[Path],
+    soft_metrics: list[Path],
+    soft_times: list[Path],
     published_csv: Path,
     csv: Path,
     md: Path,
     claims: Mapping[str, Mapping[str, Any]],
     learning_curves: Mapping[str, Sequence[Mapping[str, Any]]],
+    soft_tables: Mapping[str, Mapping[str, Any]],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
@@ -53,10 +58,13 @@ def write_claims(
             and of all points of their learning curves.
         losses, trainings: of the networks among them; times: frame times; meshes: mesh.json of
             their scenes. The folders say of which scene, experiment or table a file is.
+        soft_metrics, soft_times: of the methods for soft shadows that claims compare, and of the
+            tables that these are in, which the files' names say.
         published_csv: the numbers that the thesis prints.
         claims: by name, as `judge` takes them, with `section` and `statement`.
         learning_curves: `experiment`, `steps`, `seed` and `samples` of each training, by
             experiment; the budgets grow.
+        soft_tables: of each table of them its `frame_set` and the `labels` of its methods.
 
     Raises:
         InputError: a file is missing, or a method lacks a value of a view that others have.
@@ -73,6 +81,7 @@ def write_claims(
         margins=margins(by_cell(published)),
         curves=learning_curves,
         seed=run["seed"],
+        soft=_soft(soft_metrics, soft_times, soft_tables),
     )
     found = pd.DataFrame(
         {"claim": name} | {key: claim[key] for key in SAID} | judge(claim, data)
@@ -83,7 +92,7 @@ def write_claims(
         "claim": found["statement"],
         "verdict": "**" + found["verdict"] + "**",
         "why": found["reason"],
-        "section": found["section"],
+        "section": [phrases.section_of(one) for _, one in found.iterrows()],
         "evidence": found["evidence"],
     }
     title = "What the thesis claims, and what this run can say of it"
@@ -104,6 +113,19 @@ def _by_view(paths: Sequence[Path]) -> pd.DataFrame:
     found = read_metrics(paths)
     quality = values_by_view(found, found["method"].unique())
     return pd.concat([quality, counts_by_view(found)], axis=1)
+
+
+def _soft(
+    metrics: Sequence[Path], times: Sequence[Path], tables: Mapping[str, Mapping[str, Any]]
+) -> dict[str, SoftTable]:
+    """What claims on soft shadows are tested on, by table; each is of one frame set."""
+    timed = {path.stem: read_json(path) for path in times}
+    found = {}
+    for table, about in tables.items():
+        mine = [path for path in metrics if path.parent.name == about["frame_set"]]
+        values = soft_values(read_soft_metrics(mine))
+        found[table] = SoftTable(values, about["labels"], timed[table])
+    return found
 
 
 def _lead(verdicts: pd.Series, data: Measured) -> str:
