@@ -129,9 +129,6 @@ class SoftPicturesFigure(AnyFigure):
     table: Name = Field(description="a table of `soft_methods` in `tables`")
     soft_scene: name_in("soft_scenes") = Field(description="whose first test frame is shown")
     methods: list[str] = Field(min_length=1, description="which of the table's methods")
-    radii: list[int] | None = Field(
-        None, min_length=1, description="which radii, counted from 0; by default three"
-    )
 
 
 class PenumbraFigure(AnyFigure):
@@ -244,7 +241,7 @@ def _check_soft(config: "Config", key: str, figure: SoftTableFigure | SoftPictur
     frames = config.frame_sets[table.frame_set]
     if isinstance(frames, OwnFrames):
         raise ValueError(f"{key}.table: {figure.table!r} is of frames of a user's own")
-    for k in figure.radii or []:
+    for k in getattr(figure, "radii", None) or []:
         if not 0 <= k < len(frames.radii):
             raise ValueError(
                 f"{key}.radii: {k} is not among 0 to {len(frames.radii) - 1}, the radii of "

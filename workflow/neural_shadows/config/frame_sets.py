@@ -32,8 +32,8 @@ class CubeMap(Model):
 class WholeFrame(Model):
     """The frame that a set's frames are windows of."""
 
-    width: Pixels
-    height: Pixels
+    width: Pixels = Field(description="pixels")
+    height: Pixels = Field(description="pixels")
 
 
 class Twins(Model):
@@ -142,4 +142,4 @@ def as_settings(config: "Config", name: str) -> dict[str, Any]:
     if isinstance(frames, OwnFrames):
         return {"path": frames.path, "parts": own_parts(frames.path)}
     found = frames.model_dump()
-    return found | {"of": found["of"] and tuple(found["of"].values()), "path": None}
+    return found | {"of": found["of"] and [*found["of"].values()], "path": None}

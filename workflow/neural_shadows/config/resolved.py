@@ -73,9 +73,8 @@ def _scene(config: "Config", name: str) -> Section:
 def _soft_scene(config: "Config", name: str) -> Section:
     """What `SoftScene` takes beside the meshes, of whose names it has the axes that point up."""
     scene = config.soft_scenes[name]
-    seed = config.seed if scene.seed is None else scene.seed
     ups = {inserted: config.scenes[inserted].up for inserted in scene.inserted}
-    return {"generate": scene.generate, "seed": seed, "inserted": ups}
+    return {"generate": scene.generate, "seed": config.seed, "inserted": ups}
 
 
 def _experiment(config: "Config", name: str) -> Section:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
-from neural_shadows.config.base import Model, Seed, name_in
+from neural_shadows.config.base import Model, name_in
 from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ class SoftScene(Model):
     inserted: list[name_in("scenes")] = Field(
         [], description="names in `scenes`, whose meshes stand on the scene's spots in this order"
     )
-    seed: Seed | None = Field(None, description="without it the configuration's")
 
 
 def check(config: "Config") -> None:

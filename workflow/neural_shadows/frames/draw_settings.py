@@ -1,7 +1,7 @@
 """Cameras and lights of frames, drawn so that there is something to see [Hu et al. 2025, 4]."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -39,7 +39,7 @@ class FrameKind:
     width: int
     height: int
     fov: float
-    of: tuple[int, int] | None
+    of: Sequence[int] | None
     light_map: Mapping[str, Any]
     radius: float
 

@@ -20,7 +20,7 @@ TOLD = {
     "overview": ("scene", "sampling", "seed"),
     "quadtree": ("scene", "sampling", "seed"),
     "soft_equal_time": ("radii", "run"),
-    "soft_pictures": ("labels", "radii", "run"),
+    "soft_pictures": ("labels", "run"),
     "penumbra_model": ("run",),
 }
 

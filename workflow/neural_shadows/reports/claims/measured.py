@@ -1,7 +1,7 @@
 """What claims are tested on: measured values by method, budget and seed."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -68,7 +68,7 @@ class Measured:
     margins: Mapping[str, float]
     curves: Mapping[str, Sequence[Mapping[str, Any]]]
     seed: int
-    soft: Mapping[str, Any]
+    soft: Mapping[str, Any] = field(default_factory=dict)
 
     def budgets(self, rows: Iterable[Row]) -> list[Budget]:
         """The budgets, growing, at which all trained methods among the rows share a seed.

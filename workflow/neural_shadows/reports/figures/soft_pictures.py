@@ -25,22 +25,20 @@ def draw(
     *,
     title: str,
     labels: Mapping[str, str],
-    radii: Sequence[int] | None,
     run: Section,
 ) -> None:
-    """Draw the first frame of a part: a line a method, two pictures a radius.
+    """Draw the first frame of a part: a line a method, two pictures for each of three radii.
 
     Args:
         part: of a frame set, see `FrameSetPart`; answers: of each method, by file name.
-        labels: of the methods, in the order to draw them. radii: counted from 0; None for the
-            smallest above 0, the middle one and the largest.
+        labels: of the methods, in the order to draw them.
 
     Raises:
         InputError: a file is missing or not whole.
     """
     opened = FrameSetPart(part)
     count = len(opened.radii)
-    shown = sorted(set(radii or (min(1, count - 1), count // 2, count - 1)))
+    shown = sorted({min(1, count - 1), count // 2, count - 1})
     targets = opened.targets[NUMBER].astype(np.float32)
     valid = np.asarray(opened.valid[NUMBER, 0])
     files = {path.stem: path for path in answers}

@@ -1,0 +1,76 @@
+"""Claims on methods for soft shadows, from made frames."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from claim_samples import measured
+
+from neural_shadows.reports import verdicts
+from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.claims.soft import SoftTable, soft_values
+
+LABELS = {"pcss": "PCSS", "msm_15": "MSM", "rt_1": "1 ray", "rt_4": "4 rays", "rt_4_svgf": "SVGF"}
+MSE = {"pcss": 0.010, "msm_15": 0.012, "rt_1": 0.03, "rt_4": 0.008, "rt_4_svgf": 0.001}
+TIMES = {
+    **{"radii": [0, 0.1, 0.2], "map_ms": 5.0},
+    "methods": {
+        "pcss": {"ms": [1.0, 30.0, 40.0], "texel_floats": 1},
+        "msm_15": {"ms": [1.0, 8.0, 8.0], "texel_floats": 4},
+        "rt_1": {"ms": [5.0, 10.0, 10.0], "texel_floats": 0},
+        "rt_4": {"ms": [5.0, 36.0, 36.0], "texel_floats": 0},
+        "rt_4_svgf": {"ms": [5.0, 12.0, 12.0], "texel_floats": 0},
+    },
+}
+
+
+def data(frames=20, noise=0.001, methods=TIMES["methods"]):
+    """What frames have in common is larger than what methods differ by."""
+    rng = np.random.default_rng(4)
+    level = rng.uniform(0, 0.02, frames)
+    rows = [
+        {"scene": "room", "part": "test_000", "frame": i, "radius": k, "metric": "mse"}
+        | {"method": method, "value": level[i] + mse + rng.normal(0, noise)}
+        for method, mse in MSE.items()
+        for k in range(3)
+        for i in range(frames)
+    ]
+    table = SoftTable(soft_values(pd.DataFrame(rows)), LABELS, TIMES | {"methods": methods})
+    return measured(soft={"soft": table})
+
+
+def claim(kind, **told):
+    return {"kind": kind, "table": "soft", "needs": {}, "metric": "mse", "radii": [1, 2], **told}
+
+
+@pytest.mark.parametrize(
+    ("pair", "verdict"),
+    [(["pcss", "msm_15"], verdicts.SUPPORTED), (["msm_15", "pcss"], verdicts.CONTRADICTED)],
+)
+def test_frames_are_compared_in_pairs(pair, verdict):
+    found = judge(claim("soft_better", pairs=[pair]), data())
+    assert found["verdict"] == verdict
+    assert "PCSS" in found["evidence"] and "at 0.2 m" in found["evidence"]
+
+
+def test_noise_and_few_frames_decide_nothing():
+    pairs = [["pcss", "msm_15"]]
+    assert judge(claim("soft_better", pairs=pairs), data(noise=0.05))["verdict"] == "undecided"
+    few = judge(claim("soft_better", pairs=pairs), data(frames=6))
+    assert few["verdict"] == verdicts.TOO_SMALL and "6 frames are too few" in few["reason"]
+
+
+def test_as_many_rays_as_fit_into_the_time():
+    """PCSS takes 35 and 45 ms: one ray at the first radius, four at the second."""
+    found = judge(claim("soft_equal_time", methods=["pcss"]), data())
+    first, second = found["evidence"].split("; ")
+    assert "1 ray" in first and "(10 ms) against PCSS" in first
+    assert "4 rays" in second and "SVGF" not in found["evidence"]
+    assert found["verdict"] == verdicts.CONTRADICTED  # at the first radius one ray is worse
+    later = judge(claim("soft_equal_time", methods=["pcss"], radii=[2]), data())
+    assert later["verdict"] == verdicts.SUPPORTED
+
+
+def test_a_method_that_is_faster_than_any_ray_is_not_judged():
+    quick = TIMES["methods"] | {"msm_15": {"ms": [1.0, 1.0, 1.0], "texel_floats": 4}}
+    found = judge(claim("soft_equal_time", methods=["msm_15"]), data(methods=quick))
+    assert found["verdict"] == verdicts.TOO_SMALL and "no number of rays fits" in found["reason"]
