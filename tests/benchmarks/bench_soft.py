@@ -1,0 +1,179 @@
+"""Soft shadows on one thread: classic methods on a frame of 2048 × 1024, beside plain numpy forms;
+the exact shadow and a frame's buffers.
+"""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from measurement import Row, median_seconds
+
+from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.frames.draw_settings import FrameKind, draw_setting, light_map_of, twin_of
+from neural_shadows.frames.render_frame import render_buffers, render_target
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.rendering.surface import see_surface
+from neural_shadows.shadow_maps.moments import box, powers
+
+SCENE = {"generate": "room", "seed": 2026, "inserted": {}}
+RADIUS = 0.125  # metres
+NUMPY, TRACED = "plain numpy", "a ray a texel"
+GOLDEN_ANGLE = np.pi * (3 - 5**0.5)
+TWINS = {"light": 0.007, "eye": 0.0013, "turn_deg": 0.0}
+
+
+def rows(quick: bool) -> list[Row]:
+    """Frames a second of each method, and seconds of what a frame set is made of."""
+    scene = SoftScene(SCENE, [])
+    frame = _frame(scene, 1024 if quick else 2048)
+    rounds = 1 if quick else 5
+    return [*methods(frame, rounds), *frames(scene, rounds)]
+
+
+def methods(frame: SoftFrame, rounds: int) -> list[Row]:
+    """Whole frames a second, without the map; and the map rasterised and traced."""
+    width, height = frame.surface.width, frame.surface.height
+    found, size = [], f"{width} x {height}"
+    peers: dict[str, Callable[[], object]] = {
+        "pcf_disc": partial(numpy_disc, frame, 4.0),
+        "pcss": partial(numpy_pcss, frame),
+        "msm_9": partial(numpy_moments, frame),
+    }
+    for key in (
+        "hard",
+        "pcf_9",
+        "pcf_disc",
+        "pcss",
+        "pcss_post",
+        "vsm_9",
+        "msm_9",
+        "msm_15",
+        "rt_1",
+    ):
+        method = METHODS[key]
+        constants = method.settings()[-1] | ({"texels": 4.0} if key == "pcf_disc" else {})
+        works = {key: partial(method.answer, frame, RADIUS, **constants)}
+        if key in peers:
+            works[NUMPY] = peers[key]
+        rate = {name: 1 / value for name, value in median_seconds(works, rounds).items()}
+        told = {"peer": NUMPY, "peer_rate": rate[NUMPY]} if key in peers else {}
+        stage = f"soft shadow of {size}: {method.label}"
+        found.append(Row(stage, "cpu x1", rate[key], "frames/s", **told))
+    works = {
+        "map": lambda: SoftFrame(frame.scene, frame.surface, frame.centre, frame.light_map).depths,
+        TRACED: lambda: frame.light_map.depths(frame.scene.tracer),
+    }
+    rate = {name: 1 / value for name, value in median_seconds(works, rounds).items()}
+    stage = f"light's map of {frame.light_map.resolution}²"
+    told = {"peer": TRACED, "peer_rate": rate[TRACED]}
+    return [*found, Row(stage, "cpu x1", rate["map"], "maps/s", **told)]
+
+
+def frames(scene: SoftScene, rounds: int) -> list[Row]:
+    """Frames of 512 × 256 with three twins and five radii, windows of 256² with one and six."""
+    size = scene.at_rest.size
+    picture = {"kind": "perspective", "fov": 120, "resolution": 512}
+    cube = {"kind": "cube", "resolution": 2048}
+    kinds = {
+        "frame of 512 x 256, 3 twins": (
+            FrameKind(512, 256, 55, None, picture, 0.25),
+            3,
+            [k / 16 for k in range(5)],
+        ),
+        "window of 256 x 256, 1 twin": (
+            FrameKind(256, 256, 55, (2048, 1024), cube, 0.00625 * size),
+            1,
+            [0.00125 * k * size for k in range(6)],
+        ),
+    }
+    found = []
+    for name, (kind, twins, radii) in kinds.items():
+        rng = np.random.default_rng(1)
+        settings = [draw_setting(scene, kind, rng)]
+        settings += [twin_of(settings[0], size, TWINS, rng) for _ in range(twins)]
+
+        def buffers(kind=kind, settings=settings):
+            for one in settings:
+                render_buffers(scene, kind, one)
+
+        def target(kind=kind, settings=settings, radii=radii):
+            render_target(scene, kind, settings[0], radii=radii, samples=4, blur=0)
+
+        for part, seconds in median_seconds({"buffers": buffers, "target": target}, rounds).items():
+            found.append(Row(f"{name}: {part}", "cpu x1", seconds, "s"))
+    return found
+
+
+def _frame(scene: SoftScene, width: int) -> SoftFrame:
+    settings = {"kind": "perspective", "fov": 120, "resolution": width}
+    kind = FrameKind(width, width // 2, 55, None, settings, 0.25)
+    setting = draw_setting(scene, kind, np.random.default_rng(2))
+    surface = see_surface(scene.at_rest, setting.camera, kind.width, kind.height)
+    light_map = light_map_of(settings, scene, setting.centre)
+    frame = SoftFrame(scene.at_rest, surface, setting.centre, light_map)
+    for name in ("ways", "cosines", "bias", "starts", "depths"):
+        getattr(frame, name)
+    return frame
+
+
+def numpy_disc(frame: SoftFrame, texels: float, samples: int = 128) -> np.ndarray:
+    """Percentage-closer filtering over a disc, a sample of all pixels at a time."""
+    angle = texels * 2 * frame.light_map.half / frame.light_map.resolution
+    return _lit_share(frame, np.full(len(frame.ways), angle), samples)
+
+
+def numpy_pcss(frame: SoftFrame, searched: int = 64, samples: int = 128) -> np.ndarray:
+    """Percentage-closer soft shadows likewise."""
+    distance = np.linalg.norm(frame.ways, axis=1)
+    total, count = np.zeros((2, len(distance)))
+    for texels in _looked_up(frame, RADIUS * 3 / distance, searched):
+        depth = np.where(texels < 0, np.inf, frame.depths[texels])
+        blocks = distance > depth + frame.bias
+        total += np.where(blocks, depth, 0)
+        count += blocks
+    mean = total / np.maximum(count, 1)
+    angles = RADIUS * (distance - mean) / (distance * np.maximum(mean, 1e-9))
+    return np.where(count > 0, _lit_share(frame, angles, samples), 1)
+
+
+def _lit_share(frame: SoftFrame, angles: np.ndarray, samples: int) -> np.ndarray:
+    distance, lit = np.linalg.norm(frame.ways, axis=1), 0
+    for texels in _looked_up(frame, angles, samples):
+        first = np.where(texels < 0, np.inf, frame.depths[texels])
+        lit = lit + (distance <= first + frame.bias)
+    return lit / samples
+
+
+def _looked_up(frame: SoftFrame, angles: np.ndarray, samples: int):
+    """Texels of each sample of a disc of directions round each point's."""
+    forward = frame.ways / np.linalg.norm(frame.ways, axis=1, keepdims=True)
+    right = np.cross(forward, [0.3, 0.5, 0.8])
+    right /= np.linalg.norm(right, axis=1, keepdims=True)
+    down = np.cross(forward, right)
+    for k in range(samples):
+        radius, turn = np.sqrt((k + 0.5) / samples) * angles, k * GOLDEN_ANGLE
+        across = np.cos(turn) * right + np.sin(turn) * down
+        yield frame.light_map.texels_of(forward + radius[:, None] * across)
+
+
+def numpy_moments(frame: SoftFrame) -> np.ndarray:
+    """Four moments of 9 × 9 texels, nearest look-up, and each pixel's system by numpy.linalg."""
+    size, far = frame.light_map.resolution, 2 * frame.scene.size
+    q = np.minimum(frame.depths, far).reshape(size, size) / far
+    kernel, moments = box(9), powers(q, 4)
+    for axis in (0, 1):
+        moments = np.apply_along_axis(np.convolve, axis, moments, kernel, "same")
+    texels = np.maximum(frame.light_map.texels_of(frame.ways), 0)
+    b = (1 - 3e-5) * moments.reshape(-1, 4)[texels] + 1.5e-5
+    z = (np.linalg.norm(frame.ways, axis=1) - frame.bias) / far
+    one = np.ones_like(z)
+    rows_ = [[one, b[:, 0], b[:, 1]], [b[:, 0], b[:, 1], b[:, 2]], [b[:, 1], b[:, 2], b[:, 3]]]
+    hankel = np.moveaxis(np.array(rows_), -1, 0) + 1e-9 * np.eye(3)
+    c = np.linalg.solve(hankel, np.stack([one, z, z * z], axis=-1)[..., None])[..., 0]
+    middle, product = -c[:, 1] / (2 * c[:, 2]), c[:, 0] / c[:, 2]
+    half = np.sqrt(np.maximum(middle**2 - product, 0))
+    near, far_ = middle - half, middle + half
+    between = (z * far_ - b[:, 0] * (z + far_) + b[:, 1]) / ((far_ - near) * (z - near))
+    behind = 1 - (near * far_ - b[:, 0] * (near + far_) + b[:, 1]) / ((z - near) * (z - far_))
+    return 1 - np.clip(np.where(z <= near, 0, np.where(z <= far_, between, behind)), 0, 1)
