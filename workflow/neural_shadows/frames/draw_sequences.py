@@ -1,18 +1,17 @@
 """Settings of consecutive frames: camera, light, both or an object move a little from each to the next."""
 
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
-from neural_shadows.errors import InputError
 from neural_shadows.frames.draw_settings import (
-    EYE_CLEARANCE,
-    LIGHT_CLEARANCE,
     FrameKind,
     draw_setting,
-    is_clear,
+    none_usable,
+    why_unusable,
 )
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
@@ -30,17 +29,16 @@ def draw_sequence(
     """Consecutive settings in which `camera`, `light`, `both` or the scene's mover (`object`) moves.
 
     Raises:
-        InputError: of 50 paths none keeps clear of objects.
+        InputError: of 50 paths none keeps clear of objects and in the light's map; says why.
     """
+    why: Counter[str] = Counter()
     for _ in range(_DRAWS):
-        start = draw_setting(scene, kind, rng)
-        settings = _along(scene, start, what, frames, rng)
-        if all(_clear(scene, kind, one) for one in settings):
+        settings = _along(scene, draw_setting(scene, kind, rng), what, frames, rng)
+        wrong = [why_unusable(scene, scene.moved(one.motion), kind, one) for one in settings]
+        if not any(wrong):
             return settings
-    raise InputError(
-        f"{scene.arrangement.name}: none of {_DRAWS} paths ({what}) keeps clear of its objects; "
-        "change its regions"
-    )
+        why.update({*filter(None, wrong)})
+    raise none_usable(scene, f"{_DRAWS} paths ({what})", why)
 
 
 def _along(
@@ -81,10 +79,3 @@ def _motions(scene: SoftScene, way: np.ndarray) -> list[np.ndarray]:
         motion[:3, 3] = middle - motion[:3, :3] @ middle + along
         motions.append(motion)
     return motions
-
-
-def _clear(scene: SoftScene, kind: FrameKind, setting: Setting) -> bool:
-    opened = scene.moved(setting.motion)
-    light = LIGHT_CLEARANCE * opened.size + kind.radius
-    eye = EYE_CLEARANCE * opened.size
-    return is_clear(opened, setting.camera.eye, eye) and is_clear(opened, setting.centre, light)

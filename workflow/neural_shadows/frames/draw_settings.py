@@ -63,14 +63,19 @@ def draw_setting(scene: SoftScene, kind: FrameKind, rng: np.random.Generator) ->
     opened = scene.at_rest
     for _ in range(_DRAWS):
         setting = _drawn(scene, kind, rng)
-        wrong = _wrong(scene, opened, kind, setting)
+        wrong = why_unusable(scene, opened, kind, setting)
         if wrong is None:
             return setting
         why[wrong] += 1
+    raise none_usable(scene, f"{_DRAWS} draws of a camera and a light", why)
+
+
+def none_usable(scene: SoftScene, draws: str, why: Counter[str]) -> InputError:
+    """The error that nothing drawn for a scene can be used, with how often each reason was why."""
     told = ", ".join(f"{wrong} ({count})" for wrong, count in why.most_common())
-    raise InputError(
-        f"{scene.arrangement.name}: none of {_DRAWS} draws of a camera and a light can be used: "
-        f"{told}; change its regions, or the frame set's light map"
+    return InputError(
+        f"{scene.arrangement.name}: none of {draws} can be used: {told}; change its regions, or the "
+        "frame set's light map"
     )
 
 
@@ -108,8 +113,12 @@ def _sides(kind: FrameKind):
     return zip(kind.of, (kind.width, kind.height), strict=True)
 
 
-def _wrong(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Setting) -> str | None:
-    """Why a setting cannot be used; None if it can."""
+def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Setting) -> str | None:
+    """Why a setting cannot be used; None if it can.
+
+    Args:
+        opened: the scene with its mover where the setting has it.
+    """
     if not is_clear(opened, setting.camera.eye, EYE_CLEARANCE * opened.size):
         return "the camera is in an object or near one"
     if not is_clear(opened, setting.centre, LIGHT_CLEARANCE * opened.size + kind.radius):
