@@ -23,7 +23,8 @@ def test_rules_exist():
 def test_what_is_not_grouped_is_long_or_local():
     long = {"describe_rays", "train", "render_references", "query_network", "evaluate"}
     long |= {"find_depth_bias", "export_network"}
-    timed = {"measure_frame_times", "measure_cost"}
+    long |= {"render_frames", "tune_soft_method", "evaluate_soft"}
+    timed = {"measure_frame_times", "measure_cost", "time_soft_methods"}
     local = {name for name, rule in RULES.items() if "localrule: True" in rule}
     assert local == {"find_lpips", "download_mesh"}
     assert PROFILE["set-resources"].keys() == timed

@@ -4,6 +4,7 @@
 rule tune_soft_method:
     input:
         parts=of(soft_methods.validations),
+        beside=of(soft_methods.tuned_arrays),
         meshes=of(soft_methods.all_meshes),
         code=lambda wildcards: code(
             "evaluation/tune_soft_method",
@@ -28,6 +29,7 @@ rule tune_soft_method:
 rule evaluate_soft:
     input:
         parts=of(soft_methods.tests),
+        beside=of(soft_methods.measured_arrays),
         sequences=of(soft_methods.sequences),
         meshes=of(soft_methods.all_meshes),
         constants_json=PATHS.soft_constants(),

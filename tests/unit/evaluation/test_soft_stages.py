@@ -103,14 +103,21 @@ def test_metrics_of_methods(folder):
     assert flicker["no_shadow"]["instability"] < flicker["hard"]["instability"]
 
 
+def test_a_history_calms_what_few_rays_do(folder):
+    found = {method: means(evaluate(folder, method)).loc[1] for method in ("rt_1", "rt_1_svgf")}
+    noise = {method: one["instability"] for method, one in found.items()}
+    assert noise["rt_1"] > 4 * found["rt_1"]["instability_reference"]  # new rays in each frame
+    assert noise["rt_1_svgf"] < noise["rt_1"] / 2
+
+
 def test_answers_are_kept(folder):
     evaluate(folder, "hard")
     (measured, _) = measured_frames([folder / "test_000.json"], [])
     found = measured.answered(METHODS["hard"], 0.1, {})
-    kept = read_answer(folder / "frames/hard.npz", "blinds.test_000.0.1")
+    kept = read_answer(folder / "frames/hard.npz", "blinds.test_000.1")
     assert np.array_equal(kept, found)
     with pytest.raises(InputError, match="hard.npz: damaged"):
-        read_answer(folder / "frames/hard.npz", "blinds.test_001.0.1")
+        read_answer(folder / "frames/hard.npz", "blinds.test_001.1")
 
 
 def test_times(folder):

@@ -12,7 +12,7 @@ from neural_shadows.reports.claims.soft import SoftTable, soft_values
 LABELS = {"pcss": "PCSS", "msm_15": "MSM", "rt_1": "1 ray", "rt_4": "4 rays", "rt_4_svgf": "SVGF"}
 MSE = {"pcss": 0.010, "msm_15": 0.012, "rt_1": 0.03, "rt_4": 0.008, "rt_4_svgf": 0.001}
 TIMES = {
-    **{"radii": [0, 0.1, 0.2], "map_ms": 5.0},
+    "map_ms": 5.0,
     "methods": {
         "pcss": {"ms": [1.0, 30.0, 40.0], "texel_floats": 1},
         "msm_15": {"ms": [1.0, 8.0, 8.0], "texel_floats": 4},
@@ -23,18 +23,27 @@ TIMES = {
 }
 
 
+RADII = ["0 m", "0.1 m", "0.2 m"]
+
+
 def data(frames=20, noise=0.001, methods=TIMES["methods"]):
     """What frames have in common is larger than what methods differ by."""
     rng = np.random.default_rng(4)
     level = rng.uniform(0, 0.02, frames)
     rows = [
-        {"scene": "room", "part": "test_000", "frame": i, "radius": k, "metric": "mse"}
+        {
+            "scene": ("room", "tree")[i % 2],
+            "part": "test_000",
+            "frame": i,
+            "radius": k,
+            "metric": "mse",
+        }
         | {"method": method, "value": level[i] + mse + rng.normal(0, noise)}
         for method, mse in MSE.items()
         for k in range(3)
         for i in range(frames)
     ]
-    table = SoftTable(soft_values(pd.DataFrame(rows)), LABELS, TIMES | {"methods": methods})
+    table = SoftTable(soft_values(pd.DataFrame(rows)), LABELS, TIMES | {"methods": methods}, RADII)
     return measured(soft={"soft": table})
 
 
@@ -74,3 +83,8 @@ def test_a_method_that_is_faster_than_any_ray_is_not_judged():
     quick = TIMES["methods"] | {"msm_15": {"ms": [1.0, 1.0, 1.0], "texel_floats": 4}}
     found = judge(claim("soft_equal_time", methods=["msm_15"]), data(methods=quick))
     assert found["verdict"] == verdicts.TOO_SMALL and "no number of rays fits" in found["reason"]
+
+
+def test_a_metric_that_is_missing_is_said():
+    found = judge(claim("soft_better", pairs=[["pcss", "msm_15"]], metric="lpips"), data())
+    assert found["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in found["reason"]

@@ -7,6 +7,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in
 from neural_shadows.config.experiments import network_of
+from neural_shadows.config.frame_sets import OwnFrames
 from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
 from neural_shadows.evaluation.method_names import (
     is_classic,
@@ -258,10 +259,12 @@ def _check_soft(config: "Config", key: str, claim: SoftBetterClaim | SoftEqualTi
     tables = [name for name, table in config.tables.items() if table.kind == "soft_methods"]
     check_among(f"{key}.table", claim.table, tables)
     table = config.tables[claim.table]
+    if isinstance(config.frame_sets[table.frame_set], OwnFrames):
+        raise ValueError(f"{key}.table: {claim.table!r} is of frames of a user's own")
     given = getattr(claim, "methods", None) or [m for pair in claim.pairs for m in pair]
     for method in given:
         check_among(f"{key}: {claim.table}.methods", method, table.methods)
-    radii = getattr(config.frame_sets[table.frame_set], "radii", ())
+    radii = config.frame_sets[table.frame_set].radii
     for k in claim.radii:
         if k >= len(radii):
             raise ValueError(

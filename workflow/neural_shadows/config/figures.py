@@ -216,6 +216,12 @@ def check(config: "Config") -> None:
                             f"{key}.curves: {curve.experiment!r} is built without training and has "
                             "no loss; leave it out"
                         )
+            case PenumbraFigure():
+                if isinstance(config.frame_sets[figure.frame_set], OwnFrames):
+                    raise ValueError(
+                        f"{key}.frame_set: {figure.frame_set!r} is of a user's own frames, which have "
+                        "no scene to look at"
+                    )
             case SoftTableFigure() | SoftPicturesFigure():
                 _check_soft(config, key, figure)
             case NetworkFigure(kind="field_slice" | "field_3d"):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from neural_shadows.config.base import Model, Name, PowerOfTwo, by_kind, name_in
+from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -61,13 +62,14 @@ class RenderedFrames(Model):
     unseen: list[name_in("soft_scenes")] = Field([], description="for tests alone")
     width: Pixels = Field(description="pixels of a frame")
     height: Pixels = Field(description="pixels of a frame")
+    train_width: Pixels | None = Field(None, description="of training frames, if another")
     fov: float = Field(55, ge=5, le=120, description="vertical, in degrees, of the whole frame")
     of: WholeFrame | None = Field(
         None, description="frames are windows of one of this size; without it they are whole"
     )
     light_map: by_kind("kind", PerspectiveMap, CubeMap) = Field(description="the light's map")
     radii: list[Annotated[float, Field(ge=0, le=10)]] = Field(
-        min_length=1, description="of the light; 0 is a point"
+        min_length=1, max_length=8, description="of the light; 0 is a point"
     )
     radius_unit: Literal["metres", "scene_sizes"] = Field(
         "metres", description="a scene's size is the longest side of its box"
@@ -121,12 +123,17 @@ FrameSet = Annotated[
 
 
 def own_parts(path: str) -> dict[str, list[str]]:
-    """The parts in a folder of a user's own frames, by scene: `test_000` of `test_000.json`."""
-    found = sorted(Path(path).glob("*/*_*.json"))
+    """The parts of the scenes with test frames in a folder of a user's own, by scene: `test_000` of
+    `test_000.json`.
+    """
     scenes: dict[str, list[str]] = {}
-    for file in found:
+    for file in sorted(Path(path).glob("*/*_[0-9]*.json")):
         scenes.setdefault(file.parent.name, []).append(file.stem)
-    return scenes
+    return {
+        scene: parts
+        for scene, parts in scenes.items()
+        if any(part.startswith("test_") for part in parts)
+    }
 
 
 def measured_scenes(frames: RenderedFrames | OwnFrames) -> list[Name]:
@@ -134,6 +141,18 @@ def measured_scenes(frames: RenderedFrames | OwnFrames) -> list[Name]:
     if isinstance(frames, OwnFrames):
         return list(own_parts(frames.path))
     return [*frames.scenes, *frames.unseen]
+
+
+def check(config: "Config") -> None:
+    """Check that what networks may train on is kept apart from what they never see."""
+    for name, frames in config.frame_sets.items():
+        for scene in getattr(frames, "scenes", ()):
+            generator = config.soft_scenes[scene].generate
+            if generator in UNTRAINED:
+                raise ValueError(
+                    f"frame_sets.{name}.scenes: {scene!r} is a {generator}, which no network may "
+                    f"train on; put it among `unseen` (for training: {', '.join(TRAINED)})"
+                )
 
 
 def as_settings(config: "Config", name: str) -> dict[str, Any]:

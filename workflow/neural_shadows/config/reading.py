@@ -8,6 +8,7 @@ import yaml
 from pydantic import ValidationError
 
 from neural_shadows.config.base import not_among
+from neural_shadows.config.frame_sets import own_parts
 from neural_shadows.config.messages import describe
 from neural_shadows.config.scenes import MeshFile
 from neural_shadows.config.whole import Config
@@ -108,6 +109,13 @@ def check_files(config: Config) -> None:
                 format_of(path)
             except InputError as error:
                 raise InputError(f"config: {key}: {error}") from error
+    for name, frames in config.frame_sets.items():
+        path = getattr(frames, "path", None)
+        if path is not None and not own_parts(path):
+            raise InputError(
+                f"config: frame_sets.{name}.path = {path!r}: no SCENE/test_000.json in it; "
+                "results/README.md tells the format"
+            )
     if config.metrics.lpips.trunk is not None:
         _check_file("metrics.lpips.trunk", config.metrics.lpips.trunk)
 

@@ -12,6 +12,7 @@ from neural_shadows.config import (
     claims,
     experiments,
     figures,
+    frame_sets,
     learning_curves,
     scenes,
     soft_scenes,
@@ -89,6 +90,7 @@ class Config(Model):
         for section in (
             scenes,
             soft_scenes,
+            frame_sets,
             experiments,
             learning_curves,
             tables,

@@ -13,6 +13,7 @@ from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.shadow_methods import classic_method
 from neural_shadows.evaluation.visibilities import write_visibilities
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.metrics.available_lpips import lpips_metric
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.psnr_ssim import psnr, ssim
 from neural_shadows.metrics.shadow_error import shadow_error
@@ -91,21 +92,6 @@ def _of_network(answers: Answers) -> Answer:
 def _of_classic(method: str, mesh_ply: Path, scene: Mapping[str, Any], bias: float) -> Answer:
     asked = classic_method(method, open_scene(mesh_ply, **scene))
     return lambda number, frame: (asked(frame)(bias), {})
-
-
-def lpips_metric(lpips_json: Path, threads: int) -> dict[str, Callable[..., float]]:
-    """LPIPS by its name, for images (H, W) in [0, 1]; nothing where it is not available."""
-    found = read_json(lpips_json)
-    if not found["available"]:
-        return {}
-    # Here and not above: torch and torchvision take 3 s to import.
-    import torch
-
-    from neural_shadows.metrics.lpips_distance import make_lpips
-
-    torch.set_num_threads(threads)
-    trunk = Path(found["trunk"]) if found["trunk"] else None
-    return {"lpips": make_lpips(found["net"], trunk)}
 
 
 if "snakemake" in globals():

@@ -1,19 +1,20 @@
 """The stage that measures one method for soft shadows on test frames and sequences."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.evaluate import lpips_metric
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_answers import name_of, write_answers
 from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.metrics.available_lpips import lpips_metric
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.instability import exponential_instability, root_instability
 from neural_shadows.metrics.psnr_ssim import ssim
@@ -23,7 +24,6 @@ from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
 Row = Mapping[str, Any]
-Answer = Callable[[MeasuredFrame, int], np.ndarray]
 
 
 def evaluate_soft(
@@ -40,7 +40,8 @@ def evaluate_soft(
 ) -> None:
     """Measure a method on all radii of each test frame, and how much it flickers in sequences.
 
-    Writes tidy metrics, see `write_soft_metrics`, and what was answered, see `write_answers`.
+    Writes tidy metrics, see `write_soft_metrics`, and what was answered of each part's first frame,
+    see `write_answers`.
 
     Args:
         parts: of test frames. sequences: parts of consecutive frames; may be none.
@@ -55,26 +56,22 @@ def evaluate_soft(
     constants = [one["constants"] for one in read_json(constants_json)["radii"]]
     images = {"ssim": ssim, "flip": flip} | lpips_metric(lpips_json, threads)
 
-    # What neither the radius nor other constants change is asked once.
-    changes = asked.of_radius or any(one != constants[0] for one in constants)
-
-    def answer(measured: MeasuredFrame, k: int) -> np.ndarray:
-        return measured.answered(asked, measured.part.radii[k], constants[k])
-
     rows: list[Row] = []
-    kept: dict[str, np.ndarray] = {}
+    kept: dict[str, np.ndarray] = {}  # to be drawn
     total = sum(len(FrameSetPart(path)) for path in [*parts, *sequences])
     with progress_bar(total, "frames", f"evaluate {method}") as bar:
         for measured in measured_frames(parts, meshes):
             for k in range(len(measured.part.radii)):
-                found = answer(measured, k) if k == 0 or changes else found
-                kept[name_of(measured.part.frames_json, measured.number, k)] = found
+                if asked.asked_again(constants, k):
+                    found = measured.answered(asked, measured.part.radii[k], constants[k])
+                if measured.number == 0:
+                    kept[name_of(measured.part.frames_json, k)] = found
                 key = _key(measured.part, measured.number, k)
                 values = _values(measured, found, k, images)
                 rows += [{**key, "metric": name, "value": value} for name, value in values.items()]
             bar.update()
         for path in sequences:
-            rows += _flicker([*measured_frames([path], meshes)], answer, bar.update)
+            rows += _flicker(measured_frames([path], meshes), asked, constants, bar.update)
     write_soft_metrics(metrics_csv, rows)
     write_answers(answers_npz, kept)
 
@@ -85,32 +82,33 @@ def _values(
     """The metrics of one image; those of pictures see the target where a pixel does not count."""
     target, valid = measured.target, measured.valid
     picture = np.where(valid, found, target[k])
+    hard = target[0] if measured.part.radii[0] == 0 else None
     return {
-        **visibility_errors(found, target[k], valid, target[0]),
+        **visibility_errors(found, target[k], valid, hard),
         **{name: metric(picture, target[k]) for name, metric in images.items()},
     }
 
 
 def _flicker(
-    frames: Sequence[MeasuredFrame], answer: Answer, told: Callable[[], Any]
+    frames: Iterable[MeasuredFrame],
+    method: SoftMethod,
+    constants: Sequence[Constants],
+    told: Callable[[], Any],
 ) -> Iterator[Row]:
     """Instability over a sequence, of the middle radius: the method's, and the exact shadow's own."""
-    part = frames[0].part
-    k = len(part.radii) // 2
     changes: dict[str, list[np.ndarray]] = {"": [], "_reference": []}
-    last = answer(frames[0], k)
+    answered = _answered(frames, method, constants)
+    before, last, _ = next(answered)
     told()
-    for before, now in pairwise(frames):
-        accepted, places = _seen(before, now)
+    part, k = before.part, _middle(before.part)
+    for now, found, (accepted, places) in answered:
         pixel = now.frame.surface.pixel[accepted]
-        found = answer(now, k)
         for name, old, new in (
             ("", last, found),
             ("_reference", before.target[k], now.target[k]),
         ):
-            moved = looked_up(old, places[:, accepted])
-            changes[name].append(new.ravel()[pixel] - moved)
-        last = found
+            changes[name].append(new.ravel()[pixel] - looked_up(old, places[:, accepted]))
+        before, last = now, found
         told()
     key = _key(part, 0, k)
     pixels = part.about["width"] * part.about["height"]
@@ -119,18 +117,59 @@ def _flicker(
         yield {**key, "metric": f"temporal_error{name}", "value": root_instability(each, pixels)}
 
 
+def _middle(part: FrameSetPart) -> int:
+    return len(part.radii) // 2
+
+
+Seen = tuple[np.ndarray, np.ndarray]
+
+
+def _answered(
+    frames: Iterable[MeasuredFrame], method: SoftMethod, constants: Sequence[Constants]
+) -> Iterator[tuple[MeasuredFrame, np.ndarray, Seen | None]]:
+    """Each frame, the method's picture of it, and what of it the frame before shows (None at first).
+
+    A method with a history answers all frames in turn.
+    """
+    history = None
+    was: list[np.ndarray | None] = []  # of the frame that is asked about
+    asked: list[SoftFrame] = []
+    before = None
+    for now in frames:
+        k = _middle(now.part)
+        radius, chosen = now.part.radii[k], constants[k]
+        seen, points = _seen(before, now) if before else (None, None)
+        if method.sequence is None:
+            yield now, now.answered(method, radius, chosen), seen
+        else:
+            asked.append(now.frame)
+            was.append(points)
+            if history is None:
+                history = method.sequence(_taken(asked), radius, was=_taken(was), **chosen)
+            yield now, now.frame.surface.image(next(history), 1.0), seen
+        before = now
+
+
+def _taken(waiting: list[Any]) -> Iterator[Any]:
+    """What is put into a list, as soon as it is there, each once."""
+    while waiting:
+        yield waiting.pop(0)
+
+
 def _key(part: FrameSetPart, frame: int, radius: int) -> dict[str, Any]:
     path = part.frames_json
     return {"scene": path.parent.name, "part": path.stem, "frame": frame, "radius": radius}
 
 
-def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Which points of a frame count and are seen in the one before, and where; see `seen_before`."""
+def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[Seen, np.ndarray]:
+    """Which points of a frame count and are seen in the one before, and where (see `seen_before`);
+    and where they were then, (n, 3).
+    """
     surface, scene = now.frame.surface, now.scene
     motions = (frame.part.setting(frame.number).motion for frame in (now, before))
     was = scene.before(now.frame.scene, surface.face, surface.p, *motions)
     accepted, places = seen_before(surface, before.frame.surface, was)
-    return accepted & now.valid.ravel()[surface.pixel], places
+    return (accepted & now.valid.ravel()[surface.pixel], places), was
 
 
 if "snakemake" in globals():

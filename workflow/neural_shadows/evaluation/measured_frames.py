@@ -11,7 +11,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.draw_settings import light_map_of
-from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.frames.frame_set import FrameSetPart, check_values
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.rendering.surface import see_surface
@@ -51,7 +51,7 @@ class MeasuredFrame:
         scene = self.scene.moved(setting.motion)
         surface = see_surface(scene, setting.camera, about["width"], about["height"])
         light_map = light_map_of(about["light_map"], self.scene, setting.centre)
-        return SoftFrame(scene, surface, setting.centre, light_map)
+        return SoftFrame(scene, surface, setting.centre, light_map, self.number)
 
     @property
     def target(self) -> np.ndarray:
@@ -67,10 +67,15 @@ class MeasuredFrame:
         self, method: SoftMethod, radius: float, constants: Mapping[str, float]
     ) -> np.ndarray:
         """The method's visibility of a light of a radius, float32; 1 without a surface."""
-        if method.channel:
-            buffers = self.part.buffers[self.number, 0]
-            return buffers[CHANNELS.index(method.channel)].astype(np.float32)
+        if method.channel is not None:
+            return self._buffer(method.channel)
+        if method.constant is not None:
+            seen, lit = self._buffer("z") > 0, self._buffer("c_e") > 0
+            return np.where(seen, np.float32(method.constant) * lit, np.float32(1))
         return self.frame.surface.image(visibility(method, self.frame, radius, constants), 1.0)
+
+    def _buffer(self, channel: str) -> np.ndarray:
+        return self.part.buffers[self.number, 0, CHANNELS.index(channel)].astype(np.float32)
 
 
 def measured_frames(parts: Sequence[Path], meshes: Sequence[Path]) -> Iterator[MeasuredFrame]:
@@ -80,12 +85,14 @@ def measured_frames(parts: Sequence[Path], meshes: Sequence[Path]) -> Iterator[M
         meshes: prepared, of all objects that are inserted; their folders have the objects' names.
 
     Raises:
-        InputError: a part or a mesh is damaged.
+        InputError: a part or a mesh is damaged, or a user's own part has values that cannot be.
     """
     known, opened = {path.parent.name: path for path in meshes}, {"": None}
     for path in parts:
         part = FrameSetPart(path)
         scene = part.about.get("scene")
+        if scene is None:
+            check_values(part)
         key = str(scene or "")
         if key not in opened:
             opened[key] = SoftScene(scene, [known[name] for name in scene["inserted"]])

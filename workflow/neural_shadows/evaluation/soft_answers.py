@@ -1,6 +1,6 @@
-"""What a method for soft shadows answered on test frames, on disk, so that any can be drawn later.
+"""What a method for soft shadows answered on test frames, on disk, so that it can be drawn later.
 
-One npz file: `SCENE.PART.FRAME.RADIUS` (height, width) uint8, visibility in steps of 1/255.
+One npz file: of the first frame of each part `SCENE.PART.RADIUS` (height, width) uint8, visibility in steps of 1/255.
 """
 
 from collections.abc import Mapping
@@ -12,9 +12,9 @@ from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import whole_file
 
 
-def name_of(part: Path, frame: int, radius: int) -> str:
-    """What a frame of a part, a JSON in the folder of its scene, is called."""
-    return f"{part.parent.name}.{part.stem}.{frame}.{radius}"
+def name_of(part: Path, radius: int) -> str:
+    """What the first frame of a part, a JSON in the folder of its scene, is called."""
+    return f"{part.parent.name}.{part.stem}.{radius}"
 
 
 def write_answers(path: Path, answers: Mapping[str, np.ndarray]) -> None:

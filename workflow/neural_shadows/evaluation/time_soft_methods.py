@@ -1,7 +1,7 @@
 """The stage that times methods for soft shadows on the same frames, on one thread."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -11,7 +11,6 @@ import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_methods.registry import METHODS
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.running.hardware import describe_machine
@@ -43,42 +42,44 @@ def time_soft_methods(
         InputError: an input file cannot be read.
     """
     frames = [one for one in measured_frames(parts, meshes) if one.number == 0]
-    methods = [name for name in methods if METHODS[name].channel is None]
-    radii = frames[0].part.radii
-    chosen = {record["method"]: record["radii"] for record in map(read_json, constants)}
-    taken: dict[str, list[list[float]]] = {name: [[] for _ in radii] for name in methods}
+    chosen = {
+        record["method"]: [one["constants"] for one in record["radii"]]
+        for record in map(read_json, constants)
+    }
+    timed = {name: METHODS[name] for name in methods if METHODS[name].answer}
+    radii = range(len(frames[0].part.radii))
+    taken = {name: np.zeros((len(frames), len(radii))) for name in timed}
     maps: list[float] = []
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
             frame = _prepared(measured)
-            maps.append(_median(partial(_rasterised, frame), repeats))
-            for k, radius in enumerate(radii):
-                for name in methods:
-                    if k and not METHODS[name].of_radius:
-                        taken[name][k].append(taken[name][0][-1])  # it does the same again
-                        continue
-                    run = _run(METHODS[name], frame, radius, chosen[name][k]["constants"])
-                    if number == k == 0:
-                        run()  # compiles
-                    taken[name][k].append(_median(run, repeats))
+            maps.append(_medians({"map": partial(_rasterised, frame)}, repeats)["map"])
+            for k in radii:
+                radius = measured.part.radii[k]
+                works = {
+                    name: partial(method.answer, frame, radius, **chosen[name][k])
+                    for name, method in timed.items()
+                    if method.asked_again(chosen[name], k)
+                }
+                for work in works.values() if number == 0 else ():
+                    work()  # compiles
+                found = _medians(works, repeats)
+                for name, each in taken.items():
+                    each[number, k] = found[name] if name in found else each[number, k - 1]
                 bar.update()
-    about = frames[0].part.about
     write_json(
         times_json,
         {
-            "width": about["width"],
-            "height": about["height"],
-            "radii": radii,
             "frames": len(frames),
             "repeats": repeats,
             "map_ms": float(np.median(maps)),
             "texels": frames[0].frame.light_map.count,
             "methods": {
                 name: {
-                    "ms": [float(np.median(each)) for each in taken[name]],
+                    "ms": np.median(each, axis=0).tolist(),
                     "texel_floats": METHODS[name].texel_floats,
                 }
-                for name in methods
+                for name, each in taken.items()
             },
             "machine": describe_machine(),
         },
@@ -97,18 +98,15 @@ def _rasterised(frame: SoftFrame) -> np.ndarray:
     return replace(frame).depths
 
 
-def _run(method: SoftMethod, frame: SoftFrame, radius: float, constants: Any) -> Callable[[], Any]:
-    return lambda: method.answer(frame, radius, **constants)
-
-
-def _median(run: Callable[[], Any], repeats: int) -> float:
-    """Milliseconds of a call."""
-    found = []
+def _medians(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
+    """Milliseconds of each call, which take turns."""
+    found: dict[str, list[float]] = {name: [] for name in works}
     for _ in range(repeats):
-        started = time.perf_counter()
-        run()
-        found.append(time.perf_counter() - started)
-    return 1000 * float(np.median(found))
+        for name, work in works.items():
+            started = time.perf_counter()
+            work()
+            found[name].append(1000 * (time.perf_counter() - started))
+    return {name: float(np.median(each)) for name, each in found.items()}
 
 
 if "snakemake" in globals():

@@ -1,11 +1,13 @@
 """The stage that chooses a soft-shadow method's constants, on validation frames alone."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.running.progress import progress_bar
@@ -20,7 +22,7 @@ def tune_soft_method(
     Args:
         parts: of validation frames, of all scenes; meshes: see `measured_frames`.
         constants_json: by radius in the set's order, `constants` and `mse`; with `tried`, and
-            `at_end`, the constants whose best value is the first or last that was tried.
+            `at_end`, the constants of which a better value may lie beyond those that were tried.
 
     Raises:
         InputError: a part is damaged.
@@ -37,7 +39,7 @@ def tune_soft_method(
             pixels += valid.sum()
             for row, constants in enumerate(settings):
                 for k, radius in enumerate(frame.part.radii):
-                    if k == 0 or asked.of_radius:
+                    if asked.asked_again([constants] * radii, k):
                         found = frame.answered(asked, radius, constants)
                     squares[row, k] += np.square(found - target[k])[valid].sum()
             bar.update()
@@ -52,16 +54,30 @@ def tune_soft_method(
                 {
                     "constants": one,
                     "mse": squares[row, k] / pixels if pixels else None,
-                    "at_end": [
-                        name
-                        for name, values in asked.constants.items()
-                        if one[name] in (values[0], values[-1])
-                    ],
+                    "at_end": _at_end(asked, one, dict(zip(map(str, settings), squares[:, k]))),
                 }
                 for k, (one, row) in enumerate(zip(chosen, best))
             ],
         },
     )
+
+
+def _at_end(method: SoftMethod, chosen: Constants, errors: Mapping[str, float]) -> list[str]:
+    """The constants whose best value is the first or last that was tried, and no bound of its own
+    as 0 is, if the one next to it is worse.
+
+    Args:
+        errors: of each setting, by its text.
+    """
+    found = []
+    for name, values in method.constants.items():
+        ends = {values[0]: values[1], values[-1]: values[-2]}
+        value = chosen[name]
+        if value and value in ends:
+            inside = errors[str({**chosen, name: ends[value]})]
+            if inside > errors[str(chosen)]:
+                found.append(name)
+    return found
 
 
 if "snakemake" in globals():

@@ -48,6 +48,7 @@ def buffers_of(scene: Scene, surface: Surface, light_map: LightMap) -> np.ndarra
     depths, faces = _traced(scene, light_map, np.append(texels.ravel(), nearest))
     known = (nearest >= 0) & np.isfinite(depths[nearest])
     shown = np.take(scene.joined.face_normals, faces[nearest], axis=0)
+    shown *= -np.sign(np.einsum("ij,ij->i", shown, ways))[:, None]  # on the light's side
     agreement = np.einsum("ij,ij->i", normal, shown)
     first = np.where(texels >= 0, depths[texels], np.float32(np.inf))
     lit = {

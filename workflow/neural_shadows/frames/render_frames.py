@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 
@@ -59,13 +60,14 @@ def render_frames(
     size = opened.at_rest.size
     unit = {"metres": 1.0, "scene_sizes": size}[frames["radius_unit"]]
     radii = [unit * radius for radius in frames["radii"]]
+    seed = scene["seed"], crc32(scene["generate"].encode())  # each scene's draws are its own
     shared = {key: frames[key] for key in ("width", "height", "fov", "of", "light_map")}
     kind = FrameKind(**shared, radius=max(radii))
-    settings = draw(opened, kind, use, first, last, scene["seed"])
+    settings = draw(opened, kind, use, first, last, seed)
     changed = [
         [twin_of(one, size, frames["twins"], rng) for _ in range(twins)]
         for number, one in enumerate(settings, first)
-        for rng in [np.random.default_rng((scene["seed"], _TWINS, USES.index(use), number))]
+        for rng in [np.random.default_rng((*seed, _TWINS, USES.index(use), number))]
     ]
     versions, image = 1 + twins, (kind.height, kind.width)
     count, title = len(settings), f"frames of {scene['generate']}, {use}"
@@ -97,6 +99,8 @@ def render_frames(
     ]
     about = {"use": use, "first": first, "seed": scene["seed"], "scene": dict(scene)}
     about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
+    about |= {"given_radii": frames["radii"], "radius_unit": frames["radius_unit"]}
+    about |= {"samples": samples, "blur": frames["blur"]}
     about |= {
         "light_map": kind.light_map,
         "channels": CHANNELS,
@@ -107,15 +111,14 @@ def render_frames(
 
 
 def draw(
-    scene: SoftScene, kind: FrameKind, use: str, first: int, last: int, seed: int
+    scene: SoftScene, kind: FrameKind, use: str, first: int, last: int, seed: tuple[int, ...]
 ) -> list[Setting]:
-    """The settings of frames `first` to `last` (exclusive); of a sequence, all from its first."""
+    """The settings of frames `first` to `last` (exclusive), of a sequence all."""
     stream = USES.index(use)
     if use in SEQUENCES:
-        rng = np.random.default_rng((seed, stream))
-        return draw_sequence(scene, kind, use, last, rng)[first:]
+        return draw_sequence(scene, kind, use, last, np.random.default_rng((*seed, stream)))
     return [
-        draw_setting(scene, kind, np.random.default_rng((seed, stream, number)))
+        draw_setting(scene, kind, np.random.default_rng((*seed, stream, number)))
         for number in range(first, last)
     ]
 

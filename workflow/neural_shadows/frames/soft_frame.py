@@ -25,6 +25,7 @@ class SoftFrame:
     surface: Surface
     centre: np.ndarray  # (3,) float64, of the light
     light_map: LightMap
+    number: int = 0  # in a sequence: noise is another in each frame
 
     @cached_property
     def depths(self) -> np.ndarray:

@@ -32,7 +32,9 @@ def files(layout: Layout) -> dict[str, Any]:
     tables_of = soft_tables(layout)
     soft = [soft_methods.evaluations(layout, table, "csv") for table in tables_of]
     found["soft_metrics"] = tables.unique(path for paths in soft for path in paths)
-    found["soft_times"] = [layout.paths.soft_times(table) for table in tables_of]
+    found["soft_times"] = [
+        path for table in tables_of for path in soft_methods.times(layout, table)
+    ]
     return found | {"published_csv": layout.source("config/published.csv")}
 
 
@@ -71,6 +73,7 @@ def arguments(layout: Layout) -> dict[str, Any]:
             table: {
                 "frame_set": soft_methods.frame_set(layout, table),
                 "labels": soft_methods.labels(layout, table),
+                "radii": soft_methods.radii(layout, table),
             }
             for table in soft_tables(layout)
         },

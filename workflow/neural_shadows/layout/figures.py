@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_method_names import LABELS, available
 from neural_shadows.layout import frame_sets, soft_methods, tables
 from neural_shadows.layout.layout import Layout
 
@@ -67,7 +67,7 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
                 "part": frame_sets.parts(layout, settings["soft_scene"], frame_set, "test")[0],
                 "answers": [
                     paths.soft_evaluation("npz", frame_set, method)
-                    for method in settings["methods"]
+                    for method in filter(available, settings["methods"])
                 ],
             }
         case "penumbra_model":
@@ -97,7 +97,7 @@ def arguments(layout: Layout, figure: str) -> dict[str, Any]:
     if scene is not None and settings["kind"] != "pareto":
         values["scene"] = layout.entry("scenes", scene)["scene"]
     if settings["kind"] == "soft_pictures":
-        values["labels"] = {one: METHODS[one].label for one in settings["methods"]}
+        values["labels"] = {one: LABELS[one] for one in filter(available, settings["methods"])}
     if "sampling" in settings:
         values["sampling"] = layout.entry("samplings", settings["sampling"])
     return {key: values[key] for key in ("title", *TOLD.get(settings["kind"], ("scene",)))}

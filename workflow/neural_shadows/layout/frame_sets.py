@@ -1,29 +1,40 @@
 """The parts of frame sets: their files, and what each job renders."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from neural_shadows.frames.draw_sequences import SEQUENCES
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
 
+# What all frames of a set have in common, as `render_frames` takes it.
+FRAME_KEYS = ("width", "height", "fov", "of", "light_map", "radii", "radius_unit", "twins", "blur")
+
 
 def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dict[str, Any]:
     """What `render_frames` is told of a part: what all have in common, and which frames it is."""
     settings = layout.entry("frame_sets", frame_set)
     use, number = part.rsplit("_", 1)
-    total = settings["sequence"] if use in SEQUENCES else settings[use]
-    first = int(number) * settings["shard"]
-    samples = settings["samples"]["train" if use == "train" else "measured"]
+    total, shard = _counts(settings, use)
+    first, train = int(number) * shard, use == "train"
+    frames = {key: settings[key] for key in FRAME_KEYS}
+    frames["width"] = (settings["train_width"] if train else None) or settings["width"]
     return {
         "scene": layout.entry("soft_scenes", scene),
-        "frames": settings,
+        "frames": frames,
         "use": use,
         "first": first,
-        "last": min(first + settings["shard"], total),
-        "samples": samples,
-        "twins": settings["twins"]["count"] * (use == "train"),
+        "last": min(first + shard, total),
+        "samples": settings["samples"]["train" if train else "measured"],
+        "twins": settings["twins"]["count"] * train,
     }
+
+
+def _counts(settings: Mapping[str, Any], use: str) -> tuple[int, int]:
+    """How many frames of a use there are, and how many a part has; a sequence is one part."""
+    if use in SEQUENCES:
+        return settings["sequence"], max(settings["sequence"], 1)
+    return settings[use], settings["shard"]
 
 
 def meshes(layout: Layout, scene: str) -> list[str]:
@@ -44,8 +55,8 @@ def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
     if settings["path"] is not None:
         names = [one for one in settings["parts"][scene] if one.rsplit("_", 1)[0] == use]
         return [f"{settings['path']}/{scene}/{name}.json" for name in names]
-    total = settings["sequence"] if use in SEQUENCES else settings[use]
-    names = [f"{use}_{number}" for number in part_names(-(-total // settings["shard"]))]
+    total, shard = _counts(settings, use)
+    names = [f"{use}_{number}" for number in part_names(-(-total // shard))]
     return [layout.paths.frames("json", scene, frame_set, name) for name in names]
 
 

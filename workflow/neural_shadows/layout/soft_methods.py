@@ -1,17 +1,23 @@
 """What tables and figures of methods for soft shadows are made of."""
 
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from collections.abc import Iterable
+
+from neural_shadows.evaluation.soft_method_names import LABELS, NULL, available
 from neural_shadows.frames.draw_sequences import SEQUENCES
 from neural_shadows.layout import frame_sets
 from neural_shadows.layout.layout import Layout
 
-NULL = ("no_shadow", "all_dark")
-
 
 def methods(layout: Layout, table: str) -> list[str]:
-    """The methods of a table in its order, with those that know nothing."""
+    """The methods of a table in its order that this machine has, with those that know nothing."""
     named = layout.entry("tables", table)["methods"]
-    return [*named, *(method for method in NULL if method not in named)]
+    return [*filter(available, named), *(method for method in NULL if method not in named)]
+
+
+def left_out(layout: Layout, table: str) -> list[str]:
+    """The others, as they are called."""
+    named = layout.entry("tables", table)["methods"]
+    return [LABELS[method] for method in named if not available(method)]
 
 
 def frame_set(layout: Layout, table: str) -> str:
@@ -38,9 +44,28 @@ def tests(layout: Layout, frame_set: str) -> list[str]:
 
 
 def validations(layout: Layout, frame_set: str) -> list[str]:
-    """All validation frames of a frame set."""
+    """All validation frames of a frame set; the tests of a user's own, whose methods have no
+    constants to choose.
+    """
+    if layout.entry("frame_sets", frame_set)["path"] is not None:
+        return tests(layout, frame_set)
     scenes = frame_sets.tuned_scenes(layout, frame_set)
     return [p for one in scenes for p in frame_sets.parts(layout, one, frame_set, "validation")]
+
+
+def measured_arrays(layout: Layout, frame_set: str) -> list[str]:
+    """The arrays of test frames and sequences, which lie beside their JSON."""
+    return _arrays([*tests(layout, frame_set), *sequences(layout, frame_set)])
+
+
+def tuned_arrays(layout: Layout, frame_set: str) -> list[str]:
+    """The arrays of validation frames."""
+    return _arrays(validations(layout, frame_set))
+
+
+def _arrays(parts: Iterable[str]) -> list[str]:
+    stems = ("buffers", "targets", "valid")
+    return [f"{part.removesuffix('.json')}.{stem}.npy" for part in parts for stem in stems]
 
 
 def all_meshes(layout: Layout, frame_set: str) -> list[str]:
@@ -87,4 +112,17 @@ def all_generators(layout: Layout, frame_set: str) -> list[str]:
 
 def labels(layout: Layout, table: str) -> dict[str, str]:
     """What each method of a table is called."""
-    return {method: METHODS[method].label for method in methods(layout, table)}
+    return {method: LABELS[method] for method in methods(layout, table)}
+
+
+def radii(layout: Layout, table: str) -> list[str]:
+    """The radii of a table's frame set as texts."""
+    settings = layout.entry("frame_sets", frame_set(layout, table))
+    unit = {"metres": "m", "scene_sizes": "S"}[settings["radius_unit"]]
+    return [f"{radius:.3g} {unit}" for radius in settings["radii"]]
+
+
+def times(layout: Layout, table: str) -> list[str]:
+    """The times of a table; none of frames of a user's own, where there is no scene to ask."""
+    own = layout.entry("frame_sets", frame_set(layout, table))["path"] is not None
+    return [] if own else [layout.paths.soft_times(table)]

@@ -35,7 +35,13 @@ FILES = {
     "learning_curves": ("metrics", "losses", "trainings", "meshes", "lpips_json", "published_csv"),
     "memory": ("weights", "published_csv"),
     "cost": ("costs",),
-    "soft_methods": ("soft_metrics", "soft_times", "soft_constants", "lpips_json"),
+    "soft_methods": (
+        "frames_json",
+        "soft_metrics",
+        "soft_times",
+        "soft_constants",
+        "lpips_json",
+    ),
 }
 TOLD = {
     "comparison": ("published", "against", "rows", "run", "scenes"),
@@ -44,7 +50,7 @@ TOLD = {
     "learning_curves": ("published", "rows", "curves", "run", "scenes"),
     "memory": ("published", "rows", "run"),
     "cost": ("run",),
-    "soft_methods": ("labels", "unseen", "run"),
+    "soft_methods": ("labels", "left_out", "unseen", "run"),
 }
 
 
@@ -71,7 +77,8 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
     }
     if kind == "soft_methods":
         values["soft_metrics"] = soft_methods.evaluations(layout, table, "csv")
-        values["soft_times"] = paths.soft_times(table)
+        values["soft_times"] = soft_methods.times(layout, table)
+        values["frames_json"] = soft_methods.tests(layout, settings["frame_set"])[0]
         values["soft_constants"] = soft_methods.constants(layout, table)
     found = {name: values[name] for name in FILES[kind]}
     # Not read: asking for a table makes the figures and the previews that belong to it.
@@ -95,6 +102,7 @@ def arguments(layout: Layout, table: str) -> dict[str, Any]:
     if settings["kind"] == "soft_methods":
         frame_set = layout.entry("frame_sets", settings["frame_set"])
         values["labels"] = soft_methods.labels(layout, table)
+        values["left_out"] = soft_methods.left_out(layout, table)
         values["unseen"] = frame_set.get("unseen", [])
     return {key: values[key] for key in ("title", *TOLD[settings["kind"]])}
 

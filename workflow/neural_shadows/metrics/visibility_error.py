@@ -10,7 +10,7 @@ EDGE_PIXELS = 3  # on each side of an edge of the hard target
 
 
 def visibility_errors(
-    found: np.ndarray, target: np.ndarray, valid: np.ndarray, hard: np.ndarray
+    found: np.ndarray, target: np.ndarray, valid: np.ndarray, hard: np.ndarray | None
 ) -> Mapping[str, float]:
     """Errors over the valid pixels of a frame: mean square, mean absolute, and parts of the former.
 
@@ -19,7 +19,8 @@ def visibility_errors(
     are means of what is too dark and too bright.
 
     Args:
-        found, target, hard: (H, W) float32 in [0, 1], the last of the light's centre; valid: bool.
+        found, target, hard: (H, W) float32 in [0, 1], the last of the light's centre, None if it is
+            not known; valid: bool.
 
     Raises:
         ValueError: no pixel is valid.
@@ -33,7 +34,7 @@ def visibility_errors(
         "_umbra": valid & (target < UMBRA),
         "_penumbra": valid & (target >= UMBRA) & (target <= LIT),
         "_lit": valid & (target > LIT),
-        "_edge": valid & _near_edges(hard),
+        "_edge": valid & (False if hard is None else _near_edges(hard, valid)),
     }
     errors = {
         f"mse{name}": float(square[part].mean()) if part.any() else float("nan")
@@ -47,13 +48,14 @@ def visibility_errors(
     }
 
 
-def _near_edges(hard: np.ndarray) -> np.ndarray:
+def _near_edges(hard: np.ndarray, valid: np.ndarray) -> np.ndarray:
+    """Near where one of two neighbours that both count is lit and the other is not."""
     lit = hard > 0.5
     edge = np.zeros_like(lit)
-    across = lit[1:] != lit[:-1]
+    across = (lit[1:] != lit[:-1]) & valid[1:] & valid[:-1]
     edge[1:] |= across
     edge[:-1] |= across
-    along = lit[:, 1:] != lit[:, :-1]
+    along = (lit[:, 1:] != lit[:, :-1]) & valid[:, 1:] & valid[:, :-1]
     edge[:, 1:] |= along
     edge[:, :-1] |= along
     square = np.ones((2 * EDGE_PIXELS - 1,) * 2, bool)

@@ -1,5 +1,6 @@
 """How each family of methods for soft shadows looks, the same everywhere."""
 
+from neural_shadows.evaluation.soft_method_names import NULL
 from neural_shadows.reports.figures.style import COLOURS
 from neural_shadows.reports.method_look import Look
 
@@ -30,13 +31,14 @@ SOFT_LOOKS = {
     "rt": Look("rays", GREEN, "o", "●", "Sends so many rays from each pixel to the light."),
     "svgf": Look("rays, SVGF-like filter", PINK, "v", "▼", "Rays, smoothed within surfaces."),
     "oidn": Look("rays, Open Image Denoise", RED, "X", "✕", "Rays, denoised by a network."),
+    "base": Look("what networks begin with", "#000000", "<", "◄", "The map's shadow, as stored."),
     "null": Look("no method", "#777777", "o", "○", "Draws no shadow at all, or all of it."),
 }
 
 
 def family_of(method: str) -> str:
     """The key in `SOFT_LOOKS` of a method of the registry."""
-    if method in ("no_shadow", "all_dark"):
+    if method in NULL:
         return "null"
     first, _, rest = method.partition("_")
     if first == "rt":

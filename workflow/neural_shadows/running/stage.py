@@ -14,7 +14,8 @@ from neural_shadows.errors import InputError
 from neural_shadows.running import progress
 
 # What a rule names for Snakemake alone: the modules that a result depends on, what else is to be
-# made when a table is asked for, and the kind of a table or figure, which names its script.
+# made when a table is asked for or lies beside an input, and the kind of a table or figure, which
+# names its script.
 _RULE_ONLY = {"code", "beside", "kind"}
 
 

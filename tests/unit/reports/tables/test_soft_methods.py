@@ -12,8 +12,10 @@ from neural_shadows.reports.tables import soft_methods
 
 LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "no_shadow": "No shadow"}
 MSE = {"hard": 0.02, "rt_4": 0.01, "no_shadow": 0.1}
+ABOUT = {"width": 8, "height": 4, "radii": [0, 0.5], "given_radii": [0, 0.25]}
+ABOUT |= {"radius_unit": "scene_sizes"}
 TIMES = {
-    **{"width": 8, "height": 4, "radii": [0, 0.25], "frames": 2, "repeats": 3},
+    **{"frames": 2, "repeats": 3},
     **{"map_ms": 10.0, "texels": 64, "machine": {"cpu": "a CPU"}},
     "methods": {
         "hard": {"ms": [1.0, 1.0], "texel_floats": 1},
@@ -45,8 +47,9 @@ def written(tmp_path):
         rows.append({**key, "metric": "instability_reference", "value": 0.5})
         paths.append(tmp_path / f"{method}.csv")
         write_soft_metrics(paths[-1], rows)
-    times, lpips = tmp_path / "times.json", tmp_path / "lpips.json"
+    times, lpips, frames = (tmp_path / f"{name}.json" for name in ("times", "lpips", "frames"))
     times.write_text(json.dumps(TIMES))
+    frames.write_text(json.dumps(ABOUT))
     lpips.write_text(json.dumps({"available": False}))
     constants = []
     for method in LABELS:
@@ -57,6 +60,7 @@ def written(tmp_path):
         constants[-1].write_text(json.dumps(record))
     csv, md = tmp_path / "soft_methods.csv", tmp_path / "soft_methods.md"
     soft_methods.write(
+        frames_json=frames,
         soft_metrics=paths,
         soft_times=times,
         soft_constants=constants,
@@ -65,6 +69,7 @@ def written(tmp_path):
         md=md,
         title="Soft shadows",
         labels=LABELS,
+        left_out=["1 ray, OIDN"],
         unseen=["tree"],
         run=RUN,
     )
@@ -72,7 +77,7 @@ def written(tmp_path):
 
 
 def test_means_over_frames_of_all_scenes(written):
-    table = pd.read_csv(written[0]).set_index(["method", "radius"])
+    table = pd.read_csv(written[0]).set_index(["method", "number"])
     assert [*table.index.unique(0)] == [*LABELS]
     row = table.loc["hard", 1]
     assert row["mse"] == pytest.approx(0.02 * 2 * 1.5 + 2.5e-4) and row["frames"] == 12
@@ -80,11 +85,13 @@ def test_means_over_frames_of_all_scenes(written):
     assert row["mse_unseen"] == pytest.approx(0.02 * 2 * 2 + 2.5e-4)
     assert row["psnr_pooled"] == pytest.approx(-10 * np.log10(row["mse"]), abs=1e-3)
     assert row["mse_umbra"] == pytest.approx(0.02)
-    assert row["instability"] == 0.02 and np.isnan(table.loc["hard", 0]["instability"])
+    assert row["instability"] == row["instability_light"] == 0.02 and np.isnan(
+        table.loc["hard", 0]["instability"]
+    )
 
 
 def test_what_looks_at_a_map_waits_for_it(written):
-    table = pd.read_csv(written[0]).set_index(["method", "radius"])
+    table = pd.read_csv(written[0]).set_index(["method", "number"])
     assert table.loc[("hard", 1), "ms"] == 11 and table.loc[("rt_4", 1), "ms"] == 16
     assert table.loc[("hard", 1), "bytes"] == 256 and table.loc[("rt_4", 1), "bytes"] == 0
 
@@ -92,7 +99,8 @@ def test_what_looks_at_a_map_waits_for_it(written):
 def test_notes_say_constants_and_where_they_end(written):
     text = written[1].read_text()
     assert "Shadow map, by radius: bias 3, 3 (bias at an end of what was tried)." in text
-    assert "unseen scenes*: tree" in text and "FLIP ↓" not in text  # of which there is none here
+    assert "Not to be had on this machine: 1 ray, OIDN." in text and "radius S" in text
+    assert "unseen scenes: tree" in text and "FLIP ↓" not in text  # of which there is none here
 
 
 def test_error_over_time(written, tmp_path):
@@ -100,7 +108,7 @@ def test_error_over_time(written, tmp_path):
     soft_equal_time.draw(written[0], *outputs, title="Equal time", radii=None, run=RUN)
     text = outputs[1].read_text()
     assert "4 rays: MSE 300" not in text and "4 rays: MSE" in text and "16.0 ms" in text
-    assert "light of 0.25 m radius" in text and "point light" not in text
+    assert "light of 0.25 S radius" in text and "point light" not in text
 
 
 def test_strips_show_what_is_too_dark_and_too_bright():

@@ -65,12 +65,13 @@ def svgf_sequence(
 
     Args:
         radius, samples, sigma_luminance: see `svgf_denoised`.
-        was: of each frame, where its points were in the one before, (n, 3), if anything moved.
+        frames: whose numbers grow. was: of each, where its points were in the one before, (n, 3), if
+            anything moved.
     """
     past = repeat(None) if was is None else was
     filter_ = None
-    for index, (frame, points) in enumerate(zip(frames, past)):
-        rays = ray_traced(frame, radius, samples=samples, first=index * samples)
+    for frame, points in zip(frames, past):
+        rays = ray_traced(frame, radius, samples=samples)
         surface = frame.surface
         if radius > 0:
             filter_ = filter_ or TemporalFilter(surface.height, surface.width, sigma_luminance)

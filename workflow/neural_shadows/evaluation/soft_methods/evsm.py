@@ -7,4 +7,4 @@ from neural_shadows.shadow_maps.moments import box, exponential_visibility, warp
 
 def evsm(size: int) -> SoftMethod:
     """Filtered by the mean over size × size texels; size is odd."""
-    return moment_method(f"EVSM {size} × {size}", box(size), warped, exponential_visibility)
+    return moment_method(box(size), warped, exponential_visibility)

@@ -18,7 +18,6 @@ CONSTANTS = {"bias": (0.3, 1.0, 3.0), "bleeding": (0.0, 0.1, 0.3)}
 
 
 def moment_method(
-    label: str,
     kernel: np.ndarray,
     of: Callable[[np.ndarray], np.ndarray],
     visibility: Callable[[np.ndarray, np.ndarray], np.ndarray],
@@ -31,7 +30,7 @@ def moment_method(
     """
     answer = partial(_answer, kernel=kernel, of=of, visibility=visibility)
     floats = of(np.zeros(1)).shape[-1]
-    return SoftMethod(label, answer, CONSTANTS, texel_floats=floats, of_radius=False)
+    return SoftMethod(answer, CONSTANTS, texel_floats=floats, of_radius=False)
 
 
 def _answer(

@@ -15,5 +15,4 @@ def msm(size: int, sigma: float | None = None) -> SoftMethod:
             that Datta et al. 2022 name by their sizes alone.
     """
     kernel = box(size) if sigma is None else gaussian(size, sigma)
-    label = f"MSM {size} × {size}" + (f", σ {sigma:g}" if sigma else "")
-    return moment_method(label, kernel, partial(powers, count=4), hamburger_visibility)
+    return moment_method(kernel, partial(powers, count=4), hamburger_visibility)

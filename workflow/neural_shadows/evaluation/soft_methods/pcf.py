@@ -21,7 +21,7 @@ _SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
 def box_pcf(size: int) -> SoftMethod:
     """The mean of size × size bilinearly weighted tests; size is odd."""
     answer = partial(_box, size=size)
-    return SoftMethod(f"PCF {size} × {size}", answer, {"bias": BIASES}, of_radius=False)
+    return SoftMethod(answer, {"bias": BIASES}, of_radius=False)
 
 
 def _box(frame: SoftFrame, radius: float, *, size: int, bias: float) -> np.ndarray:
@@ -42,4 +42,4 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
 
 
 _DISC = {"texels": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES}
-DISC_PCF = SoftMethod("PCF, disc", _disc, _DISC, of_radius=False)  # but by its constants
+DISC_PCF = SoftMethod(_disc, _DISC, of_radius=False)  # but by its constants

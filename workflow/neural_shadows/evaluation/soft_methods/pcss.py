@@ -32,5 +32,5 @@ def _filtered(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> 
 
 
 _CONSTANTS = {"scale": (0.7, 1.0, 1.4), "bias": (0.3, 1.0, 3.0)}
-PCSS = SoftMethod("PCSS", _answer, _CONSTANTS)
-PCSS_POST = SoftMethod("PCSS, depth-aware filter", _filtered, _CONSTANTS)
+PCSS = SoftMethod(_answer, _CONSTANTS)
+PCSS_POST = SoftMethod(_filtered, _CONSTANTS)

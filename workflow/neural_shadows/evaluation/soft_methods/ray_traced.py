@@ -9,7 +9,10 @@ from neural_shadows.rendering.light_samples import ring_ways
 _RAYS = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
 
 
-def ray_traced(frame: SoftFrame, radius: float, *, samples: int, first: int = 0) -> np.ndarray:
+_SALT = 1 << 26  # more than a frame's pixels
+
+
+def ray_traced(frame: SoftFrame, radius: float, *, samples: int) -> np.ndarray:
     """The share of a pixel's rays that reach the light, (n,) float32, on one thread.
 
     The rays of a pixel go to a low-discrepancy set of its own, on the disc that the light is from
@@ -17,14 +20,14 @@ def ray_traced(frame: SoftFrame, radius: float, *, samples: int, first: int = 0)
 
     Args:
         radius: of the light, in the scene's unit; 0 is a point, to which one ray goes.
-        samples: rays of each pixel.
-        first: how many a pixel has had in frames before, so that its next ones go elsewhere.
+        samples: rays of each pixel; in a sequence its next frame's go elsewhere.
     """
     starts, normals = frame.starts, frame.surface.n_g
     if radius == 0:
         ways = frame.centre.astype(np.float32) - starts
         return _shares(frame, starts, ways[:, None], normals)
-    keys, drawn = frame.surface.pixel, np.full(len(starts), first)
+    # Other numbers than the exact shadow's, whose errors would be these rays' own.
+    keys, drawn = frame.surface.pixel + _SALT, np.full(len(starts), frame.number * samples)
     radii, counts = np.array([radius], np.float64), np.array([samples], np.int64)
     size = max(1, _RAYS // samples)
     ways, origins = (np.empty((size, samples, 3), np.float32) for _ in range(2))

@@ -1,11 +1,13 @@
 """What a method for soft shadows is, as the registry names it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from neural_shadows.frames.soft_frame import SoftFrame
+
+Constants = Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -13,25 +15,28 @@ class SoftMethod:
     """A way to answer how much of a spherical light a frame's n points see.
 
     Args:
-        label: what tables call it.
         answer: of a frame and the light's radius in the scene's unit, visibilities (n,) float32 in
-            [0, 1]. Takes the constants as keyword arguments.
+            [0, 1]. Takes the constants as keyword arguments. None if one of the last two is given.
         constants: the values that are tried of each on validation frames; those that give the least
             error there are used, one set for each radius.
+        sequence: of a sequence of frames, if it has a history: of the frames, the radius, where
+            points were before (`was`) and the constants, the visibilities of each frame in turn.
         texel_floats: float32 numbers in a texel of the map that it looks at; 0 for none.
         of_radius: whether its answer depends on the light's radius.
         by_rays: whether it sends rays to the light's points. What faces away from the light's centre
             is made dark for all others: it may see a part of a large light, and rays know.
         channel: of the frame's buffers, if its answer is there already.
+        constant: the visibility of all that faces the light, of what knows nothing else.
     """
 
-    label: str
-    answer: Callable[..., np.ndarray] | None
+    answer: Callable[..., np.ndarray] | None = None
     constants: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    sequence: Callable[..., Iterator[np.ndarray]] | None = None
     texel_floats: int = 1
     of_radius: bool = True
     by_rays: bool = False
     channel: str | None = None
+    constant: float | None = None
 
     def settings(self) -> list[dict[str, float]]:
         """Every combination of the constants that is tried; one without any, if it has none."""
@@ -40,9 +45,17 @@ class SoftMethod:
             found = [one | {name: value} for one in found for value in values]
         return found
 
+    def asked_again(self, constants: Sequence[Constants], radius: int) -> bool:
+        """Whether it answers a radius, counted from 0, otherwise than the one before.
+
+        Args:
+            constants: that it has at each radius.
+        """
+        return radius == 0 or self.of_radius or constants[radius] != constants[radius - 1]
+
 
 def visibility(
-    method: SoftMethod, frame: SoftFrame, radius: float, constants: Mapping[str, float]
+    method: SoftMethod, frame: SoftFrame, radius: float, constants: Constants
 ) -> np.ndarray:
     """How much of a light of a radius each of the frame's points sees, (n,) float32."""
     found = method.answer(frame, radius, **constants)

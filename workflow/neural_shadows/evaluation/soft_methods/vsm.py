@@ -10,4 +10,4 @@ from neural_shadows.shadow_maps.moments import box, powers, variance_visibility
 def vsm(size: int) -> SoftMethod:
     """Filtered by the mean over size × size texels; size is odd."""
     of = partial(powers, count=2)
-    return moment_method(f"VSM {size} × {size}", box(size), of, variance_visibility)
+    return moment_method(box(size), of, variance_visibility)

@@ -4,16 +4,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
+from neural_shadows.evaluation.soft_method_names import rays_of
 from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.measured import Measured
 
 # What values are multiplied by, as their names in `NAMES` say.
 FACTORS = {"mse": 1e4, "l1": 100, "light_leak": 100, "false_shadow": 100}
-RAYS = "rt_"
 
 
 @dataclass(frozen=True)
@@ -22,16 +21,20 @@ class SoftTable:
 
     Args:
         values: a row a frame (scene, part, frame), a column a (method, metric, radius).
-        labels: by method. times: what `time_soft_methods` wrote.
+        labels: by method. times: what `time_soft_methods` wrote; radii: as they were given, with
+        their unit.
     """
 
     values: pd.DataFrame
     labels: Mapping[str, str]
     times: Mapping[str, Any]
+    radii: Sequence[str]
 
     def milliseconds(self, method: str, radius: int) -> float:
-        """Of a frame, the map's making included."""
-        timed = self.times["methods"][method]
+        """Of a frame, the map's making included; NaN of what is not timed."""
+        timed = self.times["methods"].get(method)
+        if timed is None:
+            return float("nan")
         return timed["ms"][radius] + self.times["map_ms"] * (timed["texel_floats"] > 0)
 
 
@@ -61,11 +64,11 @@ def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
             counts = [
                 name
                 for name in table.labels
-                if name.removeprefix(RAYS).isdecimal() and table.milliseconds(name, radius) <= limit
+                if rays_of(name) and table.milliseconds(name, radius) <= limit
             ]
-            rays = max(counts, key=lambda name: int(name.removeprefix(RAYS)), default=None)
+            rays = max(counts, key=rays_of, default=None)
             if rays is None:
-                text = f"{table.labels[method]} takes {limit:.1f} ms at {_radius(table, radius)}"
+                text = f"{table.labels[method]} takes {limit:.1f} ms at {table.radii[radius]}"
                 why = unjudged(untested=f"no number of rays fits into {limit:.1f} ms")
                 found.append(Comparison("mse", table.labels[method], text, **why))
                 continue
@@ -77,23 +80,25 @@ def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
 def _compared(
     table: SoftTable, metric: str, radius: int, pair: Sequence[str], seed: int
 ) -> Comparison:
-    factor = FACTORS.get(metric, 1)
-    values = [factor * table.values[method, metric, radius] for method in pair]
-    labels = [table.labels[method] for method in pair]
+    factor, labels = FACTORS.get(metric, 1), [table.labels[method] for method in pair]
+    kept = {
+        "metric": metric,
+        "methods": f"{' against '.join(labels)} at {table.radii[radius]}",
+    }
+    columns = [(method, metric, radius) for method in pair]
+    if missing := [one for one in columns if one not in table.values]:
+        told = f"no {NAMES[metric]} of {', '.join(table.labels[one[0]] for one in missing)}"
+        return Comparison(**kept, text=kept["methods"], **unjudged(untested=told))
+    values = [factor * table.values[one] for one in columns]
     texts = [
         f"{label} {one.mean():.3g} ({table.milliseconds(method, radius):.0f} ms)"
         for label, one, method in zip(labels, values, pair)
     ]
-    gain = (values[1] - values[0]).dropna().to_numpy()
-    kept = {
-        "metric": metric,
-        "methods": f"{' against '.join(labels)} at {_radius(table, radius)}",
-        "text": f"{NAMES[metric]} at {_radius(table, radius)} of {' against '.join(texts)}",
-    }
+    gain = (values[1] - values[0]).dropna()
+    kept["text"] = f"{NAMES[metric]} at {table.radii[radius]} of {' against '.join(texts)}"
     if len(gain) < FEWEST_VIEWS:
         return Comparison(**kept, **unjudged(untested=f"{len(gain)} frames are too few"))
-    return Comparison(**kept, **judged(*two_way_interval(np.array([gain]), seed)))
-
-
-def _radius(table: SoftTable, radius: int) -> str:
-    return f"{table.times['radii'][radius]:.3g} m"
+    scenes = gain.index.get_level_values("scene").to_numpy()
+    return Comparison(
+        **kept, **judged(*two_way_interval(gain.to_numpy()[None], seed, groups=scenes))
+    )

@@ -49,7 +49,7 @@ def write_claims(
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
 ) -> None:
-    """Write the thesis's claims with our verdicts, as CSV and Markdown.
+    """Write the claims of the texts with our verdicts, as CSV and Markdown.
 
     CSV: `number` is of the comparison that speaks most against the claim, `number_of` its metric.
 
@@ -64,7 +64,8 @@ def write_claims(
         claims: by name, as `judge` takes them, with `section` and `statement`.
         learning_curves: `experiment`, `steps`, `seed` and `samples` of each training, by
             experiment; the budgets grow.
-        soft_tables: of each table of them its `frame_set` and the `labels` of its methods.
+        soft_tables: of each table of them its `frame_set`, the `labels` of its methods, and its `radii`
+            as texts.
 
     Raises:
         InputError: a file is missing, or a method lacks a value of a view that others have.
@@ -95,7 +96,7 @@ def write_claims(
         "section": [phrases.section_of(one) for _, one in found.iterrows()],
         "evidence": found["evidence"],
     }
-    title = "What the thesis claims, and what this run can say of it"
+    title = "What is claimed, and what this run can say of it"
     write_twins(
         found,
         columns,
@@ -124,7 +125,7 @@ def _soft(
     for table, about in tables.items():
         mine = [path for path in metrics if path.parent.name == about["frame_set"]]
         values = soft_values(read_soft_metrics(mine))
-        found[table] = SoftTable(values, about["labels"], timed[table])
+        found[table] = SoftTable(values, about["labels"], timed[table], about["radii"])
     return found
 
 

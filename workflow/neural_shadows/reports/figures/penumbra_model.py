@@ -17,6 +17,7 @@ RAYS = 16  # to the largest light, for the nearest and the farthest blocker
 MIDDLE = (0.35, 0.65)  # visibilities of a penumbra's middle, where its slope says its width
 SMOOTH = 1.5  # pixels of the slope's Gaussian
 SHOWN = 4000  # points a radius
+NARROWEST = 10.0  # measured pixels: the slope's Gaussian widens what is narrower (6 to 7.5)
 
 
 def draw(
@@ -45,7 +46,7 @@ def widths(measured: MeasuredFrame, k: int) -> np.ndarray:
     """Measured width and the model's, in pixels, of a frame's pixels in a penumbra's middle: (2, n).
 
     Across a straight edge the visibility of a disc falls by 4 / (π w) a pixel in the middle of a
-    penumbra of w pixels. Pixels near another surface are left out.
+    penumbra of w pixels. Pixels near another surface are left out, and narrow penumbrae.
     """
     frame, target = measured.frame, measured.target[k]
     surface = frame.surface
@@ -59,21 +60,25 @@ def widths(measured: MeasuredFrame, k: int) -> np.ndarray:
     model = penumbra_model(distances, nearest, farthest, measured.part.radii[k])
     eye = np.linalg.norm(surface.p[chosen] - surface.camera.eye, axis=1)
     pixels = model * surface.camera.focal(surface.height) / eye
-    return np.stack([4 / (np.pi * slope.ravel()[surface.pixel[chosen]]), pixels])
+    pairs = np.stack([4 / (np.pi * slope.ravel()[surface.pixel[chosen]]), pixels])
+    return pairs[:, pairs[0] >= NARROWEST]
 
 
 def _blockers(measured: MeasuredFrame, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distance from the light of the nearest and the farthest first blocker, (n,); NaN for none."""
+    """Distance of the nearest and the farthest of what the light sees on the ways to each point, (n,);
+    NaN where all ways are free.
+    """
     frame, pixel = measured.frame, measured.frame.surface.pixel[chosen]
     starts = frame.starts[chosen]
     ways = np.empty((len(starts), RAYS, 3), np.float32)
     first, counts = np.zeros(len(starts), np.int64), np.array([RAYS])
     largest = np.array([measured.part.radii[-1]])
     ring_ways(starts, pixel, first, frame.centre, largest, counts, ways)
-    origins = np.repeat(starts, RAYS, axis=0)
-    share, _ = frame.scene.tracer.first_hit(origins, ways.reshape(-1, 3))
-    blocked = (share < 1).reshape(-1, RAYS)
-    place = origins + np.minimum(share, 1)[:, None] * ways.reshape(-1, 3)
+    ways = ways.reshape(-1, 3)
+    on_light = np.repeat(starts, RAYS, axis=0) + ways
+    share, _ = frame.scene.tracer.first_hit(on_light, -ways)
+    blocked = (share < 1 - 1e-3).reshape(-1, RAYS)
+    place = on_light - np.minimum(share, 1)[:, None] * ways
     away = np.linalg.norm(place - frame.centre, axis=1).reshape(-1, RAYS)
     with np.errstate(invalid="ignore"):
         nearest = np.where(blocked, away, np.inf).min(1)

@@ -14,7 +14,7 @@ from neural_shadows.reports.soft_looks import SOFT_LOOKS, family_of
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
-NUMBERS = ("radius", "radius_m", "mse", "mse_low", "mse_high", "ms")
+NUMBERS = ("number", "radius", "mse", "mse_low", "mse_high", "ms")
 JOINED = ("rt", "svgf", "oidn")  # one method with more and more rays
 
 
@@ -36,10 +36,10 @@ def draw(
     Raises:
         InputError: the table is missing or not whole.
     """
-    found = read_table(table, ("method", "label"), NUMBERS)
-    known = sorted(found["radius"].unique())
-    shown = [k for k in known if (k in radii if radii else known[-1] == 0 or k > 0)]
-    figure = equal_time_figure(found, shown, title=f"{title} ({run['scale']} scale)")
+    found = read_table(table, ("method", "label", "unit"), NUMBERS)
+    if radii is None:
+        radii = found["number"][found["radius"] > 0].unique() if found["radius"].any() else [0]
+    figure = equal_time_figure(found, radii, title=f"{title} ({run['scale']} scale)")
     write_chart(figure, png, svg)
 
 
@@ -47,7 +47,8 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     """A panel for each radius: mean squared error over milliseconds of a frame, both logarithmic.
 
     Args:
-        table: `method`, `label`, `radius`, `radius_m`, `mse` with its ends, `ms`.
+        table: `method`, `label`, `number` (of the radius), `radius`, `unit`, `mse` with its ends, `ms`.
+        radii: numbers of those to draw.
     """
     figure = style.new_figure(title, 5.2 * len(radii), 5.2)
     panels = figure.subplots(1, len(radii), sharex=True, sharey=True, squeeze=False)[0]
@@ -59,9 +60,9 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     ]
     style.legend_below(figure, entries, 4)
     named = []
-    for axes, radius in zip(panels, radii):
-        rows = table[(table["radius"] == radius) & (table["method"] != "all_dark")]
-        methods = rows[rows["method"] != "no_shadow"]
+    for axes, number in zip(panels, radii):
+        rows = table[(table["number"] == number) & (table["method"] != "all_dark")]
+        methods = rows.dropna(subset="ms")
         for row in methods.itertuples():
             look = SOFT_LOOKS[family_of(row.method)]
             spread = [[row.mse - row.mse_low], [row.mse_high - row.mse]]
@@ -83,8 +84,9 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
                 0.99, row.mse, row.label, transform=place, ha="right", va="bottom", fontsize=7
             )
         axes.set(xscale="log", yscale="log", xlabel="ms a frame, one thread")
-        length = rows["radius_m"].iloc[0]
-        axes.set_title(f"light of {length:.3g} m radius" if length else "point light", fontsize=11)
+        radius, unit = rows["radius"].iloc[0], rows["unit"].iloc[0]
+        size = f"light of {radius:.3g} {unit} radius" if radius else "point light"
+        axes.set_title(size, fontsize=11)
         axes.grid(**style.GRID)
         style.plain_numbers(axes.xaxis)
         named.append((axes, methods))

@@ -43,7 +43,7 @@ def draw(
     valid = np.asarray(opened.valid[NUMBER, 0])
     files = {path.stem: path for path in answers}
     pictures = {
-        label: [read_answer(files[method], name_of(part, NUMBER, k)) for k in shown]
+        label: [read_answer(files[method], name_of(part, k)) for k in shown]
         for method, label in labels.items()
     }
     lengths = [opened.radii[k] for k in shown]

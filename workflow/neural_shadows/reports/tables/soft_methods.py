@@ -9,7 +9,7 @@ import pandas as pd
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.metrics.intervals import mean_interval
+from neural_shadows.metrics.intervals import two_way_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.reports import phrases
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
@@ -21,39 +21,51 @@ MEANS = (
     *("ssim", "flip", "lpips"),
 )
 FLICKER = ("instability", "instability_reference", "temporal_error", "temporal_error_reference")
+UNITS = {"metres": "m", "scene_sizes": "S"}
 
 
 def write(
     *,
+    frames_json: Path,
     soft_metrics: list[Path],
-    soft_times: Path,
+    soft_times: Path | None,
     soft_constants: list[Path],
     lpips_json: Path,
     csv: Path,
     md: Path,
     title: str,
     labels: Mapping[str, str],
+    left_out: Sequence[str],
     unseen: Sequence[str],
     run: Mapping[str, Any],
 ) -> None:
     """Write a row for each method and radius, in the order of `labels`.
 
-    CSV: `method, label, radius_m, mse, mse_low, mse_high, …` and all of `soft_table`.
+    CSV: all columns of `soft_table`, and the scale.
 
     Args:
-        soft_metrics: of each method; soft_times: what `time_soft_methods` wrote;
-            soft_constants: what `tune_soft_method` wrote, in the order of `labels`.
-        labels: what each method is called. unseen: scenes that no network trains on.
+        frames_json: a part of the frame set's test frames.
+        soft_metrics: of each method; soft_times: what `time_soft_methods` wrote, None for frames
+            without a scene to ask; soft_constants: what `tune_soft_method` wrote.
+        labels: what each method is called; left_out: methods that this machine does not have.
+        unseen: scenes that no network trains on.
     """
-    times, lpips = read_json(soft_times), read_json(lpips_json)
+    about, lpips = read_json(frames_json), read_json(lpips_json)
+    times = read_json(soft_times) if soft_times else {"methods": {}}
     found = read_soft_metrics(soft_metrics)
-    table = soft_table(found, times, labels, unseen, run["seed"]).assign(scale=run["scale"])
+    unit = UNITS[about.get("radius_unit", "metres")]
+    radii = about.get("given_radii", about["radii"])
+    table = soft_table(found, radii, times, labels, unseen, run["seed"])
+    table = table.assign(unit=unit, scale=run["scale"])
     columns = {
         "method": table["label"],
-        "radius m": number_cells(table["radius_m"], "{:.3g}"),
+        f"radius {unit}": number_cells(table["radius"], "{:.3g}"),
         "MSE × 10⁻⁴ ↓": interval_cells(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
         "unseen scenes": number_cells(table["mse_unseen"], "{:.1f}", 1e4),
-        "L1 % ↓": number_cells(table["l1"], "{:.2f}", 100),
+        "umbra": number_cells(table["mse_umbra"], "{:.1f}", 1e4),
+        "penumbra": number_cells(table["mse_penumbra"], "{:.1f}", 1e4),
+        "lit": number_cells(table["mse_lit"], "{:.1f}", 1e4),
+        "edge": number_cells(table["mse_edge"], "{:.1f}", 1e4),
         "PSNR dB ↑": number_cells(table["psnr_pooled"], "{:.1f}"),
         "SSIM ↑": number_cells(table["ssim"], "{:.3f}"),
         "FLIP ↓": number_cells(table["flip"], "{:.4f}"),
@@ -66,20 +78,21 @@ def write(
     }
     columns = {name: cells for name, cells in columns.items() if any(cells)}
     chosen = {one["method"]: one for one in map(read_json, soft_constants)}
+    parts = (
+        f"Mean over {table['frames'].iloc[0]} frames of {about['width']} × {about['height']} in "
+        f"{found['scene'].nunique()} scenes [95 % bootstrap interval over frames within scenes]; "
+    )
     notes = [
-        f"Mean over {table['frames'].iloc[0]} frames of {times['width']} × {times['height']} in "
-        f"{found['scene'].nunique()} scenes [95 % bootstrap interval over frames]; *unseen scenes*: "
-        f"{', '.join(unseen) or 'none'}. The exact soft shadow is by rays from eight places a pixel.",
-        "A pixel counts if it shows a surface inside the light's map. What faces away from the "
-        "light is dark for all methods alike.",
-        *_describe_constants(chosen, labels, times["radii"]),
-        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, one thread "
-        f"of {times['machine']['cpu']}; methods that look at a map have {times['map_ms']:.1f} ms of "
-        "rasterising it in theirs. KiB: the map, with its moments. What only needs rays has none, but the mesh and "
-        "its tree, which all have for the primary rays.",
-        f"E: mean of exp(3 |change|) − 1 along a point's way through sequences, at a radius of "
-        f"{times['radii'][len(times['radii']) // 2]:.3g} m; of the exact shadow itself "
-        f"{table['instability_reference'].mean():.3f}, as light and object do move.",
+        f"{parts}unseen scenes: {', '.join(unseen) or 'none'}. The exact soft shadow is by rays from "
+        "eight places a pixel.",
+        "Squared errors: umbra, penumbra and lit by the exact shadow (below 2 %, between, above 98 "
+        "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
+        "surface inside the light's map. What faces away from the light's centre is dark for all "
+        "methods but rays.",
+        *_describe_constants(chosen, labels),
+        *_describe_times(times),
+        *_describe_flicker(table, found, radii, unit),
+        *([f"Not to be had on this machine: {', '.join(left_out)}."] if left_out else []),
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
@@ -88,6 +101,7 @@ def write(
 
 def soft_table(
     found: pd.DataFrame,
+    radii: Sequence[float],
     times: Mapping[str, Any],
     labels: Mapping[str, str],
     unseen: Sequence[str],
@@ -95,50 +109,84 @@ def soft_table(
 ) -> pd.DataFrame:
     """A row for each method and radius.
 
-    Columns: `method, label, radius, radius_m, frames`, of `mse` and `l1` also the ends of their
-    intervals, the other means, `psnr_pooled`, `mse_unseen`, the flicker's, `own_ms`, `map_ms`, `ms`,
-    `bytes`.
+    Columns: `method, label, number` (of the radius, from 0), `radius, frames`, of `mse` and `l1`
+    also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`, `own_ms`,
+    `map_ms`, `ms`, `bytes`, those of `_flicker`.
     """
     frames = found[~found["metric"].isin(FLICKER)]
     rows = []
     for method, label in labels.items():
         mine = frames[frames["method"] == method]
-        # What a buffer holds already takes no time of its own.
-        timed = times["methods"].get(method, {"ms": [np.nan] * len(times["radii"])})
-        floats = timed.get("texel_floats", 0)
-        for radius, length in enumerate(times["radii"]):
-            here = mine[mine["radius"] == radius]
-            values = {name: one["value"].to_numpy() for name, one in here.groupby("metric")}
-            row = {"method": method, "label": label, "radius": radius, "radius_m": length}
-            row["frames"] = len(values["mse"])
+        for number, radius in enumerate(radii):
+            here = mine[mine["radius"] == number]
+            row = {"method": method, "label": label, "number": number, "radius": radius}
+            row["frames"] = int((here["metric"] == "mse").sum())
             for name in WITH_INTERVALS:
-                ends = mean_interval(values[name], seed)
-                row |= dict(zip((name, f"{name}_low", f"{name}_high"), ends))
+                some = here[here["metric"] == name]
+                values = some["value"].to_numpy()[None]
+                mean, low, high, _ = two_way_interval(values, seed, groups=some["scene"].to_numpy())
+                row |= {name: mean, f"{name}_low": low, f"{name}_high": high}
             # Of a part that no frame has, there is no mean.
-            row |= {name: _mean(values.get(name, np.array([]))) for name in MEANS}
+            means = here.groupby("metric")["value"].mean()
+            row |= {name: means.get(name, np.nan) for name in MEANS}
             row["psnr_pooled"] = float(psnr_of(max(row["mse"], 1e-10)))
             some = here[here["scene"].isin(unseen) & (here["metric"] == "mse")]["value"]
-            row["mse_unseen"] = _mean(some.to_numpy())
-            row["own_ms"] = timed["ms"][radius]
-            row["map_ms"] = times["map_ms"] * (floats > 0)
-            row["ms"] = row["own_ms"] + row["map_ms"]
-            row["bytes"] = 4 * floats * times["texels"]
-            rows.append(row)
+            row["mse_unseen"] = some.mean()
+            rows.append(row | _cost(times, method, number))
     table = pd.DataFrame(rows)
-    flicker = found[found["metric"].isin(FLICKER)]
-    if flicker.empty:
-        return table.assign(**dict.fromkeys(FLICKER, np.nan))
-    means = flicker.pivot_table("value", ["method", "radius"], "metric").reset_index()
-    return table.merge(means, on=["method", "radius"], how="left")
+    return table.merge(_flicker(found), on=["method", "number"], how="left")
 
 
-def _mean(values: np.ndarray) -> float:
-    known = values[~np.isnan(values)]
-    return float(known.mean()) if len(known) else float("nan")
+def _cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float]:
+    """Milliseconds and bytes; NaN where nothing was timed."""
+    if method not in times["methods"]:
+        return dict.fromkeys(("own_ms", "map_ms", "ms", "bytes"), np.nan)
+    timed = times["methods"][method]
+    own, floats = timed["ms"][number], timed["texel_floats"]
+    made = times["map_ms"] * (floats > 0)
+    return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": 4 * floats * times["texels"]}
+
+
+def _flicker(found: pd.DataFrame) -> pd.DataFrame:
+    """By method and radius the means over sequences, and of each kind: `instability_camera`, …"""
+    flicker = found[found["metric"].isin(FLICKER)].rename(columns={"radius": "number"})
+    what = flicker["part"].str.rpartition("_")[0]
+    index = ["method", "number"]
+    means = flicker.pivot_table("value", index, "metric").reindex(columns=FLICKER)
+    each = flicker.assign(column=flicker["metric"] + "_" + what)
+    return means.join(each.pivot_table("value", index, "column")).reset_index()
+
+
+def _describe_flicker(
+    table: pd.DataFrame, found: pd.DataFrame, radii: Sequence[float], unit: str
+) -> list[str]:
+    shown = table.dropna(subset="instability")
+    if shown.empty:
+        return []
+    parts = found[found["metric"] == "instability"]
+    kinds = ", ".join(parts["part"].str.rpartition("_")[0].unique())
+    return [
+        f"E: mean of exp(3 |change|) − 1 along a point's way (Datta et al. 2022), over sequences of "
+        f"{', '.join(parts['scene'].unique())} in which moves: {kinds} (the CSV has each); at a "
+        f"radius of {radii[int(shown['number'].iloc[0])]:.3g} {unit}. Of the exact shadow itself "
+        f"{shown['instability_reference'].iloc[0]:.3f}. In sequences the SVGF-like filter has its "
+        "history, all else in this table is of single frames."
+    ]
+
+
+def _describe_times(times: Mapping[str, Any]) -> list[str]:
+    if not times["methods"]:
+        return []
+    return [
+        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, one thread "
+        f"of {times['machine']['cpu']}; methods that look at a map have {times['map_ms']:.1f} ms of "
+        "rasterising it in theirs. KiB: the map, with its moments. What only needs rays has none, but "
+        "the mesh and its tree, which all have for the primary rays."
+    ]
 
 
 def _describe_constants(
-    chosen: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str], radii: Sequence[float]
+    chosen: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]
 ) -> list[str]:
     """One sentence on each method's constants, and whether one is at an end of what was tried."""
     sentences = []

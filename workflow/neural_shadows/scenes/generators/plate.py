@@ -26,3 +26,8 @@ def arrange_plate(height: float) -> Arrangement:
         targets=Region(np.array([-0.3, 0.0, -0.3]), np.array([0.3, 0.1, 0.3])),
         mover="ground",
     )
+
+
+def arrange(rng: np.random.Generator) -> Arrangement:
+    """With the spot between 0.4 m and 1.6 m over the ground."""
+    return arrange_plate(rng.uniform(0.4, 1.6))

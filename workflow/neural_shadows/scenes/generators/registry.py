@@ -8,7 +8,7 @@ import numpy as np
 from neural_shadows.errors import InputError
 from neural_shadows.scenes.arrangement import Arrangement
 
-TRAINED = ("room", "atrium", "hall", "classroom", "gallery")
+TRAINED = ("room", "atrium", "hall", "classroom", "gallery", "plate")
 UNTRAINED = ("garden", "workshop", "stairs", "blinds", "tree")
 
 

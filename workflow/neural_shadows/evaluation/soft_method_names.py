@@ -1,0 +1,51 @@
+"""Keys and names of the methods for soft shadows; what each does is in `soft_methods/registry.py`.
+
+Apart from it, so that the configuration and the graph need not wait for what computes.
+"""
+
+from importlib.util import find_spec
+
+NULL = {"no_shadow": "No shadow", "all_dark": "All dark"}
+BOXES = (3, 5, 9, 15)  # texels of a side
+RAYS = (1, 2, 4, 8, 16, 32, 64)  # of a pixel
+DENOISED_RAYS = (1, 4, 16)
+# By channel of a frame's buffers.
+BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
+BASE = "base_"
+OIDN = "_oidn"
+
+
+def _rays(count: int) -> str:
+    return f"{count} ray{'s' if count > 1 else ''}"
+
+
+# By key, in the order of tables.
+LABELS = {
+    **NULL,
+    "hard": "Shadow map",
+    **{f"pcf_{size}": f"PCF {size} × {size}" for size in BOXES},
+    "pcf_disc": "PCF, disc",
+    "pcss": "PCSS",
+    "pcss_post": "PCSS, depth-aware filter",
+    "vsm_3": "VSM 3 × 3",
+    "vsm_9": "VSM 9 × 9",
+    "evsm_9": "EVSM 9 × 9",
+    "msm_3": "MSM 3 × 3",
+    "msm_9": "MSM 9 × 9",
+    "msm_15": "MSM 15 × 15, σ 3",
+    **{f"rt_{count}": _rays(count) for count in RAYS},
+    **{f"rt_{count}_svgf": f"{_rays(count)}, SVGF-like" for count in DENOISED_RAYS},
+    **{f"rt_{count}{OIDN}": f"{_rays(count)}, OIDN" for count in DENOISED_RAYS},
+    **{f"{BASE}{name}": label for name, label in BASES.items()},
+}
+
+
+def rays_of(method: str) -> int | None:
+    """How many rays of a pixel a method sends that does nothing else; None for another."""
+    count = method.removeprefix("rt_")
+    return int(count) if count != method and count.isdecimal() else None
+
+
+def available(method: str) -> bool:
+    """Whether a method can be had on this machine: Open Image Denoise is for x86-64 alone."""
+    return not method.endswith(OIDN) or find_spec("pyoidn") is not None
