@@ -9,6 +9,7 @@ NULL = {"no_shadow": "No shadow", "all_dark": "All dark"}
 BOXES = (3, 5, 9, 15)  # texels of a side
 RAYS = (1, 2, 4, 8, 16, 32, 64)  # of a pixel
 DENOISED_RAYS = (1, 4, 16)
+FIELD_RAYS = (1, 4, 16)  # through occupancy fields
 # By channel of a frame's buffers.
 BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
 BASE = "base_"
@@ -36,6 +37,7 @@ LABELS = {
     **{f"rt_{count}": _rays(count) for count in RAYS},
     **{f"rt_{count}_svgf": f"{_rays(count)}, SVGF-like" for count in DENOISED_RAYS},
     **{f"rt_{count}{OIDN}": f"{_rays(count)}, OIDN" for count in DENOISED_RAYS},
+    **{f"field_{count}": f"{_rays(count)}, fields" for count in FIELD_RAYS},
     **{f"{BASE}{name}": label for name, label in BASES.items()},
 }
 

@@ -29,6 +29,13 @@ SOFT_LOOKS = {
         "Blurs powers of depth before they are looked up.",
     ),
     "rt": Look("rays", GREEN, "o", "●", "Sends so many rays from each pixel to the light."),
+    "field": Look(
+        "rays through occupancy fields",
+        "#000000",
+        "p",
+        "⬟",
+        "Rays through a sparse grid of signed distances of each object.",
+    ),
     "svgf": Look("rays, SVGF-like filter", PINK, "v", "▼", "Rays, smoothed within surfaces."),
     "oidn": Look("rays, Open Image Denoise", RED, "X", "✕", "Rays, denoised by a network."),
     "base": Look("what networks begin with", "#000000", "<", "◄", "The map's shadow, as stored."),

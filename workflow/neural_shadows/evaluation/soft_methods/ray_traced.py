@@ -1,5 +1,7 @@
 """Ray tracing with few rays a pixel: from its centre's point to points spread over the light."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numba import njit
 
@@ -12,7 +14,17 @@ _RAYS = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
 _SALT = 1 << 26  # more than a frame's pixels
 
 
-def ray_traced(frame: SoftFrame, radius: float, *, samples: int) -> np.ndarray:
+Blocked = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+def ray_traced(
+    frame: SoftFrame,
+    radius: float,
+    *,
+    samples: int,
+    starts: np.ndarray | None = None,
+    blocked: Blocked | None = None,
+) -> np.ndarray:
     """The share of a pixel's rays that reach the light, (n,) float32, on one thread.
 
     The rays of a pixel go to a low-discrepancy set of its own, on the disc that the light is from
@@ -21,11 +33,15 @@ def ray_traced(frame: SoftFrame, radius: float, *, samples: int) -> np.ndarray:
     Args:
         radius: of the light, in the scene's unit; 0 is a point, to which one ray goes.
         samples: rays of each pixel; in a sequence its next frame's go elsewhere.
+        starts: of the rays, (n, 3) float32; without them the frame's.
+        blocked: whether ways (m, 3) from points (m, 3) are blocked, (m,) bool; without it by the
+            scene's triangles.
     """
-    starts, normals = frame.starts, frame.surface.n_g
+    starts = frame.starts if starts is None else starts
+    blocked, normals = blocked or frame.scene.tracer.blocked, frame.surface.n_g
     if radius == 0:
         ways = frame.centre.astype(np.float32) - starts
-        return _shares(frame, starts, ways[:, None], normals)
+        return _shares(blocked, starts, ways[:, None], normals)
     # Other numbers than the exact shadow's, whose errors would be these rays' own.
     keys, drawn = frame.surface.pixel + _SALT, np.full(len(starts), frame.number * samples)
     radii, counts = np.array([radius], np.float64), np.array([samples], np.int64)
@@ -38,14 +54,14 @@ def ray_traced(frame: SoftFrame, radius: float, *, samples: int) -> np.ndarray:
         there, here = ways[: len(some)], origins[: len(some)]
         ring_ways(some, keys[part], drawn[part], frame.centre, radii, counts, there)
         here[:] = some[:, None]
-        found[part] = _shares(frame, here, there, normals[part])
+        found[part] = _shares(blocked, here, there, normals[part])
     return found
 
 
-def _shares(frame: SoftFrame, starts: np.ndarray, ways: np.ndarray, normals: np.ndarray):
+def _shares(blocked: Blocked, starts: np.ndarray, ways: np.ndarray, normals: np.ndarray):
     """Of each point's ways (n, samples, 3), how many are free: (n,) float32."""
-    blocked = frame.scene.tracer.blocked(starts.reshape(-1, 3), ways.reshape(-1, 3))
-    return _share_free(blocked.reshape(ways.shape[:2]), ways, normals)
+    found = blocked(starts.reshape(-1, 3), ways.reshape(-1, 3))
+    return _share_free(found.reshape(ways.shape[:2]), ways, normals)
 
 
 @njit(cache=True, nogil=True)

@@ -7,6 +7,7 @@ from neural_shadows.evaluation.soft_method_names import (
     BASES,
     BOXES,
     DENOISED_RAYS,
+    FIELD_RAYS,
     OIDN,
     RAYS,
 )
@@ -18,6 +19,7 @@ from neural_shadows.evaluation.soft_methods.denoised import (
 from neural_shadows.evaluation.soft_methods.evsm import evsm
 from neural_shadows.evaluation.soft_methods.hard_map import HARD
 from neural_shadows.evaluation.soft_methods.msm import msm
+from neural_shadows.evaluation.soft_methods.object_fields import field_traced
 from neural_shadows.evaluation.soft_methods.pcf import DISC_PCF, box_pcf
 from neural_shadows.evaluation.soft_methods.pcss import PCSS, PCSS_POST
 from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
@@ -25,6 +27,7 @@ from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.evaluation.soft_methods.vsm import vsm
 
 _BY_RAYS = {"texel_floats": 0, "by_rays": True}
+CELLS = (0.5, 1.0, 2.0, 4.0)
 _HELD = {"texel_floats": 0, "of_radius": False}
 
 
@@ -56,6 +59,11 @@ METHODS: dict[str, SoftMethod] = {
     **{
         f"rt_{n}{OIDN}": SoftMethod(partial(oidn_denoised, samples=n), **_BY_RAYS)
         for n in DENOISED_RAYS
+    },
+    # The same through occupancy fields in place of the objects.
+    **{
+        f"field_{n}": SoftMethod(partial(field_traced, samples=n), {"cells": CELLS}, **_BY_RAYS)
+        for n in FIELD_RAYS
     },
     # What networks begin with, as a frame's buffers hold it, a user's own frames' too.
     **{f"{BASE}{name}": SoftMethod(channel=name, **_HELD) for name in BASES},

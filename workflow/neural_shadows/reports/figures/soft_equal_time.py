@@ -15,7 +15,7 @@ from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
 NUMBERS = ("number", "radius", "mse", "mse_low", "mse_high", "ms")
-JOINED = ("rt", "svgf", "oidn")  # one method with more and more rays
+JOINED = ("rt", "field", "svgf", "oidn")  # one method with more and more rays
 
 
 def draw(

@@ -1,0 +1,96 @@
+"""Rays through an occupancy field of each object instead of its triangles.
+
+A field is a sparse grid of signed distances, not trained, round each closed object of a scene;
+what is open has no inside and is traced as it is.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+import trimesh
+
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes, with_normals
+from neural_shadows.networks.object_space.brick_distances import signed_distances
+from neural_shadows.networks.object_space.brick_layout import lay_out
+from neural_shadows.networks.object_space.field_marching import BRICK, blocked_ways
+from neural_shadows.networks.object_space.occupancy import surface_cells
+from neural_shadows.networks.object_space.occupancy_field_network import REACH, SAMPLES_PER_CELL
+from neural_shadows.scenes.scene import Scene
+from neural_shadows.scenes.tracing import Tracer
+
+CELL = 0.002  # of the scene's size: what a field's cells are no smaller than …
+MOST = 256  # … nor are there more along an axis
+_MARGIN = 1.02  # of an object's sphere, so that its surface is inside the grid
+
+
+class ObjectField:
+    """The field of one closed object, int8 values in bricks."""
+
+    def __init__(self, mesh: PreparedMesh, cell: float):
+        self.centre = (mesh.vertices.min(0) + mesh.vertices.max(0)).astype(np.float32) / 2
+        away = np.linalg.norm(mesh.vertices - self.centre, axis=1).max()
+        self.radius = np.float32(_MARGIN * away)
+        wanted = int(np.ceil(2 * self.radius / cell / BRICK)) * BRICK
+        self.resolution = int(np.clip(wanted, 8 * BRICK, MOST))
+        unit = with_normals((mesh.vertices - self.centre) / self.radius, mesh.faces)
+        surface = surface_cells(unit.vertices, unit.faces, self.resolution // BRICK)
+        layout = lay_out(surface, solid=True)
+        distances = signed_distances(unit, layout, REACH)  # in cells, positive inside
+        values = np.round(127 / REACH * distances).astype(np.int8)
+        self.grid, self.bricks = layout.grid, values[layout.table]
+
+    def block(self, points: np.ndarray, ways: np.ndarray, blocked: np.ndarray) -> None:
+        """Mark the ways that it blocks, see `blocked_ways`."""
+        steps = SAMPLES_PER_CELL * self.resolution
+        told = self.grid, self.bricks, steps, np.float32(0)
+        blocked_ways(points, ways, self.centre, self.radius, *told, blocked)
+
+    @property
+    def bytes(self) -> int:
+        """In memory while it answers."""
+        return self.grid.nbytes + self.bricks.nbytes
+
+
+class SceneFields:
+    """The fields of a scene's closed objects, and a tracer of the others."""
+
+    def __init__(self, scene: Scene):
+        closed = [_is_closed(mesh) for mesh in scene.objects]
+        cell = CELL * scene.size
+        self.fields = [ObjectField(one, cell) for one, is_ in zip(scene.objects, closed) if is_]
+        rest = [mesh for mesh, is_ in zip(scene.objects, closed) if not is_]
+        joined = joined_meshes(rest) if rest else None
+        self.tracer = Tracer(joined.vertices, joined.faces) if rest else None
+
+    def blocked(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
+        """Whether each way (n, 3) from its point is blocked, (n,) bool."""
+        found = np.zeros(len(points), bool)
+        if self.tracer is not None:
+            found |= self.tracer.blocked(points, ways)
+        for field in self.fields:
+            field.block(points, ways, found)
+        return found
+
+
+def _is_closed(mesh: PreparedMesh) -> bool:
+    return trimesh.Trimesh(mesh.vertices, mesh.faces, process=True).is_watertight
+
+
+def field_traced(frame: SoftFrame, radius: float, *, samples: int, cells: float) -> np.ndarray:
+    """The share of a pixel's rays that no object's field blocks, (n,) float32, on one thread.
+
+    Args:
+        radius, samples: see `ray_traced`. cells: by how many of the largest cells rays start off the
+            surface, which a field has not quite where the triangles have it.
+    """
+    off = np.float32(cells * CELL * frame.scene.size)
+    starts = frame.surface.p + off * frame.surface.n_g
+    fields = fields_of(frame.scene)
+    return ray_traced(frame, radius, samples=samples, starts=starts, blocked=fields.blocked)
+
+
+@lru_cache(maxsize=2)
+def fields_of(scene: Scene) -> SceneFields:
+    """The fields of a scene, which all of its frames share."""
+    return SceneFields(scene)
