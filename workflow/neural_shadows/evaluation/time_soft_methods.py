@@ -1,7 +1,7 @@
 """The stage that times methods for soft shadows on the same frames, on one thread."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -11,6 +11,7 @@ import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.running.hardware import describe_machine
@@ -36,7 +37,7 @@ def time_soft_methods(
         parts: of test frames, one a scene. constants: of the methods.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, of its answer alone; `map_ms` of rasterising the light's map, which those that
-            look at one need before; and the numbers in a texel, and the map's `texels`.
+            look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
 
     Raises:
         InputError: an input file cannot be read.
@@ -78,12 +79,18 @@ def time_soft_methods(
                 name: {
                     "ms": np.median(each, axis=0).tolist(),
                     "texel_floats": METHODS[name].texel_floats,
+                    "held_bytes": _held(METHODS[name], frames),
                 }
                 for name, each in taken.items()
             },
             "machine": describe_machine(),
         },
     )
+
+
+def _held(method: SoftMethod, frames: Sequence[MeasuredFrame]) -> float:
+    """Median over frames of what a method keeps of the scene, in bytes."""
+    return float(np.median([method.held(one.frame) for one in frames])) if method.held else 0.0
 
 
 def _prepared(measured: MeasuredFrame) -> SoftFrame:

@@ -18,9 +18,9 @@ TIMES = {
     **{"frames": 2, "repeats": 3},
     **{"map_ms": 10.0, "texels": 64, "machine": {"cpu": "a CPU"}},
     "methods": {
-        "hard": {"ms": [1.0, 1.0], "texel_floats": 1},
-        "rt_4": {"ms": [4.0, 16.0], "texel_floats": 0},
-        "no_shadow": {"ms": [0.1, 0.1], "texel_floats": 0},
+        "hard": {"ms": [1.0, 1.0], "texel_floats": 1, "held_bytes": 0},
+        "rt_4": {"ms": [4.0, 16.0], "texel_floats": 0, "held_bytes": 0},
+        "no_shadow": {"ms": [0.1, 0.1], "texel_floats": 0, "held_bytes": 0},
     },
 }
 RUN = {"scale": "test", "seed": 1}

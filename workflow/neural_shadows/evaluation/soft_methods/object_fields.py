@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 import trimesh
 
+from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes, with_normals
 from neural_shadows.networks.object_space.brick_distances import signed_distances
@@ -19,7 +20,7 @@ from neural_shadows.networks.object_space.occupancy_field_network import REACH, 
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.scenes.tracing import Tracer
 
-CELL = 0.002  # of the scene's size: what a field's cells are no smaller than …
+CELL = 0.0005  # of the scene's size: what a field's cells are no smaller than …
 MOST = 256  # … nor are there more along an axis
 _MARGIN = 1.02  # of an object's sphere, so that its surface is inside the grid
 
@@ -74,7 +75,9 @@ class SceneFields:
 
 
 def _is_closed(mesh: PreparedMesh) -> bool:
-    return trimesh.Trimesh(mesh.vertices, mesh.faces, process=True).is_watertight
+    """Whether each edge has an even number of faces: 4 where two parts of an object touch."""
+    shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
+    return bool(np.all(np.bincount(shape.edges_unique_inverse) % 2 == 0))
 
 
 def field_traced(frame: SoftFrame, radius: float, *, samples: int, cells: float) -> np.ndarray:
@@ -88,6 +91,11 @@ def field_traced(frame: SoftFrame, radius: float, *, samples: int, cells: float)
     starts = frame.surface.p + off * frame.surface.n_g
     fields = fields_of(frame.scene)
     return ray_traced(frame, radius, samples=samples, starts=starts, blocked=fields.blocked)
+
+
+def field_bytes(frame: SoftFrame) -> int:
+    """In memory of all fields of a frame's scene; what is traced as it is counts nothing."""
+    return sum(field.bytes for field in fields_of(frame.scene).fields)
 
 
 @lru_cache(maxsize=2)

@@ -19,7 +19,7 @@ from neural_shadows.evaluation.soft_methods.denoised import (
 from neural_shadows.evaluation.soft_methods.evsm import evsm
 from neural_shadows.evaluation.soft_methods.hard_map import HARD
 from neural_shadows.evaluation.soft_methods.msm import msm
-from neural_shadows.evaluation.soft_methods.object_fields import field_traced
+from neural_shadows.evaluation.soft_methods.object_fields import field_bytes, field_traced
 from neural_shadows.evaluation.soft_methods.pcf import DISC_PCF, box_pcf
 from neural_shadows.evaluation.soft_methods.pcss import PCSS, PCSS_POST
 from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
@@ -62,7 +62,9 @@ METHODS: dict[str, SoftMethod] = {
     },
     # The same through occupancy fields in place of the objects.
     **{
-        f"field_{n}": SoftMethod(partial(field_traced, samples=n), {"cells": CELLS}, **_BY_RAYS)
+        f"field_{n}": SoftMethod(
+            partial(field_traced, samples=n), {"cells": CELLS}, held=field_bytes, **_BY_RAYS
+        )
         for n in FIELD_RAYS
     },
     # What networks begin with, as a frame's buffers hold it, a user's own frames' too.

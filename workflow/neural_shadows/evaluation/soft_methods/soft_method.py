@@ -22,6 +22,7 @@ class SoftMethod:
         sequence: of a sequence of frames, if it has a history: of the frames, the radius, where
             points were before (`was`) and the constants, the visibilities of each frame in turn.
         texel_floats: float32 numbers in a texel of the map that it looks at; 0 for none.
+        held: of a frame, the bytes in memory of what it keeps of the scene beside the triangles.
         of_radius: whether its answer depends on the light's radius.
         by_rays: whether it sends rays to the light's points. What faces away from the light's centre
             is made dark for all others: it may see a part of a large light, and rays know.
@@ -33,6 +34,7 @@ class SoftMethod:
     constants: Mapping[str, Sequence[float]] = field(default_factory=dict)
     sequence: Callable[..., Iterator[np.ndarray]] | None = None
     texel_floats: int = 1
+    held: Callable[[SoftFrame], int] | None = None
     of_radius: bool = True
     by_rays: bool = False
     channel: str | None = None

@@ -144,7 +144,8 @@ def _cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float
     timed = times["methods"][method]
     own, floats = timed["ms"][number], timed["texel_floats"]
     made = times["map_ms"] * (floats > 0)
-    return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": 4 * floats * times["texels"]}
+    held = 4 * floats * times["texels"] + timed["held_bytes"]
+    return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": held}
 
 
 def _flicker(found: pd.DataFrame) -> pd.DataFrame:
@@ -180,8 +181,8 @@ def _describe_times(times: Mapping[str, Any]) -> list[str]:
     return [
         f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, one thread "
         f"of {times['machine']['cpu']}; methods that look at a map have {times['map_ms']:.1f} ms of "
-        "rasterising it in theirs. KiB: the map, with its moments. What only needs rays has none, but "
-        "the mesh and its tree, which all have for the primary rays."
+        "rasterising it in theirs. KiB: the map with its moments, or the fields. What only needs rays "
+        "has none, but the mesh and its tree, which all have for the primary rays."
     ]
 
 

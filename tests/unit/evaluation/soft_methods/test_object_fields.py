@@ -1,0 +1,56 @@
+"""Ways to a light through fields of objects, beside the triangles."""
+
+import numpy as np
+import pytest
+import trimesh
+from shapes import prepared, sheet
+
+from neural_shadows.evaluation.soft_methods.object_fields import ObjectField, SceneFields
+from neural_shadows.scenes.scene import make_scene
+
+UP = np.array([0.0, 1.0, 0.0])
+
+
+def some_ways(count, reach):
+    """From points round the origin to others: some end before they are through."""
+    rng = np.random.default_rng(3)
+    points = rng.normal(size=(count, 3))
+    points *= reach / np.linalg.norm(points, axis=1, keepdims=True)
+    goals = rng.normal(size=(count, 3)) * reach / 2
+    return points.astype(np.float32), (goals - points).astype(np.float32)
+
+
+@pytest.mark.parametrize(
+    "shape", [trimesh.creation.icosphere(4), trimesh.creation.box((1.2, 0.3, 0.8))]
+)
+def test_a_field_blocks_what_its_object_does(shape):
+    shape.apply_translation([2.0, -1.0, 0.5])
+    mesh, tracer = prepared(shape)
+    points, ways = some_ways(20_000, 2.5)
+    points += np.array([2.0, -1.0, 0.5], np.float32)
+    blocked = np.zeros(len(points), bool)
+    ObjectField(mesh, 0.02).block(points, ways, blocked)
+    exact = tracer.blocked(points, ways)
+    assert 0.05 < exact.mean() < 0.9
+    assert np.mean(blocked != exact) < 0.01  # those that graze it, or end at it
+
+
+def test_what_is_blocked_stays_blocked():
+    mesh, _ = prepared(trimesh.creation.icosphere(2))
+    points, ways = some_ways(500, 3.0)
+    blocked = np.ones(500, bool)
+    ObjectField(mesh, 0.1).block(points, ways, blocked)
+    assert blocked.all()
+
+
+def test_open_objects_are_traced_as_they_are():
+    """Two boxes that share an edge are closed, a sheet is not."""
+    pair = [trimesh.creation.box((1, 1, 1)) for _ in range(2)]
+    pair[1].apply_translation([1, 1, 0])
+    meshes = [prepared(trimesh.util.concatenate(pair))[0], prepared(sheet(-2.0, 3.0))[0]]
+    scene = make_scene(*meshes, up=UP, ground=False, light=None)
+    fields = SceneFields(scene)
+    assert len(fields.fields) == 1 and fields.tracer is not None
+    points, ways = some_ways(5000, 4.0)
+    found, exact = fields.blocked(points, ways), scene.tracer.blocked(points, ways)
+    assert np.mean(found != exact) < 0.01 and 0.05 < exact.mean() < 0.95
