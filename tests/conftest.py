@@ -1,15 +1,18 @@
 """Which tests one process does: those of a file share what they make, those of the workflow its runs."""
 
-from pathlib import Path
-
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
-TESTS = Path(__file__).parent
+
+class ByFile(LoadScopeScheduling):
+    """Spreads the files of tests/unit over the processes; any other folder is one process's."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        path, _, _ = nodeid.partition("::")
+        _, folder, *_ = path.split("/")
+        return path if folder == "unit" else folder
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Spread the files of tests/unit over the processes, and no other folder."""
-    for item in items:
-        parts = item.path.relative_to(TESTS).parts
-        group = "/".join(parts) if parts[0] == "unit" else parts[0]
-        item.add_marker(pytest.mark.xdist_group(group))
+def pytest_xdist_make_scheduler(config: pytest.Config, log) -> LoadScopeScheduling:
+    """What xdist asks for the way to spread tests."""
+    return ByFile(config, log)
