@@ -14,7 +14,7 @@ from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.generators.plate import arrange_plate
 from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED, arrange, generator_module
 
-NAMES = TRAINED + UNTRAINED
+NAMES = [name for name in TRAINED + UNTRAINED if name != "plate"]  # which is bare on purpose
 BALL = trimesh.creation.icosphere(2)
 # Evenly over the sphere, by the golden angle.
 _HEIGHTS = (2 * np.arange(256) + 1) / 256 - 1
