@@ -6,7 +6,7 @@ import yaml
 from checkout import ROOT, write_overlay
 
 KEPT = {
-    "tables": {"table_4_3", "table_4_6", "cost"},
+    "tables": {"table_4_3", "table_4_6", "soft_methods", "cost"},
     "figures": {"figure_4_4", "figure_3_1"},
     "claims": {"dragon_worse_than_512"},
 }
@@ -19,7 +19,7 @@ NO_JOB = {"download_mesh"}  # of the rules, at the smoke scale
 
 
 def few_jobs(path: Path, steps: int = 200) -> Path:
-    """Write an overlay of the smoke scale that keeps the dragon's network alone.
+    """Write an overlay of the smoke scale that keeps the dragon's network and one method for soft shadows.
 
     Args:
         steps: of its training.
@@ -31,4 +31,6 @@ def few_jobs(path: Path, steps: int = 200) -> Path:
     biased = {"method": "dragon", "bias": "held_out", "label": "With its bias"}
     sections["tables"]["table_4_3"] = {"rows": ["shadow_map_512", "dragon", biased], "figures": []}
     sections["tables"]["table_4_6"] = {"rows": {"dragon": ["ray_traced", "dragon"]}}
+    sections["tables"]["soft_methods"] = {"methods": ["pcss"]}
+    sections["frame_sets"] = {"frames": {"unseen": [], "sequence": 0}}
     return write_overlay(path, trainings={"base": {"steps": steps}}, **sections)

@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 from measurement import Row, median_seconds
 
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_method_names import LABELS
+from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting, light_map_of, twin_of
 from neural_shadows.frames.render_frame import render_buffers, render_target
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -51,14 +52,14 @@ def methods(frame: SoftFrame, rounds: int) -> list[Row]:
         "msm_15",
         "rt_1",
     ):
-        method = METHODS[key]
+        method = soft_method(key)
         constants = method.settings()[-1] | ({"texels": 4.0} if key == "pcf_disc" else {})
         works = {key: partial(method.answer, frame, RADIUS, **constants)}
         if key in peers:
             works[NUMPY] = peers[key]
         rate = {name: 1 / value for name, value in median_seconds(works, rounds).items()}
         told = {"peer": NUMPY, "peer_rate": rate[NUMPY]} if key in peers else {}
-        stage = f"soft shadow of {size}: {method.label}"
+        stage = f"soft shadow of {size}: {LABELS[key]}"
         found.append(Row(stage, "cpu x1", rate[key], "frames/s", **told))
     works = {
         "map": lambda: SoftFrame(frame.scene, frame.surface, frame.centre, frame.light_map).depths,

@@ -29,6 +29,7 @@ os.environ.update(NUMBA_CACHE_DIR=kernels)
 from neural_shadows.config.reading import check_duplicates, check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation.soft_methods.registry import method_module
 from neural_shadows.layout import claims, figures, frame_sets, parts, tables, targets
 from neural_shadows.layout import soft_methods, viewers
 from neural_shadows.layout.layout import Layout
@@ -98,14 +99,15 @@ def of(function):
     return answer
 
 
-def code(stage, encodings=(), generators=()):
+def code(stage, encodings=(), generators=(), methods=()):
     """The package's modules that the result of a stage depends on.
 
-    A network's module is imported by its kind's name, that of a scene by its generator's, so that
-    they are among them only for the jobs that use such a network, or such a scene.
+    A network's module is imported by its kind's name, that of a scene by its generator's, that of
+    a method for soft shadows by its key, so that they are among them only for the jobs that use
+    such a network, such a scene, or such a method.
     """
     sources = [STAGES / f"{stage}.py", *map(kind_module, sorted(encodings))]
-    sources += map(generator_module, generators)
+    sources += [*map(generator_module, generators), *map(method_module, methods)]
     modules = {module for source in sources for module in modules_of(source)}
     return sorted(os.path.relpath(path) for path in modules)
 

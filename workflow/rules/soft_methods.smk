@@ -9,6 +9,7 @@ rule tune_soft_method:
         code=lambda wildcards: code(
             "evaluation/tune_soft_method",
             generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+            methods=[wildcards.method],
         ),
     output:
         constants_json=PATHS.soft_constants(),
@@ -32,11 +33,12 @@ rule evaluate_soft:
         beside=of(soft_methods.measured_arrays),
         sequences=of(soft_methods.sequences),
         meshes=of(soft_methods.all_meshes),
-        constants_json=PATHS.soft_constants(),
+        constants_json=of(soft_methods.chosen),
         lpips_json=PATHS.lpips,
         code=lambda wildcards: code(
             "evaluation/evaluate_soft",
             generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+            methods=[wildcards.method],
         ),
     output:
         metrics_csv=PATHS.soft_evaluation("csv"),
@@ -63,6 +65,7 @@ rule time_soft_methods:
         code=lambda wildcards: code(
             "evaluation/time_soft_methods",
             generators=soft_methods.timed_generators(LAYOUT, wildcards.table),
+            methods=soft_methods.methods(LAYOUT, wildcards.table),
         ),
     output:
         times_json=PATHS.soft_times(),

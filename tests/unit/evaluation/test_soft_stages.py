@@ -9,7 +9,8 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import read_answer
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_method_names import is_tuned
+from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.evaluation.time_soft_methods import time_soft_methods
 from neural_shadows.evaluation.tune_soft_method import tune_soft_method
@@ -48,7 +49,7 @@ def tune(folder, method):
 
 def test_the_constants_of_least_error_are_chosen(folder):
     record = tune(folder, "pcf_disc")
-    method = METHODS["pcf_disc"]
+    method = soft_method("pcf_disc")
     frames = [*measured_frames([folder / "validation_000.json"], [])]
     for k, radius in enumerate(RADII):
         errors = []
@@ -61,19 +62,16 @@ def test_the_constants_of_least_error_are_chosen(folder):
         assert chosen["mse"] == pytest.approx(min(errors), rel=1e-4)
 
 
-def test_what_has_no_constants_needs_no_frames(folder):
-    assert [one["constants"] for one in tune(folder, "rt_4")["radii"]] == [{}] * 3
-
-
 def evaluate(folder, method):
     target = folder / "frames"
     target.mkdir(exist_ok=True)
-    tune(folder, method)
+    if is_tuned(method):
+        tune(folder, method)
     evaluate_soft(
         [folder / "test_000.json"],
         [folder / "camera_000.json", folder / "light_000.json"],
         [],
-        folder / f"{method}.json",
+        folder / f"{method}.json" if is_tuned(method) else None,
         folder / "lpips.json",
         target / f"{method}.csv",
         target / f"{method}.npz",
@@ -113,7 +111,7 @@ def test_a_history_calms_what_few_rays_do(folder):
 def test_answers_are_kept(folder):
     evaluate(folder, "hard")
     (measured, _) = measured_frames([folder / "test_000.json"], [])
-    found = measured.answered(METHODS["hard"], 0.1, {})
+    found = measured.answered(soft_method("hard"), 0.1, {})
     kept = read_answer(folder / "frames/hard.npz", "blinds.test_000.1")
     assert np.array_equal(kept, found)
     with pytest.raises(InputError, match="hard.npz: damaged"):
@@ -122,11 +120,11 @@ def test_answers_are_kept(folder):
 
 def test_times(folder):
     names = ["hard", "msm_3", "rt_1"]
-    files = [folder / f"{name}.json" for name in names]
-    for name in names:
-        tune(folder, name)
+    tune(folder, "msm_3")
     out = folder / "times.json"
-    time_soft_methods([folder / "test_000.json"], files, [], out, methods=names, repeats=1)
+    time_soft_methods(
+        [folder / "test_000.json"], [folder / "msm_3.json"], [], out, methods=names, repeats=1
+    )
     found = json.loads(out.read_text())
     assert found["texels"] == 64**2 and found["map_ms"] > 0 and found["frames"] == 1
     floats = {name: found["methods"][name]["texel_floats"] for name in names}
@@ -143,7 +141,7 @@ def test_of_frames_without_a_scene_the_buffers_can_be_measured(folder, tmp_path)
         (tmp_path / name).symlink_to(folder / name)
     own = next(measured_frames([tmp_path / "test_000.json"], []))
     ours = next(measured_frames([folder / "test_000.json"], []))
-    held, asked = own.answered(METHODS["base_hard"], 0.1, {}), METHODS["hard"]
+    held, asked = own.answered(soft_method("base_hard"), 0.1, {}), soft_method("hard")
     assert np.mean(held != ours.answered(asked, 0.1, {})) < 0.01
     with pytest.raises(InputError, match="has no 'scene' to look at; .* base_hard, base_pcf"):
         own.answered(asked, 0.1, {})

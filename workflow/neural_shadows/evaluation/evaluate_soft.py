@@ -8,7 +8,7 @@ import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_answers import name_of, write_answers
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
 from neural_shadows.files.whole_files import read_json
@@ -30,7 +30,7 @@ def evaluate_soft(
     parts: list[Path],
     sequences: list[Path],
     meshes: list[Path],
-    constants_json: Path,
+    constants_json: Path | None,
     lpips_json: Path,
     metrics_csv: Path,
     answers_npz: Path,
@@ -46,14 +46,14 @@ def evaluate_soft(
     Args:
         parts: of test frames. sequences: parts of consecutive frames; may be none.
         meshes: see `measured_frames`.
-        constants_json: what `tune_soft_method` wrote.
+        constants_json: what `tune_soft_method` wrote; None for a method without constants.
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    asked = METHODS[method]
-    constants = [one["constants"] for one in read_json(constants_json)["radii"]]
+    asked = soft_method(method)
+    constants = _constants(constants_json, len(FrameSetPart(parts[0]).radii))
     images = {"ssim": ssim, "flip": flip} | lpips_metric(lpips_json, threads)
 
     rows: list[Row] = []
@@ -74,6 +74,11 @@ def evaluate_soft(
             rows += _flicker(measured_frames([path], meshes), asked, constants, bar.update)
     write_soft_metrics(metrics_csv, rows)
     write_answers(answers_npz, kept)
+
+
+def _constants(path: Path | None, radii: int) -> list[Constants]:
+    """By radius; none of a method that has none."""
+    return [one["constants"] for one in read_json(path)["radii"]] if path else [{}] * radii
 
 
 def _values(

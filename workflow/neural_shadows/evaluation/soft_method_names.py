@@ -1,6 +1,6 @@
-"""Keys and names of the methods for soft shadows; what each does is in `soft_methods/registry.py`.
+"""Keys and names of the methods for soft shadows; what each does is in `soft_methods`.
 
-Apart from it, so that the configuration and the graph need not wait for what computes.
+Apart from that, so that the configuration and the graph need not wait for what computes.
 """
 
 from importlib.util import find_spec
@@ -46,6 +46,12 @@ def rays_of(method: str) -> int | None:
     """How many rays of a pixel a method sends that does nothing else; None for another."""
     count = method.removeprefix("rt_")
     return int(count) if count != method and count.isdecimal() else None
+
+
+def is_tuned(method: str) -> bool:
+    """Whether a method has constants, which are chosen on validation frames."""
+    constant = method in NULL or method == "hard" or method.startswith(BASE)
+    return not constant and not method.endswith(OIDN) and rays_of(method) is None
 
 
 def available(method: str) -> bool:

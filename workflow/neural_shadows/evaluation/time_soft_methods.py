@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -34,7 +34,7 @@ def time_soft_methods(
     them alike.
 
     Args:
-        parts: of test frames, one a scene. constants: of the methods.
+        parts: of test frames, one a scene. constants: of the methods that have some.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, of its answer alone; `map_ms` of rasterising the light's map, which those that
             look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
@@ -43,12 +43,13 @@ def time_soft_methods(
         InputError: an input file cannot be read.
     """
     frames = [one for one in measured_frames(parts, meshes) if one.number == 0]
-    chosen = {
+    radii = range(len(frames[0].part.radii))
+    chosen = {name: [{}] * len(radii) for name in methods} | {
         record["method"]: [one["constants"] for one in record["radii"]]
         for record in map(read_json, constants)
     }
-    timed = {name: METHODS[name] for name in methods if METHODS[name].answer}
-    radii = range(len(frames[0].part.radii))
+    asked = {name: soft_method(name) for name in methods}
+    timed = {name: method for name, method in asked.items() if method.answer}
     taken = {name: np.zeros((len(frames), len(radii))) for name in timed}
     maps: list[float] = []
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
@@ -78,8 +79,8 @@ def time_soft_methods(
             "methods": {
                 name: {
                     "ms": np.median(each, axis=0).tolist(),
-                    "texel_floats": METHODS[name].texel_floats,
-                    "held_bytes": _held(METHODS[name], frames),
+                    "texel_floats": timed[name].texel_floats,
+                    "held_bytes": _held(timed[name], frames),
                 }
                 for name, each in taken.items()
             },

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.frame_set import FrameSetPart
@@ -27,14 +27,13 @@ def tune_soft_method(
     Raises:
         InputError: a part is damaged.
     """
-    asked = METHODS[method]
+    asked = soft_method(method)
     settings = asked.settings()
     opened = [FrameSetPart(path) for path in parts]
     radii = len(opened[0].radii)
     squares, pixels = np.zeros((len(settings), radii)), 0
-    frames = sum(map(len, opened)) * (len(settings) > 1)  # one setting needs no choice
-    with progress_bar(frames, "frames", f"tune {method}") as bar:
-        for frame in measured_frames(parts, meshes) if frames else ():
+    with progress_bar(sum(map(len, opened)), "frames", f"tune {method}") as bar:
+        for frame in measured_frames(parts, meshes):
             valid, target = frame.valid, frame.target
             pixels += valid.sum()
             for row, constants in enumerate(settings):
@@ -53,7 +52,7 @@ def tune_soft_method(
             "radii": [
                 {
                     "constants": one,
-                    "mse": squares[row, k] / pixels if pixels else None,
+                    "mse": squares[row, k] / pixels,
                     "at_end": _at_end(asked, one, dict(zip(map(str, settings), squares[:, k]))),
                 }
                 for k, (one, row) in enumerate(zip(chosen, best))

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from neural_shadows.evaluation.soft_method_names import LABELS, NULL, available
+from neural_shadows.evaluation.soft_method_names import LABELS, NULL, available, is_tuned
 from neural_shadows.frames.draw_sequences import SEQUENCES
 from neural_shadows.layout import frame_sets
 from neural_shadows.layout.layout import Layout
@@ -32,9 +32,14 @@ def evaluations(layout: Layout, table: str, ending: str) -> list[str]:
 
 
 def constants(layout: Layout, table: str) -> list[str]:
-    """What was chosen for each method of a table, in its order."""
+    """What was chosen for each method of a table that has constants, in its order."""
     one = frame_set(layout, table)
-    return [layout.paths.soft_constants(one, method) for method in methods(layout, table)]
+    return [path for method in methods(layout, table) for path in chosen(layout, one, method)]
+
+
+def chosen(layout: Layout, frame_set: str, method: str) -> list[str]:
+    """The file of a method's constants; none of one without."""
+    return [layout.paths.soft_constants(frame_set, method)] if is_tuned(method) else []
 
 
 def tests(layout: Layout, frame_set: str) -> list[str]:
@@ -44,11 +49,7 @@ def tests(layout: Layout, frame_set: str) -> list[str]:
 
 
 def validations(layout: Layout, frame_set: str) -> list[str]:
-    """All validation frames of a frame set; the tests of a user's own, whose methods have no
-    constants to choose.
-    """
-    if layout.entry("frame_sets", frame_set)["path"] is not None:
-        return tests(layout, frame_set)
+    """All validation frames of a frame set."""
     scenes = frame_sets.tuned_scenes(layout, frame_set)
     return [p for one in scenes for p in frame_sets.parts(layout, one, frame_set, "validation")]
 

@@ -1,12 +1,14 @@
 """Every method on one frame of a plate over a ground, beside many rays."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 import trimesh
 from shapes import prepared
 
-from neural_shadows.evaluation.soft_method_names import LABELS
-from neural_shadows.evaluation.soft_methods.registry import METHODS
+from neural_shadows.evaluation.soft_method_names import LABELS, is_tuned
+from neural_shadows.evaluation.soft_methods.registry import method_module, soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import visibility
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.soft_shadows import soft_visibility
@@ -46,6 +48,7 @@ def answers_of(method, frame, radius):
         yield found
 
 
+METHODS = {key: soft_method(key) for key in LABELS}
 ASKED = [key for key, method in METHODS.items() if method.answer]
 
 
@@ -79,8 +82,15 @@ def test_soft_shadows_of_a_sphere(frame, target):
         assert 5 * errors[f"rt_1_{filter_}"] < errors["rt_1"]
 
 
-def test_every_method_has_a_name():
-    assert METHODS.keys() == LABELS.keys()
+def test_every_method_of_a_module_has_a_name():
+    named = {key: method_module(key) for key in LABELS}
+    for path in set(named.values()):
+        of = import_module(f"neural_shadows.evaluation.soft_methods.{path.stem}").METHODS
+        assert of.keys() == {key for key, its in named.items() if its == path}
+
+
+def test_those_with_constants_are_tuned():
+    assert {key for key, one in METHODS.items() if one.constants} == {*filter(is_tuned, LABELS)}
 
 
 @pytest.fixture(scope="module")

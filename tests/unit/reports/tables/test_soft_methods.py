@@ -51,19 +51,17 @@ def written(tmp_path):
     times.write_text(json.dumps(TIMES))
     frames.write_text(json.dumps(ABOUT))
     lpips.write_text(json.dumps({"available": False}))
-    constants = []
-    for method in LABELS:
-        tried = {"bias": [1, 3]} if method == "hard" else {}
-        chosen = {"constants": dict.fromkeys(tried, 3), "at_end": [*tried], "mse": 0.1}
-        constants.append(tmp_path / f"{method}.json")
-        record = {"method": method, "tried": tried, "radii": [chosen, chosen]}
-        constants[-1].write_text(json.dumps(record))
+    constants = tmp_path / "hard.json"
+    chosen = {"constants": {"bias": 3}, "at_end": ["bias"], "mse": 0.1}
+    constants.write_text(
+        json.dumps({"method": "hard", "tried": {"bias": [1, 3]}, "radii": [chosen, chosen]})
+    )
     csv, md = tmp_path / "soft_methods.csv", tmp_path / "soft_methods.md"
     soft_methods.write(
         frames_json=frames,
         soft_metrics=paths,
         soft_times=times,
-        soft_constants=constants,
+        soft_constants=[constants],
         lpips_json=lpips,
         csv=csv,
         md=md,

@@ -1,7 +1,7 @@
 """Ray tracing with few rays a pixel, and what a denoiser makes of its picture."""
 
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import repeat
 
 import numpy as np
@@ -10,6 +10,7 @@ from neural_shadows.denoising.oidn import open_image_denoise
 from neural_shadows.denoising.svgf import SIGMA_LUMINANCE, SvgfFilter, svgf_like
 from neural_shadows.denoising.temporal import TemporalFilter
 from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
 
 
@@ -82,3 +83,22 @@ def svgf_sequence(
 
 # Only the last is kept: 50 MB for a million pixels, and the frames of a set have one size.
 _filter = lru_cache(maxsize=1)(SvgfFilter)
+
+
+_RAYS = (1, 4, 16)
+_TRIED = {"sigma_luminance": (2.0, 4.0, 8.0)}
+_BY_RAYS = {"texel_floats": 0, "by_rays": True}
+
+
+def _smoothed(count: int) -> SoftMethod:
+    answer, sequence = (partial(one, samples=count) for one in (svgf_denoised, svgf_sequence))
+    return SoftMethod(answer, _TRIED, sequence=sequence, **_BY_RAYS)
+
+
+METHODS = {
+    **{f"rt_{count}_svgf": _smoothed(count) for count in _RAYS},
+    **{
+        f"rt_{count}_oidn": SoftMethod(partial(oidn_denoised, samples=count), **_BY_RAYS)
+        for count in _RAYS
+    },
+}

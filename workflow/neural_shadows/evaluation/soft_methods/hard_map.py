@@ -11,4 +11,4 @@ def _answer(frame: SoftFrame, radius: float) -> np.ndarray:
     return hard_visibility(frame.light_map, frame.depths, frame.ways, frame.bias)
 
 
-HARD = SoftMethod(_answer, of_radius=False)
+METHODS = {"hard": SoftMethod(_answer, of_radius=False)}

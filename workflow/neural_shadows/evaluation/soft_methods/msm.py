@@ -7,7 +7,7 @@ from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.shadow_maps.moments import box, gaussian, hamburger_visibility, powers
 
 
-def msm(size: int, sigma: float | None = None) -> SoftMethod:
+def _msm(size: int, sigma: float | None = None) -> SoftMethod:
     """Filtered over size × size texels, odd.
 
     Args:
@@ -16,3 +16,6 @@ def msm(size: int, sigma: float | None = None) -> SoftMethod:
     """
     kernel = box(size) if sigma is None else gaussian(size, sigma)
     return moment_method(kernel, partial(powers, count=4), hamburger_visibility)
+
+
+METHODS = {"msm_3": _msm(3), "msm_9": _msm(9), "msm_15": _msm(15, sigma=3.0)}

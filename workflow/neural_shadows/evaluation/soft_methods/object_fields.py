@@ -4,12 +4,13 @@ A field is a sparse grid of signed distances, not trained, round each closed obj
 what is open has no inside and is traced as it is.
 """
 
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import trimesh
 
 from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes, with_normals
 from neural_shadows.networks.object_space.brick_distances import signed_distances
@@ -102,3 +103,11 @@ def field_bytes(frame: SoftFrame) -> int:
 def fields_of(scene: Scene) -> SceneFields:
     """The fields of a scene, which all of its frames share."""
     return SceneFields(scene)
+
+
+def _by_fields(count: int) -> SoftMethod:
+    answer, tried = partial(field_traced, samples=count), {"cells": (0.5, 1.0, 2.0, 4.0)}
+    return SoftMethod(answer, tried, held=field_bytes, texel_floats=0, by_rays=True)
+
+
+METHODS = {f"field_{count}": _by_fields(count) for count in (1, 4, 16)}

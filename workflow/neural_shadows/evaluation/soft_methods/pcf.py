@@ -18,7 +18,7 @@ BIASES = (0.3, 1.0, 3.0)
 _SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
 
 
-def box_pcf(size: int) -> SoftMethod:
+def _box_pcf(size: int) -> SoftMethod:
     """The mean of size × size bilinearly weighted tests; size is odd."""
     answer = partial(_box, size=size)
     return SoftMethod(answer, {"bias": BIASES}, of_radius=False)
@@ -42,4 +42,7 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
 
 
 _DISC = {"texels": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES}
-DISC_PCF = SoftMethod(_disc, _DISC, of_radius=False)  # but by its constants
+METHODS = {
+    **{f"pcf_{size}": _box_pcf(size) for size in (3, 5, 9, 15)},
+    "pcf_disc": SoftMethod(_disc, _DISC, of_radius=False),  # but by its constants
+}

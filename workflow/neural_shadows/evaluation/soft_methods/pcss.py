@@ -32,5 +32,7 @@ def _filtered(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> 
 
 
 _CONSTANTS = {"scale": (0.7, 1.0, 1.4), "bias": (0.3, 1.0, 3.0)}
-PCSS = SoftMethod(_answer, _CONSTANTS)
-PCSS_POST = SoftMethod(_filtered, _CONSTANTS)
+METHODS = {
+    "pcss": SoftMethod(_answer, _CONSTANTS),
+    "pcss_post": SoftMethod(_filtered, _CONSTANTS),
+}

@@ -1,18 +1,17 @@
 """Ray tracing with few rays a pixel: from its centre's point to points spread over the light."""
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numba import njit
 
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.light_samples import ring_ways
 
 _RAYS = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
-
-
 _SALT = 1 << 26  # more than a frame's pixels
-
 
 Blocked = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
@@ -77,3 +76,9 @@ def _share_free(blocked, ways, normals):
             free += above and not blocked[i, k]
         found[i] = free / samples
     return found
+
+
+METHODS = {
+    f"rt_{count}": SoftMethod(partial(ray_traced, samples=count), texel_floats=0, by_rays=True)
+    for count in (1, 2, 4, 8, 16, 32, 64)
+}

@@ -7,7 +7,10 @@ from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.shadow_maps.moments import box, powers, variance_visibility
 
 
-def vsm(size: int) -> SoftMethod:
+def _vsm(size: int) -> SoftMethod:
     """Filtered by the mean over size × size texels; size is odd."""
     of = partial(powers, count=2)
     return moment_method(box(size), of, variance_visibility)
+
+
+METHODS = {f"vsm_{size}": _vsm(size) for size in (3, 9)}

@@ -192,8 +192,6 @@ def _describe_constants(
     """One sentence on each method's constants, and whether one is at an end of what was tried."""
     sentences = []
     for method, record in chosen.items():
-        if not record["tried"]:
-            continue
         parts = [
             f"{name} " + ", ".join(f"{one['constants'][name]:g}" for one in record["radii"])
             for name in record["tried"]
