@@ -70,6 +70,18 @@ experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tabl
 experiments.dragon.training | null | experiments.dragon.training: this key is missing; a network
 experiments.dragon.sampling | null | experiments.dragon.sampling: this key is missing; a network
 claims.slower_than_shadow_maps.pairs | [[dragon, shadow_map_8]] | 'shadow_map_8' (did you me
+frame_sets.frames.scenes | [dragon] | frame_sets.frames.scenes.0: 'dragon' is not among room, atr
+frame_sets.frames.unseen | [room] | frame_sets.frames: unseen: room is among `scenes`, too
+frame_sets.frames.radii | [-0.1, 0.2] | frame_sets.frames.radii.0 = -0.1: Input should be greater than
+frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: must grow
+frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence has two frames or more
+frame_sets.windows.of | {width: 64, height: 64} | frame_sets.windows: of = 64 × 64: must not be smaller
+frame_sets.frames.light_map.resolution | 100 | light_map.resolution: 100 is not a power of two
+frame_sets.frames | {path: mine} | soft_methods.methods: 'hard' needs a scene to look at, and frames of
+soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each only once
+tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
+claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'
+figures.figure_soft_equal_time.radii | [9] | radii: 9 is not among 0 to 4, the radii of 'frames'
 """
 
 

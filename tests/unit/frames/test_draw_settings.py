@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from neural_shadows.errors import InputError
+from neural_shadows.frames import draw_sequences
 from neural_shadows.frames.draw_sequences import SEQUENCES, STEP, draw_sequence
 from neural_shadows.frames.draw_settings import (
     EYE_CLEARANCE,
@@ -75,6 +76,17 @@ def test_a_narrow_map_is_told(room):
     narrow = replace(KIND, light_map={**PICTURE, "fov": 10})
     with pytest.raises(InputError, match=r"outside the light's map \(\d+\)"):
         drawn(room, narrow)
+
+
+def test_a_path_that_leaves_the_map_is_told(room, monkeypatch):
+    """It starts in the map, where a short one stays; a long one does not."""
+    narrow = replace(KIND, light_map={**PICTURE, "fov": 80}, radius=0.05)
+    monkeypatch.setattr(draw_sequences, "_DRAWS", 8)
+    draw_sequence(room, narrow, "camera", 2, np.random.default_rng(3))
+    monkeypatch.setattr(draw_sequences, "STEP", 0.4)
+    why = r"room: none of 8 paths \(camera\) can be used: .*outside the light's map \(8\)"
+    with pytest.raises(InputError, match=why):
+        draw_sequence(room, narrow, "camera", 2, np.random.default_rng(3))
 
 
 def test_twins_are_near(room):

@@ -151,7 +151,7 @@ def _cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float
 def _flicker(found: pd.DataFrame) -> pd.DataFrame:
     """By method and radius the means over sequences, and of each kind: `instability_camera`, …"""
     flicker = found[found["metric"].isin(FLICKER)].rename(columns={"radius": "number"})
-    what = flicker["part"].str.rpartition("_")[0]
+    what = flicker["part"].str.rsplit("_", n=1).str[0]
     index = ["method", "number"]
     means = flicker.pivot_table("value", index, "metric").reindex(columns=FLICKER)
     each = flicker.assign(column=flicker["metric"] + "_" + what)
@@ -165,7 +165,7 @@ def _describe_flicker(
     if shown.empty:
         return []
     parts = found[found["metric"] == "instability"]
-    kinds = ", ".join(parts["part"].str.rpartition("_")[0].unique())
+    kinds = ", ".join(parts["part"].str.rsplit("_", n=1).str[0].unique())
     return [
         f"E: mean of exp(3 |change|) − 1 along a point's way (Datta et al. 2022), over sequences of "
         f"{', '.join(parts['scene'].unique())} in which moves: {kinds} (the CSV has each); at a "

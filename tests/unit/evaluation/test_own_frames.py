@@ -1,0 +1,124 @@
+"""A user's own frames, made by no scene of ours: from their files to a table, as the graph has it."""
+
+import json
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+from shipped import shipped
+
+from neural_shadows.config.reading import check_files, read_config
+from neural_shadows.config.resolved import resolved
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.evaluate_soft import evaluate_soft
+from neural_shadows.frames.buffers import CHANNELS
+from neural_shadows.layout import soft_methods, tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.tables.soft_methods import write
+from neural_shadows.running.stage import arguments_of
+
+FRAMES, RADII, HEIGHT, WIDTH = 2, [0.0, 0.5], 12, 16
+DARK = 4  # columns, of which a soft light reaches half
+
+
+@pytest.fixture
+def engine(tmp_path, monkeypatch):
+    """A folder of frames as an engine would write it, in the working directory."""
+    monkeypatch.chdir(tmp_path)
+    scene = tmp_path / "mine" / "quay"
+    scene.mkdir(parents=True)
+    buffers = np.ones((FRAMES, 1, len(CHANNELS), HEIGHT, WIDTH), np.float16)
+    buffers[:, 0, CHANNELS.index("hard"), :, :DARK] = 0
+    targets = np.ones((FRAMES, len(RADII), HEIGHT, WIDTH), np.float16)
+    targets[:, 0, :, :DARK], targets[:, 1, :, :DARK] = 0, 0.5
+    arrays = {"buffers": buffers, "targets": targets}
+    arrays["valid"] = np.ones((FRAMES, 1, HEIGHT, WIDTH), bool)
+    for name, array in arrays.items():
+        np.save(scene / f"test_000.{name}.npy", array)
+    about = {"frames": [{"twins": []}] * FRAMES, "channels": CHANNELS, "radii": RADII}
+    about |= {"size": 40.0, "width": WIDTH, "height": HEIGHT}
+    (scene / "test_000.json").write_text(json.dumps(about))
+    return scene
+
+
+@pytest.fixture
+def layout(engine):
+    table = {"kind": "soft_methods", "title": "Mine", "frame_set": "mine", "methods": ["base_hard"]}
+    values = shipped(frame_sets={"mine": {"path": "mine"}}, tables={"soft_mine": table})
+    config = read_config(values)
+    check_files(config)
+    layout = Layout(resolved(config))
+    lpips = Path(layout.paths.lpips)
+    lpips.parent.mkdir()
+    lpips.write_text(json.dumps({"available": False, "reason": "no network"}))
+    return layout
+
+
+def called(function, **job):
+    """A stage's function with what a job hands to it."""
+    parts = dict.fromkeys(("input", "output", "params", "wildcards"), {})
+    function(**arguments_of(SimpleNamespace(threads=1, **parts | job), function))
+
+
+def evaluate(layout, method):
+    files = {
+        ending: layout.paths.soft_evaluation(ending, "mine", method) for ending in ("csv", "npz")
+    }
+    Path(files["csv"]).parent.mkdir(parents=True, exist_ok=True)
+    called(
+        evaluate_soft,
+        input={
+            "parts": soft_methods.tests(layout, "mine"),
+            "sequences": soft_methods.sequences(layout, "mine"),
+            "meshes": soft_methods.all_meshes(layout, "mine"),
+            "constants_json": soft_methods.chosen(layout, "mine", method),
+            "lpips_json": layout.paths.lpips,
+        },
+        output={"metrics_csv": files["csv"], "answers_npz": files["npz"]},
+        wildcards={"method": method, "frame_set": "mine"},
+    )
+
+
+def test_a_table(layout):
+    for method in soft_methods.methods(layout, "soft_mine"):
+        evaluate(layout, method)
+    called(
+        write,
+        input=tables.files(layout, "soft_mine"),
+        output={"csv": "mine.csv", "md": "mine.md"},
+        params={"settings": tables.arguments(layout, "soft_mine")},
+    )
+    table = pd.read_csv("mine.csv").set_index(["method", "radius"])
+    share = DARK / WIDTH
+    assert table["mse"].to_dict() == pytest.approx(
+        {
+            **{("base_hard", 0.0): 0, ("base_hard", 0.5): share / 4},
+            **{("no_shadow", 0.0): share, ("no_shadow", 0.5): share / 4},
+            **{("all_dark", 0.0): 1 - share, ("all_dark", 0.5): 1 - share + share / 4},
+        }
+    )
+    assert (table["frames"] == FRAMES).all() and table["ms"].isna().all()
+    text = Path("mine.md").read_text(encoding="utf-8")
+    assert "| Base: hard" in text and "2 frames of 16 × 12 in 1 scenes" in text
+
+
+@pytest.mark.parametrize(
+    ("stem", "spoil", "told"),
+    [
+        ("buffers", lambda array: array[..., :-1], r"test_000.buffers.npy: .*belongs"),
+        (
+            "targets",
+            lambda array: np.where(array == 0, np.nan, array),
+            "targets of frame 0 has NaN",
+        ),
+        ("targets", lambda array: 2 * array, r"targets of frame 0 leave \[0, 1\]"),
+    ],
+)
+def test_nothing_is_written_of_damaged_ones(layout, engine, stem, spoil, told):
+    path = engine / f"test_000.{stem}.npy"
+    np.save(path, spoil(np.load(path)).astype(np.float16))
+    with pytest.raises(InputError, match=told):
+        evaluate(layout, "base_hard")
+    assert not [*Path("results/soft_evaluations").glob("**/*.*")]
