@@ -9,6 +9,7 @@ from checkout import SMOKE, write_overlay
 SHOWN = {"table", "figure", "claims", "page"}
 ANSWERED = SHOWN | {"query_network", "evaluate"}
 TRAINED = ANSWERED | {"find_depth_bias", "measure_frame_times"}
+SOFT = SHOWN | {"tune_soft_method", "evaluate_soft", "time_soft_methods"}
 
 
 @pytest.mark.parametrize(
@@ -22,6 +23,9 @@ TRAINED = ANSWERED | {"find_depth_bias", "measure_frame_times"}
         ("evaluation/query_network.py", ANSWERED),
         ("shadow_maps/shadow_map.py", TRAINED | {"render_references", "viewer"}),
         ("training/training_run.py", TRAINED | {"train", "viewer"}),
+        ("metrics/flip.py", SHOWN | {"evaluate", "evaluate_soft"}),
+        ("frames/draw_settings.py", SOFT | {"render_frames"}),
+        ("evaluation/tune_soft_method.py", SOFT),
         ("running/stage.py", set()),
     ],
 )
@@ -37,6 +41,18 @@ def test_edited_kind_of_network(finished):
         file.write("\nEDITED = True\n")
     networks = [path for path, rule in finished.pending().items() if rule == "train"]
     assert networks and all("hash_grid" in path for path in networks)
+
+
+def test_edited_soft_method(finished):
+    """It alone is measured again, and all methods of its table are timed, for they take turns."""
+    with finished.module("evaluation/soft_methods/pcss.py").open("a") as file:
+        file.write("\nEDITED = True\n")
+    pending = finished.pending()
+    measured = [
+        path for path, rule in pending.items() if rule in ("tune_soft_method", "evaluate_soft")
+    ]
+    assert measured and all("/frames/pcss." in path for path in measured)
+    assert set(pending.values()) == SOFT
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
     figures = [f"3_{n}" for n in range(1, 7)] + [f"4_{n}" for n in (1, 3, 4, 5, 6, 7, 8)]
     figures += [f"beyond_{part}" for part in ("dragon", "fence", "landscape", "slice")]
     figures += ["learning_sampling", "beyond_pictures_dragon", "views_dragon"]
+    figures += ["soft_equal_time", "soft_pictures", "soft_penumbrae"]
     names += [f"figure_{name}.{ending}" for name in figures for ending in ("png", "svg")]
     names += [
         "claims.csv",
@@ -34,6 +35,8 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
         "beyond.md",
     ]
     names += ["learning_sampling.csv", "learning_sampling.md"]
+    soft = ("soft_methods", "soft_windows")
+    names += [f"{name}.{ending}" for name in soft for ending in ("csv", "md")]
     scenes = ("dragon", "fence", "landscape")
     names += [f"scenes/{name}.{ending}" for name in scenes for ending in ("png", "svg")]
     for name in names:
@@ -82,6 +85,21 @@ def test_every_kind_of_network_is_in_the_table_past_the_thesis(smoke):
     assert set(networks["encoding"]) == kinds | built
     measured = ["stored_bytes", "parameters", "build_seconds", "depth_bias", "own_ms", "psnr"]
     assert np.isfinite(networks[measured]).all(axis=None)
+
+
+def test_every_family_of_soft_methods_is_measured(smoke):
+    whole, windows = (
+        pd.read_csv(smoke.reports / f"{name}.csv").set_index(["method", "number"])
+        for name in ("soft_methods", "soft_windows")
+    )
+    asked = ["pcss", "msm_9", "rt_1", "rt_4_svgf", "field_1"]
+    assert {*whole.index.unique(0)} == {*asked, "no_shadow", "all_dark"}
+    assert np.isfinite(whole[["mse", "ssim", "flip"]]).all(axis=None)
+    assert np.isfinite(whole.loc[asked, "ms"]).all()
+    assert np.isfinite(whole.xs(1, level=1)[["instability_camera", "instability_object"]]).all(None)
+    # These have no sequences, and radii of the other unit.
+    assert windows["instability"].isna().all() and set(windows["unit"]) == {"S"}
+    assert np.isfinite(windows.loc[["hard", "rt_1"], ["mse", "ms"]]).all(axis=None)
 
 
 def test_a_page_of_all_and_one_of_what_is_there(finished):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from neural_shadows.shadow_maps.light_map import LightMap
-from neural_shadows.shadow_maps.rasterise import drawn
+from neural_shadows.shadow_maps.z_buffer import drawn
 
 # Of the light's nearest and farthest: what is nearer along a face's axis is cut off.
 _NEAR = 1e-4
