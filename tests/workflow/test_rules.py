@@ -19,6 +19,9 @@ from neural_shadows.reports.figures import opengl
 EXAMPLES = {"scene": "dragon", "sampling": "poisson_quadtree", "over": "width", "value": "64"}
 EXAMPLES |= dict(experiment="dragon_field", method="dragon_field", batch="000", shard="000")
 EXAMPLES |= {"viewer": "viewer"}
+# Of the rules for soft shadows.
+SOFT = {"scene": "room", "frame_set": "frames", "part": "test_000"}
+SOFT |= {"method": "pcss", "table": "soft_methods"}
 
 # Of a function that does not have the rule's name.
 FUNCTIONS = {"table": "write", "figure": "draw", "preview_scene": "draw"}
@@ -44,6 +47,8 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
     settings = workflow.globals["SETTINGS"]
     if rule.name in ("table", "figure"):
         return [{rule.name: name} for name in settings[f"{rule.name}s"]]
+    if "soft" in rule.name or rule.name == "render_frames":
+        return [SOFT]
     timed = next(name for name, table in settings["tables"].items() if table["kind"] == "networks")
     return [{**EXAMPLES, "table": timed}]
 
