@@ -1,12 +1,27 @@
 """A room of the package imports only those before it; pyproject.toml has their order."""
 
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 from importlinter.cli import EXIT_STATUS_SUCCESS, lint_imports
 
-PROJECT = Path(__file__).parents[2] / "pyproject.toml"
+ROOT = Path(__file__).parents[2]
+PROJECT = ROOT / "pyproject.toml"
 
 
 def test_rooms_import_only_those_before_them(capsys):
     status = lint_imports(str(PROJECT), no_cache=True)
     assert status == EXIT_STATUS_SUCCESS, capsys.readouterr().out
+
+
+def test_the_graph_waits_for_nothing_that_computes():
+    """Snakemake reads the rules at each start: with numba and trimesh that took 0.7 s longer."""
+    common = (ROOT / "workflow/rules/common.smk").read_text(encoding="utf-8")
+    imports = re.findall(r"^from neural_shadows.*$", common, re.MULTILINE)
+    heavy = "{*sys.modules} & {'numba', 'trimesh', 'scipy', 'torch', 'matplotlib'}"
+    code = "\n".join([*imports, "import sys", f"print({heavy})"])
+    run = [sys.executable, "-c", code]
+    said = subprocess.check_output(run, cwd=ROOT / "workflow", text=True)
+    assert said.strip() == "set()"

@@ -7,7 +7,7 @@ import pytest
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames import draw_sequences
-from neural_shadows.frames.draw_sequences import SEQUENCES, STEP, draw_sequence
+from neural_shadows.frames.draw_sequences import STEP, draw_sequence
 from neural_shadows.frames.draw_settings import (
     EYE_CLEARANCE,
     LIGHT_CLEARANCE,
@@ -19,6 +19,7 @@ from neural_shadows.frames.draw_settings import (
 )
 from neural_shadows.frames.setting import setting_of
 from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.frames.uses import SEQUENCES
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import Region
 

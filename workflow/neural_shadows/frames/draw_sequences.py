@@ -16,7 +16,6 @@ from neural_shadows.frames.draw_settings import (
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
 
-SEQUENCES = ("camera", "light", "both", "object")
 STEP = 0.004  # of the scene's size, from frame to frame: some pixels, and a texel or two
 _TURN = 2.0  # degrees a frame that the object turns about the vertical
 _KNOTS = 4

@@ -11,16 +11,16 @@ import numpy as np
 from neural_shadows.files.arrays import new_array
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.buffers import CHANNELS
-from neural_shadows.frames.draw_sequences import SEQUENCES, draw_sequence
+from neural_shadows.frames.draw_sequences import draw_sequence
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting, twin_of
 from neural_shadows.frames.frame_set import UNITS
 from neural_shadows.frames.render_frame import render_buffers, render_target
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.frames.uses import SEQUENCES, USES
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
-USES = ("train", "validation", "test", *SEQUENCES)  # their order is part of the random streams
 _TWINS = len(USES)  # of the twins, another
 
 

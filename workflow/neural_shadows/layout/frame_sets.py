@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from neural_shadows.frames.draw_sequences import SEQUENCES
+from neural_shadows.frames.uses import SEQUENCES
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
 

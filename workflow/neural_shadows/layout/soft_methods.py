@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from neural_shadows.evaluation.soft_method_names import LABELS, NULL, available, is_tuned
-from neural_shadows.frames.draw_sequences import SEQUENCES
+from neural_shadows.frames.uses import SEQUENCES
 from neural_shadows.layout import frame_sets
 from neural_shadows.layout.layout import Layout
 

@@ -2,11 +2,14 @@
 
 from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from neural_shadows.errors import InputError
-from neural_shadows.scenes.arrangement import Arrangement
+
+if TYPE_CHECKING:  # the graph asks for names alone
+    from neural_shadows.scenes.arrangement import Arrangement
 
 TRAINED = ("room", "atrium", "hall", "classroom", "gallery", "plate")
 UNTRAINED = ("garden", "workshop", "stairs", "blinds", "tree")
@@ -17,7 +20,7 @@ def generator_module(name: str) -> Path:
     return Path(__file__).with_name(f"{name}.py")
 
 
-def arrange(name: str, seed: int) -> Arrangement:
+def arrange(name: str, seed: int) -> "Arrangement":
     """A scene's arrangement, drawn from a seed.
 
     Raises:
