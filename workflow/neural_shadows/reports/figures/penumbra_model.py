@@ -109,6 +109,9 @@ def model_figure(found: dict[float, np.ndarray], *, title: str, seed: int) -> Fi
     axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, aspect="equal")
     axes.set(xlabel="measured width, pixels", ylabel="width by the model, pixels")
     axes.grid(**GRID)
+    if not any(pairs.size for pairs in found.values()):
+        none = f"No penumbra of these frames\nis {NARROWEST:g} pixels wide."
+        axes.text(0.05, 0.9, none, transform=axes.transAxes, va="top")
     figure.legend(loc="outside lower left", fontsize=8)
     return figure
 
