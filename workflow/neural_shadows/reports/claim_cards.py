@@ -8,15 +8,29 @@ import pandas as pd
 from neural_shadows.reports.phrases import describe_samples
 from neural_shadows.reports.verdicts import MEANINGS, SYMBOLS, css_class
 
-COLUMNS = ["claim", "statement", "section", "verdict", "reason", "number_of", "number", "evidence"]
+COLUMNS = [
+    "claim",
+    "statement",
+    "section",
+    "kind",
+    "verdict",
+    "reason",
+    "number_of",
+    "number",
+    "evidence",
+]
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """A verdict as cards and filters show it; `count`: how many claims have it."""
+    """A verdict as cards and filters show it.
+
+    `count`: how many claims have it; `printed`: how many of them by the thesis's own tables.
+    """
 
     name: str
     count: int = 1
+    printed: int = 0
 
     @property
     def style(self) -> str:
@@ -45,6 +59,7 @@ class Card:
     reason: str
     number: str
     evidence: list[str]
+    printed: bool
 
 
 def read_cards(csv: Path) -> list[Card]:
@@ -56,7 +71,16 @@ def read_cards(csv: Path) -> list[Card]:
         evidence = claim.evidence.split("; ")
         number = number_text(claim.number_of, claim.number, len(evidence))
         texts = claim.claim, claim.statement, claim.section
-        cards.append(Card(*texts, Verdict(claim.verdict), claim.reason, number, evidence))
+        cards.append(
+            Card(
+                *texts,
+                Verdict(claim.verdict),
+                claim.reason,
+                number,
+                evidence,
+                claim.kind == "printed",
+            )
+        )
     return cards
 
 
@@ -71,8 +95,12 @@ def number_text(metric: str, number: str, comparisons: int) -> str:
 
 def counted(cards: list[Card]) -> list[Verdict]:
     """The verdicts that claims have, as the verdicts are ordered, and how often each."""
-    names = [card.verdict.name for card in cards]
-    return [Verdict(name, names.count(name)) for name in reversed(MEANINGS) if name in names]
+    found = []
+    for name in reversed(MEANINGS):
+        having = [card for card in cards if card.verdict.name == name]
+        if having:
+            found.append(Verdict(name, len(having), sum(card.printed for card in having)))
+    return found
 
 
 def budget(csv: Path) -> str:
