@@ -169,9 +169,12 @@ def _draw_lines(axes: Axes, points: pd.DataFrame, methods: pd.DataFrame, errors:
         axes.axhline(row.value, zorder=0, color=GREY, linewidth=0.7, linestyle=line)
         name = row.method + PRINTED_NOTES[errors] * (row.key == PRINTED)
         place = axes.get_yaxis_transform()
-        # Few methods of the thesis's quality take many bytes: its name stands free on the right.
-        at, side = (0.99, "right") if row.key == PRINTED else (0.01, "left")
-        axes.text(at, row.value, name, transform=place, ha=side, va="bottom", fontsize=7)
+        look = {"transform": place, "fontsize": 7}
+        if row.key == PRINTED:  # no worse method takes as many bytes: on the right it stands free
+            below = "bottom" if errors else "top"
+            axes.text(0.99, row.value, name, ha="right", va=below, **look)
+        else:
+            axes.text(0.01, row.value, name, va="bottom", **look)
     for cost in points["cost"][points["key"] == RAY_TRACED].dropna():
         axes.axvline(cost, color=GREY, linewidth=0.7, zorder=0)
         place = axes.get_xaxis_transform()
