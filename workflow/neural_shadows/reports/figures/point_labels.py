@@ -14,7 +14,8 @@ SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1))
 PLACES = [(distance * x, distance * y) for distance in (7, 12, 18) for x, y in SIDES]
 HORIZONTAL = {1: "left", 0: "center", -1: "right"}
 VERTICAL = {1: "bottom", 0: "center", -1: "top"}
-CLEARLY = 1.5  # times as far is clearly farther
+CLEARLY = 1.5  # times its distance from its own point a name is from others
+APART = 2  # times a marker's reach that a name is at least from others' middles
 LEADER = {"color": "#777777", "linewidth": 0.6, "zorder": 0}
 MARKER = 5  # points about a point's middle
 
@@ -23,8 +24,8 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
     """Write a name beside each point, in the first of `PLACES` that is free.
 
     The layout must be done (`Figure.draw_without_rendering`). A name that finds no free place is
-    left out; those first in order look for theirs first. None is clearly nearer to another's
-    point, and a thin line leads to one that is not clearly nearer to its own.
+    left out; those first in order look for theirs first. None touches another's point, and a
+    thin line leads to one that is not clearly nearer to its own.
 
     Args:
         points: shape (N, 2), in data coordinates.
@@ -51,7 +52,7 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
             line = Path([place, np.clip(place, box.min, box.max)])
             if (
                 _inside(box, axes.bbox)
-                and own <= CLEARLY * other
+                and other > APART * reach
                 and not any(path.intersects_bbox(box, filled=False) for path in paths)
                 and not any(map(box.overlaps, taken))
                 and not (led and any(line.intersects_bbox(_marker(o, reach)) for o in others))
