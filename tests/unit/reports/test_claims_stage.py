@@ -92,7 +92,7 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
     _, md = written
     text = md.read_text()
     lead = text.split("| claim")[0]
-    assert "saw at most 20,480,000 training samples each, the thesis's 65,536,000,000" in lead
+    assert "20,480,000 training samples each in this run, and 65,536,000,000 in the thesis" in lead
     assert "3.2e+03 times as many" not in lead and "3,200 times as many" in lead
     assert "- **not learned** (0): a network of the claim is not better than" in lead
     assert "- **contradicted** (1): " in lead

@@ -27,6 +27,7 @@ def found_table(half=0.5, views=48, **changes):
             table.loc[label, column] = value
     table = table.rename_axis("method").reset_index().assign(scene="dragon", views=views)
     table = table.assign(parameters=1000, map_psnr=table["map_lpips"])
+    table = table.assign(training_seconds=range(len(table)))
     table = table.assign(resident_bytes=3 * table["stored_bytes"])
     ends = {"psnr_pooled_low": -half, "psnr_pooled_high": half}
     return table.assign(**{name: table["psnr_pooled"] + by for name, by in ends.items()})
@@ -54,12 +55,16 @@ def test_what_is_best_at_equal_bytes_turns_round_with_the_data(tmp_path):
     assert (
         trained == "Training pays: the Field is 2.0 dB better than the same grid untrained (Grid)."
     )
-    assert "is worth less than a 128² shadow map by LPIPS." in thesis
+    assert thesis.endswith(
+        "(Thesis), trained on 3,277 times fewer samples than the thesis's, is worth less than a "
+        "128² shadow map by LPIPS."
+    )
 
     (best, trained, _), _ = found(tmp_path, Grid={"psnr_pooled": 44.0})
-    assert best.startswith("The best trained network, the Field (41.0 dB [40.5, 41.5]), is not")
-    assert "the Grid (44.0 dB [43.5, 44.5]) takes as many bytes, and has 2 times less" in best
-    assert best.endswith("squared error.")  # in memory it is the same rival
+    assert best == (
+        "The best trained network, the Field (41.0 dB [40.5, 41.5]) in 693 KiB, loses to the Grid "
+        "(44.0 dB [43.5, 44.5]), which takes as many bytes and has 2 times less squared error."
+    )
     assert trained.startswith("Training does not pay: the Field is 3.0 dB worse")
 
     (best, trained, _), _ = found(tmp_path, half=2.5)
@@ -70,10 +75,10 @@ def test_what_is_best_at_equal_bytes_turns_round_with_the_data(tmp_path):
 @pytest.mark.parametrize(
     ("grid", "said"),
     [
-        ({"psnr_pooled": 63.0}, "takes as many bytes, and has 158 times less squared error."),
-        ({"psnr_pooled": 41.5}, "takes as many bytes, and is 0.5 dB better."),
-        ({"psnr_pooled": 44.0, "stored_bytes": 717_000}, "takes as many bytes, and has 2"),
-        ({"psnr_pooled": 44.0, "stored_bytes": 512_000}, "takes 500 KiB, and has 2 times less"),
+        ({"psnr_pooled": 63.0}, "takes as many bytes and has 158 times less squared error."),
+        ({"psnr_pooled": 41.5}, "takes as many bytes and is 0.5 dB better."),
+        ({"psnr_pooled": 44.0, "stored_bytes": 717_000}, "takes as many bytes and has 2"),
+        ({"psnr_pooled": 44.0, "stored_bytes": 512_000}, "takes 500 KiB and has 2 times less"),
         ({"psnr_pooled": 40.5}, "the Grid (40.5 dB [40.4, 40.6]), is 0.5 dB worse."),
         ({"psnr_pooled": 15.0}, "the 256² map (32.0 dB [31.9, 32.1]), has 7.9 times its"),
     ],
@@ -87,11 +92,30 @@ def test_in_memory_another_rival_may_be_the_strongest(tmp_path):
     table = found_table(half=0.5, Grid={"psnr_pooled": 44.0})
     table.loc[table["method"] == "Grid", "resident_bytes"] = 9e6
     (best, *_), _ = said_of(tmp_path, table)
-    assert "the Grid (44.0 dB [43.5, 44.5]) takes as many bytes, and has 2 times less" in best
+    assert "the Grid (44.0 dB [43.5, 44.5]), which takes as many bytes and has 2 times" in best
     assert best.endswith(
-        "Counted in memory, 2.03 MiB, the best of another kind is the 256² map (32.0 dB "
-        "[31.5, 32.5]), which has 7.9 times its squared error."
+        "In memory the Field takes 2.03 MiB, the Grid 8.58 MiB; the best of another kind that takes "
+        "no more is the 256² map (32.0 dB [31.5, 32.5]), which has 7.9 times the network's squared "
+        "error."
     )
+
+
+def test_the_largest_network_that_wins_comes_before_a_better_one_that_loses(tmp_path):
+    table = found_table(Grid={"psnr_pooled": 44.0})
+    small = table[table["method"] == "Field"].assign(
+        method="Small", stored_bytes=300_000, psnr_pooled=36.0, psnr_pooled_low=35.5
+    )
+    (small_one, best, *_), _ = said_of(tmp_path, pd.concat([table, small]))
+    assert small_one.startswith(
+        "In 293 KiB nothing comes closer to the exact shadow than the Small"
+    )
+    assert "the 256² map (32.0 dB [31.5, 32.5]), has 2.5 times its squared error." in small_one
+    assert best.startswith("The best trained network, the Field")
+    # Of two that are too close to tell, none is said to win.
+    close = table["method"] == "256² map"
+    table.loc[close, ["psnr_pooled", "psnr_pooled_high"]] = 35.8, 36.3
+    (best, *_), _ = said_of(tmp_path, pd.concat([table, small]))
+    assert best.startswith("The best trained network, the Field")
 
 
 def test_nothing_is_said_of_memory_that_is_not_known(tmp_path):
@@ -123,9 +147,16 @@ def test_the_thesis_s_network_beside_the_thesis_and_what_has_not_learned(tmp_pat
     (*_, thesis), _ = found(tmp_path, **printed)
     assert thesis.endswith("less than a 128² shadow map by LPIPS; in the thesis a 386² shadow map.")
     (*_, thesis, failed), _ = found(tmp_path, Thesis={"learned": False})
-    assert thesis.startswith("The thesis's network has learned nothing here")
-    assert failed.startswith("1 of 2 trained networks have learned nothing")
+    assert "in its best variant, Thesis, not better in every metric than drawing no sha" in thesis
+    assert failed.startswith("1 of 2 trained networks are not better in every metric")
     assert failed.endswith(": Thesis (dragon).")
+    # A network of two rows is one, and has learned if it has with its depth bias.
+    table = found_table(Thesis={"learned": False})
+    rows = [table, table[table["method"] == "Thesis"].assign(method="Thesis, biased")]
+    (*_, failed), _ = said_of(tmp_path, pd.concat(rows))
+    assert failed.startswith("1 of 2 trained networks are")
+    (*_, last), _ = said_of(tmp_path, pd.concat([rows[0], rows[1].assign(learned=True)]))
+    assert "drawing no shadow" not in last
     # A field that has not learned is no finding.
     (trained, *_), _ = found(tmp_path, Field={"learned": False, "psnr_pooled": 12.0})
     assert trained.startswith("The best trained network, the Thesis")
@@ -147,8 +178,8 @@ def test_what_is_missing_is_said_in_place_of_findings(tmp_path):
     ("verdicts", "end"),
     [
         ([SUPPORTED, CONTRADICTED], "supports 1 and contradicts 1."),
-        ([SUPPORTED, TOO_SMALL, TOO_SMALL], "cannot decide the other 2, since the run"),
-        ([TOO_SMALL, VACUOUS, TOO_SMALL], "cannot decide the other 3, 2 of them since the run"),
+        ([SUPPORTED, TOO_SMALL, TOO_SMALL], "cannot decide the other 2, because the run"),
+        ([TOO_SMALL, VACUOUS, TOO_SMALL], "cannot decide the other 3, 2 of them because the run"),
     ],
 )
 def test_claims_are_counted(verdicts, end):

@@ -13,6 +13,7 @@ COLUMNS = [
     "text",
     "statement",
     "section",
+    "kind",
     "verdict",
     "reason",
     "number_of",
@@ -23,10 +24,14 @@ COLUMNS = [
 
 @dataclass(frozen=True)
 class Verdict:
-    """A verdict as cards and filters show it; `count`: how many claims have it."""
+    """A verdict as cards and filters show it.
+
+    `count`: how many claims have it; `printed`: how many of them by the thesis's own tables.
+    """
 
     name: str
     count: int = 1
+    printed: int = 0
 
     @property
     def style(self) -> str:
@@ -55,6 +60,7 @@ class Card:
     reason: str
     number: str
     evidence: list[str]
+    printed: bool
 
 
 def read_cards(csv: Path) -> list[Card]:
@@ -67,7 +73,8 @@ def read_cards(csv: Path) -> list[Card]:
         number = number_text(claim.number_of, claim.number, len(evidence))
         section = section_of({"text": claim.text, "section": claim.section})
         texts = claim.claim, claim.statement, section
-        cards.append(Card(*texts, Verdict(claim.verdict), claim.reason, number, evidence))
+        told = Verdict(claim.verdict), claim.reason, number, evidence, claim.kind == "printed"
+        cards.append(Card(*texts, *told))
     return cards
 
 
@@ -82,8 +89,12 @@ def number_text(metric: str, number: str, comparisons: int) -> str:
 
 def counted(cards: list[Card]) -> list[Verdict]:
     """The verdicts that claims have, as the verdicts are ordered, and how often each."""
-    names = [card.verdict.name for card in cards]
-    return [Verdict(name, names.count(name)) for name in reversed(MEANINGS) if name in names]
+    found = []
+    for name in reversed(MEANINGS):
+        having = [card for card in cards if card.verdict.name == name]
+        if having:
+            found.append(Verdict(name, len(having), sum(card.printed for card in having)))
+    return found
 
 
 def budget(csv: Path) -> str:

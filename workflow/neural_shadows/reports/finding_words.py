@@ -19,13 +19,17 @@ def on_scene(scene: str, sentence: Markup) -> Markup:
     return Markup("On the {}, ").format(scene) + sentence[0].lower() + sentence[1:]
 
 
-def error_beside(decibels: float) -> str:
-    """How the error of what is worse by `decibels` compares, or better where they are negative."""
+def error_beside(decibels: float, its: str = "its") -> str:
+    """How the error of what is worse by `decibels` compares, or better where they are negative.
+
+    Args:
+        its: whose error it is compared with.
+    """
     factor = 10 ** (abs(decibels) / 10)
     if factor < CLEAR:
         return f"is {abs(decibels):.2g} dB {'worse' if decibels > 0 else 'better'}"
     times = f"{factor:.0f}" if factor >= 10 else f"{factor:.2g}"
-    return f"has {times} times {'its' if decibels > 0 else 'less'} squared error"
+    return f"has {times} times {its if decibels > 0 else 'less'} squared error"
 
 
 def bytes_beside(stored: float, other: float) -> str:
@@ -33,16 +37,23 @@ def bytes_beside(stored: float, other: float) -> str:
     return "as many bytes" if other * ALIKE >= stored else size_of(other)
 
 
-def in_memory(best: pd.Series, other: pd.Series, difference: float, side: int) -> Markup:
+def in_memory(
+    best: pd.Series, filed: pd.Series | None, held: pd.Series, difference: float, side: int
+) -> Markup:
     """A sentence on the strongest rival that takes no more memory.
 
     Args:
-        difference, side: by how many dB `best` is better, and whether that is clear.
+        filed, held: the strongest rivals by the bytes of a file and by those in memory.
+        difference, side: by how many dB `best` is better than `held`, and whether that is clear.
     """
-    size = size_of(best["resident_bytes"])
-    told = error_beside(difference) if side else "is too close to tell which is better"
-    said = Markup(" Counted in memory, {}, the best of another kind is the {}, which {}.")
-    return said.format(size, with_psnr(other), told)
+    taken = Markup(" In memory the {} takes {}")
+    why = Markup()
+    if filed is not None:
+        tree = " with its tree of boxes" if filed["encoding"] == "mesh" else ""
+        why = Markup(", the {} {}{}").format(name_of(filed), size_of(filed["resident_bytes"]), tree)
+    told = error_beside(difference, "the network's") if side else "is too close to tell apart"
+    said = taken + why + "; the best of another kind that takes no more is the {}, which {}."
+    return said.format(name_of(best), size_of(best["resident_bytes"]), with_psnr(held), told)
 
 
 def name_of(row: pd.Series) -> Markup:

@@ -114,8 +114,8 @@ def describe_budgets(records: Sequence[Mapping[str, Any]]) -> list[str]:
 def describe_samples(seen: float, theirs: float) -> str:
     """One sentence on a run's training samples a network, beside the thesis's."""
     return (
-        f"The networks of this run saw at most {seen:,.0f} training samples each, the thesis's "
-        f"{theirs:,.0f}: {theirs / seen:,.0f} times as many."
+        f"The thesis's networks saw at most {seen:,.0f} training samples each in this run, and "
+        f"{theirs:,.0f} in the thesis: {theirs / seen:,.0f} times as many."
     )
 
 

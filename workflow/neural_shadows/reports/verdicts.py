@@ -12,8 +12,8 @@ CONTRADICTED = "contradicted"
 MEANINGS = {
     NOT_COMPARABLE: "what was measured is not what the claim is about: another mesh than the "
     "thesis's, or times of another class of device.",
-    NOT_LEARNED: "a network of the claim is not better than drawing no shadow at all, so that it "
-    "says nothing of networks that have learned.",
+    NOT_LEARNED: "a network of the claim is not better than drawing no shadow at all in every "
+    "metric, so that it says nothing of networks that have learned.",
     VACUOUS: "supported, and drawing no shadow at all in the networks' place passes the same test; "
     "where maps are to beat a network, only below a thirtieth of the thesis's samples.",
     TOO_SMALL: "too few training samples, seeds, views or frames for what is claimed, and the "
@@ -40,7 +40,7 @@ SYMBOLS = {
 # Why a claim stays undecided, in few words.
 REASONS = {
     NOT_COMPARABLE: "the mesh or the device is not the one that they are about",
-    NOT_LEARNED: "a network of theirs has learned nothing here",
+    NOT_LEARNED: "a network of theirs is here not better than drawing no shadow in every metric",
     VACUOUS: "drawing no shadow at all would pass their tests as well",
     TOO_SMALL: "the run has too few samples, seeds or views for them",
     UNDECIDED: "the differences are within what chance does",

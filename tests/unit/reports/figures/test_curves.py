@@ -207,7 +207,7 @@ def test_panels_name_points_and_what_costs_nothing(drawn):
     assert [line.get_xdata().tolist() for line in hollow] == [[2e6 / 1024]]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend[0] == "shadow map" and legend[-1] == "not learned"
-    assert legend[-2] == "no method is better in both"  # what the grey line says
+    assert legend[-2] == "the best quality at each cost"  # what the grey line says
     assert "exact shadow" not in legend and "no method" not in legend
 
 

@@ -164,7 +164,7 @@ def too_small(claim: Claim, found: Sequence[Comparison], carried: Sequence[Compa
         if learning and learning.unlicensed:
             reasons.append(f"no extrapolation: {learning.unlicensed}")
     elif (least := fewest_samples(lost)) < DECISIVE:
-        reasons.append(f"against it at {share(least)}, which says nothing of the thesis's")
+        reasons.append(f"against the claim at {share(least)}, which says nothing of more")
     if reasons and (moving := direction_of(found)):
         reasons.append(MOVING[moving])
     return "; ".join(reasons)
@@ -184,7 +184,7 @@ def decided(found: Sequence[Comparison], carried: bool) -> str:
         where += ", of one training"
     held, lost = sum(one.supports for one in found), against(found)
     if held < len(found) and lost:
-        return f"against it{where}: {'; '.join(one.text for one in lost)}"
+        return f"against the claim{where}: {'; '.join(one.text for one in lost)}"
     rest = ", none is significantly against it" if held < len(found) else ""
     return f"{held} of {len(found)} comparisons are in its favour{where}{rest}"
 

@@ -101,7 +101,10 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> F
     drawn = [*table["look"][~table["key"].isin([*LINES, RAY_TRACED])]]
     looks = dict.fromkeys([*(look for look in LOOKS.values() if look in drawn), *drawn])
     entries = [Line2D([], [], label=look.name, **_drawn(look)) for look in looks]
-    entries += [Line2D([], [], label="no method is better in both", **FRONT), *style.hollow(table)]
+    entries += [
+        Line2D([], [], label="the best quality at each cost", **FRONT),
+        *style.hollow(table),
+    ]
     style.legend_below(figure, entries, MOST_IN_LINE * len(metrics))
     named = []
     for row, cost in zip(panels, costs):
@@ -166,7 +169,12 @@ def _draw_lines(axes: Axes, points: pd.DataFrame, methods: pd.DataFrame, errors:
         axes.axhline(row.value, zorder=0, color=GREY, linewidth=0.7, linestyle=line)
         name = row.method + PRINTED_NOTES[errors] * (row.key == PRINTED)
         place = axes.get_yaxis_transform()
-        axes.text(0.01, row.value, name, transform=place, va="bottom", fontsize=7)
+        look = {"transform": place, "fontsize": 7}
+        if row.key == PRINTED:  # no worse method takes as many bytes: on the right it stands free
+            below = "bottom" if errors else "top"
+            axes.text(0.99, row.value, name, ha="right", va=below, **look)
+        else:
+            axes.text(0.01, row.value, name, va="bottom", **look)
     for cost in points["cost"][points["key"] == RAY_TRACED].dropna():
         axes.axvline(cost, color=GREY, linewidth=0.7, zorder=0)
         place = axes.get_xaxis_transform()

@@ -15,6 +15,7 @@ PLACES = [(distance * x, distance * y) for distance in (7, 12, 18) for x, y in S
 HORIZONTAL = {1: "left", 0: "center", -1: "right"}
 VERTICAL = {1: "bottom", 0: "center", -1: "top"}
 CLEARLY = 1.5  # times its distance from its own point a name is from others
+APART = 2  # times a marker's reach that a name is at least from others' middles
 LEADER = {"color": "#777777", "linewidth": 0.6, "zorder": 0}
 MARKER = 5  # points about a point's middle
 
@@ -23,8 +24,8 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
     """Write a name beside each point, in the first of `PLACES` that is free.
 
     The layout must be done (`Figure.draw_without_rendering`). A name that finds no free place is
-    left out; those first in order look for theirs first. A thin line leads to a name that is not
-    clearly nearer to its own point than to others.
+    left out; those first in order look for theirs first. None touches another's point, and a
+    thin line leads to one that is not clearly nearer to its own.
 
     Args:
         points: shape (N, 2), in data coordinates.
@@ -46,10 +47,12 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
             text = axes.annotate(name, point, **offset, **sides, **look)
             text.set_in_layout(False)
             box = text.get_window_extent()
-            led = CLEARLY * _distances(box, place) > _distances(box, others).min(initial=np.inf)
+            own, other = _distances(box, place), _distances(box, others).min(initial=np.inf)
+            led = CLEARLY * own > other
             line = Path([place, np.clip(place, box.min, box.max)])
             if (
                 _inside(box, axes.bbox)
+                and other > APART * reach
                 and not any(path.intersects_bbox(box, filled=False) for path in paths)
                 and not any(map(box.overlaps, taken))
                 and not (led and any(line.intersects_bbox(_marker(o, reach)) for o in others))
