@@ -59,6 +59,15 @@ def test_scenes_stand_apart_with_the_best_of_each(tmp_path):
     assert 0 < two.rows[0][1].places[2] / 82 - math.log(2) / math.log(120) < 0.01
 
 
+def test_lights_stand_apart_with_the_best_of_each(tmp_path):
+    rows = ["| light | method | MSE ↓ |", "|---|---|---|"]
+    rows += ["| point light | A | 1 |", "| point light | B | 2 |"]
+    rows += ["| light of 1 m radius | A | 6 |", "| light of 1 m radius | B | 5 |"]
+    one, two = written(tmp_path, "# Soft\n\n" + "\n".join(rows) + "\n").parts
+    assert (one.scene, two.scene) == ("point light", "light of 1 m radius")
+    assert [row[1].best for row in one.rows + two.rows] == [True, False, False, True]
+
+
 def test_what_the_thesis_prints_is_a_diamond_and_its_lpips_none(tmp_path):
     text = """# Networks
 

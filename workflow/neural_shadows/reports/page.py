@@ -13,12 +13,13 @@ from neural_shadows.reports.claim_cards import budget, counted, read_cards
 from neural_shadows.reports.findings import findings
 from neural_shadows.reports.frame_comparison import frame_comparisons
 from neural_shadows.reports.inputs import read_meshes
-from neural_shadows.reports.method_look import LOOKS, look_of_kind
-from neural_shadows.reports.page_blocks import data_uri
+from neural_shadows.reports.method_look import LOOKS, Look, look_of_kind
+from neural_shadows.reports.page_blocks import Block, data_uri
 from neural_shadows.reports.page_figures import figure_blocks, themed
 from neural_shadows.reports.page_tables import table_block
 from neural_shadows.reports.phrases import describe_mesh
 from neural_shadows.reports.run_facts import run_facts, run_sentence
+from neural_shadows.reports.soft_looks import SOFT_LOOKS, SOFT_METHODS
 from neural_shadows.running.stage import run_stage
 
 SCRIPTS = ("reading.js", "script.js")
@@ -77,7 +78,7 @@ def write_page(
     claims = table_block(claims_md, looks) if claims_md else None
     claims_csv = claims_md.with_suffix(".csv") if claims_md else None
     cards = read_cards(claims_csv) if claims_csv else []
-    blocks = [table_block(path, looks) for path in tables]
+    blocks = [table_block(path, SOFT_METHODS | looks) for path in tables]
     csvs = {path.stem: path.with_suffix(".csv") for path in tables}
     shown = {figure: csvs[table] for figure, table in data.items() if table in csvs}
     drawings = figure_blocks(figures, titles, shown)
@@ -105,6 +106,7 @@ def write_page(
         facts=facts,
         folded=folded,
         legend=[look for look in LOOKS.values() if look in looks.values()],
+        soft_legend=_shown(blocks, soft),
         claims=claims,
         cards=cards,
         verdicts=counted(cards),
@@ -125,6 +127,13 @@ def write_page(
         shared_notes=[note for note, count in notes.items() if count > 1],
     )
     write_text(html, page)
+
+
+def _shown(blocks: Sequence[Block], soft: Sequence[str]) -> list[Look]:
+    """The looks of the methods of tables of soft shadows, each once."""
+    parts = [part for block in blocks if block.name in soft for part in block.parts]
+    used = [look for part in parts for look in part.looks]
+    return [look for look in SOFT_LOOKS.values() if look in used]
 
 
 def _viewer(html: Path) -> dict[str, str]:

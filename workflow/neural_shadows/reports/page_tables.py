@@ -20,6 +20,7 @@ LOGARITHMIC = 20  # times the smallest: values so far apart are drawn so
 DRAWN = 82  # width of a cell's drawing, px
 INCOMPARABLE = "LPIPS"  # with the thesis's, whose network is not known (`describe_lpips`)
 UNRIVALLED = (*NETWORKS.values(), *NULL.values())  # cannot be a column's best
+PARTED = ("scene", "light")  # first columns: a table is in parts by them
 MARKDOWN = MarkdownIt("commonmark", {"html": False}).enable("table")
 
 
@@ -54,9 +55,9 @@ class Cell:
 
 @dataclass(frozen=True)
 class Part:
-    """A table of one scene: its headings, and rows of which the first cell is a method.
+    """A table of one scene or light: its headings, and rows of which the first cell is a method.
 
-    `looks` are the methods' where they are known; `scene` is empty in a table without scenes;
+    `looks` are the methods' where they are known; `scene` is empty in a table that has neither;
     `logarithmic`: of the headings those whose columns are drawn so.
     """
 
@@ -68,7 +69,7 @@ class Part:
 
 
 def table_block(path: Path, looks: Mapping[str, Look]) -> Block:
-    """A table, in a part for each scene; `looks` of methods by label."""
+    """A table, in a part for each scene or light; `looks` of methods by label."""
     tokens = MARKDOWN.parse(path.read_text(encoding="utf-8"))
     title, kinds = tokens[1].content, [token.type for token in tokens]
     start, end = kinds.index("table_open"), kinds.index("table_close") + 1
@@ -93,8 +94,8 @@ def inline(text: str) -> Markup:
 def _by_scene(
     heads: list[str], rows: list[list[str]]
 ) -> dict[str, tuple[list[str], list[list[str]]]]:
-    """Headings and rows by scene, without its column; a scene may be named in its first row alone."""
-    if heads[0] != "scene":
+    """Headings and rows by scene or light, without its column; one may be named in its first row alone."""
+    if heads[0] not in PARTED:
         return {"": (heads, rows)}
     found: dict[str, tuple[list[str], list[list[str]]]] = {}
     for scene, *cells in rows:

@@ -1,6 +1,6 @@
 """How each family of methods for soft shadows looks, the same everywhere."""
 
-from neural_shadows.evaluation.soft_method_names import NULL
+from neural_shadows.evaluation.soft_method_names import LABELS, NULL
 from neural_shadows.reports.figures.style import COLOURS
 from neural_shadows.reports.method_look import Look
 
@@ -51,3 +51,12 @@ def family_of(method: str) -> str:
     if first == "rt":
         return rest.partition("_")[2] or "rt"
     return "moments" if first in ("vsm", "evsm", "msm") else first
+
+
+def light_name(radius: float, unit: str) -> str:
+    """What a light of a radius is called; `unit`: m, or S for sizes of the scene."""
+    return f"light of {radius:.3g} {unit} radius" if radius else "point light"
+
+
+# By label, as tables call them.
+SOFT_METHODS = {label: SOFT_LOOKS[family_of(method)] for method, label in LABELS.items()}

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.figures.point_labels import label_points
-from neural_shadows.reports.soft_looks import SOFT_LOOKS, family_of
+from neural_shadows.reports.soft_looks import SOFT_LOOKS, family_of, light_name
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
@@ -85,8 +85,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
             )
         axes.set(xscale="log", yscale="log", xlabel="ms a frame, one thread")
         radius, unit = rows["radius"].iloc[0], rows["unit"].iloc[0]
-        size = f"light of {radius:.3g} {unit} radius" if radius else "point light"
-        axes.set_title(size, fontsize=11)
+        axes.set_title(light_name(radius, unit), fontsize=11)
         axes.grid(**style.GRID)
         style.plain_numbers(axes.xaxis)
         named.append((axes, methods))

@@ -12,6 +12,7 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.intervals import two_way_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.reports import phrases
+from neural_shadows.reports.soft_looks import light_name
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -39,7 +40,7 @@ def write(
     unseen: Sequence[str],
     run: Mapping[str, Any],
 ) -> None:
-    """Write a row for each method and radius, in the order of `labels`.
+    """Write a row for each radius and method, in the order of `labels`.
 
     CSV: all columns of `soft_table`, and the scale.
 
@@ -58,8 +59,8 @@ def write(
     table = soft_table(found, radii, times, labels, unseen, run["seed"])
     table = table.assign(unit=unit, scale=run["scale"])
     columns = {
+        "light": [light_name(radius, unit) for radius in table["radius"]],
         "method": table["label"],
-        f"radius {unit}": number_cells(table["radius"], "{:.3g}"),
         "MSE × 10⁻⁴ ↓": interval_cells(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
         "unseen scenes": number_cells(table["mse_unseen"], "{:.1f}", 1e4),
         "umbra": number_cells(table["mse_umbra"], "{:.1f}", 1e4),
@@ -107,7 +108,7 @@ def soft_table(
     unseen: Sequence[str],
     seed: int,
 ) -> pd.DataFrame:
-    """A row for each method and radius.
+    """A row for each radius and method.
 
     Columns: `method, label, number` (of the radius, from 0), `radius, frames`, of `mse` and `l1`
     also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`, `own_ms`,
@@ -115,10 +116,10 @@ def soft_table(
     """
     frames = found[~found["metric"].isin(FLICKER)]
     rows = []
-    for method, label in labels.items():
-        mine = frames[frames["method"] == method]
-        for number, radius in enumerate(radii):
-            here = mine[mine["radius"] == number]
+    for number, radius in enumerate(radii):
+        lit = frames[frames["radius"] == number]
+        for method, label in labels.items():
+            here = lit[lit["method"] == method]
             row = {"method": method, "label": label, "number": number, "radius": radius}
             row["frames"] = int((here["metric"] == "mse").sum())
             for name in WITH_INTERVALS:
