@@ -19,7 +19,7 @@ NO_JOB = {"download_mesh"}  # of the rules, at the smoke scale
 
 
 def few_jobs(path: Path, steps: int = 200) -> Path:
-    """Write an overlay of the smoke scale that keeps the dragon's network and one method for soft shadows.
+    """Write an overlay of the smoke scale that keeps the dragon's network and PCSS alone.
 
     Args:
         steps: of its training.

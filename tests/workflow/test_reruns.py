@@ -24,8 +24,6 @@ SOFT = SHOWN | {"tune_soft_method", "evaluate_soft", "time_soft_methods"}
         ("shadow_maps/shadow_map.py", TRAINED | {"render_references", "viewer"}),
         ("training/training_run.py", TRAINED | {"train", "viewer"}),
         ("metrics/flip.py", SHOWN | {"evaluate", "evaluate_soft"}),
-        ("frames/draw_settings.py", SOFT | {"render_frames"}),
-        ("evaluation/tune_soft_method.py", SOFT),
         ("running/stage.py", set()),
     ],
 )

@@ -70,7 +70,8 @@ experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tabl
 experiments.dragon.training | null | experiments.dragon.training: this key is missing; a network
 experiments.dragon.sampling | null | experiments.dragon.sampling: this key is missing; a network
 claims.slower_than_shadow_maps.pairs | [[dragon, shadow_map_8]] | 'shadow_map_8' (did you me
-frame_sets.frames.scenes | [dragon] | frame_sets.frames.scenes.0: 'dragon' is not among room, atr
+frame_sets.frames.scenes | [dragon] | scenes.0: 'dragon' is in `scenes` and has no metres; let it
+frame_sets.frames.scenes | [rom] | frame_sets.frames.scenes.0: 'rom' (did you mean 'room'?) is not among
 frame_sets.frames.unseen | [room] | frame_sets.frames: unseen: room is among `scenes`, too
 frame_sets.frames.radii | [-0.1, 0.2] | frame_sets.frames.radii.0 = -0.1: Input should be greater than
 frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: must grow

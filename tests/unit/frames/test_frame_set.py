@@ -1,11 +1,13 @@
 """A part of a frame set, from its stage to its reader; and what is wrong with one."""
 
 import json
+from unittest import mock
 
 import numpy as np
 import pytest
 
 from neural_shadows.errors import InputError
+from neural_shadows.frames import render_frames as render_frames_stage
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
 from neural_shadows.frames.render_frames import render_frames
@@ -58,6 +60,14 @@ def test_uses_have_frames_of_their_own(part, tmp_path):
     other = render(tmp_path, use="test", twins=0)
     assert other.setting(0).as_json() != part.setting(0).as_json()
     assert other.buffers.shape[1] == 1
+
+
+def test_nothing_is_left_where_a_frame_fails_after_others(tmp_path, monkeypatch):
+    fails = mock.Mock(side_effect=[np.zeros((3, 16, 32)), MemoryError])
+    monkeypatch.setattr(render_frames_stage, "render_target", fails)
+    with pytest.raises(MemoryError):
+        render(tmp_path)
+    assert [*tmp_path.iterdir()] == []
 
 
 @pytest.mark.parametrize(

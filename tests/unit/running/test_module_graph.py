@@ -27,6 +27,25 @@ def test_training_depends_on_what_decides_the_weights():
     assert kinds == {"networks/object_space/shadow_network"}
 
 
+@pytest.mark.parametrize(
+    "stage",
+    [
+        "frames/render_frames",
+        "evaluation/tune_soft_method",
+        "evaluation/evaluate_soft",
+        "evaluation/time_soft_methods",
+    ],
+)
+def test_soft_shadows_depend_on_no_network_and_no_other_method(stage):
+    found = modules_of(PACKAGE / f"{stage}.py")
+    names = {path.relative_to(PACKAGE).as_posix()[:-3] for path in found}
+    assert not {name.split("/")[0] for name in names} & {"training", "networks", "rays", "reports"}
+    # Maps of a directional light are the thesis's; a scene or a method is an input of its own jobs.
+    assert "shadow_maps/shadow_map" not in names
+    kinds = {path.stem for path in found if path.parent.name in ("soft_methods", "generators")}
+    assert kinds <= {"registry", "soft_method"}
+
+
 def test_all_forms_of_import_are_followed(tmp_path):
     script = tmp_path / "script.py"
     script.write_text(

@@ -3,7 +3,14 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import (
+    BeforeValidator,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    model_validator,
+)
 
 from neural_shadows.config.base import Model, Name, PowerOfTwo, by_kind, name_in
 from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED
@@ -53,13 +60,25 @@ class Samples(Model):
     measured: int = Field(32, ge=1, le=1024, description="of frames that methods are measured on")
 
 
+def _in_metres(name: Any, info: ValidationInfo) -> Any:
+    """A scene's name, but not one of `scenes` alone, whose meshes may have any unit."""
+    known, metric = (info.context.get(section) or () for section in ("scenes", "soft_scenes"))
+    if isinstance(name, str) and name in known and name not in metric:
+        raise ValueError(
+            f"{name!r} is in `scenes` and has no metres; let it stand in a scene of `soft_scenes`, "
+            f"`inserted: [{name}]`"
+        )
+    return name
+
+
+MetricScene = Annotated[name_in("soft_scenes"), BeforeValidator(_in_metres)]
+
+
 class RenderedFrames(Model):
     """Frames of generated scenes."""
 
-    scenes: list[name_in("soft_scenes")] = Field(
-        min_length=1, description="for training, validation and test"
-    )
-    unseen: list[name_in("soft_scenes")] = Field([], description="for tests alone")
+    scenes: list[MetricScene] = Field(min_length=1, description="for training, validation and test")
+    unseen: list[MetricScene] = Field([], description="for tests alone")
     width: Pixels = Field(description="pixels of a frame")
     height: Pixels = Field(description="pixels of a frame")
     train_width: Pixels | None = Field(None, description="of training frames, if another")
