@@ -58,7 +58,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         for family, look in SOFT_LOOKS.items()
         if family in families
     ]
-    style.legend_below(figure, entries, 4)
+    style.legend_below(figure, entries, min(4, 2 * len(radii) - 1))  # as the figure is wide
     named = []
     for axes, number in zip(panels, radii):
         rows = table[(table["number"] == number) & (table["method"] != "all_dark")]
