@@ -112,6 +112,21 @@ def test_error_over_time(written, tmp_path):
     assert "light of 0.25 S radius" in text and "point light" not in text
 
 
+@pytest.mark.parametrize("radii", [[1], [0, 1]])
+def test_the_legend_is_as_wide_as_the_figure(radii):
+    methods = ["hard", "pcf_3", "pcss", "msm_9", "rt_1", "rt_4_svgf", "no_shadow"]
+    rows = [
+        {"method": method, "label": method, "number": number, "radius": number, "unit": "m"}
+        | {"mse": 0.1, "mse_low": 0.1, "mse_high": 0.1, "ms": 1 + k}
+        for k, method in enumerate(methods)
+        for number in (0, 1)
+    ]
+    figure = soft_equal_time.equal_time_figure(pd.DataFrame(rows), radii, title="Equal time")
+    figure.draw_without_rendering()
+    extent = figure.legends[0].get_window_extent()
+    assert extent.x0 >= 0 and extent.x1 <= figure.bbox.x1
+
+
 def test_strips_show_what_is_too_dark_and_too_bright():
     error = np.array([[0.0, 0.5, -0.5, 0.25]])
     colours = soft_pictures.coloured(error)
