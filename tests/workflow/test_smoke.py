@@ -96,7 +96,9 @@ def test_soft_methods_are_measured(smoke):
     assert {*whole.index.unique(0)} == {*asked, "no_shadow", "all_dark"}
     assert np.isfinite(whole[["mse", "ssim", "flip"]]).all(axis=None)
     assert np.isfinite(whole.loc[asked, "ms"]).all()
-    assert np.isfinite(whole.xs(1, level=1)[["instability_camera", "instability_object"]]).all(None)
+    assert np.isfinite(whole.xs(1, level=1)[["instability_camera", "instability_object"]]).all(
+        axis=None
+    )
     # These have no sequences, and radii of the other unit.
     assert windows["instability"].isna().all() and set(windows["unit"]) == {"S"}
     assert np.isfinite(windows.loc["hard", ["mse", "ms"]]).all(axis=None)
