@@ -1,4 +1,4 @@
-"""One thread of PyTorch's: on two cores two processes of two wait for each other, 28 s in place of 2."""
+"""One thread of PyTorch's: on two cores two processes of two make a test of 2 s one of 28."""
 
 import torch
 
