@@ -127,7 +127,7 @@ def test_contents_follow_the_reading(open_page):
     current = page.locator("nav .current")
     assert current.inner_text() == "What was found"
     page.locator("nav").get_by_text("Tables", exact=True).click()
-    page.wait_for_function("document.querySelector('nav .current').hash === '#tables'")
+    page.locator("nav .current[href='#tables']").wait_for()
     assert page.locator("nav").get_by_text("Networks and shadow maps").first.is_visible()
     # On a narrow screen they are folded until asked for.
     narrow = open_page(width=768)
