@@ -48,9 +48,9 @@ def found(folder, **given):
 def test_what_is_best_at_equal_bytes_turns_round_with_the_data(tmp_path):
     (best, trained, thesis), _ = found(tmp_path)
     assert best == (
-        "In 693 KiB nothing comes closer to the exact shadow than the Field (41.0 dB [40.5, 41.5]),"
+        "In 693 KiB nothing measured comes closer to the exact shadow than the Field (41.0 dB [40.5, 41.5]),"
         " worth more than a 2048² shadow map of 16 MiB."
-        " The best of another kind, the Grid (39.0 dB [38.5, 39.5]), has 1.6 times its squared error."
+        " The best of another kind, the Grid (39.0 dB [38.5, 39.5]) in as many bytes, has 1.6 times its squared error."
     )
     assert (
         trained == "Training pays: the Field is 2.0 dB better than the same grid untrained (Grid)."
@@ -79,8 +79,14 @@ def test_what_is_best_at_equal_bytes_turns_round_with_the_data(tmp_path):
         ({"psnr_pooled": 41.5}, "takes as many bytes and is 0.5 dB better."),
         ({"psnr_pooled": 44.0, "stored_bytes": 717_000}, "takes as many bytes and has 2"),
         ({"psnr_pooled": 44.0, "stored_bytes": 512_000}, "takes 500 KiB and has 2 times less"),
-        ({"psnr_pooled": 40.5}, "the Grid (40.5 dB [40.4, 40.6]), is 0.5 dB worse."),
-        ({"psnr_pooled": 15.0}, "the 256² map (32.0 dB [31.9, 32.1]), has 7.9 times its"),
+        (
+            {"psnr_pooled": 40.5},
+            "the Grid (40.5 dB [40.4, 40.6]) in as many bytes, is 0.5 dB worse.",
+        ),
+        (
+            {"psnr_pooled": 15.0},
+            "the 256² map (32.0 dB [31.9, 32.1]) in 256 KiB, has 7.9 times its",
+        ),
     ],
 )
 def test_numbers_are_told_in_words_that_suit_their_size(tmp_path, grid, said):
@@ -107,10 +113,22 @@ def test_the_largest_network_that_wins_comes_before_a_better_one_that_loses(tmp_
     )
     (small_one, best, *_), _ = said_of(tmp_path, pd.concat([table, small]))
     assert small_one.startswith(
-        "In 293 KiB nothing comes closer to the exact shadow than the Small"
+        "In 293 KiB nothing measured comes closer to the exact shadow than the Small"
     )
-    assert "the 256² map (32.0 dB [31.5, 32.5]), has 2.5 times its squared error." in small_one
+    assert (
+        "the 256² map (32.0 dB [31.5, 32.5]) in 256 KiB, has 2.5 times its squared error."
+        in small_one
+    )
     assert best.startswith("The best trained network, the Field")
+    # A smaller rival's kind may have as much with as many bytes.
+    meshes = pd.concat([small.assign(encoding="mesh", samples=0)] * 2).assign(
+        method=["Mesh", "Larger mesh"], stored_bytes=[270_000, 400_000]
+    )
+    for low, first in ((34.0, "The best trained network"), (20.0, "In 293 KiB")):
+        ends = dict.fromkeys(("psnr_pooled", "psnr_pooled_low", "psnr_pooled_high"), [low, 45.0])
+        sizes = meshes.assign(**ends)
+        (best, *_), _ = said_of(tmp_path, pd.concat([table, small, sizes]))
+        assert best.startswith(first)
     # Of two that are too close to tell, none is said to win.
     close = table["method"] == "256² map"
     table.loc[close, ["psnr_pooled", "psnr_pooled_high"]] = 35.8, 36.3
@@ -129,7 +147,7 @@ def test_of_several_scenes_the_one_that_is_meant_is_named(tmp_path):
     # Of another scene there are too few views; what is said is of the first.
     other = table.assign(scene="fence", views=6, psnr_pooled=10.0)
     (best, trained, thesis), _ = said_of(tmp_path, pd.concat([table, other]))
-    assert best.startswith("On the dragon, in 693 KiB nothing comes closer")
+    assert best.startswith("On the dragon, in 693 KiB nothing measured comes closer")
     assert trained.startswith("On the dragon, training pays: the Field is 2.0 dB better")
     assert thesis.startswith("On the dragon, the thesis's network")
 
@@ -137,7 +155,7 @@ def test_of_several_scenes_the_one_that_is_meant_is_named(tmp_path):
 def test_a_paired_difference_decides_where_intervals_overlap(tmp_path):
     paired = {"psnr_difference": -2.0, "psnr_difference_low": -2.1, "psnr_difference_high": -1.9}
     (best, trained, _), _ = found(tmp_path, half=2.5, Grid=paired)
-    assert best.startswith("In 693 KiB nothing comes closer") and trained.startswith(
+    assert best.startswith("In 693 KiB nothing measured comes closer") and trained.startswith(
         "Training pays"
     )
 

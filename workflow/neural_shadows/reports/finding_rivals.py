@@ -1,5 +1,6 @@
 """How trained networks compare with what takes as many bytes, in sentences made from a table."""
 
+import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
@@ -33,6 +34,7 @@ def best_of_their_size(table: pd.DataFrame) -> list[Markup]:
         rival = _rival(known, other, "stored_bytes")
         first = best_of(known[known["stored_bytes"] <= ALIKE * other["stored_bytes"]])
         wins = rival is not None and _compared(other, rival)[1] > 0
+        wins = wins and other["psnr_pooled"] > _with_bytes(known, rival, other["stored_bytes"])
         if wins and first["method"] == other["method"]:
             return said if other["method"] == best["method"] else [of_its_size(known, other), *said]
     return said
@@ -58,8 +60,8 @@ def of_its_size(known: pd.DataFrame, best: pd.Series) -> Markup:
     difference, side = _compared(best, other)
     if side > 0:
         said = (
-            "In {size} nothing comes closer to the exact shadow than the {best}{worth}. The best of "
-            "another kind, the {other}, {error}.{memory}"
+            "In {size} nothing measured comes closer to the exact shadow than the {best}{worth}. The "
+            "best of another kind, the {other} in {bytes}, {error}.{memory}"
         )
     elif side < 0:
         said = (
@@ -117,6 +119,18 @@ def _rival(known: pd.DataFrame, best: pd.Series, column: str) -> pd.Series | Non
     alike = known["encoding"].eq(best["encoding"]) & known["samples"].gt(0)
     fits = known[~alike & (known[column] <= ALIKE * best[column])]
     return None if fits.empty else best_of(fits)
+
+
+def _with_bytes(known: pd.DataFrame, rival: pd.Series, stored: float) -> float:
+    """The pooled PSNR of a rival's kind with as many bytes, between the sizes that were measured.
+
+    A decimated mesh of 159 KiB has 37.1 dB beside a field of 177 KiB with 37.6; of 177 KiB, 37.7.
+    """
+    kind = known[known["encoding"].eq(rival["encoding"]) & known["samples"].eq(0)]
+    if len(kind) < 2:
+        return rival["psnr_pooled"]
+    kind = kind.sort_values("stored_bytes")
+    return float(np.interp(np.log(stored), np.log(kind["stored_bytes"]), kind["psnr_pooled"]))
 
 
 def _compared(a: pd.Series, b: pd.Series) -> tuple[float, int]:
