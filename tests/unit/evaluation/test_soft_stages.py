@@ -48,8 +48,8 @@ def tune(folder, method):
 
 
 def test_the_constants_of_least_error_are_chosen(folder):
-    record = tune(folder, "pcf_disc")
-    method = soft_method("pcf_disc")
+    record = tune(folder, "pcf_9")
+    method = soft_method("pcf_9")
     frames = [*measured_frames([folder / "validation_000.json"], [])]
     for k, radius in enumerate(RADII):
         errors = []
@@ -60,6 +60,28 @@ def test_the_constants_of_least_error_are_chosen(folder):
         chosen = record["radii"][k]
         assert chosen["constants"] == method.settings()[int(np.argmin(errors))]
         assert chosen["mse"] == pytest.approx(min(errors), rel=1e-4)
+
+
+def test_no_other_value_of_the_last_constant_is_better(folder):
+    method = soft_method("pcf_disc")
+    texels, biases = method.constants.values()
+    (frame, *rest) = measured_frames([folder / "validation_000.json"], [])
+
+    def mse(k, constants):
+        squares = [
+            np.square(one.answered(method, RADII[k], constants) - one.target[k])[one.valid]
+            for one in (frame, *rest)
+        ]
+        return np.concatenate(squares).mean()
+
+    for k, found in enumerate(tune(folder, "pcf_disc")["radii"]):
+        chosen = found["constants"]
+        assert found["mse"] == pytest.approx(
+            min(mse(k, chosen | {"bias": bias}) for bias in biases), rel=1e-4
+        )
+        # and of the first none is, at the bias in the middle
+        first = {one: mse(k, {"texels": one, "bias": biases[1]}) for one in texels}
+        assert chosen["texels"] == min(first, key=first.get)
 
 
 def evaluate(folder, method):

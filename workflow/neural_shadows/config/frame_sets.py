@@ -56,8 +56,8 @@ class Twins(Model):
 class Samples(Model):
     """Rays for each of eight places in a pixel and each ring between two radii."""
 
-    train: int = Field(4, ge=1, le=1024, description="of frames to train on")
-    measured: int = Field(32, ge=1, le=1024, description="of frames that methods are measured on")
+    train: int = Field(4, ge=1, le=1024, description="of frames to train on and to choose by")
+    measured: int = Field(16, ge=1, le=1024, description="of test frames and of sequences")
 
 
 def _in_metres(name: Any, info: ValidationInfo) -> Any:

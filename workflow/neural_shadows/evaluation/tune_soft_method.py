@@ -1,6 +1,6 @@
 """The stage that chooses a soft-shadow method's constants, on validation frames alone."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +19,9 @@ def tune_soft_method(
 ) -> None:
     """Find the constants of least mean squared error for each radius of a frame set.
 
+    One constant after another, the others as they were found, or the middle of what is tried: 6
+    settings of two constants with three values each, where all are 9.
+
     Args:
         parts: of validation frames, of all scenes; meshes: see `measured_frames`.
         constants_json: by radius in the set's order, `constants` and `mse`; with `tried`, and
@@ -28,55 +31,58 @@ def tune_soft_method(
         InputError: a part is damaged.
     """
     asked = soft_method(method)
-    settings = asked.settings()
-    opened = [FrameSetPart(path) for path in parts]
-    radii = len(opened[0].radii)
-    squares, pixels = np.zeros((len(settings), radii)), 0
-    with progress_bar(sum(map(len, opened)), "frames", f"tune {method}") as bar:
+    middle = {name: values[len(values) // 2] for name, values in asked.constants.items()}
+    radii = len(FrameSetPart(parts[0]).radii)
+    found = [{"constants": middle, "mse": np.inf, "at_end": []} for _ in range(radii)]
+    for name, values in asked.constants.items():
+        tried = [[one["constants"] | {name: value} for value in values] for one in found]
+        errors = _errors(asked, tried, parts, meshes, f"tune {name} of {method}")
+        for one, settings, each in zip(found, tried, errors):
+            best = int(each.argmin())
+            one |= {"constants": settings[best], "mse": each[best]}
+            if _at_end(values, each, best):
+                one["at_end"] = [*one["at_end"], name]
+    tried = {name: list(values) for name, values in asked.constants.items()}
+    write_json(constants_json, {"method": method, "tried": tried, "radii": found})
+
+
+def _errors(
+    method: SoftMethod,
+    tried: Sequence[Sequence[Constants]],
+    parts: Sequence[Path],
+    meshes: Sequence[Path],
+    title: str,
+) -> np.ndarray:
+    """Mean squared error, (radii, settings).
+
+    Args:
+        tried: the settings of each radius, as many for each.
+    """
+    squares, pixels = np.zeros((len(tried), len(tried[0]))), 0
+    with progress_bar(sum(len(FrameSetPart(path)) for path in parts), "frames", title) as bar:
         for frame in measured_frames(parts, meshes):
             valid, target = frame.valid, frame.target
             pixels += valid.sum()
-            for row, constants in enumerate(settings):
-                for k, radius in enumerate(frame.part.radii):
-                    if asked.asked_again([constants] * radii, k):
-                        found = frame.answered(asked, radius, constants)
-                    squares[row, k] += np.square(found - target[k])[valid].sum()
+            answers: dict[str, np.ndarray] = {}  # of a method that does not ask for the radius
+            for k, settings in enumerate(tried):
+                for number, constants in enumerate(settings):
+                    answer = answers.get(str(constants))
+                    if answer is None:
+                        answer = frame.answered(method, frame.part.radii[k], constants)
+                    if not method.of_radius:
+                        answers[str(constants)] = answer
+                    squares[k, number] += np.square(answer - target[k])[valid].sum()
             bar.update()
-    best = squares.argmin(0)
-    chosen = [settings[row] for row in best]
-    write_json(
-        constants_json,
-        {
-            "method": method,
-            "tried": {name: list(values) for name, values in asked.constants.items()},
-            "radii": [
-                {
-                    "constants": one,
-                    "mse": squares[row, k] / pixels,
-                    "at_end": _at_end(asked, one, dict(zip(map(str, settings), squares[:, k]))),
-                }
-                for k, (one, row) in enumerate(zip(chosen, best))
-            ],
-        },
-    )
+    return squares / pixels
 
 
-def _at_end(method: SoftMethod, chosen: Constants, errors: Mapping[str, float]) -> list[str]:
-    """The constants whose best value is the first or last that was tried, and no bound of its own
-    as 0 is, if the one next to it is worse.
-
-    Args:
-        errors: of each setting, by its text.
+def _at_end(values: Sequence[float], errors: np.ndarray, best: int) -> bool:
+    """Whether the best value is the first or last that was tried, and no bound of its own as 0 is,
+    if the one next to it is worse.
     """
-    found = []
-    for name, values in method.constants.items():
-        ends = {values[0]: values[1], values[-1]: values[-2]}
-        value = chosen[name]
-        if value and value in ends:
-            inside = errors[str({**chosen, name: ends[value]})]
-            if inside > errors[str(chosen)]:
-                found.append(name)
-    return found
+    if not values[best] or best not in (0, len(values) - 1):
+        return False
+    return bool(errors[1 if best == 0 else -2] > errors[best])
 
 
 if "snakemake" in globals():

@@ -25,7 +25,8 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
         "use": use,
         "first": first,
         "last": min(first + shard, total),
-        "samples": settings["samples"]["train" if train else "measured"],
+        # Noise of a target adds as much to each error: what is chosen by it needs few rays.
+        "samples": settings["samples"]["train" if use in ("train", "validation") else "measured"],
         "twins": settings["twins"]["count"] * train,
     }
 
