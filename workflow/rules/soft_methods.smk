@@ -34,6 +34,7 @@ rule evaluate_soft:
         sequences=of(soft_methods.sequences),
         meshes=of(soft_methods.all_meshes),
         constants_json=of(soft_methods.chosen),
+        weights=of(soft_methods.weights),
         lpips_json=PATHS.lpips,
         code=lambda wildcards: code(
             "evaluation/evaluate_soft",
@@ -61,6 +62,7 @@ rule time_soft_methods:
     input:
         parts=of(soft_methods.timed_parts),
         constants=of(soft_methods.constants),
+        weights=of(soft_methods.timed_weights),
         meshes=of(soft_methods.timed_meshes),
         code=lambda wildcards: code(
             "evaluation/time_soft_methods",

@@ -222,7 +222,7 @@ def check(config: "Config") -> None:
 
 def _check_soft(config: "Config", key: str, table: SoftMethodsTable) -> None:
     for method in table.methods:
-        check_among(f"{key}.methods", method, LABELS)
+        check_among(f"{key}.methods", method, [*LABELS, *config.screen_experiments])
         own = isinstance(config.frame_sets[table.frame_set], OwnFrames)
         if own and not method.startswith(BASE) and method not in SOFT_NULL:
             raise ValueError(

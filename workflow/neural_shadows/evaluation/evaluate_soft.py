@@ -31,6 +31,7 @@ def evaluate_soft(
     sequences: list[Path],
     meshes: list[Path],
     constants_json: Path | None,
+    weights: Path | None,
     lpips_json: Path,
     metrics_csv: Path,
     answers_npz: Path,
@@ -47,12 +48,13 @@ def evaluate_soft(
         parts: of test frames. sequences: parts of consecutive frames; may be none.
         meshes: see `measured_frames`.
         constants_json: what `tune_soft_method` wrote; None for a method without constants.
+        weights: of a network; None for any other method.
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    asked = soft_method(method)
+    asked = soft_method(method, weights)
     constants = _constants(constants_json, len(FrameSetPart(parts[0]).radii))
     images = {"ssim": ssim, "flip": flip} | lpips_metric(lpips_json, threads)
 
@@ -100,26 +102,40 @@ def _flicker(
     constants: Sequence[Constants],
     told: Callable[[], Any],
 ) -> Iterator[Row]:
-    """Instability over a sequence, of the middle radius: the method's, and the exact shadow's own."""
-    changes: dict[str, list[np.ndarray]] = {"": [], "_reference": []}
+    """Instability over a sequence, of the middle radius: the method's, the exact shadow's own, and
+    that of the method's frames each averaged with the one before (`_taa`); with squared errors.
+
+    One frame of history is what Datta et al. 2022 (4) compare with.
+    """
+    changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
+    errors: dict[str, list[float]] = {"_sequence": [], "_taa": []}
     answered = _answered(frames, method, constants)
     before, last, _ = next(answered)
+    averaged = last
     told()
     part, k = before.part, _middle(before.part)
     for now, found, (accepted, places) in answered:
-        pixel = now.frame.surface.pixel[accepted]
+        pixel, places = now.frame.surface.pixel[accepted], places[:, accepted]
+        target, valid = now.target[k], now.valid
+        mixed = found.copy()
+        mixed.ravel()[pixel] += (looked_up(last, places) - mixed.ravel()[pixel]) / 2
         for name, old, new in (
             ("", last, found),
-            ("_reference", before.target[k], now.target[k]),
+            ("_reference", before.target[k], target),
+            ("_taa", averaged, mixed),
         ):
-            changes[name].append(new.ravel()[pixel] - looked_up(old, places[:, accepted]))
-        before, last = now, found
+            changes[name].append(new.ravel()[pixel] - looked_up(old, places))
+        for name, image in (("_sequence", found), ("_taa", mixed)):
+            errors[name].append(float(np.square(image - target)[valid].mean()))
+        before, last, averaged = now, found, mixed
         told()
     key = _key(part, 0, k)
     pixels = part.about["width"] * part.about["height"]
     for name, each in changes.items():
         yield {**key, "metric": f"instability{name}", "value": exponential_instability(each)}
         yield {**key, "metric": f"temporal_error{name}", "value": root_instability(each, pixels)}
+    for name, each in errors.items():
+        yield {**key, "metric": f"mse{name}", "value": float(np.mean(each))}
 
 
 def _middle(part: FrameSetPart) -> int:

@@ -11,6 +11,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.draw_settings import light_map_of
+from neural_shadows.frames.features import axis_cosines
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
@@ -67,6 +68,12 @@ class MeasuredFrame:
         self, method: SoftMethod, radius: float, constants: Mapping[str, float]
     ) -> np.ndarray:
         """The method's visibility of a light of a radius, float32; 1 without a surface."""
+        if method.of_buffers is not None:
+            about, camera = self.part.about, self.part.setting(self.number).camera
+            buffers = {name: self._buffer(name) for name in CHANNELS}
+            axis = axis_cosines(camera, about["width"], about["height"])
+            found = method.of_buffers(buffers, axis, radius)
+            return np.where(self._buffer("z") > 0, found, np.float32(1))
         if method.channel is not None:
             return self._buffer(method.channel)
         if method.constant is not None:

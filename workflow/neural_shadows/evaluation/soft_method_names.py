@@ -48,9 +48,14 @@ def rays_of(method: str) -> int | None:
     return int(count) if count != method and count.isdecimal() else None
 
 
+def is_network(method: str) -> bool:
+    """Whether a method is a trained network: an experiment of `screen_experiments`."""
+    return method not in LABELS
+
+
 def is_tuned(method: str) -> bool:
     """Whether a method has constants, which are chosen on validation frames."""
-    constant = method in NULL or method == "hard" or method.startswith(BASE)
+    constant = method in NULL or method == "hard" or method.startswith(BASE) or is_network(method)
     return not constant and not method.endswith(OIDN) and rays_of(method) is None
 
 

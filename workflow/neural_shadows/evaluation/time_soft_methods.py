@@ -22,6 +22,7 @@ from neural_shadows.running.stage import run_stage
 def time_soft_methods(
     parts: list[Path],
     constants: list[Path],
+    weights: list[Path],
     meshes: list[Path],
     times_json: Path,
     *,
@@ -35,6 +36,7 @@ def time_soft_methods(
 
     Args:
         parts: of test frames, one a scene. constants: of the methods that have some.
+        weights: of the methods that are networks, each in a folder of its name.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, of its answer alone; `map_ms` of rasterising the light's map, which those that
             look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
@@ -48,7 +50,8 @@ def time_soft_methods(
         record["method"]: [one["constants"] for one in record["radii"]]
         for record in map(read_json, constants)
     }
-    asked = {name: soft_method(name) for name in methods}
+    trained = {path.parent.name: path for path in weights}
+    asked = {name: soft_method(name, trained.get(name)) for name in methods}
     timed = {name: method for name, method in asked.items() if method.answer}
     taken = {name: np.zeros((len(frames), len(radii))) for name in timed}
     maps: list[float] = []

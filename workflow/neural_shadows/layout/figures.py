@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from neural_shadows.evaluation.soft_method_names import LABELS, available
+from neural_shadows.evaluation.soft_method_names import available
 from neural_shadows.layout import frame_sets, soft_methods, tables
 from neural_shadows.layout.layout import Layout
 
@@ -97,7 +97,8 @@ def arguments(layout: Layout, figure: str) -> dict[str, Any]:
     if scene is not None and settings["kind"] != "pareto":
         values["scene"] = layout.entry("scenes", scene)["scene"]
     if settings["kind"] == "soft_pictures":
-        values["labels"] = {one: LABELS[one] for one in filter(available, settings["methods"])}
+        some = filter(available, settings["methods"])
+        values["labels"] = {one: soft_methods.label(layout, one) for one in some}
     if "sampling" in settings:
         values["sampling"] = layout.entry("samplings", settings["sampling"])
     return {key: values[key] for key in ("title", *TOLD.get(settings["kind"], ("scene",)))}

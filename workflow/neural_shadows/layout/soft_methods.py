@@ -2,7 +2,13 @@
 
 from collections.abc import Iterable
 
-from neural_shadows.evaluation.soft_method_names import LABELS, NULL, available, is_tuned
+from neural_shadows.evaluation.soft_method_names import (
+    LABELS,
+    NULL,
+    available,
+    is_network,
+    is_tuned,
+)
 from neural_shadows.frames.uses import SEQUENCES
 from neural_shadows.layout import frame_sets
 from neural_shadows.layout.layout import Layout
@@ -113,7 +119,25 @@ def all_generators(layout: Layout, frame_set: str) -> list[str]:
 
 def labels(layout: Layout, table: str) -> dict[str, str]:
     """What each method of a table is called."""
-    return {method: LABELS[method] for method in methods(layout, table)}
+    return {method: label(layout, method) for method in methods(layout, table)}
+
+
+def label(layout: Layout, method: str) -> str:
+    """What a method is called."""
+    known = layout.settings["screen_experiments"]
+    return known[method]["label"] if is_network(method) else LABELS[method]
+
+
+def weights(layout: Layout, method: str) -> list[str]:
+    """The file of a network's weights; none of another method."""
+    if not is_network(method):
+        return []
+    return [layout.paths.screen_network("weights.safetensors", method)]
+
+
+def timed_weights(layout: Layout, table: str) -> list[str]:
+    """The weights of the networks of a table."""
+    return [path for method in methods(layout, table) for path in weights(layout, method)]
 
 
 def radii(layout: Layout, table: str) -> list[str]:

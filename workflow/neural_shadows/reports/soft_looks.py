@@ -1,6 +1,6 @@
 """How each family of methods for soft shadows looks, the same everywhere."""
 
-from neural_shadows.evaluation.soft_method_names import LABELS, NULL
+from neural_shadows.evaluation.soft_method_names import LABELS, NULL, is_network
 from neural_shadows.reports.figures.style import COLOURS
 from neural_shadows.reports.method_look import Look
 
@@ -38,6 +38,13 @@ SOFT_LOOKS = {
     ),
     "svgf": Look("rays, SVGF-like filter", PINK, "v", "▼", "Rays, smoothed within surfaces."),
     "oidn": Look("rays, Open Image Denoise", RED, "X", "✕", "Rays, denoised by a network."),
+    "network": Look(
+        "networks on frames",
+        "#000000",
+        "*",
+        "★",
+        "Answers a whole frame from its buffers and the light's map.",
+    ),
     "base": Look("what networks begin with", "#000000", "<", "◄", "The map's shadow, as stored."),
     "null": Look("no method", "#777777", "o", "○", "Draws no shadow at all, or all of it."),
 }
@@ -45,6 +52,8 @@ SOFT_LOOKS = {
 
 def family_of(method: str) -> str:
     """The key in `SOFT_LOOKS` of a method of the registry."""
+    if is_network(method):
+        return "network"
     if method in NULL:
         return "null"
     first, _, rest = method.partition("_")

@@ -2,11 +2,14 @@
 
 A module of this folder has the methods of a family as `METHODS`, by key. It is imported by the
 key, so that a result depends on the modules of its own methods alone, as networks do on their kind's.
+Any other key is that of a trained network, which its file of weights tells.
 """
 
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from neural_shadows.evaluation.soft_method_names import is_network
 
 if TYPE_CHECKING:  # the graph asks for modules alone
     from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
@@ -24,13 +27,15 @@ _MODULES = {
 
 def method_module(key: str) -> Path:
     """The module of a method: `pcf.py` for `pcf_9`."""
+    if is_network(key):
+        return Path(__file__).with_name("screen_network.py")
     words = key.split("_")
     denoised = words[-1] in ("svgf", "oidn")
     name = "denoised" if denoised else _MODULES.get(words[0], words[0])
     return Path(__file__).with_name(f"{name}.py")
 
 
-def soft_method(key: str) -> "SoftMethod":
-    """The method of a key."""
-    name = method_module(key).stem
-    return import_module(f"neural_shadows.evaluation.soft_methods.{name}").METHODS[key]
+def soft_method(key: str, weights: Path | None = None) -> "SoftMethod":
+    """The method of a key, if it is a network, with its weights."""
+    module = import_module(f"neural_shadows.evaluation.soft_methods.{method_module(key).stem}")
+    return module.screen_method(weights) if is_network(key) else module.METHODS[key]

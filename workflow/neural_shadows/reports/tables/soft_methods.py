@@ -21,7 +21,11 @@ MEANS = (
     *("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge", "false_shadow", "light_leak"),
     *("ssim", "flip", "lpips"),
 )
-FLICKER = ("instability", "instability_reference", "temporal_error", "temporal_error_reference")
+FLICKER = (
+    *("instability", "instability_reference", "instability_taa"),
+    *("temporal_error", "temporal_error_reference", "temporal_error_taa"),
+    *("mse_sequence", "mse_taa"),
+)
 UNITS = {"metres": "m", "scene_sizes": "S"}
 
 

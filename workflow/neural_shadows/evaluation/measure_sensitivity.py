@@ -1,0 +1,104 @@
+"""The stage that measures how much a network's answer moves with each of its features."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.frames.buffers import CHANNELS
+from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.frames.features import LARGEST_STEP, axis_cosines, named_features
+from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.stage import run_stage
+
+NOISE = 0.1  # of a feature's standard deviation (Datta et al. 2022, eq. 1)
+
+
+def measure_sensitivity(
+    parts: list[Path],
+    weights: Path,
+    sensitivity_json: Path,
+    *,
+    seed: int,
+    frames: int = 4,
+    repeats: int = 2,
+    threads: int = 1,
+) -> None:
+    """Add noise to one feature at a time, and see how far the answer moves (3.2, eq. 1).
+
+    As printed the difference is signed, and its mean over noise of both signs is 0: ours is
+    absolute. Divided by the noise's standard deviation it has the unit of 1 / feature, so that a
+    length in millimetres would count a thousandth of one in metres: the share is of features with
+    a standard deviation of 1, and the form as printed stands beside it.
+
+    Args:
+        parts: of validation frames. seed: of the noise.
+        sensitivity_json: `features`, of each `sensitivity`, `share` of their sum, and `as_printed`.
+        frames: how many frames are asked, spread over all, each for all radii.
+        repeats: of the noise.
+
+    Raises:
+        InputError: a file is damaged.
+    """
+    torch.set_num_threads(threads)
+    network, _ = load_screen_network(weights)
+    network = network.eval().to(memory_format=torch.channels_last)
+    names = network.features
+    places = np.cumsum([0, *(FEATURES[name] for name in names)])
+    images = [*_features(parts, names, frames)]
+    shown = np.concatenate([image[:, valid] for image, valid in images], axis=1)
+    # One of a vector is as wide as its components are on average.
+    widths = [shown[a:b].std(axis=1).mean() for a, b in zip(places, places[1:])]
+    rng = np.random.default_rng(seed)
+    moved = np.zeros(len(names))
+    with progress_bar(len(images) * repeats, "frames", "sensitivity") as bar:
+        for image, valid in images:
+            still = _answer(network, image)
+            for _ in range(repeats):
+                for k, (a, b) in enumerate(zip(places, places[1:])):
+                    noisy = image.copy()
+                    noise = rng.standard_normal(image[a:b].shape, np.float32)
+                    noisy[a:b] += np.float32(NOISE * widths[k]) * noise
+                    moved[k] += np.abs(_answer(network, noisy) - still)[valid].mean()
+                bar.update()
+    sensitivity = moved / (len(images) * repeats) / NOISE
+    printed = np.divide(sensitivity, widths, out=np.zeros_like(sensitivity), where=widths != 0)
+    found = {
+        name: {"sensitivity": s, "share": s / sensitivity.sum(), "as_printed": p}
+        for name, s, p in zip(names, sensitivity, printed)
+    }
+    about = {"frames": len(images), "repeats": repeats, "noise": NOISE, "seed": seed}
+    write_json(sensitivity_json, {"features": found, **about})
+
+
+def _features(
+    parts: list[Path], names: tuple[str, ...], count: int
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """The features (C, H, W) of some frames for each radius, and which pixels count."""
+    opened = [FrameSetPart(path) for path in parts]
+    numbered = [(part, number) for part in opened for number in range(len(part))]
+    for part, number in numbered[:: max(1, len(numbered) // count)][:count]:
+        planes = part.buffers[number, 0].astype(np.float32)
+        axis = axis_cosines(
+            part.setting(number).camera, part.about["width"], part.about["height"]
+        )
+        for radius in part.radii:
+            step = LARGEST_STEP * radius / max(part.radii)
+            yield (
+                named_features(names, dict(zip(CHANNELS, planes)), axis, step),
+                part.valid[number, 0],
+            )
+
+
+def _answer(network: torch.nn.Module, features: np.ndarray) -> np.ndarray:
+    planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
+    with torch.inference_mode():
+        return network(planes)[0, 0].clamp(0, 1).numpy()
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, measure_sensitivity)

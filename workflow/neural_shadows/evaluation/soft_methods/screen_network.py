@@ -1,0 +1,80 @@
+"""A trained network that answers a whole frame from its buffers (Datta et al. 2022)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
+from neural_shadows.frames.features import LARGEST_STEP, axis_cosines, named_features
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.networks.compute import choose_dtype
+from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+
+
+def screen_method(weights: Path) -> SoftMethod:
+    """The method that a file of weights is.
+
+    Raises:
+        InputError: the file is damaged, or its weights are of another table of widths.
+    """
+    return _Answers(weights).method()
+
+
+class _Answers:
+    """A network, and what is kept of it from frame to frame."""
+
+    def __init__(self, weights: Path):
+        self._weights = weights
+        network, self._header = load_screen_network(weights)
+        self._network = network.eval().to(memory_format=torch.channels_last)
+        self._dtype = choose_dtype("auto", torch.device("cpu"))
+
+    def method(self) -> SoftMethod:
+        bytes_held = 2 * sum(one.numel() for one in self._network.parameters())  # 16 bits each
+        return SoftMethod(
+            self._of_frame, of_buffers=self._of_buffers, held=lambda frame: bytes_held
+        )
+
+    def _of_buffers(
+        self, buffers: Mapping[str, np.ndarray], axis: np.ndarray, radius: float
+    ) -> np.ndarray:
+        features = named_features(self._network.features, buffers, axis, self._step(radius))
+        planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
+        with (
+            torch.inference_mode(),
+            torch.autocast("cpu", self._dtype, enabled=self._dtype != torch.float32),
+        ):
+            found = self._network(planes)
+        return found[0, 0].float().clamp(0, 1).numpy()
+
+    def _of_frame(self, frame: SoftFrame, radius: float) -> np.ndarray:
+        """The same from points and the light's map, as it is timed: features are made, too."""
+        surface, size = frame.surface, frame.scene.size
+        z = np.linalg.norm(frame.ways, axis=1)
+        texels = frame.light_map.texels_of(frame.ways)
+        first = np.where(texels >= 0, np.take(frame.depths, texels), np.float32(np.inf))
+        eye = surface.camera.eye.astype(np.float32) - surface.p
+        d = np.linalg.norm(eye, axis=1)
+        values = {
+            "z": z / size,
+            "gap": np.where(np.isfinite(first), first - z, 0) / size,
+            "d": d / size,
+            "c_e": -np.einsum("ij,ij->i", frame.ways, surface.n) / z,
+            "c_v": np.einsum("ij,ij->i", eye, surface.n) / d,
+        }
+        buffers = {name: surface.image(one.astype(np.float32)) for name, one in values.items()}
+        axis = axis_cosines(surface.camera, surface.width, surface.height)
+        return self._of_buffers(buffers, axis, radius).ravel()[surface.pixel]
+
+    def _step(self, radius: float) -> float:
+        """The light's size as the network is told it: 4 for the largest that it was trained on."""
+        largest = max(self._header["radii"])
+        if radius > largest * (1 + 1e-6):
+            raise InputError(
+                f"{self._weights}: was trained on lights of up to {largest:g} m, and is asked about "
+                f"one of {radius:g} m; train it on a frame set that has such a light in `radii`"
+            )
+        return LARGEST_STEP * radius / largest

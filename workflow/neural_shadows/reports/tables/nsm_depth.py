@@ -1,0 +1,110 @@
+"""Networks of several depths against the width of penumbrae (Datta et al. 2022, table 1)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports import phrases
+from neural_shadows.reports.published import read_published
+from neural_shadows.reports.tables.screen_rows import (
+    describe_trainings,
+    mean_with_interval,
+    with_printed,
+)
+from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+SUFFICES = 2.0  # times a row's least error: what is worse has too few levels (claim 3.6)
+
+
+def write(
+    *,
+    soft_metrics: list[Path],
+    trainings: list[Path],
+    frames_json: Path,
+    published_csv: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    printed: str | None,
+    columns: Mapping[str, str],
+    labels: Mapping[str, str],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a row for each scene and network: squared error of the largest light's shadow.
+
+    CSV: those of `depth_table`, printed numbers and differences, and the scale.
+
+    Args:
+        soft_metrics: of each network on the frame set; trainings: training.json of each.
+        frames_json: a part of its test frames.
+        printed: the paper's number of the table; None for one that it only draws.
+        columns: the experiment of each printed column; labels: by experiment.
+    """
+    about = read_json(frames_json)
+    records = {path.parent.name: read_json(path) for path in trainings}
+    found = read_soft_metrics(soft_metrics)
+    table = depth_table(found, len(about["radii"]) - 1, columns, labels, records, run["seed"])
+    table = with_printed(table, printed, ["mse"], read_published(published_csv))
+    table = table.assign(scale=run["scale"])
+    parts = {
+        "penumbra": [one.replace("penumbra_", "") + " px" for one in table["row"].unique()],
+    }
+    for column, label in zip(columns, (labels[name] for name in columns.values())):
+        here = table[table["column"] == column]
+        parts[label] = number_cells(here["mse"], "{:.4f}")
+        parts["× best"] = parts.get("× best", [])  # takes its place behind the networks
+        if printed:
+            parts[f"{label}, printed"] = number_cells(here["mse_printed"], "{:.3f}")
+    parts["× best"] = [
+        " / ".join(number_cells(here["ratio"], "{:.1f}"))
+        for _, here in table.groupby("row", sort=False)
+    ]
+    notes = [
+        f"Squared error of visibility for a light of {about['radii'][-1]:g} m, mean over the test "
+        f"frames of {about['width']} × {about['height']}. × best: of each network, times the least "
+        f"of its row; a network whose receptive field (3 · 2^levels pixels) is narrower than the "
+        f"penumbra should have {SUFFICES:g} or more.",
+        *describe_trainings(records, labels),
+        phrases.describe_run(run),
+    ]
+    write_twins(table, parts, csv, md, title=title, notes=notes)
+
+
+def depth_table(
+    found: pd.DataFrame,
+    radius: int,
+    columns: Mapping[str, str],
+    labels: Mapping[str, str],
+    records: Mapping[str, Mapping[str, Any]],
+    seed: int,
+) -> pd.DataFrame:
+    """A row for each scene and network.
+
+    Columns: `row` (`penumbra_21` of the scene `plate_21`), `column`, `experiment`, `label`,
+    `receptive_field` in pixels, `mse` with the ends of its interval over frames, `ratio` to the
+    least of its row.
+    """
+    rows = []
+    for scene, frames in found[(found["metric"] == "mse") & (found["radius"] == radius)].groupby(
+        "scene", sort=False
+    ):
+        for column, experiment in columns.items():
+            values = frames[frames["method"] == experiment]["value"]
+            levels = len(records[experiment]["network"]["widths"])
+            rows.append(
+                {"row": scene.replace("plate_", "penumbra_"), "column": column}
+                | {"experiment": experiment, "label": labels[experiment]}
+                | {"receptive_field": 3 * 2**levels}
+                | mean_with_interval(values, "mse", seed)
+            )
+    table = pd.DataFrame(rows)
+    return table.assign(ratio=table["mse"] / table.groupby("row")["mse"].transform("min"))
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)

@@ -1,0 +1,111 @@
+"""What networks on frames are told of a pixel, and what each is worth (Datta et al. 2022, S1)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.reports import phrases
+from neural_shadows.reports.published import read_published
+from neural_shadows.reports.tables.screen_rows import (
+    describe_trainings,
+    mean_with_interval,
+    with_printed,
+)
+from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+LEAST_SHARE = 0.015  # of a feature that is kept (3.2)
+
+
+def write(
+    *,
+    soft_metrics: list[Path],
+    trainings: list[Path],
+    sensitivities: list[Path],
+    published_csv: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    columns: Mapping[str, str],
+    labels: Mapping[str, str],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a row for each set of features: error, and the share of each feature's sensitivity.
+
+    CSV: those of `features_table`, printed errors and differences, and the scale.
+
+    Args:
+        soft_metrics: of each network on the frame set; trainings: training.json of each.
+        sensitivities: what `measure_sensitivity` wrote of each.
+        columns: the experiment of each printed row; labels: by experiment.
+    """
+    records = {path.parent.name: read_json(path) for path in trainings}
+    shares = {path.stem: read_json(path)["features"] for path in sensitivities}
+    found = read_soft_metrics(soft_metrics)
+    table = features_table(found, columns, labels, shares, run["seed"])
+    # The paper gives two of these in its text (3.2) and the others in table S1.
+    published = read_published(published_csv).rename(index={"nsm.features": "nsm.s1"}, level=0)
+    table = with_printed(table, "nsm.s1", ["error"], published).assign(scale=run["scale"])
+    told = [
+        ", ".join(f"{name} {100 * one['share']:.1f}" for name, one in _sorted(shares[experiment]))
+        for experiment in table["experiment"]
+    ]
+    cells = {
+        "features": table["label"],
+        "channels": table["channels"].astype(str),
+        "MSE × 10⁻³": interval_cells(table, ["error", "error_low", "error_high"], 2, 1e3),
+        "printed × 10⁻³": number_cells(table["error_printed"], "{:.2f}", 1e3),
+        "difference": number_cells(table["error_minus_printed"], "{:+.2f}", 1e3),
+        "sensitivity, %": told,
+    }
+    notes = [
+        "Mean over test frames and all lights, a point among them [95 % bootstrap interval over "
+        "frames]; the paper does not name its error, which fits a squared one.",
+        f"Sensitivity: how far the answer moves with noise of a tenth of a feature's standard "
+        f"deviation, absolute, in shares of all. The paper drops what has less than "
+        f"{100 * LEAST_SHARE:g} %.",
+        *describe_trainings(records, labels),
+        phrases.describe_run(run),
+    ]
+    write_twins(table, cells, csv, md, title=title, notes=notes)
+
+
+def features_table(
+    found: pd.DataFrame,
+    columns: Mapping[str, str],
+    labels: Mapping[str, str],
+    shares: Mapping[str, Mapping[str, Any]],
+    seed: int,
+) -> pd.DataFrame:
+    """A row for each network.
+
+    Columns: `row`, the paper's; `column`, always `error`; `experiment`, `label`, `channels`, `error`
+    with the ends of its interval, `share_NAME` of each feature, and `as_printed_NAME`.
+    """
+    rows = []
+    for row, experiment in columns.items():
+        mine = found[(found["metric"] == "mse") & (found["method"] == experiment)]
+        # Frames are what is drawn: all lights of one together.
+        values = mine.groupby(["scene", "part", "frame"])["value"].mean()
+        parts = shares[experiment]
+        rows.append(
+            {"row": row, "column": "error", "experiment": experiment, "label": labels[experiment]}
+            | {"channels": sum(FEATURES[name] for name in parts)}
+            | mean_with_interval(values, "error", seed)
+            | {f"share_{name}": one["share"] for name, one in parts.items()}
+            | {f"as_printed_{name}": one["as_printed"] for name, one in parts.items()}
+        )
+    return pd.DataFrame(rows)
+
+
+def _sorted(features: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    return sorted(features.items(), key=lambda item: -item[1]["share"])
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)

@@ -1,0 +1,96 @@
+"""How much networks on frames flicker, and what calms them (Datta et al. 2022, figures 5 and 6)."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports import phrases
+from neural_shadows.reports.tables.screen_rows import describe_trainings
+from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+
+def write(
+    *,
+    soft_metrics: list[Path],
+    trainings: list[Path],
+    frames_json: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    labels: Mapping[str, str],
+    run: Mapping[str, Any],
+) -> None:
+    """Write two rows for each method: as it is, and each frame averaged with the one before.
+
+    CSV: those of `temporal_table`, and the scale.
+
+    Args:
+        soft_metrics: of each method on the frame set; trainings: training.json of the networks.
+        frames_json: a part of its test frames.
+        labels: what each method is called, in the table's order.
+    """
+    about = read_json(frames_json)
+    records = {path.parent.name: read_json(path) for path in trainings}
+    table = temporal_table(read_soft_metrics(soft_metrics), labels).assign(scale=run["scale"])
+    kinds = [name.removeprefix("e_") for name in table if name.startswith("e_")]
+    columns = {
+        "method": table["label"],
+        **{f"E, {kind}": number_cells(table[f"e_{kind}"], "{:.4f}") for kind in kinds},
+        **{
+            f"exact, {kind}": number_cells(table[f"reference_{kind}"], "{:.4f}") for kind in kinds
+        },
+        "MSE × 10⁻⁴ in sequences": number_cells(table["mse_sequence"], "{:.1f}", 1e4),
+        "MSE × 10⁻⁴ at edges": number_cells(table["mse_edge"], "{:.1f}", 1e4),
+    }
+    radius = about["radii"][len(about["radii"]) // 2]
+    notes = [
+        "E: mean of exp(3 |change|) − 1 along a point's way over a sequence (3.4), with what moves "
+        "in it; exact: that of the exact shadow, which a moving light changes truly. Blur lowers E: "
+        "so the squared error stands beside it.",
+        f"Sequences have a light of {radius:g} m. TAA: each frame averaged with the one before, where "
+        "that shows the same point. Edges: within 3 pixels of those of a point light's shadow, in "
+        "test frames, of all lights.",
+        *describe_trainings(records, labels),
+        phrases.describe_run(run),
+    ]
+    write_twins(table, columns, csv, md, title=title, notes=notes)
+
+
+def temporal_table(found: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
+    """A row for each method as it is and one with TAA.
+
+    Columns: `method`, `label`, `taa`; by what moves in a sequence `e_camera`, …, and
+    `reference_camera`, …, of the exact shadow; `mse_sequence`, and `mse_edge` of test frames, which
+    a filter over time has none of.
+    """
+    rows = []
+    for method, label in labels.items():
+        mine = found[found["method"] == method]
+        for taa in (False, True):
+            end = "_taa" if taa else ""
+            row = {"method": method, "label": f"{label} + TAA" if taa else label, "taa": taa}
+            row |= _by_kind(mine, f"instability{end}", "e")
+            row |= _by_kind(mine, "instability_reference", "reference")
+            row["mse_sequence"] = _mean(mine, "mse_taa" if taa else "mse_sequence")
+            row["mse_edge"] = float("nan") if taa else _mean(mine, "mse_edge")
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _by_kind(found: pd.DataFrame, metric: str, prefix: str) -> dict[str, float]:
+    rows = found[found["metric"] == metric]
+    kinds: Sequence[str] = rows["part"].str.rsplit("_", n=1).str[0]
+    return {f"{prefix}_{kind}": value for kind, value in zip(kinds, rows["value"])}
+
+
+def _mean(found: pd.DataFrame, metric: str) -> float:
+    return float(found[found["metric"] == metric]["value"].mean())
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)

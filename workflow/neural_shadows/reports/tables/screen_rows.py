@@ -1,0 +1,51 @@
+"""What tables of networks on frames have in common."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.metrics.intervals import mean_interval
+
+
+def mean_with_interval(values: pd.Series, name: str, seed: int) -> dict[str, float]:
+    """`name`, `name_low` and `name_high`: the mean over frames and its 95 % interval."""
+    mean, low, high = mean_interval(values.to_numpy(), seed)
+    return {name: mean, f"{name}_low": low, f"{name}_high": high}
+
+
+def with_printed(
+    table: pd.DataFrame, printed: str | None, columns: Sequence[str], published: pd.Series
+) -> pd.DataFrame:
+    """The table with `NAME_printed` and `NAME_minus_printed` of some columns; NaN where none is printed.
+
+    Args:
+        table: has `row` and `column`, the paper's keys. printed: the paper's number of the table.
+        published: see `read_published`.
+    """
+    for name in columns:
+        values = [
+            published.get((printed, row, column), np.nan)
+            for row, column in zip(table["row"], table["column"])
+        ]
+        table = table.assign(**{f"{name}_printed": values})
+        table[f"{name}_minus_printed"] = table[name] - table[f"{name}_printed"]
+    return table
+
+
+def describe_trainings(
+    records: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]
+) -> list[str]:
+    """How networks were trained, those that were trained alike in one sentence."""
+    alike: dict[str, list[str]] = {}
+    for name, record in records.items():
+        training = record["training"]
+        perceptual = record["perceptual"]["net"] if record["perceptual"] else "none"
+        text = (
+            f"{training['steps']:,} steps of {training['crops']} crops of {training['crop']}², rate "
+            f"{training['learning_rate']:g}, seed {training['seed']}, perceptual term: {perceptual}, "
+            f"perturbation's weight {training['perturbation']:g}"
+        )
+        alike.setdefault(text, []).append(labels.get(name, name))
+    return [f"Trained for {text}: {', '.join(names)}." for text, names in alike.items()]
