@@ -78,9 +78,7 @@ def profile_screen_network(
 
 def _counts(network: Mapping[str, Any]) -> list[dict[str, float]]:
     channels = sum(FEATURES[name] for name in network["features"])
-    layers = convolutions(
-        network["form"], network["widths"], channels, network.get("extraction")
-    )
+    layers = convolutions(network["form"], network["widths"], channels, network.get("extraction"))
     found = {name: by_level(layers, name) for name in ("weights", "macs", "storage")}
     levels = found["weights"]
     return [{"level": k} | {name: each[k] for name, each in found.items()} for k in levels]
