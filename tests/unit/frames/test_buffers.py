@@ -10,7 +10,7 @@ from neural_shadows.meshes.prepared_mesh import with_normals
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.scene import make_scene
-from neural_shadows.shadow_maps.light_map import cube_map
+from neural_shadows.shadow_maps.light_map import cube_map, perspective_map
 
 
 def by_name(scene, view, centre, resolution=256):
@@ -44,10 +44,24 @@ def test_what_a_ball_hides(plated):
     assert np.all((gap[dark] < -0.9) & (gap[dark] > -1.3))
     lit = ~dark
     assert np.abs(gap[lit]).max() < 0.03 and np.all(found["agreement"][lit] > 0.999)
+    # The ball's upper side, as the light sees it; elsewhere the ground that the camera sees.
+    seen, own = (np.stack([found[f"{name}_{axis}"] for axis in "xyz"]) for name in "en")
+    assert np.all(seen[1, dark] > 0) and np.mean(np.abs(seen - own).max(0)[dark] > 0.01) > 0.9
+    assert np.allclose(seen[:, lit], own[:, lit], atol=1e-3)
+    assert np.allclose((seen * own).sum(0), found["agreement"], atol=2e-3)
     inside = (found["msm"] < 0.05) & (found["pcf"] < 0.05)
     assert (dark & inside).mean() > 0.8 * dark.mean()
     # Moments of 3 × 3 texels see the ball a texel farther out than 2 × 2 tests do.
     assert np.mean(found["msm"][lit & (found["pcf"] == 1)] > 0.9) > 0.97
+
+
+def test_where_the_map_shows_nothing():
+    """A picture that looks up: the point's own normal, and all lit."""
+    surface = see_surface(plate(), camera(), WIDTH, HEIGHT)
+    away = perspective_map(CENTRE, np.array([0.0, 1.0, 0.0]), 60, 16)
+    found = dict(zip(CHANNELS, buffers_of(plate(), surface, away)))
+    assert all(np.array_equal(found[f"e_{axis}"], found[f"n_{axis}"]) for axis in "xyz")
+    assert not found["gap"].any() and np.all(found["agreement"] == 1)
 
 
 def test_a_motion_of_everything_changes_nothing_but_normals(plated):

@@ -5,7 +5,6 @@ import pytest
 
 from neural_shadows.frames.features import (
     kpnsm_features,
-    nsm_features,
     penumbra_model,
     penumbra_pixels,
 )
@@ -29,15 +28,6 @@ def test_published_vectors_of_the_penumbra_model():
     assert width(4, 2.0, 2.0) == pytest.approx(2 * 0.25 * (4 - 2) / 2)
     assert width(4, 2.0, 2.0, radius=0.0) == 0
     assert width(4, np.nan, np.nan) == 0
-
-
-def test_a_whole_step_can_be_read_from_nsms_first_channel():
-    for step in range(5):
-        first = nsm_features(**buffers(), step=step)[0]
-        assert np.all(np.floor(np.minimum(5 * first, step + 0.999)) == step)
-    lit = buffers() | {"z_b": buffers()["z"]}
-    _, _, ratio, difference = nsm_features(**lit, step=2)
-    assert np.all(ratio == 1) and np.all(difference == 0)
 
 
 def test_penumbra_is_as_wide_as_similar_triangles_say():

@@ -1,4 +1,4 @@
-"""What screen-space methods are told of a pixel: pure functions of buffers.
+"""What screen-space networks and methods are told of a pixel: pure functions of buffers.
 
 Symbols are the papers': z the distance from the light to the point seen, z_b (NSM's z) that to the
 first surface in the map's texel, d the distance from the eye, c_e and c_v (NSM's c_c) the cosines of
@@ -6,30 +6,83 @@ the normal with the ways to light and eye. All are images (H, W) float32; length
 the scene's size S before they come here. Datta et al. 2022 (3.1), Hu et al. 2025 (4.1) and its code.
 """
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
+
+from neural_shadows.errors import InputError
+from neural_shadows.rendering.gbuffer import pixel_directions
+from neural_shadows.scenes.cameras import Camera
 
 PENUMBRA_PIXELS = 50.0  # the widest that KPNSM's network is told apart
 FULL_WIDTH = 2048  # pixels of the frame that it was made for …
 FULL_FOCAL = 983.5  # … whose focal length is this many
 LARGEST_STEP = 4  # NSM's index of the largest light: 50 cm across
+NEAREST = 0.05  # in shares of S: nearer points are as far in c_c / d
+
+# All that NSM chose among, in its own symbols: how many channels each has, 15 in all [3.1]. Its four
+# are c_e, view (c_c / d), ratio (z / z_f) and difference (z - z_f); agreement is n · n_e.
+_MADE_OF = {
+    "c_e": ("c_e",),
+    "view": ("c_v", "d"),
+    "ratio": ("z", "gap"),
+    "difference": ("gap",),
+    "agreement": ("agreement",),
+    "d": ("d",),
+    "n": ("n_x", "n_y", "n_z"),
+    "z": ("z", "gap"),
+    "n_e": ("e_x", "e_y", "e_z"),
+    "z_f": ("z",),
+    "c_c": ("c_v",),
+}
+FEATURES = {name: 3 if name in ("n", "n_e") else 1 for name in _MADE_OF}
 
 
-def nsm_features(
-    z: np.ndarray, z_b: np.ndarray, d: np.ndarray, c_e: np.ndarray, c_v: np.ndarray, step: float
+def axis_cosines(camera: Camera, width: int, height: int) -> np.ndarray:
+    """Of each pixel's way with the camera's axis, (height, width) float32: a distance from the eye
+    times it is the depth along the axis.
+    """
+    ways = pixel_directions(camera, width, height)  # 1 long along the axis
+    return (1 / np.linalg.norm(ways, axis=1)).reshape(height, width)
+
+
+def named_features(
+    names: Sequence[str], buffers: Mapping[str, np.ndarray], axis: np.ndarray, step: float
 ) -> np.ndarray:
-    """The four channels of Neural Shadow Mapping, (4, H, W) float32: c_e with the light's size, c_v / d,
-    z_b / z and z_b − z.
+    """Features of Neural Shadow Mapping, (C, H, W) float32 in the order of their names, see `FEATURES`.
 
-    The step, 0 for a point to 4 for the largest light, is added to the whole first channel, pixels
-    without a surface included; c_e is cut off at 0 before, so that a whole step can be told from it.
+    The step is added to all of `c_e`, pixels without a surface included, which have 0 elsewhere;
+    c_e is cut off at 0 before, so that a whole step can be told from it. `view`, `ratio` and
+    `difference` are clipped where silhouettes and points close by would make them large.
 
     Args:
-        d: along the camera's axis.
+        buffers: images (H, W) float32 by channel, of `frames.buffers`, in whose words z is NSM's z_f.
+        axis: (H, W), see `axis_cosines`. step: 0 for a point to 4 for the largest light.
+
+    Raises:
+        InputError: there is no such feature, or the buffers lack a channel that one is made of.
     """
-    size = (np.clip(c_e, 0, 1) + step) / (LARGEST_STEP + 1)
-    view = np.clip(c_v / np.maximum(d, 0.05), 0, 10)
-    ratio = np.clip(z_b / np.maximum(z, 1e-6), 0, 2)
-    return np.stack([size, view, ratio, np.clip(z_b - z, -2, 2)]).astype(np.float32)
+    images = [image for name in names for image in _feature(name, buffers, axis, step)]
+    return np.stack(images).astype(np.float32)
+
+
+def _feature(name: str, buffers: Mapping[str, np.ndarray], axis: np.ndarray, step: float):
+    if name not in FEATURES:
+        raise InputError(f"{name!r} is no feature; use some of {', '.join(FEATURES)}")
+    if lacking := [one for one in _MADE_OF[name] if one not in buffers]:
+        raise InputError(f"the feature {name!r} needs the buffer {', '.join(lacking)}")
+    of = [buffers[one] for one in _MADE_OF[name]]
+    if name == "c_e":
+        return [(np.clip(of[0], 0, 1) + step) / (LARGEST_STEP + 1)]
+    if name == "view":
+        return [np.clip(of[0] / np.maximum(of[1] * axis, NEAREST), 0, 10)]
+    if name == "ratio":
+        return [np.clip((of[0] + of[1]) / np.maximum(of[0], 1e-6), 0, 2)]
+    if name == "difference":
+        return [np.clip(of[0], -2, 2)]
+    if name == "d":
+        return [of[0] * axis]
+    return [of[0] + of[1]] if name == "z" else of
 
 
 def penumbra_pixels(

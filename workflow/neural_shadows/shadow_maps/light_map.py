@@ -47,12 +47,9 @@ class LightMap:
 
     def directions_of(self, texels: np.ndarray) -> np.ndarray:
         """Unit directions (t, 3) float32 through the centres of texels (t,)."""
-        size = self.resolution
-        face, row, column = texels // size**2, texels // size % size, texels % size
-        right, down, forward = self.faces[face].transpose(1, 0, 2)
-        x, y = ((2 * (place + 0.5) / size - 1)[:, None] * self.half for place in (column, row))
-        ways = forward + x * right + y * down
-        return (ways / np.linalg.norm(ways, axis=1, keepdims=True)).astype(np.float32)
+        ways = np.empty((len(texels), 3), np.float32)
+        _fill_directions(texels, self.faces, self.half, self.resolution, ways)
+        return ways
 
     def depths(self, tracer: Tracer, texels: np.ndarray | None = None) -> np.ndarray:
         """Distances in texels (t,) float32, of all of them if none are named."""
@@ -149,3 +146,15 @@ def _fill_places(directions, faces, half, resolution, into, places):
     for i in range(len(directions)):
         x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
         into[i], places[i, 0], places[i, 1] = place_of(x, y, z, faces, half, resolution)
+
+
+@njit(cache=True, nogil=True)
+def _fill_directions(texels, faces, half, resolution, ways):
+    for i in range(len(texels)):
+        row, column = texels[i] // resolution, texels[i] % resolution
+        right, down, forward = faces[row // resolution]
+        x = (2 * (column + 0.5) / resolution - 1) * half
+        y = (2 * (row % resolution + 0.5) / resolution - 1) * half
+        length = np.sqrt(1 + x * x + y * y)
+        for k in range(3):
+            ways[i, k] = (forward[k] + x * right[k] + y * down[k]) / length
