@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from neural_shadows.evaluation.soft_method_names import LABELS, NULL, available, is_tuned
+from neural_shadows.evaluation.soft_method_names import LABELS, NULL, available, is_tuned, tuned_as
 from neural_shadows.frames.uses import SEQUENCES
 from neural_shadows.layout import frame_sets
 from neural_shadows.layout.layout import Layout
@@ -32,14 +32,17 @@ def evaluations(layout: Layout, table: str, ending: str) -> list[str]:
 
 
 def constants(layout: Layout, table: str) -> list[str]:
-    """What was chosen for each method of a table that has constants, in its order."""
+    """What was chosen for the methods of a table that have constants, in its order."""
     one = frame_set(layout, table)
-    return [path for method in methods(layout, table) for path in chosen(layout, one, method)]
+    found = (path for method in methods(layout, table) for path in chosen(layout, one, method))
+    return list(dict.fromkeys(found))
 
 
 def chosen(layout: Layout, frame_set: str, method: str) -> list[str]:
     """The file of a method's constants; none of one without."""
-    return [layout.paths.soft_constants(frame_set, method)] if is_tuned(method) else []
+    if not is_tuned(method):
+        return []
+    return [layout.paths.soft_constants(frame_set, tuned_as(method))]
 
 
 def tests(layout: Layout, frame_set: str) -> list[str]:
