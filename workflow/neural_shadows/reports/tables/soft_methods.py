@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from neural_shadows.evaluation.soft_method_names import tuned_as
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.intervals import two_way_interval
@@ -78,7 +79,8 @@ def write(
         "KiB": number_cells(table["bytes"] / 1024, "{:,.0f}"),
     }
     columns = {name: cells for name, cells in columns.items() if any(cells)}
-    chosen = {one["method"]: one for one in map(read_json, soft_constants)}
+    records = {one["method"]: one for one in map(read_json, soft_constants)}
+    chosen = {name: records[tuned_as(name)] for name in labels if tuned_as(name) in records}
     parts = (
         f"Mean over {table['frames'].iloc[0]} frames of {about['width']} × {about['height']} in "
         f"{found['scene'].nunique()} scenes [95 % bootstrap interval over frames within scenes]; "
