@@ -95,8 +95,8 @@ def first_tests(layout: Layout, frame_set: str) -> list[str]:
 
 
 def timed_parts(layout: Layout, table: str) -> list[str]:
-    """The parts whose first frames are timed: of the first three scenes."""
-    return first_tests(layout, frame_set(layout, table))[:3]
+    """The parts whose first frames are timed: of the first two scenes."""
+    return first_tests(layout, frame_set(layout, table))[:2]
 
 
 def timed_meshes(layout: Layout, table: str) -> list[str]:
