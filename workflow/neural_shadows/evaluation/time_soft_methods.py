@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
+from neural_shadows.evaluation.soft_method_names import tuned_as
 from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.files.whole_files import read_json, write_json
@@ -46,10 +47,11 @@ def time_soft_methods(
     """
     frames = [one for one in measured_frames(parts, meshes) if one.number == 0]
     radii = range(len(frames[0].part.radii))
-    chosen = {name: [{}] * len(radii) for name in methods} | {
+    found = {
         record["method"]: [one["constants"] for one in record["radii"]]
         for record in map(read_json, constants)
     }
+    chosen = {name: found.get(tuned_as(name), [{}] * len(radii)) for name in methods}
     trained = {path.parent.name: path for path in weights}
     asked = {name: soft_method(name, trained.get(name)) for name in methods}
     timed = {name: method for name, method in asked.items() if method.answer}

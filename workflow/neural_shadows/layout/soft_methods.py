@@ -8,6 +8,7 @@ from neural_shadows.evaluation.soft_method_names import (
     available,
     is_network,
     is_tuned,
+    tuned_as,
 )
 from neural_shadows.frames.uses import SEQUENCES
 from neural_shadows.layout import frame_sets
@@ -38,14 +39,17 @@ def evaluations(layout: Layout, table: str, ending: str) -> list[str]:
 
 
 def constants(layout: Layout, table: str) -> list[str]:
-    """What was chosen for each method of a table that has constants, in its order."""
+    """What was chosen for the methods of a table that have constants, in its order."""
     one = frame_set(layout, table)
-    return [path for method in methods(layout, table) for path in chosen(layout, one, method)]
+    found = (path for method in methods(layout, table) for path in chosen(layout, one, method))
+    return list(dict.fromkeys(found))
 
 
 def chosen(layout: Layout, frame_set: str, method: str) -> list[str]:
     """The file of a method's constants; none of one without."""
-    return [layout.paths.soft_constants(frame_set, method)] if is_tuned(method) else []
+    if not is_tuned(method):
+        return []
+    return [layout.paths.soft_constants(frame_set, tuned_as(method))]
 
 
 def tests(layout: Layout, frame_set: str) -> list[str]:
@@ -98,8 +102,8 @@ def first_tests(layout: Layout, frame_set: str) -> list[str]:
 
 
 def timed_parts(layout: Layout, table: str) -> list[str]:
-    """The parts whose first frames are timed: of the first three scenes."""
-    return first_tests(layout, frame_set(layout, table))[:3]
+    """The parts whose first frames are timed: of the first two scenes."""
+    return first_tests(layout, frame_set(layout, table))[:2]
 
 
 def timed_meshes(layout: Layout, table: str) -> list[str]:

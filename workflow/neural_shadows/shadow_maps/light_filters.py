@@ -56,7 +56,7 @@ def disc_visibility(
     angles = np.full(len(ways), angle, np.float32)
     found = np.empty(len(ways), np.float32)
     maps = light_map.faces, light_map.half, light_map.resolution
-    _filter(ways, bias, angles, samples, keys, depths, *maps, found)
+    _filter(ways, bias, angles, _vogel_disc(samples), keys, depths, *maps, found)
     return found
 
 
@@ -85,77 +85,69 @@ def soft_disc_visibility(
     maps = light_map.faces, light_map.half, light_map.resolution
     widest = np.float32(radius) * (1 / (nearest * distance) - 1 / distance)
     blockers = np.empty(len(ways), np.float32)
-    _mean_blocker(ways, bias, widest.astype(np.float32), searched, keys, depths, *maps, blockers)
+    widest, disc = widest.astype(np.float32), _vogel_disc(searched)
+    _mean_blocker(ways, bias, widest, disc, keys, depths, *maps, blockers)
     with np.errstate(divide="ignore", invalid="ignore"):  # where nothing hides a receiver
         angles = radius * (distance - blockers) / (distance * blockers)
     texel = light_map.half / light_map.resolution  # half of one: no narrower than that
     angles = np.where(blockers > 0, np.maximum(angles, texel), 0).astype(np.float32)
     found = np.empty(len(ways), np.float32)
-    _filter(ways, bias, angles, samples, keys, depths, *maps, found)
+    _filter(ways, bias, angles, _vogel_disc(samples), keys, depths, *maps, found)
     return np.where(blockers > 0, found, np.float32(1))
 
 
+def _vogel_disc(count: int) -> np.ndarray:
+    """Places evenly spread over a unit disc (Vogel 1979), (count, 2)."""
+    k = np.arange(count)
+    places = np.stack([np.cos(k * _GOLDEN_ANGLE), np.sin(k * _GOLDEN_ANGLE)], axis=1)
+    return places * np.sqrt((k + 0.5) / count)[:, None]
+
+
 @njit(cache=True, nogil=True, inline="always")
-def _sides(x, y, z):
-    """Two unit vectors across a unit vector (Duff et al. 2017)."""
+def _cone(way, angle, key):
+    """The distance to a receiver, the direction to it, and two vectors across that are as long as a
+    disc of directions is wide, turned by the receiver's key.
+    """
+    x, y, z = way[0], way[1], way[2]
+    distance = np.sqrt(x * x + y * y + z * z)
+    x, y, z = x / distance, y / distance, z / distance
+    # Two unit vectors across (Duff et al. 2017).
     sign = 1.0 if z >= 0 else -1.0
     a = -1 / (sign + z)
     b = x * y * a
-    return 1 + sign * x * x * a, sign * b, -sign * x, b, sign + y * y * a, -y
+    ux, uy, uz = 1 + sign * x * x * a, sign * b, -sign * x
+    vx, vy, vz = b, sign + y * y * a, -y
+    turn = (key * 0.6180339887498949) % 1 * 2 * np.pi
+    c, s = angle * np.cos(turn), angle * np.sin(turn)
+    u = c * ux + s * vx, c * uy + s * vy, c * uz + s * vz
+    v = c * vx - s * ux, c * vy - s * uy, c * vz - s * uz
+    return distance, (x, y, z), u, v
 
 
 @njit(cache=True, nogil=True)
-def _filter(ways, bias, angles, samples, keys, depths, faces, half, resolution, visibility):
+def _filter(ways, bias, angles, disc, keys, depths, faces, half, resolution, visibility):
     """Share of a disc's directions whose texels do not hide the receiver."""
     for i in range(len(ways)):
-        x, y, z = ways[i, 0], ways[i, 1], ways[i, 2]
-        distance = np.sqrt(x * x + y * y + z * z)
-        x, y, z = x / distance, y / distance, z / distance
-        ux, uy, uz, vx, vy, vz = _sides(x, y, z)
-        turn = (keys[i] * 0.6180339887498949) % 1 * 2 * np.pi
+        distance, (x, y, z), u, v = _cone(ways[i], angles[i], keys[i])
         lit = 0
-        for k in range(samples):
-            radius = np.sqrt((k + 0.5) / samples) * angles[i]  # Vogel's disc
-            p, q = (
-                radius * np.cos(k * _GOLDEN_ANGLE + turn),
-                radius * np.sin(k * _GOLDEN_ANGLE + turn),
-            )
-            texel = texel_of(
-                x + p * ux + q * vx,
-                y + p * uy + q * vy,
-                z + p * uz + q * vz,
-                faces,
-                half,
-                resolution,
-            )
+        for k in range(len(disc)):
+            p, q = disc[k, 0], disc[k, 1]
+            way = x + p * u[0] + q * v[0], y + p * u[1] + q * v[1], z + p * u[2] + q * v[2]
+            texel = texel_of(way[0], way[1], way[2], faces, half, resolution)
             lit += texel < 0 or distance <= depths[texel] + bias[i]
-        visibility[i] = lit / samples
+        visibility[i] = lit / len(disc)
 
 
 @njit(cache=True, nogil=True)
-def _mean_blocker(ways, bias, angles, samples, keys, depths, faces, half, resolution, blockers):
+def _mean_blocker(ways, bias, angles, disc, keys, depths, faces, half, resolution, blockers):
     """Mean distance of what hides a receiver in a disc of directions; 0 where nothing does."""
     for i in range(len(ways)):
-        x, y, z = ways[i, 0], ways[i, 1], ways[i, 2]
-        distance = np.sqrt(x * x + y * y + z * z)
-        x, y, z = x / distance, y / distance, z / distance
-        ux, uy, uz, vx, vy, vz = _sides(x, y, z)
-        turn = (keys[i] * 0.6180339887498949) % 1 * 2 * np.pi
+        distance, (x, y, z), u, v = _cone(ways[i], angles[i], keys[i])
         total, count = 0.0, 0
-        for k in range(samples):
-            radius = np.sqrt((k + 0.5) / samples) * angles[i]
-            p, q = (
-                radius * np.cos(k * _GOLDEN_ANGLE + turn),
-                radius * np.sin(k * _GOLDEN_ANGLE + turn),
-            )
-            texel = texel_of(
-                x + p * ux + q * vx,
-                y + p * uy + q * vy,
-                z + p * uz + q * vz,
-                faces,
-                half,
-                resolution,
-            )
+        for k in range(len(disc)):
+            p, q = disc[k, 0], disc[k, 1]
+            way = x + p * u[0] + q * v[0], y + p * u[1] + q * v[1], z + p * u[2] + q * v[2]
+            texel = texel_of(way[0], way[1], way[2], faces, half, resolution)
             if texel >= 0 and distance > depths[texel] + bias[i]:
                 total += depths[texel]
                 count += 1

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from neural_shadows.evaluation.soft_method_names import tuned_as
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.intervals import two_way_interval
@@ -82,7 +83,8 @@ def write(
         "KiB": number_cells(table["bytes"] / 1024, "{:,.0f}"),
     }
     columns = {name: cells for name, cells in columns.items() if any(cells)}
-    chosen = {one["method"]: one for one in map(read_json, soft_constants)}
+    records = {one["method"]: one for one in map(read_json, soft_constants)}
+    chosen = {name: records[tuned_as(name)] for name in labels if tuned_as(name) in records}
     parts = (
         f"Mean over {table['frames'].iloc[0]} frames of {about['width']} × {about['height']} in "
         f"{found['scene'].nunique()} scenes [95 % bootstrap interval over frames within scenes]; "
@@ -93,7 +95,7 @@ def write(
         "Squared errors: umbra, penumbra and lit by the exact shadow (below 2 %, between, above 98 "
         "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
         "surface inside the light's map. What faces away from the light's centre is dark for all "
-        "methods but rays.",
+        "methods but rays. FLIP and LPIPS are of the first frame of each part.",
         *_describe_constants(chosen, labels),
         *_describe_times(times),
         *_describe_flicker(table, found, radii, unit),
