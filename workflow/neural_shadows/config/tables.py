@@ -5,9 +5,16 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
+from neural_shadows.config.any_table import AnyTable
 from neural_shadows.config.base import Model, Name, Text, by_kind, check_among, name_in, section_or
 from neural_shadows.config.experiments import formatted, network_of, training_of
 from neural_shadows.config.frame_sets import OwnFrames
+from neural_shadows.config.screen_tables import (
+    ScreenNetworksTable,
+    ScreenProfileTable,
+    ScreenTemporalTable,
+    ScreenTrainedTable,
+)
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
     CLASSIC,
@@ -40,17 +47,6 @@ class RowSettings(Model):
 
 
 Rows = Annotated[list[section_or(RowSettings, "method")], Field(min_length=1)]
-
-
-class AnyTable(Model):
-    """What all tables have."""
-
-    title: str = Field(min_length=1, description="heading of the table")
-    published: str | None = Field(
-        None, pattern=r"^4\.[1-7]$", description="the thesis's number of this table"
-    )
-    figures: list[name_in("figures")] = Field([], description="made and shown beside the table")
-    on_request: bool = Field(False, description="made only when asked for by name")
 
 
 class TableOfOneScene(AnyTable):
@@ -107,39 +103,6 @@ class SoftMethodsTable(AnyTable):
     )
 
 
-class ScreenTable(AnyTable):
-    """A table of networks of whole frames that needs no training (Datta et al. 2022, S3, S4.1)."""
-
-    published: str | None = Field(
-        None, pattern=r"^nsm\.s[2-5]$", description="`nsm.` and the paper's number of this table"
-    )
-
-
-class ScreenProfileTable(ScreenTable):
-    """What each level of a network counts and takes, or the time of each part of it."""
-
-    kind: Literal["screen_levels", "screen_parts"] = Field(description="by level, or by part, too")
-    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
-
-
-class ScreenRow(Model):
-    """A row of a table of networks of whole frames that is more than a name."""
-
-    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
-    published: Name | None = Field(
-        None, description="its row in published_nsm.csv, if not of `network`'s name"
-    )
-
-
-class ScreenNetworksTable(ScreenTable):
-    """Multiply-adds and weights of several networks."""
-
-    kind: Literal["screen_networks"] = Field(description="`screen_networks`")
-    networks: list[section_or(ScreenRow, "network")] = Field(
-        min_length=1, description="in the table's order"
-    )
-
-
 Table = by_kind(
     "kind",
     TableOfOneScene,
@@ -148,6 +111,8 @@ Table = by_kind(
     SoftMethodsTable,
     ScreenProfileTable,
     ScreenNetworksTable,
+    ScreenTrainedTable,
+    ScreenTemporalTable,
     default="comparison",
 )
 
@@ -165,7 +130,7 @@ def settings_by_scene(config: "Config", table: AnyTable) -> dict[str, list[RowSe
     """The rows of a table by scene, null predictors among them; none of a table of costs, of soft
     shadows, or of networks of whole frames.
     """
-    if isinstance(table, CostTable | SoftMethodsTable | ScreenTable):
+    if not hasattr(table, "rows"):
         return {}
     rows = table.rows
     if isinstance(table, TableOfOneScene):

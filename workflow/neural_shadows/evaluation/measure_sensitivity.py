@@ -83,9 +83,7 @@ def _features(
     numbered = [(part, number) for part in opened for number in range(len(part))]
     for part, number in numbered[:: max(1, len(numbered) // count)][:count]:
         planes = part.buffers[number, 0].astype(np.float32)
-        axis = axis_cosines(
-            part.setting(number).camera, part.about["width"], part.about["height"]
-        )
+        axis = axis_cosines(part.setting(number).camera, part.about["width"], part.about["height"])
         for radius in part.radii:
             step = LARGEST_STEP * radius / max(part.radii)
             yield (

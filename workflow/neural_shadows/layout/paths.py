@@ -80,6 +80,12 @@ class Paths:
         """`csv`, the errors of a method on a frame set's test frames; `npz`, what it answered."""
         return f"{self.results}/soft_evaluations/{frame_set}/{method}.{ending}"
 
+    def screen_sensitivity(
+        self, frame_set: str = "{frame_set}", experiment: str = "{experiment}"
+    ) -> str:
+        """How far a network's answer moves with each feature of a frame set's frames."""
+        return f"{self.results}/screen_sensitivities/{frame_set}/{experiment}.json"
+
     def soft_times(self, table: str = "{table}") -> str:
         """The times of a table's methods for soft shadows."""
         return f"{self.results}/soft_times/{table}.json"

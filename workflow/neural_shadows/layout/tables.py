@@ -5,7 +5,7 @@ from typing import Any
 
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED, biased_key, unbiased
-from neural_shadows.layout import soft_methods
+from neural_shadows.layout import screen_tables, soft_methods
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_names
 
@@ -45,6 +45,9 @@ FILES = {
     "screen_levels": ("profile_json", "published_nsm_csv"),
     "screen_parts": ("profile_json", "published_nsm_csv"),
     "screen_networks": ("published_nsm_csv",),
+    "screen_depth": ("soft_metrics", "trainings", "frames_json", "published_nsm_csv"),
+    "screen_features": ("soft_metrics", "trainings", "sensitivities", "published_nsm_csv"),
+    "screen_temporal": ("soft_metrics", "trainings", "frames_json"),
 }
 TOLD = {
     "comparison": ("published", "against", "rows", "run", "scenes"),
@@ -57,6 +60,9 @@ TOLD = {
     "screen_levels": ("published", "run"),
     "screen_parts": ("published", "run"),
     "screen_networks": ("published", "networks", "run"),
+    "screen_depth": ("published", "columns", "labels", "run"),
+    "screen_features": ("published", "columns", "labels", "run"),
+    "screen_temporal": ("labels", "run"),
 }
 
 
@@ -88,6 +94,8 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         values["soft_times"] = soft_methods.times(layout, table)
         values["frames_json"] = soft_methods.tests(layout, settings["frame_set"])[0]
         values["soft_constants"] = soft_methods.constants(layout, table)
+    if kind in screen_tables.KINDS:
+        values |= screen_tables.files(layout, table)
     found = {name: values[name] for name in FILES[kind]}
     # Not read: asking for a table makes the figures and the previews that belong to it.
     found["beside"] = [paths.report(f"{name}.png") for name in settings["figures"]]
@@ -112,6 +120,8 @@ def arguments(layout: Layout, table: str) -> dict[str, Any]:
         values["labels"] = soft_methods.labels(layout, table)
         values["left_out"] = soft_methods.left_out(layout, table)
         values["unseen"] = frame_set.get("unseen", [])
+    if settings["kind"] in screen_tables.KINDS:
+        values["labels"] = screen_tables.labels(layout, table)
     if settings["kind"] == "screen_networks":
         values["networks"] = [_screen_network(layout, row) for row in settings["networks"]]
     return {key: values[key] for key in ("title", *TOLD[settings["kind"]])}

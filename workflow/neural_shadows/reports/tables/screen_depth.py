@@ -9,7 +9,7 @@ import pandas as pd
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
-from neural_shadows.reports.published import read_published
+from neural_shadows.reports.published_nsm import read_published_nsm, titled
 from neural_shadows.reports.tables.screen_rows import (
     describe_trainings,
     mean_with_interval,
@@ -26,11 +26,11 @@ def write(
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
-    published_csv: Path,
+    published_nsm_csv: Path,
     csv: Path,
     md: Path,
     title: str,
-    printed: str | None,
+    published: str | None,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     run: Mapping[str, Any],
@@ -42,14 +42,15 @@ def write(
     Args:
         soft_metrics: of each network on the frame set; trainings: training.json of each.
         frames_json: a part of its test frames.
-        printed: the paper's number of the table; None for one that it only draws.
+        published: the paper's number of the table; None for one that it only draws.
         columns: the experiment of each printed column; labels: by experiment.
     """
     about = read_json(frames_json)
     records = {path.parent.name: read_json(path) for path in trainings}
     found = read_soft_metrics(soft_metrics)
     table = depth_table(found, len(about["radii"]) - 1, columns, labels, records, run["seed"])
-    table = with_printed(table, printed, ["mse"], read_published(published_csv))
+    numbers = read_published_nsm(published_nsm_csv)
+    table = with_printed(table, published, "mse", None, numbers)
     table = table.assign(scale=run["scale"])
     parts = {
         "penumbra": [one.replace("penumbra_", "") + " px" for one in table["row"].unique()],
@@ -57,9 +58,7 @@ def write(
     for column, label in zip(columns, (labels[name] for name in columns.values())):
         here = table[table["column"] == column]
         parts[label] = number_cells(here["mse"], "{:.4f}")
-        parts["× best"] = parts.get("× best", [])  # takes its place behind the networks
-        if printed:
-            parts[f"{label}, printed"] = number_cells(here["mse_printed"], "{:.3f}")
+        parts[f"{label}, printed"] = number_cells(here["printed_mse"], "{:.3f}")
     parts["× best"] = [
         " / ".join(number_cells(here["ratio"], "{:.1f}"))
         for _, here in table.groupby("row", sort=False)
@@ -72,7 +71,8 @@ def write(
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
-    write_twins(table, parts, csv, md, title=title, notes=notes)
+    parts = {name: cells for name, cells in parts.items() if any(cells)}
+    write_twins(table, parts, csv, md, title=titled(title, published), notes=notes)
 
 
 def depth_table(

@@ -10,7 +10,7 @@ from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.reports import phrases
-from neural_shadows.reports.published import read_published
+from neural_shadows.reports.published_nsm import read_published_nsm, titled
 from neural_shadows.reports.tables.screen_rows import (
     describe_trainings,
     mean_with_interval,
@@ -27,10 +27,11 @@ def write(
     soft_metrics: list[Path],
     trainings: list[Path],
     sensitivities: list[Path],
-    published_csv: Path,
+    published_nsm_csv: Path,
     csv: Path,
     md: Path,
     title: str,
+    published: str | None,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     run: Mapping[str, Any],
@@ -42,6 +43,7 @@ def write(
     Args:
         soft_metrics: of each network on the frame set; trainings: training.json of each.
         sensitivities: what `measure_sensitivity` wrote of each.
+        published: the paper's number of the table.
         columns: the experiment of each printed row; labels: by experiment.
     """
     records = {path.parent.name: read_json(path) for path in trainings}
@@ -49,8 +51,10 @@ def write(
     found = read_soft_metrics(soft_metrics)
     table = features_table(found, columns, labels, shares, run["seed"])
     # The paper gives two of these in its text (3.2) and the others in table S1.
-    published = read_published(published_csv).rename(index={"nsm.features": "nsm.s1"}, level=0)
-    table = with_printed(table, "nsm.s1", ["error"], published).assign(scale=run["scale"])
+    numbers = read_published_nsm(published_nsm_csv).rename(
+        index={"nsm.features": "nsm.s1"}, level=0
+    )
+    table = with_printed(table, published, "error", "error", numbers).assign(scale=run["scale"])
     told = [
         ", ".join(f"{name} {100 * one['share']:.1f}" for name, one in _sorted(shares[experiment]))
         for experiment in table["experiment"]
@@ -59,7 +63,7 @@ def write(
         "features": table["label"],
         "channels": table["channels"].astype(str),
         "MSE × 10⁻³": interval_cells(table, ["error", "error_low", "error_high"], 2, 1e3),
-        "printed × 10⁻³": number_cells(table["error_printed"], "{:.2f}", 1e3),
+        "printed × 10⁻³": number_cells(table["printed_error"], "{:.2f}", 1e3),
         "difference": number_cells(table["error_minus_printed"], "{:+.2f}", 1e3),
         "sensitivity, %": told,
     }
@@ -72,7 +76,7 @@ def write(
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
-    write_twins(table, cells, csv, md, title=title, notes=notes)
+    write_twins(table, cells, csv, md, title=titled(title, published), notes=notes)
 
 
 def features_table(
@@ -84,7 +88,7 @@ def features_table(
 ) -> pd.DataFrame:
     """A row for each network.
 
-    Columns: `row`, the paper's; `column`, always `error`; `experiment`, `label`, `channels`, `error`
+    Columns: `row`, the paper's; `experiment`, `label`, `channels`, `error`
     with the ends of its interval, `share_NAME` of each feature, and `as_printed_NAME`.
     """
     rows = []
@@ -94,7 +98,7 @@ def features_table(
         values = mine.groupby(["scene", "part", "frame"])["value"].mean()
         parts = shares[experiment]
         rows.append(
-            {"row": row, "column": "error", "experiment": experiment, "label": labels[experiment]}
+            {"row": row, "experiment": experiment, "label": labels[experiment]}
             | {"channels": sum(FEATURES[name] for name in parts)}
             | mean_with_interval(values, "error", seed)
             | {f"share_{name}": one["share"] for name, one in parts.items()}

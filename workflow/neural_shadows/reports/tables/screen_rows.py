@@ -1,6 +1,6 @@
 """What tables of networks on frames have in common."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -16,22 +16,19 @@ def mean_with_interval(values: pd.Series, name: str, seed: int) -> dict[str, flo
 
 
 def with_printed(
-    table: pd.DataFrame, printed: str | None, columns: Sequence[str], published: pd.Series
+    table: pd.DataFrame, number: str | None, name: str, column: str | None, published: pd.Series
 ) -> pd.DataFrame:
-    """The table with `NAME_printed` and `NAME_minus_printed` of some columns; NaN where none is printed.
+    """The table with `printed_NAME` and `NAME_minus_printed`; NaN where none is printed.
 
     Args:
-        table: has `row` and `column`, the paper's keys. printed: the paper's number of the table.
-        published: see `read_published`.
+        table: has `row`, the paper's key of each. number: the paper's of the table.
+        column: the paper's name of the column; None if the table has a column of such names.
+        published: see `read_published_nsm`.
     """
-    for name in columns:
-        values = [
-            published.get((printed, row, column), np.nan)
-            for row, column in zip(table["row"], table["column"])
-        ]
-        table = table.assign(**{f"{name}_printed": values})
-        table[f"{name}_minus_printed"] = table[name] - table[f"{name}_printed"]
-    return table
+    columns = [column] * len(table) if column else table["column"]
+    keys = [(number, *key) for key in zip(table["row"], columns)]
+    table = table.assign(**{f"printed_{name}": [published.get(key, np.nan) for key in keys]})
+    return table.assign(**{f"{name}_minus_printed": table[name] - table[f"printed_{name}"]})
 
 
 def describe_trainings(

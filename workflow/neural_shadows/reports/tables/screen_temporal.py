@@ -41,9 +41,7 @@ def write(
     columns = {
         "method": table["label"],
         **{f"E, {kind}": number_cells(table[f"e_{kind}"], "{:.4f}") for kind in kinds},
-        **{
-            f"exact, {kind}": number_cells(table[f"reference_{kind}"], "{:.4f}") for kind in kinds
-        },
+        **{f"exact, {kind}": number_cells(table[f"reference_{kind}"], "{:.4f}") for kind in kinds},
         "MSE × 10⁻⁴ in sequences": number_cells(table["mse_sequence"], "{:.1f}", 1e4),
         "MSE × 10⁻⁴ at edges": number_cells(table["mse_edge"], "{:.1f}", 1e4),
     }

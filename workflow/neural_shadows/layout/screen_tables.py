@@ -1,0 +1,34 @@
+"""What tables of trained networks on frames are made of."""
+
+from typing import Any
+
+from neural_shadows.evaluation.soft_method_names import is_network
+from neural_shadows.layout import soft_methods
+from neural_shadows.layout.layout import Layout
+
+KINDS = ("screen_depth", "screen_features", "screen_temporal")
+
+
+def methods(layout: Layout, table: str) -> list[str]:
+    """The methods of a table in its order, each once."""
+    settings = layout.entry("tables", table)
+    named = settings["columns"].values() if "columns" in settings else settings["methods"]
+    return list(dict.fromkeys(named))
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    """Files of a table's methods on its frame set, and of the networks among them."""
+    paths, frame_set = layout.paths, soft_methods.frame_set(layout, table)
+    named = methods(layout, table)
+    networks = [*filter(is_network, named)]
+    return {
+        "soft_metrics": [paths.soft_evaluation("csv", frame_set, method) for method in named],
+        "trainings": [paths.screen_network("training.json", name) for name in networks],
+        "sensitivities": [paths.screen_sensitivity(frame_set, name) for name in networks],
+        "frames_json": soft_methods.tests(layout, frame_set)[0],
+    }
+
+
+def labels(layout: Layout, table: str) -> dict[str, str]:
+    """What each method of a table is called."""
+    return {method: soft_methods.label(layout, method) for method in methods(layout, table)}
