@@ -131,11 +131,21 @@ class SoftPicturesFigure(AnyFigure):
     methods: list[str] = Field(min_length=1, description="which of the table's methods")
 
 
-class ScreenLevelTimeFigure(AnyFigure):
-    """The time of a network of whole frames by level and part, beside the printed one."""
+class ScreenTableFigure(AnyFigure):
+    """Of a network of whole frames the time by level and part, or the worth of its features."""
 
-    kind: Literal["screen_level_time"] = Field(description="`screen_level_time`")
-    table: Name = Field(description="a table of `screen_parts` in `tables`")
+    kind: Literal["screen_level_time", "screen_sensitivity"] = Field(
+        description="of a table of `screen_parts`, or of `screen_features`"
+    )
+    table: Name = Field(description="a name in `tables`")
+
+
+class ScreenFlickerFigure(AnyFigure):
+    """Where methods of a table of `screen_temporal` flicker in its frame set's sequences."""
+
+    kind: Literal["screen_flicker"] = Field(description="`screen_flicker`")
+    table: Name = Field(description="a table of `screen_temporal` in `tables`")
+    methods: list[str] = Field(min_length=1, description="which of the table's methods")
 
 
 class PenumbraFigure(AnyFigure):
@@ -169,7 +179,8 @@ Figure = by_kind(
     SoftTableFigure,
     SoftPicturesFigure,
     PenumbraFigure,
-    ScreenLevelTimeFigure,
+    ScreenTableFigure,
+    ScreenFlickerFigure,
 )
 KINDS_OF_TABLE = {
     "pictures": ("comparison", "networks"),
@@ -182,6 +193,8 @@ KINDS_OF_TABLE = {
     "soft_equal_time": ("soft_methods",),
     "soft_pictures": ("soft_methods",),
     "screen_level_time": ("screen_parts",),
+    "screen_sensitivity": ("screen_features",),
+    "screen_flicker": ("screen_temporal",),
 }
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
-from neural_shadows.evaluation.soft_answers import name_of, write_answers
+from neural_shadows.evaluation.soft_answers import flicker_name, name_of, write_answers
 from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
@@ -75,7 +75,10 @@ def evaluate_soft(
                 rows += [{**key, "metric": name, "value": value} for name, value in values.items()]
             bar.update()
         for path in sequences:
-            rows += _flicker(measured_frames([path], meshes), asked, constants, bar.update)
+            frames = measured_frames([path], meshes)
+            found, maps = _flicker(frames, asked, constants, bar.update)
+            rows += found
+            kept |= {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}
     write_soft_metrics(metrics_csv, rows)
     write_answers(answers_npz, kept)
 
@@ -103,17 +106,19 @@ def _flicker(
     method: SoftMethod,
     constants: Sequence[Constants],
     told: Callable[[], Any],
-) -> Iterator[Row]:
+) -> tuple[list[Row], dict[str, np.ndarray]]:
     """Instability over a sequence, of the middle radius: the method's, the exact shadow's own, and
     that of the method's frames each averaged with the one before (`_taa`); with squared errors.
 
-    One frame of history is what Datta et al. 2022 (4) compare with.
+    One frame of history is what Datta et al. 2022 (4) compare with. With it, mean changes of each
+    pixel, (height, width).
     """
     changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
     errors: dict[str, list[float]] = {"_sequence": [], "_taa": []}
     answered = _answered(frames, method, constants)
     before, last, _ = next(answered)
     averaged = last
+    sums = {name: np.zeros(last.size, np.float32) for name in changes}
     told()
     part, k = before.part, _middle(before.part)
     for now, found, (accepted, places) in answered:
@@ -127,17 +132,20 @@ def _flicker(
             ("_taa", averaged, mixed),
         ):
             changes[name].append(new.ravel()[pixel] - looked_up(old, places))
+            sums[name][pixel] += np.abs(changes[name][-1])
         for name, image in (("_sequence", found), ("_taa", mixed)):
             errors[name].append(float(np.square(image - target)[valid].mean()))
         before, last, averaged = now, found, mixed
         told()
     key = _key(part, 0, k)
     pixels = part.about["width"] * part.about["height"]
+    values = {f"mse{name}": float(np.mean(each)) for name, each in errors.items()}
     for name, each in changes.items():
-        yield {**key, "metric": f"instability{name}", "value": exponential_instability(each)}
-        yield {**key, "metric": f"temporal_error{name}", "value": root_instability(each, pixels)}
-    for name, each in errors.items():
-        yield {**key, "metric": f"mse{name}", "value": float(np.mean(each))}
+        values[f"instability{name}"] = exponential_instability(each)
+        values[f"temporal_error{name}"] = root_instability(each, pixels)
+    rows = [{**key, "metric": name, "value": value} for name, value in values.items()]
+    count = len(errors["_sequence"])
+    return rows, {name: (one / count).reshape(last.shape) for name, one in sums.items()}
 
 
 def _middle(part: FrameSetPart) -> int:

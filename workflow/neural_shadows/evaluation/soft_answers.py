@@ -1,6 +1,8 @@
 """What a method for soft shadows answered on test frames, on disk, so that it can be drawn later.
 
-One npz file: of the first frame of each part `SCENE.PART.RADIUS` (height, width) uint8, visibility in steps of 1/255.
+One npz file: of the first frame of each part `SCENE.PART.RADIUS` (height, width) uint8, visibility in
+steps of 1/255; of each sequence `SCENE.PART.flicker`, by how much a pixel changes from frame to frame
+on average, and `SCENE.PART.flicker_exact`, the same of the exact shadow.
 """
 
 from collections.abc import Mapping
@@ -15,6 +17,11 @@ from neural_shadows.files.whole_files import whole_file
 def name_of(part: Path, radius: int) -> str:
     """What the first frame of a part, a JSON in the folder of its scene, is called."""
     return f"{part.parent.name}.{part.stem}.{radius}"
+
+
+def flicker_name(part: Path, exact: bool = False) -> str:
+    """What the map of a sequence's changes is called, or that of the exact shadow's."""
+    return f"{part.parent.name}.{part.stem}.flicker{'_exact' * exact}"
 
 
 def write_answers(path: Path, answers: Mapping[str, np.ndarray]) -> None:

@@ -23,6 +23,8 @@ TOLD = {
     "soft_pictures": ("labels", "run"),
     "penumbra_model": ("run",),
     "screen_level_time": ("run",),
+    "screen_sensitivity": ("run",),
+    "screen_flicker": ("labels", "run"),
 }
 
 
@@ -60,7 +62,9 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
                 "losses": tables.networks(layout, curves, "loss.csv"),
                 "trainings": tables.networks(layout, curves, "training.json"),
             }
-        case "widths" | "pareto" | "learning_curves" | "soft_equal_time" | "screen_level_time":
+        case "widths" | "pareto" | "learning_curves" | "soft_equal_time":
+            return {"table": paths.report(f"{settings['table']}.csv")}
+        case "screen_level_time" | "screen_sensitivity":
             return {"table": paths.report(f"{settings['table']}.csv")}
         case "soft_pictures":
             frame_set = soft_methods.frame_set(layout, settings["table"])
@@ -69,6 +73,15 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
                 "answers": [
                     paths.soft_evaluation("npz", frame_set, method)
                     for method in filter(available, settings["methods"])
+                ],
+            }
+        case "screen_flicker":
+            frame_set = soft_methods.frame_set(layout, settings["table"])
+            return {
+                "parts": soft_methods.sequences(layout, frame_set),
+                "answers": [
+                    paths.soft_evaluation("npz", frame_set, method)
+                    for method in settings["methods"]
                 ],
             }
         case "penumbra_model":
@@ -97,7 +110,7 @@ def arguments(layout: Layout, figure: str) -> dict[str, Any]:
         values["seed"] = layout.entry("scenes", scene)["seed"]
     if scene is not None and settings["kind"] != "pareto":
         values["scene"] = layout.entry("scenes", scene)["scene"]
-    if settings["kind"] == "soft_pictures":
+    if settings["kind"] in ("soft_pictures", "screen_flicker"):
         some = filter(available, settings["methods"])
         values["labels"] = {one: soft_methods.label(layout, one) for one in some}
     if "sampling" in settings:

@@ -1,0 +1,72 @@
+"""Where methods flicker in a sequence (Datta et al. 2022, figures 5 and 6)."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
+from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
+from neural_shadows.running.stage import run_stage
+
+# As the paper has it: purple is calm, gold flickers.
+COLOURS = LinearSegmentedColormap.from_list("flicker", ["#2d0b59", "#8c2981", "#e69f00", "#fff7bc"])
+FULL = 0.1  # a mean change of so much visibility from frame to frame has the whole colour
+WIDTH = 12.0  # inches
+
+
+def draw(
+    parts: list[Path],
+    answers: list[Path],
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    labels: Mapping[str, str],
+    run: Section,
+) -> None:
+    """Draw a line a method, and the exact shadow above them: a picture for each sequence.
+
+    Args:
+        parts: sequences of a frame set; answers: of each method, by file name.
+        labels: of the methods, in the order to draw them.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    files = {path.stem: path for path in answers}
+    first = next(iter(files.values()))
+    maps = {"exact": [read_answer(first, flicker_name(part, exact=True)) for part in parts]}
+    for method, label in labels.items():
+        maps[label] = [read_answer(files[method], flicker_name(part)) for part in parts]
+    moving = [part.stem.rsplit("_", 1)[0] for part in parts]
+    write_figure(flicker_figure(maps, moving, f"{title} ({run['scale']} scale)"), png, svg)
+
+
+def flicker_figure(
+    maps: Mapping[str, Sequence[np.ndarray]], moving: Sequence[str], title: str
+) -> Figure:
+    """Mean change of each pixel from frame to frame, (H, W) in [0, 1], by method and sequence."""
+    height, width = next(iter(maps.values()))[0].shape
+    inches = WIDTH / len(moving) * height / width + 0.2
+    figure = new_figure(title, WIDTH, 1.2 + len(maps) * inches)
+    figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
+    grid = figure.subplots(len(maps), len(moving), squeeze=False)
+    for line, (label, images) in enumerate(maps.items()):
+        for axes, image, what in zip(grid[line], images, moving):
+            axes.set_axis_off()
+            shown = axes.imshow(image, cmap=COLOURS, vmin=0, vmax=FULL, interpolation="none")
+            axes.set_title(f"{label}, {what} moves: {image.mean():.4f}", loc="left", fontsize=8)
+    figure.colorbar(shown, ax=grid, location="bottom", shrink=0.4, aspect=40, extend="max")
+    note_below(
+        figure,
+        "Mean change of visibility from frame to frame along each point's way, drawn where the "
+        "point is\nin the later frame. Purple is calm, gold flickers; the number is the mean.",
+    )
+    return figure
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

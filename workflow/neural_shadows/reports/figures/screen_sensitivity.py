@@ -1,0 +1,55 @@
+"""How much of a network's answer hangs on each feature (Datta et al. 2022, figure 3)."""
+
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from neural_shadows.errors import InputError
+from neural_shadows.reports.figures.chart import say, write_chart
+from neural_shadows.reports.figures.style import BLUE, GRID, Section, new_figure, note_below
+from neural_shadows.reports.tables.screen_features import LEAST_SHARE
+from neural_shadows.running.stage import run_stage
+
+SHARE = "share_"
+
+
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None:
+    """Draw the CSV of a table of `screen_features`.
+
+    Raises:
+        InputError: it is missing or not whole.
+    """
+    try:
+        found = pd.read_csv(table, dtype={"label": str}).set_index("label")
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(f"{table}: damaged ({error}); delete it and run again") from error
+    write_chart(sensitivity_figure(found, f"{title} ({run['scale']} scale)"), png, svg)
+
+
+def sensitivity_figure(table: pd.DataFrame, title: str) -> Figure:
+    """A panel for each network, with a bar for each of its features, the largest first."""
+    figure = new_figure(title, 10, 0.9 + 0.26 * (table.filter(like=SHARE).notna().sum().sum() + 9))
+    columns = [name for name in table if name.startswith(SHARE)]
+    counts = [max(2, int(table.loc[label, columns].notna().sum())) for label in table.index]
+    grid = figure.subplots(len(table), 1, sharex=True, squeeze=False, height_ratios=counts)
+    for axes, label in zip(grid[:, 0], table.index):
+        shares = 100 * table.loc[label, columns].astype(float).dropna().sort_values()
+        names = [name.removeprefix(SHARE) for name in shares.index]
+        for name, bar in zip(names, axes.barh(names, shares, color=BLUE)):
+            say(bar, f"{label}, {name}: {bar.get_width():.1f} %")
+        axes.axvline(100 * LEAST_SHARE, color="#555555", linestyle="--", linewidth=1)
+        axes.set_title(label, loc="left", fontsize=10)
+        axes.grid(axis="x", **GRID)
+        axes.set_axisbelow(True)
+    grid[-1, 0].set_xlabel("share of the sensitivities of all features, %")
+    note_below(
+        figure,
+        f"Dashed: {100 * LEAST_SHARE:g} %, below which the paper drops a feature. Sensitivity: how far "
+        "the answer moves\nwith noise of a tenth of a feature's standard deviation.",
+    )
+    return figure
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)
