@@ -25,10 +25,10 @@ class ReplicatedConvolution(nn.Conv2d):
 
 
 class Sum(nn.Module):
-    """Adds what a level's encoder left to what comes up from below."""
+    """Adds what a level's encoder left to what comes up from below, in the latter's memory."""
 
     def forward(self, below: Tensor, kept: Tensor) -> Tensor:
-        return below + kept
+        return below.add_(kept)
 
 
 class Concatenation(nn.Module):

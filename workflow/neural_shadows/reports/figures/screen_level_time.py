@@ -23,13 +23,13 @@ def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None
     Raises:
         InputError: it is missing or not whole.
     """
-    found = read_table(table, ("part",), NUMBERS)
+    found = read_table(table, ("part", "run"), NUMBERS)
     write_chart(level_figure(found, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
 def level_figure(table: pd.DataFrame, *, title: str) -> Figure:
     """Shares of the whole time by level: ours at the left, the paper's at the right if printed."""
-    panels = {"ours": ("share", "ms")}
+    panels = {f"ours, {table['run'].iloc[0]}": ("share", "ms")}
     if table["printed_ms"].notna().any():
         panels[f"{PAPER}, RTX 2080 Ti"] = ("printed_share", "printed_ms")
     figure = new_figure(title, 5 * len(panels), 4.6)

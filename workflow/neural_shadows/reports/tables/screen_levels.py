@@ -22,9 +22,9 @@ from neural_shadows.running.stage import run_stage
 # Column, its unit, and the digits that the paper prints.
 COLUMNS = {
     "runtime": ("ms", "{:.4g}"),
-    "compute": ("GMAC", "{:.2f}"),
+    "compute": ("GMAC", "{:.4g}"),
     "parameters": ("thousand weights", "{:.2f}"),
-    "storage_io": ("million numbers", "{:.2f}"),
+    "storage_io": ("million numbers", "{:.4g}"),
 }
 OF_ANY_SIZE = ("parameters",)
 

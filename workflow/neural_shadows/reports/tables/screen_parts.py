@@ -76,8 +76,8 @@ def part_table(
 ) -> pd.DataFrame:
     """A row for each level and part that is ours or printed.
 
-    Columns `level`, `part`, `ms_RUN` of each run, `ms` of the one that is compared and its `share`
-    of all parts, `printed_ms`, `printed_share`, `ms_minus_printed` (in frames of the paper's size).
+    Columns `level`, `part`, `ms_RUN` of each run, `run`, what the one that is compared is called, its
+    `ms` and their `share` of all parts, `printed_ms`, `printed_share`, `ms_minus_printed` (in frames of the paper's size).
     """
     times = screen_profiles.part_times(profile)
     names = {
@@ -93,7 +93,9 @@ def part_table(
     ends = [place for place in times.index if place not in places]
     times = times.reindex(pd.MultiIndex.from_tuples([*ends, *places], names=["level", "part"]))
     table = times.add_prefix("ms_").reset_index()
-    table["ms"] = table[f"ms_{screen_profiles.run_key(screen_profiles.compared(profile))}"]
+    run = screen_profiles.compared(profile)
+    table["run"] = screen_profiles.run_name(run)
+    table["ms"] = table[f"ms_{screen_profiles.run_key(run)}"]
     table["share"] = table["ms"] / table["ms"].sum()
     table["printed_ms"] = [
         printed(numbers, published, [f"level_{level}"], PRINTED.get(part, ""))[0]
