@@ -6,7 +6,11 @@ the normal with the ways to light and eye. All are images (H, W) float32; length
 the scene's size S before they come here. Datta et al. 2022 (3.1), Hu et al. 2025 (4.1) and its code.
 """
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
+
+from neural_shadows.errors import InputError
 
 PENUMBRA_PIXELS = 50.0  # the widest that KPNSM's network is told apart
 FULL_WIDTH = 2048  # pixels of the frame that it was made for …
@@ -30,6 +34,31 @@ def nsm_features(
     view = np.clip(c_v / np.maximum(d, 0.05), 0, 10)
     ratio = np.clip(z_b / np.maximum(z, 1e-6), 0, 2)
     return np.stack([size, view, ratio, np.clip(z_b - z, -2, 2)]).astype(np.float32)
+
+
+MAIN = ("c_e", "view", "ratio", "difference")
+
+
+def named_features(
+    names: Sequence[str], buffers: Mapping[str, np.ndarray], axis: np.ndarray, step: float
+) -> np.ndarray:
+    """The channels of these names, (C, H, W) float32; see `nsm_features`.
+
+    Args:
+        buffers: (H, W) float32 by the names of `buffers.CHANNELS`.
+        axis: (H, W) float32, cosines of the pixels' ways with the camera's axis.
+        step: 0 for a point to 4 for the largest light.
+
+    Raises:
+        InputError: a name that is no feature.
+    """
+    if unknown := [name for name in names if name not in MAIN]:
+        raise InputError(f"features: {', '.join(unknown)}: not among {', '.join(MAIN)}")
+    z = buffers["z"]
+    found = nsm_features(
+        z, z + buffers["gap"], buffers["d"] * axis, buffers["c_e"], buffers["c_v"], step
+    )
+    return found[[MAIN.index(name) for name in names]]
 
 
 def penumbra_pixels(

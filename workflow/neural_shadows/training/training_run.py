@@ -10,11 +10,7 @@ import torch
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch, ShadowNetwork
-from neural_shadows.training.training_state import TrainingState
-
-# Losses are multiplied by it before the backward pass and gradients divided by it after: float16
-# ends at 6e-8, which the gradients of a mean over 65,536 samples reach. That of tiny-cuda-nn.
-LOSS_SCALE = {torch.float16: 128.0}
+from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
 
 
 class TrainingRun(TrainingState):

@@ -13,6 +13,10 @@ from torch import Tensor
 from neural_shadows.networks.weight_file import load_tensors, save_tensors
 from neural_shadows.training.optimisers import make_optimisers
 
+# Losses are multiplied by it before the backward pass and gradients divided by it after: float16
+# ends at 6e-8, which the gradients of a mean over 65,536 samples reach. That of tiny-cuda-nn.
+LOSS_SCALE = {torch.float16: 128.0}
+
 
 def learning_rate_at(
     step: Tensor, settings: Mapping[str, Any], key: str = "learning_rate"
