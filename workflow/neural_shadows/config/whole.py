@@ -32,6 +32,8 @@ from neural_shadows.config.networks import Network
 from neural_shadows.config.rendering import Rendering
 from neural_shadows.config.samplings import Sampling
 from neural_shadows.config.scenes import Scene
+from neural_shadows.config.screen_networks import ScreenNetwork
+from neural_shadows.config.screen_profiles import ScreenProfiles
 from neural_shadows.config.soft_scenes import SoftScene
 from neural_shadows.config.tables import Table
 from neural_shadows.config.trainings import Training
@@ -43,6 +45,7 @@ RESERVED_SCALES = {
     *("scenes", "rays", "networks", "references", "answers", "evaluations", "depth_biases"),
     *("frame_times", "cost", "logs", "benchmarks", "reference"),
     *("frames", "soft_constants", "soft_evaluations", "soft_times"),
+    *("screen_networks", "screen_profiles"),
 }
 
 
@@ -69,6 +72,12 @@ class Config(Model):
     )
     frame_sets: dict[Name, FrameSet] = Field(
         {}, description="frames with buffers and exact soft shadows, by name"
+    )
+    screen_networks: dict[Name, ScreenNetwork] = Field(
+        {}, description="shapes of networks that answer whole frames, by name"
+    )
+    screen_profiles: ScreenProfiles = Field(
+        ScreenProfiles(), description="how these are timed, level by level"
     )
     metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
     frame_times: FrameTimes = Field(FrameTimes(), description="how frame times are measured")

@@ -1,0 +1,103 @@
+"""What a network of a whole frame does, by answers that are known."""
+
+import pytest
+import torch
+from torch.nn import functional
+
+from neural_shadows.networks.screen_space.layers import SquareOfPixels
+from neural_shadows.networks.screen_space.screen_networks import make_screen_network
+
+FOUR = ["c_e", "view", "ratio", "difference"]
+FORMS = {
+    "full": {"form": "full", "widths": [8, [16, 8], 32]},
+    "shuffle": {"form": "shuffle", "widths": [8, 16]},
+    "half": {"form": "half", "widths": [8, 16]},
+    "original": {"form": "original", "widths": [8, 16, 32]},
+}
+
+
+def made(form="full", **more):
+    return make_screen_network({**FORMS[form], "features": FOUR, **more})
+
+
+def answer(network, x):
+    with torch.inference_mode():
+        return network(x)
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("size", [(1, 1), (5, 7), (8, 12)])
+def test_any_size_is_padded_by_its_border_and_cropped(form, size):
+    network, x = made(form), torch.rand(2, 4, *size)
+    found = answer(network, x)
+    assert found.shape == (2, 1, *size)
+    padded = functional.pad(x, (0, -size[1] % 4, 0, -size[0] % 4), mode="replicate")
+    assert torch.equal(found, answer(network, padded)[..., : size[0], : size[1]])
+
+
+@pytest.mark.parametrize("form", ["full", "shuffle", "half"])
+def test_a_frame_of_one_value_is_answered_alike_up_to_its_border(form):
+    """Convolutions that pad with zeros see an edge there; shuffled pixels differ within squares."""
+    found = answer(made(form), torch.full((1, 4, 24, 24), 0.7))
+    squares = found.unfold(2, 2, 2).unfold(3, 2, 2)[0, 0]
+    assert torch.allclose(squares, squares[:1, :1].expand_as(squares), atol=1e-5)
+
+
+def test_weights_are_of_the_seed_alone():
+    torch.manual_seed(1)
+    first = made()
+    torch.manual_seed(2)
+    second, other = made(), made()
+    other.initialise(3)
+    pairs = list(zip(first.parameters(), second.parameters(), other.parameters()))
+    assert all(torch.equal(one, same) for one, same, _ in pairs)
+    assert not any(torch.equal(one, third) for one, _, third in pairs if one.ndim == 4)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_output_starts_about_a_half(form):
+    network = made(form)
+    for name, one in network.named_parameters():
+        if name.endswith("weight"):
+            torch.nn.init.zeros_(one)
+    assert torch.equal(answer(network, torch.rand(1, 4, 8, 8)), torch.full((1, 1, 8, 8), 0.5))
+
+
+def test_four_channels_are_the_pixels_of_a_square():
+    o = torch.zeros(1, 4, 3, 3)
+    o[0, 0] = torch.rand(3, 3)
+    smooth = functional.interpolate(o[:, :1], scale_factor=2, mode="bilinear", align_corners=False)
+    assert torch.equal(SquareOfPixels()(o), smooth)
+    for channel, (down, right) in {1: (0, 1), 2: (1, 0), 3: (1, 1)}.items():
+        impulse = torch.zeros(1, 4, 3, 3)
+        impulse[0, channel, 1, 2] = 1
+        expected = torch.zeros(1, 1, 6, 6)
+        expected[0, 0, 2 + down, 4 + right] = 1
+        assert torch.equal(SquareOfPixels()(impulse), expected)
+
+
+def test_the_first_skip_and_the_pool_are_what_they_are_set_to():
+    """A network that hands on level 0 alone sees it by its skip only."""
+    x = torch.rand(1, 4, 8, 8)
+    for first_skip in (False, True):
+        network = made(first_skip=first_skip)
+        torch.nn.init.zeros_(network.levels[1].decoder[2].weight)
+        varies = bool(answer(network, x).std() > 1e-6)
+        assert varies == first_skip
+    average, largest = made(pool="average"), made(pool="max")
+    assert not torch.allclose(answer(average, x), answer(largest, x))
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_every_weight_learns_in_bfloat16_too(form):
+    network = made(form, extraction=6, first_skip=True) if form == "full" else made(form)
+    with torch.autocast("cpu", torch.bfloat16):
+        found = network(torch.rand(1, 4, 16, 16).contiguous(memory_format=torch.channels_last))
+    found.float().square().mean().backward()
+    assert all(one.grad.abs().sum() > 0 for one in network.parameters() if one.ndim == 4)
+
+
+def test_features_of_three_channels_count_as_three():
+    network = made(features=["ratio", "n"])
+    assert network.features == ("ratio", "n")
+    assert answer(network, torch.zeros(1, 4, 4, 4)).shape == (1, 1, 4, 4)

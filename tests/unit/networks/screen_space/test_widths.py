@@ -1,0 +1,92 @@
+"""Every count that Datta et al. 2022 print or imply, of the networks as they compute."""
+
+import pytest
+import torch
+from shipped import shipped
+from torch import nn
+
+from neural_shadows.networks.screen_space.screen_networks import make_screen_network
+from neural_shadows.networks.screen_space.widths import by_level, convolutions, total
+
+FOUR = ["c_e", "view", "ratio", "difference"]
+PIXELS = 2048 * 1024
+# weights without biases, multiply-adds a pixel: tables S2, S4, S5, and implied (spec 2.2 to 2.4)
+COUNTS = {
+    "layers_3": (39_248, 8_528),
+    "trimmed": (653_648, 16_208),
+    "layers_7": (9_501_008, 21_968),
+    "layers_3_equal": (110_928, 14_928),
+    "layers_7_equal": (1_626_448, 15_328),
+    "nsm": (649_856, 12_704),
+    "original": (7_756_960, 184_480),
+    "extraction": (653_648 + 304, 16_208 + 304),
+}
+# table S2: GMAC, thousands of weights, storage in millions, by level
+TABLE_S2 = [
+    (7.15, 3.4, 278.9),
+    (8.05, 15.4, 117.4),
+    (8.05, 61.4, 58.7),
+    (8.05, 245.8, 29.3),
+    (2.68, 327.68, 6.29),
+]
+
+
+def settings_of(name):
+    return shipped()["screen_networks"][name]
+
+
+def layers_of(name):
+    network = make_screen_network(settings_of(name))
+    settings = settings_of(name)
+    channels = 15 if len(network.features) > 10 else len(network.features)
+    return network, convolutions(
+        settings["form"], settings["widths"], channels, settings.get("extraction")
+    )
+
+
+def counted(network, channels, size=64):
+    """Weights without biases of a network's parameters, and multiply-adds a pixel by hooks."""
+    done = []
+
+    def hook(layer, inputs, output):
+        x = inputs[0] if isinstance(layer, nn.ConvTranspose2d) else output
+        done.append(layer.weight.numel() * x[0, 0].numel())
+
+    for layer in network.modules():
+        if isinstance(layer, nn.Conv2d | nn.ConvTranspose2d):
+            layer.register_forward_hook(hook)
+    with torch.inference_mode():
+        network(torch.zeros(1, channels, size, size))
+    weights = sum(one.numel() for one in network.parameters() if one.ndim == 4)
+    return weights, sum(done) / size**2
+
+
+@pytest.mark.parametrize("name", COUNTS)
+def test_weights_and_multiply_adds_are_the_paper_s(name):
+    network, layers = layers_of(name)
+    channels = 15 if name == "extraction" else 4
+    assert counted(network, channels) == COUNTS[name]
+    assert (total(layers, "weights"), total(layers, "macs")) == COUNTS[name]
+
+
+def test_levels_are_those_of_table_s2():
+    _, layers = layers_of("trimmed")
+    for level, (compute, weights, storage) in enumerate(TABLE_S2):
+        found = {what: by_level(layers, what)[level] for what in ("macs", "weights", "storage")}
+        assert found["macs"] * PIXELS / 1e9 == pytest.approx(compute, abs=0.005)
+        assert found["weights"] / 1e3 == pytest.approx(weights, abs=0.05)
+        assert found["storage"] * PIXELS / 1e6 == pytest.approx(storage, rel=0.003)
+
+
+def test_modules_of_a_level_have_its_weights():
+    for name in COUNTS:
+        network, layers = layers_of(name)
+        found = dict.fromkeys(by_level(layers, "weights"), 0)
+        for (level, _), part in network.parts().items():
+            found[level] += sum(one.numel() for one in part.parameters() if one.ndim == 4)
+        assert found == by_level(layers, "weights"), name
+
+
+def test_an_unknown_form_is_refused():
+    with pytest.raises(ValueError, match="'hal' is not among full, shuffle, half, original"):
+        convolutions("hal", [4, 8], 4)

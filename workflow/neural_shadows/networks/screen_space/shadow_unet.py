@@ -1,0 +1,140 @@
+"""The network of Neural Shadow Mapping in all its forms: from a frame's buffers to visibility."""
+
+from collections.abc import Sequence
+
+import torch
+from torch import Tensor, nn
+from torch.nn import functional
+
+from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.networks.screen_space.layers import (
+    Concatenation,
+    Halved,
+    SquareOfPixels,
+    Sum,
+    doubled,
+    initialise,
+    stacked,
+)
+from neural_shadows.networks.screen_space.widths import (
+    Convolution,
+    Widths,
+    convolutions,
+    deepest_level,
+    first_level,
+)
+
+POOLS = {"average": nn.AvgPool2d, "max": nn.MaxPool2d}
+
+
+class Level(nn.Module):
+    """What a level but the deepest does: on the way down, and on the way up."""
+
+    def __init__(self, layers: Sequence[Convolution], pool: str, skip: nn.Module | None, end: bool):
+        super().__init__()
+        parts = {name: [one for one in layers if one.part == name] for name in PARTS_OF_LAYERS}
+        self.encoder = stacked(parts["encoder"])
+        self.downsample = POOLS[pool](2)
+        # Transposed convolutions have no activation of their own.
+        self.upsample = stacked(parts["upsample"], True) if parts["upsample"] else doubled()
+        self.skip = skip
+        self.decoder = stacked(parts["decoder"], linear_end=end)
+
+
+PARTS_OF_LAYERS = ("encoder", "upsample", "decoder")
+
+
+class ShadowUnet(nn.Module):
+    """A U-Net from a table of widths (Datta et al. 2022, 3.5, S3, S4.1).
+
+    Args:
+        form: `full`, the trimmed network; `shuffle`, its fast form, whose first level sees 2 × 2
+            pixels as channels; `half`, which sees a frame of half the resolution; `original`, before
+            trimming: two 3 × 3 convolutions a level, concatenation, transposed convolutions, max pool.
+        widths: of each level, a number or [mid, out], see `widths.py`.
+        features: names in FEATURES; their channels are the input's, in this order.
+        pool: `average` or `max`. first_skip: whether the level of the frame's own size has a skip,
+            too; the other levels always have one.
+        extraction: hidden channels of a learned reduction to four channels in front (3.2).
+        seed: of the first weights.
+
+    Raises:
+        KeyError, ValueError: there is no such form, pool or feature.
+    """
+
+    def __init__(
+        self,
+        form: str,
+        widths: Widths,
+        features: Sequence[str],
+        pool: str = "average",
+        first_skip: bool = False,
+        extraction: int | None = None,
+        seed: int = 0,
+    ):
+        super().__init__()
+        self.features = tuple(features)
+        channels = sum(FEATURES[name] for name in self.features)
+        layers = convolutions(form, widths, channels, extraction)
+        first, deepest = first_level(form), deepest_level(form, widths)
+        original = form == "original"
+        self.first, self.multiple = first, 2**deepest
+        reduced = [one for one in layers if one.part == "extraction"]
+        self.extraction = stacked(reduced, linear_end=True) if reduced else None
+        self.entrance = {"shuffle": nn.PixelUnshuffle(2), "half": Halved()}.get(form)
+        self.exit = {"shuffle": SquareOfPixels(), "half": doubled()}.get(form)
+        self.levels = nn.ModuleList(
+            Level(
+                [one for one in layers if one.level == level and one.part != "extraction"],
+                "max" if original else pool,
+                Concatenation() if original else Sum() if level or first_skip else None,
+                end=level == first,
+            )
+            for level in range(first, deepest)
+        )
+        self.deepest = stacked([one for one in layers if one.level == deepest])
+        self.initialise(seed)
+
+    def initialise(self, seed: int) -> None:
+        """Set the weights that a training starts from: the same of a seed, everywhere.
+
+        The output starts about a half: its bias is 0.5, of four that of the first.
+        """
+        generator = torch.Generator().manual_seed(seed)
+        found = [one for one in self.modules() if isinstance(one, nn.Conv2d | nn.ConvTranspose2d)]
+        for layer in found:
+            initialise(layer, generator)
+        with torch.no_grad():
+            self.levels[0].decoder[-1].bias[0] = 0.5
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Visibility, not cut off at 0 and 1: (B, 1, H, W) of features (B, C, H, W), any H and W."""
+        height, width = x.shape[-2:]
+        below, right = -height % self.multiple, -width % self.multiple
+        if below or right:
+            x = functional.pad(x, (0, right, 0, below), mode="replicate")
+        for before in (self.extraction, self.entrance):
+            x = x if before is None else before(x)
+        kept = []
+        for level in self.levels:
+            x = level.encoder(x)
+            kept.append(x)
+            x = level.downsample(x)
+        x = self.deepest(x)
+        for level in reversed(self.levels):
+            x, beside = level.upsample(x), kept.pop()
+            x = level.decoder(x if level.skip is None else level.skip(x, beside))
+        x = x if self.exit is None else self.exit(x)
+        return x[..., :height, :width]
+
+    def parts(self) -> dict[tuple[int, str], nn.Module]:
+        """The modules that do the work of each level, by level and part.
+
+        Parts: `extraction`, `entrance`, `exit` (level 0), `encoder`, `downsample`, `upsample`,
+        `skip`, `decoder`.
+        """
+        found = {(0, name): getattr(self, name) for name in ("extraction", "entrance", "exit")}
+        for number, level in enumerate(self.levels, self.first):
+            found |= {(number, name): part for name, part in level.named_children()}
+        found[(self.first + len(self.levels), "encoder")] = self.deepest
+        return {place: part for place, part in found.items() if part is not None}
