@@ -121,7 +121,7 @@ class ScreenFrames:
         turned = [axis for axis, turn in ((-2, place.upside_down), (-1, place.mirrored)) if turn]
 
         def picture(array: np.ndarray) -> Tensor:
-            array = np.ascontiguousarray(np.flip(array, turned))
+            array = np.flip(array, turned).copy()  # torch takes none that cannot be written to
             return torch.from_numpy(array).reshape(1, -1, *array.shape[-2:])
 
         versions = [0, place.twin] if place.twin else [0]

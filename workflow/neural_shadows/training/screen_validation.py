@@ -34,8 +34,8 @@ def null_answers(frames: ScreenFrames) -> dict[str, Answer]:
 
 def mse_by_radius(
     frames: ScreenFrames, answer: Answer, compute: Callable = map, every: int = 1
-) -> list[float]:
-    """Mean squared error over the valid pixels of the frames, for each radius.
+) -> list[float | None]:
+    """Mean squared error over the valid pixels of the frames, for each radius; None if no number.
 
     Args:
         compute: `map`, or that of a pool.
@@ -50,4 +50,5 @@ def mse_by_radius(
         return float(np.square(off, dtype=np.float64).sum()), int(valid.sum())
 
     sums = np.array([*compute(error, asked)]).reshape(frames.radii, len(chosen), 2).sum(1)
-    return (sums[:, 0] / np.maximum(sums[:, 1], 1)).tolist()
+    found = sums[:, 0] / np.maximum(sums[:, 1], 1)
+    return [value if np.isfinite(value) else None for value in found.tolist()]
