@@ -19,6 +19,7 @@ include: "workflow/rules/networks.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/frames.smk"
 include: "workflow/rules/soft_methods.smk"
+include: "workflow/rules/screen_networks.smk"
 include: "workflow/rules/reports.smk"
 include: "workflow/rules/viewer.smk"
 

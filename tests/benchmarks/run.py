@@ -1,6 +1,6 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
-    python tests/benchmarks/run.py [--quick] [--only labels training queries viewpoint soft default]
+    python tests/benchmarks/run.py [--quick] [--only labels training queries viewpoint soft screen default]
         [--mesh results/scenes/dragon/mesh.ply] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -17,6 +17,7 @@ from pathlib import Path
 import bench_default
 import bench_labels
 import bench_queries
+import bench_screen_networks
 import bench_soft
 import bench_training
 import bench_viewpoint
@@ -27,7 +28,7 @@ from neural_shadows.meshes.generate_mesh import generate_mesh
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.running.hardware import describe_machine
 
-STAGES = ("labels", "training", "queries", "viewpoint", "soft", "default")
+STAGES = ("labels", "training", "queries", "viewpoint", "soft", "screen", "default")
 TABLE = Path("reports/benchmarks.csv")
 
 
@@ -40,6 +41,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
+        "screen": lambda: bench_screen_networks.rows(quick),
         "default": bench_default.rows,
     }
     for stage in arguments.only:

@@ -69,6 +69,7 @@ wildcard_constraints:
     sampling="[a-z][a-z0-9_]*",
     experiment="[a-z][a-z0-9_]*",
     method="[a-z][a-z0-9_]*",
+    network="[a-z][a-z0-9_]*",
     over="[a-z_]+",
     value="[0-9]+",
     shard="[0-9]+",

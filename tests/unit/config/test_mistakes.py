@@ -82,6 +82,16 @@ frame_sets.frames | {path: mine} | soft_methods.methods: 'hard' needs a scene to
 soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each only once
 tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'
+screen_networks.nsm.form | whole | screen_networks.nsm.form = 'whole': should be one of 'full', 'shuffle', 'half', 'original'
+screen_networks.nsm.widths | [32] | screen_networks.nsm.widths = [32]: List should have at least 2 items
+screen_networks.layers_7.widths | [16, [32], 64] | widths.1 = [32]: List should have at least 2 items
+screen_networks.layers_7.widths | [16, 0] | widths.1 = 0: Input should be greater than or equal to 1
+screen_networks.original.widths | [32, [64, 32]] | screen_networks.original.widths.1 = [64, 32]: Input should be a valid integer
+screen_networks.nsm.pool | max | screen_networks.nsm: unknown key: 'pool' is not among
+screen_networks.nsm.features | [ratoi] | screen_networks.nsm.features: 'ratoi' (did you mean 'ratio'?) is not among c_e, view
+screen_networks.nsm.features | [z, z] | screen_networks.nsm.features: 'z' is there twice
+tables.nsm_table_s2.network | nms | tables.nsm_table_s2.network: 'nms' (did you mean 'nsm'?) is not among
+figures.figure_nsm_level_time.table | cost | 'cost' is not among nsm_table_s3
 figures.figure_soft_equal_time.radii | [9] | radii: 9 is not among 0 to 4, the radii of 'frames'
 """
 

@@ -131,6 +131,13 @@ class SoftPicturesFigure(AnyFigure):
     methods: list[str] = Field(min_length=1, description="which of the table's methods")
 
 
+class ScreenLevelTimeFigure(AnyFigure):
+    """The time of a network of whole frames by level and part, beside the printed one."""
+
+    kind: Literal["screen_level_time"] = Field(description="`screen_level_time`")
+    table: Name = Field(description="a table of `screen_parts` in `tables`")
+
+
 class PenumbraFigure(AnyFigure):
     """The widths of penumbrae by Neural Shadow Mapping's model, beside what they measure."""
 
@@ -162,6 +169,7 @@ Figure = by_kind(
     SoftTableFigure,
     SoftPicturesFigure,
     PenumbraFigure,
+    ScreenLevelTimeFigure,
 )
 KINDS_OF_TABLE = {
     "pictures": ("comparison", "networks"),
@@ -173,6 +181,7 @@ KINDS_OF_TABLE = {
     "cost": ("cost",),
     "soft_equal_time": ("soft_methods",),
     "soft_pictures": ("soft_methods",),
+    "screen_level_time": ("screen_parts",),
 }
 
 

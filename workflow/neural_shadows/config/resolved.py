@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Section = dict[str, Any]
 
 # Figures of tables whose rows are no methods of a scene's frames.
-WITHOUT_ROWS = ("cost", "soft_equal_time", "soft_pictures")
+WITHOUT_ROWS = ("cost", "soft_equal_time", "soft_pictures", "screen_level_time")
 
 
 def resolved(config: "Config") -> Section:

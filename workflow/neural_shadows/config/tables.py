@@ -107,8 +107,48 @@ class SoftMethodsTable(AnyTable):
     )
 
 
+class ScreenTable(AnyTable):
+    """A table of networks of whole frames that needs no training (Datta et al. 2022, S3, S4.1)."""
+
+    published: str | None = Field(
+        None, pattern=r"^nsm\.s[2-5]$", description="`nsm.` and the paper's number of this table"
+    )
+
+
+class ScreenProfileTable(ScreenTable):
+    """What each level of a network counts and takes, or the time of each part of it."""
+
+    kind: Literal["screen_levels", "screen_parts"] = Field(description="by level, or by part, too")
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+
+
+class ScreenRow(Model):
+    """A row of a table of networks of whole frames that is more than a name."""
+
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+    published: Name | None = Field(
+        None, description="its row in published_nsm.csv, if not of `network`'s name"
+    )
+
+
+class ScreenNetworksTable(ScreenTable):
+    """Multiply-adds and weights of several networks."""
+
+    kind: Literal["screen_networks"] = Field(description="`screen_networks`")
+    networks: list[section_or(ScreenRow, "network")] = Field(
+        min_length=1, description="in the table's order"
+    )
+
+
 Table = by_kind(
-    "kind", TableOfOneScene, TableByScene, CostTable, SoftMethodsTable, default="comparison"
+    "kind",
+    TableOfOneScene,
+    TableByScene,
+    CostTable,
+    SoftMethodsTable,
+    ScreenProfileTable,
+    ScreenNetworksTable,
+    default="comparison",
 )
 
 # What stands in each table of a kind beside its methods: a network that is not better than no
@@ -122,10 +162,10 @@ Row = dict[str, Any]  # method, label, published, scene, experiment, encoding, t
 
 
 def settings_by_scene(config: "Config", table: AnyTable) -> dict[str, list[RowSettings]]:
-    """The rows of a table by scene, null predictors among them; none of a table of costs, or of
-    soft shadows.
+    """The rows of a table by scene, null predictors among them; none of a table of costs, of soft
+    shadows, or of networks of whole frames.
     """
-    if isinstance(table, CostTable | SoftMethodsTable):
+    if isinstance(table, CostTable | SoftMethodsTable | ScreenTable):
         return {}
     rows = table.rows
     if isinstance(table, TableOfOneScene):
@@ -142,7 +182,7 @@ def _null_rows(table: AnyTable, given: list[RowSettings]) -> list[RowSettings]:
 
 
 def rows_of(config: "Config", name: str) -> list[Row]:
-    """The rows of a table; none of a table of costs, or of soft shadows.
+    """The rows of a table, as `settings_by_scene` has them.
 
     Returns: of each row `method`, the method's key; `label`; `published`, its key in
         published.csv or None if the table is not the thesis's; `scene`; `experiment` and the

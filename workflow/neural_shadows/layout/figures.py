@@ -22,6 +22,7 @@ TOLD = {
     "soft_equal_time": ("radii", "run"),
     "soft_pictures": ("labels", "run"),
     "penumbra_model": ("run",),
+    "screen_level_time": ("run",),
 }
 
 
@@ -59,7 +60,7 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
                 "losses": tables.networks(layout, curves, "loss.csv"),
                 "trainings": tables.networks(layout, curves, "training.json"),
             }
-        case "widths" | "pareto" | "learning_curves" | "soft_equal_time":
+        case "widths" | "pareto" | "learning_curves" | "soft_equal_time" | "screen_level_time":
             return {"table": paths.report(f"{settings['table']}.csv")}
         case "soft_pictures":
             frame_set = soft_methods.frame_set(layout, settings["table"])

@@ -42,6 +42,9 @@ FILES = {
         "soft_constants",
         "lpips_json",
     ),
+    "screen_levels": ("profile_json", "published_nsm_csv"),
+    "screen_parts": ("profile_json", "published_nsm_csv"),
+    "screen_networks": ("published_nsm_csv",),
 }
 TOLD = {
     "comparison": ("published", "against", "rows", "run", "scenes"),
@@ -51,6 +54,9 @@ TOLD = {
     "memory": ("published", "rows", "run"),
     "cost": ("run",),
     "soft_methods": ("labels", "left_out", "unseen", "run"),
+    "screen_levels": ("published", "run"),
+    "screen_parts": ("published", "run"),
+    "screen_networks": ("published", "networks", "run"),
 }
 
 
@@ -73,7 +79,9 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "times": [paths.frame_times(table, scene) for scene in scenes],
         "lpips_json": paths.lpips,
         "published_csv": layout.source("config/published.csv"),
+        "published_nsm_csv": layout.source("config/published_nsm.csv"),
         "costs": costs(layout, table) if kind == "cost" else [],
+        "profile_json": paths.screen_profile(settings["network"]) if "network" in settings else [],
     }
     if kind == "soft_methods":
         values["soft_metrics"] = soft_methods.evaluations(layout, table, "csv")
@@ -104,7 +112,16 @@ def arguments(layout: Layout, table: str) -> dict[str, Any]:
         values["labels"] = soft_methods.labels(layout, table)
         values["left_out"] = soft_methods.left_out(layout, table)
         values["unseen"] = frame_set.get("unseen", [])
+    if settings["kind"] == "screen_networks":
+        values["networks"] = [_screen_network(layout, row) for row in settings["networks"]]
     return {key: values[key] for key in ("title", *TOLD[settings["kind"]])}
+
+
+def _screen_network(layout: Layout, row: Row) -> dict[str, Any]:
+    """A network of whole frames: its name, its row in the paper, its settings."""
+    name = row["network"]
+    settings = layout.entry("screen_networks", name)
+    return {"name": name, "published": row["published"] or name, "settings": settings}
 
 
 def labels(layout: Layout, table: str) -> dict[str, str]:

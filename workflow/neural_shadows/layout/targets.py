@@ -178,6 +178,7 @@ def beyond(layout: Layout) -> list[str]:
 def soft(layout: Layout) -> list[str]:
     """Names of the tables and figures of soft shadows."""
     kinds = ("soft_methods", "soft_equal_time", "soft_pictures", "penumbra_model")
+    kinds += ("screen_levels", "screen_parts", "screen_networks", "screen_level_time")
     entries = [*layout.settings["tables"].items(), *layout.settings["figures"].items()]
     return [name for name, entry in entries if entry["kind"] in kinds]
 

@@ -1,0 +1,37 @@
+"""A profile times every part of a network once a frame, whatever its form."""
+
+import json
+
+import pytest
+
+from neural_shadows.evaluation import profile_screen_network as stage
+from neural_shadows.networks.screen_space.screen_networks import make_screen_network
+
+FORMS = [
+    {"form": "full", "widths": [4, 8, 8], "extraction": 6},
+    {"form": "shuffle", "widths": [4, 8]},
+    {"form": "half", "widths": [4, 8]},
+    {"form": "original", "widths": [4, 8]},
+]
+
+
+@pytest.mark.parametrize("settings", FORMS, ids=lambda one: one["form"])
+def test_each_part_of_each_level_is_timed(tmp_path, monkeypatch, settings):
+    """A clock that goes on by 1 ms at each look: a part takes 1, a whole frame too, untimed inside."""
+    ticks = iter(range(10**6))
+    monkeypatch.setattr(stage.time, "perf_counter", lambda: next(ticks) / 1000)
+    monkeypatch.setattr(stage, "PRODUCT", 10)
+    network = settings | {"features": ["ratio", "n"]}
+    path, profile = tmp_path / "profile.json", {"width": 16, "height": 8, "repeats": 3}
+    stage.profile_screen_network(path, network=network, profile=profile, device="cpu", threads=1)
+    found = json.loads(path.read_text())
+    made = make_screen_network(network)
+    weights = sum(one.numel() for one in made.parameters() if one.ndim == 4)
+    assert sum(level["weights"] for level in found["levels"]) == weights
+    assert [run["precision"] for run in found["runs"]] == ["float32", "bfloat16"]
+    for run in found["runs"]:
+        places = [(part["level"], part["part"]) for part in run["parts"]]
+        assert len(set(places)) == len(places) and set(places) == made.parts().keys()
+        assert [part["ms"] for part in run["parts"]] == pytest.approx([1.0] * len(places))
+        assert run["whole_ms"] == pytest.approx(1.0)
+        assert run["product_macs"] == pytest.approx(10**3 / 1e-3)

@@ -1,0 +1,76 @@
+"""The time of a network of whole frames by level, stacked by part, beside the printed one."""
+
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from neural_shadows.reports.figures.chart import say, write_chart
+from neural_shadows.reports.figures.style import COLOURS, GRID, Section, legend_below, new_figure
+from neural_shadows.reports.published_nsm import PAPER
+from neural_shadows.reports.tables.screen_parts import NAMES, PRINTED
+from neural_shadows.reports.tables.writing import read_table
+from neural_shadows.running.stage import run_stage
+
+NUMBERS = ("level", "ms", "share", "printed_ms", "printed_share")
+PARTS = (*PRINTED, "extraction", "entrance", "exit")  # in the order of their colours
+
+
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None:
+    """Draw the CSV of a table of `screen_parts`.
+
+    Raises:
+        InputError: it is missing or not whole.
+    """
+    found = read_table(table, ("part", "run"), NUMBERS)
+    write_chart(level_figure(found, title=f"{title} ({run['scale']} scale)"), png, svg)
+
+
+def level_figure(table: pd.DataFrame, *, title: str) -> Figure:
+    """Shares of the whole time by level: ours at the left, the paper's at the right if printed."""
+    panels = {f"ours, {table['run'].iloc[0]}": ("share", "ms")}
+    if table["printed_ms"].notna().any():
+        panels[f"{PAPER}, RTX 2080 Ti"] = ("printed_share", "printed_ms")
+    figure = new_figure(title, 5 * len(panels), 4.6)
+    for axes, (name, columns) in zip(
+        figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels.items()
+    ):
+        _draw_levels(axes, table, *columns)
+        axes.set_title(f"{name}: {table[columns[1]].sum():.4g} ms", fontsize=11)
+    figure.axes[0].set_ylabel("share of the whole time, %")
+    legend_below(figure)
+    return figure
+
+
+def _draw_levels(axes: Axes, table: pd.DataFrame, share: str, ms: str) -> None:
+    levels = sorted(table["level"].unique())
+    bottom = pd.Series(0.0, index=levels)
+    for part, colour in zip(PARTS, (*COLOURS, "#999999")):
+        rows = table[table["part"] == part].set_index("level")
+        heights = 100 * rows[share].reindex(levels).fillna(0)
+        if heights.any():
+            label = NAMES.get(part, part)
+            bars = axes.bar(levels, heights, bottom=bottom, color=colour, label=label, width=0.7)
+            for level, bar in zip(levels, bars):
+                if heights[level]:
+                    say(bar, f"level {level:g}, {label}: {rows[ms][level]:.3g} ms")
+            bottom += heights
+    sums = table.groupby("level")[ms].sum()
+    for level in levels:
+        axes.annotate(
+            f"{sums[level]:.3g} ms",
+            (level, bottom[level]),
+            xytext=(0, 2),
+            textcoords="offset points",
+            ha="center",
+            fontsize=8,
+        )
+    axes.set(xlabel="level (0: the frame's own size)", xticks=levels)
+    axes.margins(y=0.08)
+    axes.grid(axis="y", **GRID)
+    axes.set_axisbelow(True)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

@@ -1,0 +1,105 @@
+"""A network of whole frames by level: time, multiply-adds, weights, storage (NSM, table S2)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports import phrases, screen_profiles
+from neural_shadows.reports.published_nsm import (
+    beside,
+    printed,
+    printed_size,
+    read_published_nsm,
+    titled,
+)
+from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+# Column, its unit, and the digits that the paper prints.
+COLUMNS = {
+    "runtime": ("ms", "{:.4g}"),
+    "compute": ("GMAC", "{:.4g}"),
+    "parameters": ("thousand weights", "{:.2f}"),
+    "storage_io": ("million numbers", "{:.4g}"),
+}
+OF_ANY_SIZE = ("parameters",)
+
+
+def write(
+    *,
+    profile_json: Path,
+    published_nsm_csv: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    published: str | None,
+    run: Mapping[str, Any],
+) -> None:
+    """Write `level_table`; `profile_json`: what `profile_screen_network` wrote.
+
+    Raises:
+        InputError: a file is missing or damaged.
+    """
+    profile, numbers = read_json(profile_json), read_published_nsm(published_nsm_csv)
+    table = level_table(profile, numbers, published).assign(scale=run["scale"])
+    shown = {"level": [*map(str, table["level"])]}
+    for one in profile["runs"]:
+        key = screen_profiles.run_key(one)
+        shown[f"ms, {screen_profiles.run_name(one)}"] = number_cells(table[f"ms_{key}"], "{:.4g}")
+    shown["% of the product's rate"] = number_cells(table["product_share"], "{:.0f}", 100)
+    for name, (unit, form) in COLUMNS.items():
+        if name != "runtime":
+            shown[unit] = number_cells(table[name], form)
+        shown[f"printed {unit}"] = number_cells(table[f"printed_{name}"], "{:.6g}")
+        shown[f"difference, {unit}"] = number_cells(table[f"{name}_minus_printed"], "{:+.3g}")
+    compared = screen_profiles.run_name(screen_profiles.compared(profile))
+    notes = [
+        f"Printed times and rates stand beside those of {compared}. A level's rate: the multiply-adds "
+        "of its convolutions over the time of all that it does.",
+        "Weights without biases, each multiply-add once; storage: the channels that each convolution "
+        "reads and writes, over all pixels.",
+        screen_profiles.describe(profile),
+        beside(profile, numbers),
+        phrases.describe_run(run),
+    ]
+    shown = {name: cells for name, cells in shown.items() if any(cells)}
+    write_twins(table, shown, csv, md, title=titled(title, published), notes=notes)
+
+
+def level_table(
+    profile: screen_profiles.Profile, numbers: pd.Series, published: str | None
+) -> pd.DataFrame:
+    """A row for each level.
+
+    Columns `level`, `ms_RUN` of each run, and of `COLUMNS` ours, `printed_`, `_minus_printed` (of
+    times, multiply-adds and storage in frames of the paper's size alone), `product_share`.
+    """
+    levels = pd.DataFrame(profile["levels"])
+    times = screen_profiles.part_times(profile).groupby("level").sum()
+    run = screen_profiles.compared(profile)
+    pixels = profile["width"] * profile["height"]
+    table = pd.DataFrame({"level": levels["level"]})
+    for key in times:
+        table[f"ms_{key}"] = times[key].reindex(table["level"]).to_numpy()
+    table["runtime"] = table[f"ms_{screen_profiles.run_key(run)}"]
+    table["compute"] = levels["macs"] * pixels / 1e9
+    table["parameters"] = levels["weights"] / 1e3
+    table["storage_io"] = levels["storage"] * pixels / 1e6
+    rate = 1e12 * table["compute"] / table["runtime"]
+    table["product_share"] = rate / run["product_macs"]
+    same = (profile["width"], profile["height"]) == printed_size(numbers)
+    rows = [f"level_{level}" for level in table["level"]]
+    for name in COLUMNS:
+        table[f"printed_{name}"] = printed(numbers, published, rows, name)
+        difference = table[name] - table[f"printed_{name}"]
+        comparable = same or name in OF_ANY_SIZE
+        table[f"{name}_minus_printed"] = difference if comparable else np.nan
+    return table
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)
