@@ -32,7 +32,8 @@ rule all:
 
 onsuccess:
     # Snakemake has now taken note of all networks.
-    remove_finished(Path(PATHS.results) / "networks")
+    for networks in ("networks", "screen_networks"):
+        remove_finished(Path(PATHS.results) / networks)
     made = [path for job in workflow.dag.finished_jobs for path in job.output]
     if words := targets.closing_words(LAYOUT, made):
         print(words)

@@ -14,7 +14,8 @@ from neural_shadows.networks.object_space.frequency_network import FrequencyNetw
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.training.batches import batch_indices
 from neural_shadows.training.cuda_graph import WARM_UP, recorded
-from neural_shadows.training.training_run import TrainingRun, gradient_pool
+from neural_shadows.training.training_run import TrainingRun
+from neural_shadows.training.training_state import gradient_pool
 
 THREADS = 2
 DESK_BATCH, THESIS_BATCH = 1024, 65536

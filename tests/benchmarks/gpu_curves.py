@@ -23,7 +23,7 @@ from neural_shadows.networks.object_space.shadow_query import network_lit, on_de
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.running.hardware import describe_machine
-from neural_shadows.training.train import curve_points, outcome
+from neural_shadows.training.train import outcome, ray_points
 from neural_shadows.training.training_run import TrainingRun
 
 Metric = Callable[[np.ndarray, np.ndarray], float]
@@ -117,7 +117,7 @@ def _opened(key: str, experiment: Mapping[str, Any], device: torch.device, data:
 def _train(run: TrainingRun, rays, deadline: float, threads: int) -> bool:
     """Do steps until the end or the deadline; gives whether it came to the end."""
     started, before = time.monotonic(), run.seconds
-    for step in curve_points(run, rays, threads, after_step=lambda samples: None):
+    for step in ray_points(run, rays, threads, after_step=lambda samples: None):
         run.seconds = before + time.monotonic() - started
         more = step < run.settings["steps"] and run.died_at_step is None
         if time.monotonic() > deadline and more:

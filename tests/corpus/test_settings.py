@@ -12,7 +12,7 @@ from shipped import shipped
 from neural_shadows.config import reading
 from neural_shadows.config.reading import check_duplicates, check_files, read_config
 from neural_shadows.errors import InputError
-from neural_shadows.metrics.lpips_trunk import read_trunk
+from neural_shadows.networks.pretrained_trunk import read_trunk
 
 OVERLAY = b"""
 scale: mine

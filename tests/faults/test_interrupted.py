@@ -36,11 +36,11 @@ def start(tmp_path_factory) -> Checkout:
     # Started in the background, pytest and all its children would ignore Ctrl-C.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     checkout = Checkout.fresh(tmp_path_factory.mktemp("start"))
-    train = checkout.module("training/train.py")
-    source = train.read_text(encoding="utf-8")
+    steps = checkout.module("training/steps.py")
+    source = steps.read_text(encoding="utf-8")
     often = source.replace("CHECKPOINT_SECONDS = 30.0", "CHECKPOINT_SECONDS = 1.0")
     assert often != source
-    train.write_text(often, encoding="utf-8")
+    steps.write_text(often, encoding="utf-8")
     return checkout
 
 

@@ -204,7 +204,7 @@ def test_a_training_is_kept_before_it_is_measured(call, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("died_at_step", [None, 1])
 def test_a_dead_run_is_done_when_the_time_is_up(monkeypatch, died_at_step):
-    monkeypatch.setattr(gpu_curves, "curve_points", lambda *_, **__: iter([1]))
+    monkeypatch.setattr(gpu_curves, "ray_points", lambda *_, **__: iter([1]))
     run = SimpleNamespace(settings={"steps": 8}, seconds=0.0, died_at_step=died_at_step)
     assert gpu_curves._train(run, None, 0.0, 1) == (died_at_step is not None)
 

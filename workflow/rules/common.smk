@@ -31,7 +31,7 @@ from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.registry import method_module
 from neural_shadows.layout import claims, figures, frame_sets, parts, tables, targets
-from neural_shadows.layout import soft_methods, viewers
+from neural_shadows.layout import screen_networks, soft_methods, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.running.module_graph import modules_of

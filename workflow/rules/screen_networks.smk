@@ -25,3 +25,32 @@ rule profile_screen_network:
         "Timing {wildcards.network} level by level"
     script:
         "../neural_shadows/evaluation/profile_screen_network.py"
+
+
+rule train_screen:
+    input:
+        unpack(of(screen_networks.training_files)),
+        code=code("training/train_screen"),
+    output:
+        weights=PATHS.screen_network("weights.safetensors"),
+        loss_csv=PATHS.screen_network("loss.csv"),
+        training_json=PATHS.screen_network("training.json"),
+    log:
+        PATHS.log("train_screen", "experiment"),
+    benchmark:
+        PATHS.benchmark("train_screen", "experiment")
+    conda:
+        ENVIRONMENT
+    threads: COMPUTE["threads"]
+    resources:
+        # Minutes are not more for each attempt: it goes on from its last checkpoint.
+        **usual(8000, minutes=600) | {"runtime": 600},
+        gpu=GPUS,
+    params:
+        settings=of(screen_networks.training_settings),
+        device=COMPUTE["device"],
+        precision=COMPUTE["precision"],
+    message:
+        "Training {wildcards.experiment}"
+    script:
+        "../neural_shadows/training/train_screen.py"

@@ -8,7 +8,7 @@ import torchvision
 from images import random_image
 
 from neural_shadows.metrics.lpips_distance import load_model, make_lpips
-from neural_shadows.metrics.lpips_trunk import MODELS
+from neural_shadows.networks.pretrained_trunk import MODELS
 
 
 @pytest.mark.parametrize("net", ["squeeze", "alex"])

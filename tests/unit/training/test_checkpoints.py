@@ -3,9 +3,14 @@
 import pytest
 
 from neural_shadows.networks.kind_module import kind_module
-from neural_shadows.training import checkpoints
-from neural_shadows.training.checkpoints import CHECKPOINTS, checkpoint_folder, remove_finished
+from neural_shadows.training.checkpoints import (
+    CHECKPOINTS,
+    STAGES,
+    checkpoint_folder,
+    remove_finished,
+)
 
+KIND = kind_module("frequency")
 HEADER = {
     "name": "ball",
     "network": {"encoding": "frequency", "width": 8},
@@ -14,8 +19,9 @@ HEADER = {
 }
 
 
-def folder_of(tmp_path, header=HEADER):
-    return checkpoint_folder(tmp_path / "networks" / "ball" / "weights.safetensors", header)
+def folder_of(tmp_path, header=HEADER, kind=KIND):
+    weights = tmp_path / "networks" / "ball" / "weights.safetensors"
+    return checkpoint_folder(weights, header, (STAGES / "train.py", kind))
 
 
 @pytest.mark.parametrize("change", [{"name": "balls"}, {"data": {"rays": 20_001}}])
@@ -25,12 +31,10 @@ def test_other_settings_have_another_checkpoint(tmp_path, change):
     assert ours == folder_of(tmp_path) != folder_of(tmp_path, HEADER | change)
 
 
-def test_other_code_of_the_network_s_kind_has_another_checkpoint(tmp_path, monkeypatch):
+def test_other_code_of_the_network_s_kind_has_another_checkpoint(tmp_path):
     edited = tmp_path / "frequency_network.py"
     edited.write_text(kind_module("frequency").read_text() + "# edited\n")
-    before = folder_of(tmp_path)
-    monkeypatch.setattr(checkpoints, "kind_module", lambda encoding: edited)
-    assert folder_of(tmp_path) != before
+    assert folder_of(tmp_path, kind=edited) != folder_of(tmp_path)
 
 
 def test_checkpoints_of_finished_networks_are_removed(tmp_path):

@@ -18,7 +18,7 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
     OccupancyFieldNetwork,
 )
 from neural_shadows.networks.weight_file import load_network
-from neural_shadows.training import cuda_graph
+from neural_shadows.training import cuda_graph, steps
 from neural_shadows.training import train as stage
 from neural_shadows.training.batches import HostRays
 from neural_shadows.training.loss_curve import read_loss
@@ -49,7 +49,7 @@ TINY = SETTINGS | {
 }
 
 
-def run_training(folder: Path, *, stop_after=None, interval=stage.CHECKPOINT_SECONDS, **changes):
+def run_training(folder: Path, *, stop_after=None, interval=steps.CHECKPOINT_SECONDS, **changes):
     """Train in `folder` with `SETTINGS` and changes; gives the number of steps that were done.
 
     Args:
@@ -69,7 +69,7 @@ def run_training(folder: Path, *, stop_after=None, interval=stage.CHECKPOINT_SEC
 
     with (
         mock.patch.object(HostRays, "gather", gather),
-        mock.patch.object(stage, "CHECKPOINT_SECONDS", interval),
+        mock.patch.object(steps, "CHECKPOINT_SECONDS", interval),
     ):
         stage.train(
             **rays,

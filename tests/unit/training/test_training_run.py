@@ -9,7 +9,8 @@ from rays import ball_rays
 from neural_shadows.errors import InputError
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
-from neural_shadows.training.training_run import TrainingRun, gradient_pool
+from neural_shadows.training.training_run import TrainingRun
+from neural_shadows.training.training_state import gradient_pool
 
 RAYS = [torch.from_numpy(part) for part in ball_rays(1000)]
 SETTINGS = {

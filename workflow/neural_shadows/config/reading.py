@@ -11,6 +11,7 @@ from neural_shadows.config.base import not_among
 from neural_shadows.config.frame_sets import own_parts
 from neural_shadows.config.messages import describe
 from neural_shadows.config.scenes import MeshFile
+from neural_shadows.config.screen_experiments import training_of
 from neural_shadows.config.whole import Config
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.formats import format_of
@@ -116,6 +117,10 @@ def check_files(config: Config) -> None:
                 f"config: frame_sets.{name}.path = {path!r}: no SCENE/test_000.json in it; "
                 "results/README.md tells the format"
             )
+    for name in config.screen_experiments:
+        trunk = getattr(training_of(config, name).perceptual, "trunk", None)
+        if trunk is not None:
+            _check_file(f"screen_experiments.{name}: perceptual.trunk", trunk)
     if config.metrics.lpips.trunk is not None:
         _check_file("metrics.lpips.trunk", config.metrics.lpips.trunk)
 

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from neural_shadows.config import screen_experiments
 from neural_shadows.config.claims import compared, rows_of_claim
 from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
 from neural_shadows.config.figures import LossFigure, TableFigure, rows_of_figure, scene_of
@@ -28,7 +29,7 @@ def resolved(config: "Config") -> Section:
     (what `open_scene` takes beside the mesh) and `frames` (how its viewpoints are drawn and
     rendered); an experiment's `network` and `training` are sections, the former with what it takes
     from its scene, and the points of learning
-    curves are experiments, too; `learning_curves` has those of each (`points_of`); seeds and
+    curves are experiments, too; a screen experiment has its sections and a `trunk`; `learning_curves` has those of each (`points_of`); seeds and
     labels are what holds; rows (also of a viewer's networks), curves, pairs and methods are as
     `rows_of` gives them.
     """
@@ -45,6 +46,9 @@ def resolved(config: "Config") -> Section:
                 for point in points
             },
             **{name: _experiment(config, name) for name in config.experiments},
+        },
+        "screen_experiments": {
+            name: screen_experiments.as_settings(config, name) for name in config.screen_experiments
         },
         "learning_curves": curves,
         "tables": {

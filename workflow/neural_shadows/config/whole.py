@@ -15,6 +15,7 @@ from neural_shadows.config import (
     frame_sets,
     learning_curves,
     scenes,
+    screen_experiments,
     soft_scenes,
     tables,
     viewers,
@@ -32,8 +33,10 @@ from neural_shadows.config.networks import Network
 from neural_shadows.config.rendering import Rendering
 from neural_shadows.config.samplings import Sampling
 from neural_shadows.config.scenes import Scene
+from neural_shadows.config.screen_experiments import ScreenExperiment
 from neural_shadows.config.screen_networks import ScreenNetwork
 from neural_shadows.config.screen_profiles import ScreenProfiles
+from neural_shadows.config.screen_trainings import ScreenTraining
 from neural_shadows.config.soft_scenes import SoftScene
 from neural_shadows.config.tables import Table
 from neural_shadows.config.trainings import Training
@@ -76,6 +79,12 @@ class Config(Model):
     screen_networks: dict[Name, ScreenNetwork] = Field(
         {}, description="shapes of networks that answer whole frames, by name"
     )
+    screen_trainings: dict[Name, ScreenTraining] = Field(
+        {}, description="how networks of whole frames learn, by name"
+    )
+    screen_experiments: dict[Name, ScreenExperiment] = Field(
+        {}, description="networks of whole frames that are trained, by name"
+    )
     screen_profiles: ScreenProfiles = Field(
         ScreenProfiles(), description="how these are timed, level by level"
     )
@@ -101,6 +110,7 @@ class Config(Model):
             soft_scenes,
             frame_sets,
             experiments,
+            screen_experiments,
             learning_curves,
             tables,
             figures,

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from neural_shadows.errors import InputError
+from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.rendering.gbuffer import pixel_directions
 from neural_shadows.scenes.cameras import Camera
 
@@ -20,8 +21,8 @@ FULL_FOCAL = 983.5  # … whose focal length is this many
 LARGEST_STEP = 4  # NSM's index of the largest light: 50 cm across
 NEAREST = 0.05  # in shares of S: nearer points are as far in c_c / d
 
-# All that NSM chose among, in its own symbols: how many channels each has, 15 in all [3.1]. Its four
-# are c_e, view (c_c / d), ratio (z / z_f) and difference (z - z_f); agreement is n · n_e.
+# The buffers of each of `FEATURES`: view is c_c / d, ratio z / z_f, difference z − z_f in NSM's symbols,
+# and agreement n · n_e.
 _MADE_OF = {
     "c_e": ("c_e",),
     "view": ("c_v", "d"),
@@ -35,7 +36,6 @@ _MADE_OF = {
     "z_f": ("z",),
     "c_c": ("c_v",),
 }
-FEATURES = {name: 3 if name in ("n", "n_e") else 1 for name in _MADE_OF}
 
 
 def axis_cosines(camera: Camera, width: int, height: int) -> np.ndarray:

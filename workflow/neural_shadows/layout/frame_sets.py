@@ -61,6 +61,12 @@ def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
     return [layout.paths.frames("json", scene, frame_set, name) for name in names]
 
 
+def arrays(parts: Iterable[str]) -> list[str]:
+    """The arrays of some parts, which lie beside their JSON."""
+    stems = ("buffers", "targets", "valid")
+    return [f"{part.removesuffix('.json')}.{stem}.npy" for part in parts for stem in stems]
+
+
 def tuned_scenes(layout: Layout, frame_set: str) -> list[str]:
     """The scenes whose validation frames the constants of methods are chosen on."""
     settings = layout.entry("frame_sets", frame_set)

@@ -90,6 +90,10 @@ class Paths:
         """The times of a table's methods for soft shadows."""
         return f"{self.results}/soft_times/{table}.json"
 
+    def screen_network(self, file: str, experiment: str = "{experiment}") -> str:
+        """`weights.safetensors`, `loss.csv`, `training.json` of a network of whole frames."""
+        return f"{self.results}/screen_networks/{experiment}/{file}"
+
     def screen_profile(self, network: str = "{network}") -> str:
         """The times of a network of whole frames by level and part."""
         return f"{self.results}/screen_profiles/{network}.json"

@@ -1,6 +1,5 @@
 """What tables and figures of methods for soft shadows are made of."""
 
-from collections.abc import Iterable
 
 from neural_shadows.evaluation.soft_method_names import (
     LABELS,
@@ -66,17 +65,12 @@ def validations(layout: Layout, frame_set: str) -> list[str]:
 
 def measured_arrays(layout: Layout, frame_set: str) -> list[str]:
     """The arrays of test frames and sequences, which lie beside their JSON."""
-    return _arrays([*tests(layout, frame_set), *sequences(layout, frame_set)])
+    return frame_sets.arrays([*tests(layout, frame_set), *sequences(layout, frame_set)])
 
 
 def tuned_arrays(layout: Layout, frame_set: str) -> list[str]:
     """The arrays of validation frames."""
-    return _arrays(validations(layout, frame_set))
-
-
-def _arrays(parts: Iterable[str]) -> list[str]:
-    stems = ("buffers", "targets", "valid")
-    return [f"{part.removesuffix('.json')}.{stem}.npy" for part in parts for stem in stems]
+    return frame_sets.arrays(validations(layout, frame_set))
 
 
 def all_meshes(layout: Layout, frame_set: str) -> list[str]:

@@ -9,7 +9,7 @@ import numpy as np
 import torch
 
 from neural_shadows.metrics.grey_images import check_pair
-from neural_shadows.metrics.lpips_trunk import Net, read_trunk
+from neural_shadows.networks.pretrained_trunk import Net, read_trunk
 
 Lpips = Callable[[np.ndarray, np.ndarray], float]
 """Distance of a grey image (H, W) in [0, 1] to its reference; 0 for identical ones."""

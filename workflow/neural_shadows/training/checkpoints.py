@@ -3,11 +3,10 @@
 import hashlib
 import json
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.running.module_graph import modules_of
 
 # Beside the folders of a run's networks. In it a folder `<experiment>-<digest>` for each training.
@@ -15,10 +14,10 @@ CHECKPOINTS = "checkpoints"
 
 STATE = "state.safetensors"  # in such a folder
 
-_STAGE = Path(__file__).with_name("train.py")
+STAGES = Path(__file__).parent  # where the stages that train lie
 
 
-def checkpoint_folder(weights: Path, header: Mapping[str, Any]) -> Path:
+def checkpoint_folder(weights: Path, header: Mapping[str, Any], code: Iterable[Path]) -> Path:
     """Where the checkpoint of a training lies: `networks/checkpoints/<experiment>-<digest>`.
 
     Snakemake deletes the outputs of a job that failed, so that a checkpoint cannot be among them.
@@ -27,9 +26,10 @@ def checkpoint_folder(weights: Path, header: Mapping[str, Any]) -> Path:
 
     Args:
         weights: `networks/<experiment>/weights.safetensors`; header: of that file.
+        code: the modules that the training is started from: its stage, and what is found by name.
     """
     digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
-    for module in (_STAGE, kind_module(header["network"]["encoding"])):
+    for module in code:
         for path in (module, *modules_of(module)):
             digest.update(path.read_bytes())
     return weights.parents[1] / CHECKPOINTS / f"{header['name']}-{digest.hexdigest()[:16]}"

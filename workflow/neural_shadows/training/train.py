@@ -4,9 +4,9 @@ One that is not trained, such as a decimated mesh, is only built.
 """
 
 import math
-import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,25 +14,21 @@ import torch
 
 from neural_shadows.files.whole_files import read_json, write_json, write_text
 from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import save_network
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.running.hardware import describe_machine
-from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.batches import DeviceRays, batch_indices, batch_source
-from neural_shadows.training.checkpoints import STATE, checkpoint_folder
+from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
 from neural_shadows.training.cuda_graph import recorded
 from neural_shadows.training.loss_curve import COLUMNS
 from neural_shadows.training.no_shadow import no_shadow_loss
-from neural_shadows.training.training_run import TrainingRun, gradient_pool
-
-# Points of the loss curve, each the mean loss since the point before.
-CURVE_POINTS = 500
-
-# Between checkpoints. A kill costs at most that and one point of the loss curve, 1/500 of the run.
-CHECKPOINT_SECONDS = 30.0
+from neural_shadows.training.steps import curve_points, train_to_end
+from neural_shadows.training.training_run import TrainingRun
+from neural_shadows.training.training_state import gradient_pool
 
 
 def train(
@@ -123,10 +119,12 @@ def _trained(
 ) -> tuple[dict[str, Any], str]:
     """Train a network; gives what came of it, and the loss curve as CSV."""
     run = TrainingRun(model, header["training"])
-    checkpoint = checkpoint_folder(weights, header)
+    code = (STAGES / "train.py", kind_module(header["network"]["encoding"]))
+    checkpoint = checkpoint_folder(weights, header, code)
     if (checkpoint / STATE).exists():
         run.restore(checkpoint / STATE)
-    train_to_end(run, rays, header["name"], checkpoint, threads, started)
+    points = partial(ray_points, run, rays, threads)
+    train_to_end(run, points, header["name"], checkpoint, started)
     return outcome(run, rays), run.curve_csv()
 
 
@@ -144,46 +142,16 @@ def outcome(run: TrainingRun, rays: RaySet) -> dict[str, Any]:
     }
 
 
-def train_to_end(
-    run: TrainingRun, rays: RaySet, name: str, checkpoint: Path, threads: int, started: float
-) -> None:
-    """Do the steps that are left; the run's seconds count from `started` on the monotonic clock."""
-    steps, batch_size = run.settings["steps"], run.settings["batch_size"]
-    seconds_before, last_saved = run.seconds, started
-    step = saved_step = int(run.step)
-    with progress_bar(steps * batch_size, "samples", f"train {name}", step * batch_size) as bar:
-        # Checkpoints are written at points of the curve only, so that a restored run has no
-        # half-summed loss to carry along; and only there a GPU is waited for.
-        for step in curve_points(run, rays, threads, bar.update):
-            bar.set_postfix(loss=f"{run.curve[-1][2]:.4g}", refresh=False)
-            run.seconds = seconds_before + time.monotonic() - started
-            if time.monotonic() - last_saved > CHECKPOINT_SECONDS:
-                run.save(checkpoint / STATE)
-                write_text(checkpoint / "loss.csv", run.curve_csv())
-                last_saved, saved_step = time.monotonic(), step
-    if run.died_at_step is not None:
-        print(
-            f"warning: training {name} died at step {run.died_at_step}: its loss is not finite, "
-            "or it answers the same for every ray; its weights are written as they are. A lower "
-            "`learning_rate` in the config, or another `seed`, may keep it alive",
-            file=sys.stderr,
-        )
-    if 0 < saved_step < step:
-        run.save(checkpoint / STATE)
-
-
-def curve_points(
+def ray_points(
     run: TrainingRun, rays: RaySet, threads: int, after_step: Callable[[int], object]
 ) -> Iterator[int]:
-    """Do the steps that are left, and give the number of steps at each point of the loss curve.
+    """Do the steps that are left, see `curve_points`.
 
     Args:
         after_step: told of the samples of each step.
     """
-    steps, batch_size = run.settings["steps"], run.settings["batch_size"]
+    batch_size = run.settings["batch_size"]
     source = batch_source(rays, run.device)
-    point_interval = max(1, steps // CURVE_POINTS)
-    step = int(run.step)
     with gradient_pool(threads) as pool:
         # A GPU is given its work by one thread, whose stream can be recorded.
         workers = pool if run.device.type == "cpu" else None
@@ -196,13 +164,7 @@ def curve_points(
 
         if run.network.recordable and isinstance(source, DeviceRays):
             advance = recorded(advance)
-        while step < steps and run.died_at_step is None:
-            advance()
-            step += 1
-            after_step(batch_size)
-            if step % point_interval == 0 or step == steps:
-                run.add_point()
-                yield step
+        yield from curve_points(run, advance, after_step)
 
 
 if "snakemake" in globals():

@@ -1,4 +1,4 @@
-"""The user's own file of the pretrained convolution layers ("trunk") inside LPIPS."""
+"""The user's own file of the pretrained convolution layers ("trunk") of a perceptual measure."""
 
 from pathlib import Path
 from typing import Literal
@@ -8,17 +8,28 @@ import torchvision
 
 from neural_shadows.errors import InputError
 
-Net = Literal["alex", "squeeze", "vgg"]
+Net = Literal["alex", "squeeze", "vgg", "vgg19"]
 
-# torchvision's ImageNet classifiers, of which LPIPS uses the `features`.
-MODELS: dict[Net, str] = {"alex": "alexnet", "squeeze": "squeezenet1_1", "vgg": "vgg16"}
+# torchvision's ImageNet classifiers, of which LPIPS (all but the last) and the perceptual loss of
+# screen-space networks (`squeeze`, `vgg19`) use the `features`.
+MODELS: dict[Net, str] = {
+    "alex": "alexnet",
+    "squeeze": "squeezenet1_1",
+    "vgg": "vgg16",
+    "vgg19": "vgg19",
+}
+
+_LPIPS = "metrics.lpips.trunk"
 
 
-def read_trunk(net: Net, path: Path) -> dict[str, torch.Tensor]:
+def read_trunk(net: Net, path: Path, key: str = _LPIPS) -> dict[str, torch.Tensor]:
     """State dict of the `features` of `net`'s classifier (keys `0.weight`, …).
 
     The file may hold the whole classifier (keys `features.0.weight`, …), as torchvision
     publishes it, or only its features. Nothing in it is run.
+
+    Args:
+        key: of the configuration, where the path stands.
 
     Raises:
         InputError: it cannot be read, or is not of this classifier.
@@ -39,9 +50,11 @@ def read_trunk(net: Net, path: Path) -> dict[str, torch.Tensor]:
     except Exception:  # what is no file of weights makes the restricted unpickler raise anything
         why = f"it is no whole PyTorch file of {model}'s plain weights"
     if why:
+        use, of_net = (
+            ("LPIPS", f" and metrics.lpips.net to {net!r}") if key == _LPIPS else (net, "")
+        )
         raise InputError(
-            f"LPIPS trunk {path.name} cannot be used: {why}; set the config key "
-            f"metrics.lpips.trunk to torchvision's weights of {model} and metrics.lpips.net to "
-            f"{net!r}"
+            f"{use} trunk {path.name} cannot be used: {why}; set the config key {key} to "
+            f"torchvision's weights of {model}{of_net}"
         )
     return weights

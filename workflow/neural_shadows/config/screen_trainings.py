@@ -1,0 +1,60 @@
+"""`screen_trainings`: how networks that answer whole frames learn (Datta et al. 2022, 3.3)."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from neural_shadows.config.base import Model, Text, by_kind
+
+
+class _Pretrained(Model):
+    factor: float | None = Field(
+        None,
+        gt=0,
+        le=1e6,
+        description="of the distance; without it, such that the term is half of L1 at the start",
+    )
+
+
+class Squeeze(_Pretrained):
+    """SqueezeNet 1.1, after its first ReLU and after fire3."""
+
+    net: Literal["squeeze"] = Field(
+        "squeeze",
+        description="`squeeze`: by metrics.lpips.trunk, if metrics.lpips.net is squeeze; else none",
+    )
+
+
+class Vgg19(_Pretrained):
+    """VGG-19, relu2_2: the paper's."""
+
+    net: Literal["vgg19"] = Field(description="`vgg19`, the paper's")
+    trunk: Text = Field(description="local weights file of torchvision's vgg19")
+
+
+class NoPerceptual(Model):
+    """L1 alone."""
+
+    net: Literal["none"] = Field(description="`none`: L1 alone")
+
+
+class ScreenTraining(Model):
+    """Adam on crops of training frames."""
+
+    steps: int = Field(ge=1, description="optimiser steps")
+    crops: int = Field(ge=1, le=1024, description="crops of a step")
+    crop: int = Field(
+        ge=2, le=4096, description="side of a crop in pixels; of a smaller frame its whole side"
+    )
+    learning_rate: float = Field(gt=0, le=1, description="the optimiser's rate (at its start)")
+    schedule: Literal["constant", "cosine"] = Field(
+        "cosine", description="of the rate: constant or cosine to zero"
+    )
+    alpha: float = Field(0.9, ge=0, le=1, description="weight of L1; the rest is perceptual's")
+    perceptual: by_kind("net", Squeeze, Vgg19, NoPerceptual, default="squeeze") = Field(
+        Squeeze(), description="the distance between pretrained features"
+    )
+    perturbation: float = Field(
+        3.0, ge=0, le=100, description="weight of the loss against a twin's output; 0 for none"
+    )
+    flips: bool = Field(True, description="whether crops are mirrored and turned over at random")

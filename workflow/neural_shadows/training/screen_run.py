@@ -1,0 +1,109 @@
+"""A step of a screen-space network's training."""
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager
+from typing import Any
+
+import torch
+from torch import Tensor, nn
+
+from neural_shadows.networks.compute import choose_dtype
+from neural_shadows.training.screen_batches import Crops, Place, ScreenFrames
+from neural_shadows.training.screen_loss import ScreenLoss, Terms
+from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
+
+
+class ScreenRun(TrainingState):
+    """The changing state of one run, and what a step of it does.
+
+    On a CPU each crop is a chunk for one thread of a pool, on a GPU all are one chunk.
+
+    Args:
+        network: with the weights to start from; goes to the device.
+        settings: of a training, and `optimiser`, `seed`, `device`, `precision`.
+        loss: on the device.
+    """
+
+    KEPT = (*TrainingState.KEPT, "validations")
+
+    def __init__(
+        self,
+        network: nn.Module,
+        settings: Mapping[str, Any],
+        frames: ScreenFrames,
+        loss: ScreenLoss,
+    ):
+        device = torch.device(settings["device"])
+        self.network, self.frames, self.loss = network.to(device), frames, loss
+        self.dtype = choose_dtype(settings["precision"], device)
+        self.validations: list[Mapping[str, Any]] = []
+        side = settings["crop"]
+        pixels = settings["crops"] * min(side, frames.height) * min(side, frames.width)
+        super().__init__(dict(network.named_parameters()), settings, pixels)
+        self.loss_scale = LOSS_SCALE.get(self.dtype, 1.0)
+
+    def answer(self, features: Tensor) -> Tensor:
+        """What the network says of (B, C, H, W) float32: (B, 1, H, W) float32."""
+        with self._reduced():
+            return self.network(features.contiguous(memory_format=torch.channels_last)).float()
+
+    def _reduced(self) -> AbstractContextManager:
+        # A new one for each pass: it keeps weights as they were cast, and those that were cast
+        # without gradient must not be met where there is one.
+        lower = self.dtype != torch.float32
+        return torch.autocast(self.device.type, self.dtype, enabled=lower)
+
+    def train_step(self, step: int, pool: Executor) -> None:
+        """Do the step of this number; its crops are gathered and their gradients made in the pool.
+
+        Raises:
+            InputError: a crop holds NaN or infinity.
+        """
+        chunks, count = self._gathered(step, pool)
+        weights = list(self.weights.values())
+
+        def gradients(crops: Crops):
+            output = self.answer(crops.features)
+            twin = None
+            if crops.twin is not None:
+                with torch.no_grad():
+                    twin = self.answer(crops.twin)
+            loss = self.loss(output, crops.target, crops.valid, count, twin, crops.twin_valid)
+            parts = torch.autograd.grad(self.loss_scale * loss, weights)
+            return loss.detach(), output.detach().flatten(), parts
+
+        self.change_weights(*zip(*self._compute(pool)(gradients, chunks)))
+
+    def first_terms(self, pool: Executor) -> Terms:
+        """The terms of the first step's loss against the targets, with the weights as they are."""
+        chunks, count = self._gathered(0, pool)
+
+        def terms(crops: Crops) -> Terms:
+            with torch.no_grad():
+                output = self.answer(crops.features)
+                (found,) = self.loss.terms(
+                    output, crops.valid, [(crops.target, crops.valid)], count
+                )
+            return found
+
+        found = zip(*self._compute(pool)(terms, chunks))
+        return Terms(*(torch.stack(one).sum() for one in found))
+
+    def _compute(self, pool: Executor) -> Callable:
+        return pool.map if self.device.type == "cpu" else map  # a GPU is given work by one thread
+
+    def _gathered(self, step: int, pool: Executor) -> tuple[Sequence[Crops], int]:
+        """The chunks of a step, and how many of its pixels are valid."""
+        settings, twins = self.settings, self.settings["perturbation"] > 0
+        told = {key: settings[key] for key in ("seed", "crops", "crop", "flips")}
+
+        def crop(place: Place) -> Crops:
+            return self.frames.crop(place, settings["crop"])
+
+        crops = list(pool.map(crop, self.frames.places(step, twins=twins, **told)))
+        count = max(sum(int(one.valid.sum()) for one in crops), 1)
+        if self.device.type == "cpu":
+            return crops, count
+        joined = (torch.cat(parts) if parts[0] is not None else None for parts in zip(*crops))
+        return [Crops(*joined).to(self.device)], count

@@ -1,0 +1,181 @@
+"""Stage: train a screen-space network on a frame set [Datta et al. 2022, 3.3], resumable and
+reproducible from its seed.
+"""
+
+import hashlib
+import json
+import math
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import torch
+
+from neural_shadows.errors import InputError
+from neural_shadows.files.whole_files import sha256_of, write_json, write_text
+from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.screen_space.screen_networks import (
+    make_screen_network,
+    save_screen_network,
+)
+from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.stage import run_stage
+from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
+from neural_shadows.training.perceptual import Perceptual
+from neural_shadows.training.screen_batches import ScreenFrames
+from neural_shadows.training.screen_loss import ScreenLoss
+from neural_shadows.training.screen_run import ScreenRun
+from neural_shadows.training.screen_validation import (
+    mse_by_radius,
+    network_answer,
+    null_answers,
+)
+from neural_shadows.training.steps import curve_points, train_to_end
+from neural_shadows.training.training_state import gradient_pool
+
+# Validations on the way, the last at the end. On the way only each third frame: all 60 pictures of
+# 12 frames take as long as ten steps.
+VALIDATIONS = 10
+EVERY = 3
+
+
+def train_screen(
+    *,
+    train: list[Path],
+    validation: list[Path],
+    trunk: Path | None,
+    weights: Path,
+    loss_csv: Path,
+    training_json: Path,
+    network: Mapping[str, Any],
+    training: Mapping[str, Any],
+    scenes: Sequence[str],
+    seed: int,
+    experiment: str,
+    device: str = "auto",
+    precision: str = "auto",
+    threads: int = 1,
+) -> None:
+    """Train one network on crops of frames, for all radii of the frame set at once.
+
+    A run that was killed continues from its checkpoint when it is called again with the same
+    arguments, and on a CPU ends in the same weights as an undisturbed one. A run that saved a
+    checkpoint leaves that of its end: see `checkpoints.remove_finished`.
+
+    Args:
+        train, validation: JSON files of the parts of a frame set.
+        trunk: weights file of the perceptual distance's network; None for L1 alone.
+        weights: in a folder of the experiment's, with `checkpoints` beside it.
+        training_json: gets the settings and what came of them: `samples` (pixels), `seconds`,
+            `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them
+            `validation_mse`, `null_mse` of what knows nothing (`no_shadow`, `hard_map`);
+            `validations` on the way; `perceptual` (`none` for L1 alone), `perceptual_factor`.
+        network: what `make_screen_network` makes it from.
+        training: see the config's `screen_trainings`; `perceptual` as it is in this run.
+        scenes: whose parts these are.
+        threads: crops of a batch computed side by side; the weights do not depend on it.
+
+    Raises:
+        InputError: a file is missing or damaged or holds NaN, or the frames have no twins but the
+            training wants them.
+    """
+    torch.set_num_threads(1)  # the pool's threads work side by side
+    started = time.monotonic()
+    chosen = choose_device(device)
+    dtype = choose_dtype(precision, chosen)
+    model = make_screen_network(network)
+    model.initialise(seed)
+    frames, held_out = (ScreenFrames(paths, model.features) for paths in (train, validation))
+    _check_twins(frames, train, training)
+    net = training["perceptual"]["net"]
+    perceptual = None if trunk is None else Perceptual(net, trunk, chosen, dtype)
+    made = {"seed": seed, "device": chosen.type, "precision": str(dtype).removeprefix("torch.")}
+    header = {
+        "name": experiment,
+        "network": dict(network),
+        "training": {**training, "optimiser": "adam", **made},
+        "features": list(model.features),
+        "radii": frames.about.get("given_radii", frames.about["radii"]),
+        "radius_unit": frames.about.get("radius_unit", "metres"),
+        "scenes": list(scenes),
+        "perceptual": "none" if perceptual is None else net,
+    }
+    loss = ScreenLoss(training["alpha"], training["perturbation"], perceptual)
+    run = ScreenRun(model, header["training"], frames, loss)
+    digested = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
+    code = (STAGES / "train_screen.py",)
+    checkpoint = checkpoint_folder(weights, digested, code)
+    with gradient_pool(threads) as pool:
+        if perceptual is not None:
+            # Of the first weights, whatever step the run continues at.
+            loss.factor = training["perceptual"]["factor"] or loss.factor_for(run.first_terms(pool))
+        if (checkpoint / STATE).exists():
+            run.restore(checkpoint / STATE)
+        points = partial(_points, run, held_out, pool)
+        train_to_end(run, points, experiment, checkpoint, started, "pixels")
+        compute = pool.map if chosen.type == "cpu" else map
+        found = mse_by_radius(held_out, network_answer(run, held_out), compute)
+        known = null_answers(held_out).items()
+        nulls = {name: mse_by_radius(held_out, one, compute) for name, one in known}
+
+    save_screen_network(weights, model, header)
+    write_text(loss_csv, run.curve_csv())
+    result = _outcome(run) | {"validation_mse": found, "null_mse": nulls}
+    about = {"parameters": sum(one.numel() for one in run.weights.values()), **result}
+    about |= {"perceptual_factor": loss.factor if perceptual is not None else None}
+    machine = {"machine": describe_machine(), "threads": threads}
+    write_json(training_json, {**header, **about, **machine})
+
+
+def _check_twins(frames: ScreenFrames, train: Sequence[Path], training: Mapping[str, Any]) -> None:
+    if training["perturbation"] > 0 and frames.twins == 0:
+        raise InputError(
+            f"{train[0].parent}: its frames have no twins, which `perturbation` needs; give the "
+            "frame set `twins: {count: 3}`, or set `perturbation: 0`"
+        )
+
+
+def _digest(files: Sequence[Path]) -> str:
+    """Of the files that say how the data was made; the arrays beside them follow from these."""
+    return hashlib.sha256(json.dumps([sha256_of(path) for path in files]).encode()).hexdigest()
+
+
+def _points(
+    run: ScreenRun, held_out: ScreenFrames, pool, after_step: Callable[[int], object]
+) -> Iterator[int]:
+    """Do the steps that are left, and validate on the way."""
+    number, steps = int(run.step), run.settings["steps"]
+    compute = pool.map if run.device.type == "cpu" else map
+
+    def advance() -> None:
+        nonlocal number
+        run.train_step(number, pool)
+        number += 1
+
+    before = number
+    for step in curve_points(run, advance, after_step):
+        if VALIDATIONS * step // steps > VALIDATIONS * before // steps and step < steps:
+            found = mse_by_radius(held_out, network_answer(run, held_out), compute, EVERY)
+            run.validations.append({"step": step, "mse": found})
+        before = step
+        yield step
+
+
+def _outcome(run: ScreenRun) -> dict[str, Any]:
+    """What came of a training that is at its end, or dead."""
+    samples = int(run.step) * run.samples_a_step
+    final_loss = run.curve[-1][2]
+    return {
+        "samples": samples,
+        "seconds": round(run.seconds, 1),
+        "samples_per_second": round(samples / run.seconds),
+        "final_loss": final_loss if math.isfinite(final_loss) else None,
+        "died_at_step": run.died_at_step,
+        "validations": run.validations,
+    }
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, train_screen)
