@@ -10,7 +10,8 @@ from measurement import Row, median_seconds
 
 from neural_shadows.evaluation.soft_method_names import LABELS
 from neural_shadows.evaluation.soft_methods.registry import soft_method
-from neural_shadows.frames.draw_settings import FrameKind, draw_setting, light_map_of, twin_of
+from neural_shadows.frames.draw_settings import FrameKind, draw_setting, light_map_of
+from neural_shadows.frames.draw_twins import twin_of
 from neural_shadows.frames.render_frame import render_buffers, render_target
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
@@ -92,7 +93,7 @@ def frames(scene: SoftScene, rounds: int) -> list[Row]:
     for name, (kind, twins, radii) in kinds.items():
         rng = np.random.default_rng(1)
         settings = [draw_setting(scene, kind, rng)]
-        settings += [twin_of(settings[0], size, TWINS, rng) for _ in range(twins)]
+        settings += [twin_of(scene, kind, settings[0], TWINS, rng) for _ in range(twins)]
 
         def buffers(kind=kind, settings=settings):
             for one in settings:

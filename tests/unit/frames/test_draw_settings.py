@@ -15,8 +15,8 @@ from neural_shadows.frames.draw_settings import (
     draw_setting,
     is_clear,
     light_map_of,
-    twin_of,
 )
+from neural_shadows.frames.draw_twins import reach, twin_of
 from neural_shadows.frames.setting import setting_of
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.frames.uses import SEQUENCES
@@ -93,7 +93,7 @@ def test_a_path_that_leaves_the_map_is_told(room, monkeypatch):
 def test_twins_are_near(room):
     setting, size = drawn(room), room.at_rest.size
     told = {"light": 0.007, "eye": 0.001, "turn_deg": 1.0}
-    twins = [twin_of(setting, size, told, np.random.default_rng(k)) for k in range(30)]
+    twins = [twin_of(room, KIND, setting, told, np.random.default_rng(k)) for k in range(30)]
     moved = np.array([twin.centre - setting.centre for twin in twins])
     assert 0.006 * size < np.abs(moved).max() <= 0.007 * size
     eyes = np.array([twin.camera.eye - setting.camera.eye for twin in twins])
@@ -103,6 +103,39 @@ def test_twins_are_near(room):
     straight = setting.camera.target - setting.camera.eye
     turned = np.degrees(np.arccos(np.clip(views @ straight / np.linalg.norm(straight), -1, 1)))
     assert 0.5 < turned.max() <= np.sqrt(3)
+
+
+def test_twins_by_texels_look_up_others(room):
+    """In balls of the specification's radii; a point's texel is another one, its pixel hardly."""
+    told = {"light_texels": 1.5, "light_radii": 0.05, "eye_pixels": 0.5}
+    kind = replace(KIND, width=128, height=64, light_map={**PICTURE, "resolution": 256})
+    setting = drawn(room, kind)
+    light, eye = reach(room, kind, setting, told)
+    surface = see_surface(room.at_rest, setting.camera, kind.width, kind.height)
+    depth = np.median(np.linalg.norm(surface.p - setting.centre, axis=1))
+    texel = 2 * np.tan(np.radians(60)) / 256
+    assert light == pytest.approx(1.5 * depth * texel + 0.05 * 0.25, rel=0.03)
+    depth = np.median(np.linalg.norm(surface.p - setting.camera.eye, axis=1))
+    assert eye == pytest.approx(0.5 * depth * np.tan(np.radians(27.5)) / 32, rel=0.03)
+    twins = [twin_of(room, kind, setting, told, np.random.default_rng(k)) for k in range(200)]
+    for radius, moved in (
+        (light, [twin.centre - setting.centre for twin in twins]),
+        (eye, [twin.camera.eye - setting.camera.eye for twin in twins]),
+    ):
+        shares = np.linalg.norm(moved, axis=1) / radius
+        assert shares.max() <= 1
+        # Uniform in a ball: half of all are beyond the cube root of a half; no side is preferred.
+        assert np.median(shares) == pytest.approx(0.5 ** (1 / 3), abs=0.05)
+        assert np.abs(np.mean(moved, axis=0)).max() < 0.2 * radius
+    views = [twin.camera.target - twin.camera.eye for twin in twins]
+    assert np.allclose(views, setting.camera.target - setting.camera.eye)
+    first, *others = (
+        light_map_of(kind.light_map, room, one.centre, setting.centre).texels_of(
+            surface.p - one.centre
+        )
+        for one in [setting, *twins]
+    )
+    assert np.mean([other != first for other in others]) > 0.6
 
 
 @pytest.mark.parametrize("what", SEQUENCES)

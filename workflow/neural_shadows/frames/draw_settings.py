@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.rendering.soft_shadows import OFFSET
-from neural_shadows.rendering.surface import see_surface
+from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.arrangement import UP
 from neural_shadows.scenes.cameras import Camera, Window
 from neural_shadows.scenes.scene import Scene
@@ -44,12 +43,21 @@ class FrameKind:
     radius: float
 
 
-def light_map_of(settings: Mapping[str, Any], scene: SoftScene, centre: np.ndarray) -> LightMap:
-    """The map of a light at a place; a perspective one looks at the middle of what cameras see."""
+def light_map_of(
+    settings: Mapping[str, Any],
+    scene: SoftScene,
+    centre: np.ndarray,
+    aimed_from: np.ndarray | None = None,
+) -> LightMap:
+    """The map of a light at a place; a perspective one looks at the middle of what cameras see.
+
+    Args:
+        aimed_from: where the light would look there from, if not from its centre.
+    """
     if settings["kind"] == "cube":
         return cube_map(centre, settings["resolution"])
     looked_at = scene.arrangement.targets
-    forward = (looked_at.low + looked_at.high) / 2 - centre
+    forward = (looked_at.low + looked_at.high) / 2 - (centre if aimed_from is None else aimed_from)
     return perspective_map(centre, forward, settings["fov"], settings["resolution"])
 
 
@@ -79,23 +87,6 @@ def none_usable(scene: SoftScene, draws: str, why: Counter[str]) -> InputError:
     )
 
 
-def twin_of(
-    setting: Setting, size: float, amplitudes: Mapping[str, float], rng: np.random.Generator
-) -> Setting:
-    """The setting with light, eye and view a little elsewhere: what a flicker is trained away on.
-
-    Args:
-        size: the scene's. amplitudes: `light` and `eye`, how far each coordinate moves at most, in
-            shares of that size; `turn_deg`, how far the view turns about each axis.
-    """
-    camera = setting.camera
-    eye = camera.eye + size * amplitudes["eye"] * rng.uniform(-1, 1, 3)
-    turn = Rotation.from_rotvec(amplitudes["turn_deg"] * rng.uniform(-1, 1, 3), degrees=True)
-    target = eye + turn.apply(camera.target - camera.eye)
-    centre = setting.centre + size * amplitudes["light"] * rng.uniform(-1, 1, 3)
-    return replace(setting, camera=replace(camera, eye=eye, target=target), centre=centre)
-
-
 def _drawn(scene: SoftScene, kind: FrameKind, rng: np.random.Generator) -> Setting:
     arrangement = scene.arrangement
     eye, target, centre = (
@@ -123,9 +114,8 @@ def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Sett
         return "the camera is in an object or near one"
     if not is_clear(opened, setting.centre, LIGHT_CLEARANCE * opened.size + kind.radius):
         return "the light is in an object or near one"
-    camera, width, height = _preview(setting.camera, kind)
-    surface = see_surface(opened, camera, width, height)
-    if len(surface.p) < 0.5 * width * height:
+    surface = preview(opened, kind, setting)
+    if len(surface.p) < 0.5 * surface.width * surface.height:
         return "the camera sees little"
     light_map = light_map_of(kind.light_map, scene, setting.centre)
     ways = setting.centre - surface.p
@@ -137,15 +127,14 @@ def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Sett
     return None if LIT[0] <= lit.mean() <= LIT[1] else "nearly all is lit, or all dark"
 
 
-def _preview(camera: Camera, kind: FrameKind) -> tuple[Camera, int, int]:
-    """The same camera with few pixels."""
-    scale = _PREVIEW / max(kind.width, kind.height)
+def preview(opened: Scene, kind: FrameKind, setting: Setting) -> Surface:
+    """What a frame shows, in few pixels."""
+    camera, scale = setting.camera, _PREVIEW / max(kind.width, kind.height)
     width, height = (max(1, round(side * scale)) for side in (kind.width, kind.height))
-    if camera.window is None:
-        return camera, width, height
-    window = camera.window
-    parts = (round(side * scale) for side in vars(window).values())
-    return replace(camera, window=Window(*parts)), width, height
+    if camera.window is not None:
+        parts = (round(side * scale) for side in vars(camera.window).values())
+        camera = replace(camera, window=Window(*parts))
+    return see_surface(opened, camera, width, height)
 
 
 def is_clear(scene: Scene, place: np.ndarray, distance: float) -> bool:

@@ -15,14 +15,18 @@ from neural_shadows.rendering.surface import see_surface
 
 
 def render_buffers(
-    scene: SoftScene, kind: FrameKind, setting: Setting
+    scene: SoftScene, kind: FrameKind, setting: Setting, aimed_from: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """The buffers of a setting, (channels, height, width) float16, and which pixels are valid: those
     that show a surface inside the light's map, (height, width) bool.
+
+    Args:
+        aimed_from: of a twin, its frame's light, whose map's axes it keeps. A map that aimed anew at
+            the same middle would look up what lies there in the same texels as before.
     """
     opened = scene.moved(setting.motion)
     surface = see_surface(opened, setting.camera, kind.width, kind.height)
-    light_map = light_map_of(kind.light_map, scene, setting.centre)
+    light_map = light_map_of(kind.light_map, scene, setting.centre, aimed_from)
     inside = light_map.texels_of(surface.p - setting.centre) >= 0
     return buffers_of(opened, surface, light_map), surface.image(inside, False)
 

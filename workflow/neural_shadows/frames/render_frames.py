@@ -12,7 +12,8 @@ from neural_shadows.files.arrays import new_array
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.draw_sequences import draw_sequence
-from neural_shadows.frames.draw_settings import FrameKind, draw_setting, twin_of
+from neural_shadows.frames.draw_settings import FrameKind, draw_setting
+from neural_shadows.frames.draw_twins import twin_of
 from neural_shadows.frames.frame_set import UNITS
 from neural_shadows.frames.render_frame import render_buffers, render_target
 from neural_shadows.frames.setting import Setting
@@ -65,7 +66,7 @@ def render_frames(
     kind = FrameKind(**shared, radius=max(radii))
     settings = draw(opened, kind, use, first, last, seed)
     changed = [
-        [twin_of(one, size, frames["twins"], rng) for _ in range(twins)]
+        [twin_of(opened, kind, one, frames["twins"], rng) for _ in range(twins)]
         for number, one in enumerate(settings, first)
         for rng in [np.random.default_rng((*seed, _TWINS, USES.index(use), number))]
     ]
@@ -80,7 +81,10 @@ def render_frames(
     ):
         for number, setting in enumerate(settings):
             found = pool.map(
-                lambda one: render_buffers(opened, kind, one), [setting, *changed[number]]
+                lambda one, aimed_from=setting.centre: render_buffers(
+                    opened, kind, one, aimed_from
+                ),
+                [setting, *changed[number]],
             )
             buffers[number], valid[number] = map(np.stack, zip(*found))
             targets[number] = render_target(

@@ -1,0 +1,70 @@
+"""Twins: a frame with light and camera a little elsewhere, on which a flicker is trained away."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from neural_shadows.frames.draw_settings import FrameKind, light_map_of, preview
+from neural_shadows.frames.setting import Setting
+from neural_shadows.frames.soft_scene import SoftScene
+
+
+def twin_of(
+    scene: SoftScene,
+    kind: FrameKind,
+    setting: Setting,
+    amplitudes: Mapping[str, Any],
+    rng: np.random.Generator,
+) -> Setting:
+    """A setting near another.
+
+    Args:
+        amplitudes: either `light` and `eye`, how far each coordinate moves at most, in shares of the
+            scene's size, and `turn_deg`, how far the view turns about each axis (Hu et al. 2025);
+            or those of `reach` (Datta et al. 2022, 3.3), and the view does not turn.
+    """
+    camera, ways = setting.camera, setting.camera.target - setting.camera.eye
+    if "light_texels" in amplitudes:
+        light, eye = (radius * _in_ball(rng) for radius in reach(scene, kind, setting, amplitudes))
+    else:
+        size = scene.at_rest.size
+        eye = size * amplitudes["eye"] * rng.uniform(-1, 1, 3)
+        turn = Rotation.from_rotvec(amplitudes["turn_deg"] * rng.uniform(-1, 1, 3), degrees=True)
+        ways = turn.apply(ways)
+        light = size * amplitudes["light"] * rng.uniform(-1, 1, 3)
+    eye = camera.eye + eye
+    moved = replace(camera, eye=eye, target=eye + ways)
+    return replace(setting, camera=moved, centre=setting.centre + light)
+
+
+def reach(
+    scene: SoftScene, kind: FrameKind, setting: Setting, amplitudes: Mapping[str, float]
+) -> tuple[float, float]:
+    """How far light and eye of a twin move at most, in metres.
+
+    So far that a point is looked up in another texel and seen in the same pixel: pixels of twins are
+    compared as they lie.
+
+    Args:
+        amplitudes: `light_texels` at the frame's median distance from the light, and `light_radii`
+            of the largest light beside them; `eye_pixels` at its median distance from the eye.
+    """
+    surface = preview(scene.moved(setting.motion), kind, setting)
+    from_light, from_eye = (
+        float(np.median(np.linalg.norm(surface.p - place, axis=1)))
+        for place in (setting.centre, setting.camera.eye)
+    )
+    light_map = light_map_of(kind.light_map, scene, setting.centre)
+    texel = 2 * light_map.half / light_map.resolution
+    light = amplitudes["light_texels"] * from_light * texel
+    light += amplitudes["light_radii"] * kind.radius
+    return light, amplitudes["eye_pixels"] * from_eye / setting.camera.focal(kind.height)
+
+
+def _in_ball(rng: np.random.Generator) -> np.ndarray:
+    """A place in the unit ball, (3,) float64, uniform."""
+    way = rng.normal(size=3)
+    return way / np.linalg.norm(way) * rng.uniform() ** (1 / 3)
