@@ -1,0 +1,119 @@
+"""A network of whole frames as a method for soft shadows."""
+
+import json
+
+import numpy as np
+import pytest
+
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.evaluate_soft import evaluate_soft
+from neural_shadows.evaluation.measured_frames import measured_frames
+from neural_shadows.evaluation.measure_sensitivity import measure_sensitivity
+from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
+from neural_shadows.evaluation.soft_method_names import is_network, is_tuned
+from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.time_soft_methods import time_soft_methods
+from neural_shadows.frames.render_frames import render_frames
+from neural_shadows.networks.screen_space.screen_networks import (
+    make_screen_network,
+    save_screen_network,
+)
+
+RADII = [0, 0.125, 0.25]
+FRAMES = {
+    **{"width": 48, "height": 32, "fov": 55, "of": None, "blur": 0.0},
+    "light_map": {"kind": "perspective", "fov": 120, "resolution": 64},
+    **{"radii": RADII, "radius_unit": "metres"},
+    "twins": {"count": 0, "light": 0.0, "eye": 0.0, "turn_deg": 0.0},
+}
+SCENE = {"generate": "blinds", "seed": 3, "inserted": {}}
+NETWORK = {"form": "shuffle", "widths": [8, 8]}
+NETWORK |= {"features": ["c_e", "view", "ratio", "difference"]}
+
+
+def small_answers():
+    """An untrained network whose answers stay within 0 and 1."""
+    network = make_screen_network(NETWORK)
+    network.initialise(1)
+    *_, last = (one for one in network.modules() if hasattr(one, "in_channels"))
+    last.weight.data *= 0.02
+    return network
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("results")
+    (folder / "blinds").mkdir()
+    told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 3, "samples": 4}
+    for use in ("test", "light"):
+        names = ("json", "buffers.npy", "targets.npy", "valid.npy")
+        files = (folder / "blinds" / f"{use}_000.{name}" for name in names)
+        render_frames([], *files, use=use, **told)
+    (folder / "lpips.json").write_text(json.dumps({"available": False}))
+    (folder / "tiny").mkdir()
+    header = {"network": NETWORK, "training": {}, "radii": RADII}
+    network = small_answers()
+    save_screen_network(folder / "tiny/weights.safetensors", network, header)
+    return folder
+
+
+def test_it_answers_by_buffers_what_it_answers_by_the_map(folder):
+    """That it is timed by: rasterised depths for traced ones, float32 for the buffers' float16."""
+    method = soft_method("tiny", folder / "tiny/weights.safetensors")
+    frame = next(measured_frames([folder / "blinds/test_000.json"], []))
+    asked = [frame.answered(method, radius, {}) for radius in RADII]
+    assert not np.allclose(asked[0], asked[2])  # it is told of the light's size
+    timed = frame.frame.surface.image(method.answer(frame.frame, 0.25), 1.0)
+    assert np.median(np.abs(timed - asked[2])[frame.valid]) < 2e-3
+    assert asked[0].min() >= 0 and asked[0].max() <= 1
+
+
+def test_it_is_measured_as_others_are(folder):
+    assert is_network("tiny") and not is_tuned("tiny")
+    out = folder / "tiny.csv", folder / "tiny.npz"
+    parts = [folder / "blinds/test_000.json"], [folder / "blinds/light_000.json"]
+    weights = folder / "tiny/weights.safetensors"
+    files = None, weights, folder / "lpips.json"
+    evaluate_soft(*parts, [], *files, *out, method="tiny")
+    table = read_soft_metrics(out[:1])
+    assert len(table[table["metric"] == "mse"]) == 3 * len(RADII)
+    means = table.groupby("metric")["value"].mean()
+    # Averaged with the frame before, it changes less.
+    assert means["instability_taa"] < means["instability"]
+    maps = [read_answer(out[1], flicker_name(parts[1][0], exact)) for exact in (False, True)]
+    assert maps[0].shape == (32, 48) and not np.allclose(*maps)
+
+
+def test_times(folder):
+    out = folder / "times.json"
+    weights = [folder / "tiny/weights.safetensors"]
+    parts = [folder / "blinds/test_000.json"]
+    time_soft_methods(parts, [], weights, [], out, methods=["hard", "tiny"], repeats=1)
+    found = json.loads(out.read_text())["methods"]["tiny"]
+    assert all(ms > 0 for ms in found["ms"])
+    count = sum(one.numel() for one in make_screen_network(NETWORK).parameters())
+    assert found["held_bytes"] == 2 * count and found["texel_floats"] == 1
+
+
+def test_a_larger_light_than_it_knows_is_refused(folder):
+    method = soft_method("tiny", folder / "tiny/weights.safetensors")
+    frame = next(measured_frames([folder / "blinds/test_000.json"], []))
+    with pytest.raises(InputError, match=r"up to 0.25 m, and is asked about one of 0.3 m"):
+        frame.answered(method, 0.3, {})
+
+
+def test_features_that_the_answer_does_not_hang_on_have_no_share(folder):
+    network = small_answers()
+    first = next(one for one in network.modules() if getattr(one, "in_channels", 0) == 16)
+    # Of 2 × 2 pixels each, the features one after another.
+    first.weight.data[:, 4:8] = 0  # view
+    path = folder / "blind/weights.safetensors"
+    path.parent.mkdir()
+    save_screen_network(path, network, {"network": NETWORK, "training": {}, "radii": RADII})
+    out = folder / "sensitivity.json"
+    measure_sensitivity([folder / "blinds/test_000.json"], path, out, seed=1, frames=2, repeats=1)
+    found = json.loads(out.read_text())["features"]
+    assert found["view"]["share"] == 0
+    assert sum(one["share"] for one in found.values()) == pytest.approx(1)
+    assert all(found[name]["share"] > 0 for name in ("c_e", "ratio", "difference"))
