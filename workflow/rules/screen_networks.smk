@@ -54,3 +54,27 @@ rule train_screen:
         "Training {wildcards.experiment}"
     script:
         "../neural_shadows/training/train_screen.py"
+
+
+rule measure_sensitivity:
+    input:
+        parts=of(soft_methods.validations),
+        beside=of(soft_methods.tuned_arrays),
+        weights=PATHS.screen_network("weights.safetensors"),
+        code=code("evaluation/measure_sensitivity"),
+    output:
+        sensitivity_json=PATHS.screen_sensitivity(),
+    log:
+        PATHS.log("measure_sensitivity", "frame_set", "experiment"),
+    benchmark:
+        PATHS.benchmark("measure_sensitivity", "frame_set", "experiment")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=60),
+    params:
+        seed=SETTINGS["seed"],
+    message:
+        "Measuring what each feature is worth to {wildcards.experiment}"
+    script:
+        "../neural_shadows/evaluation/measure_sensitivity.py"

@@ -56,6 +56,24 @@ class ScreenTrainedTable(AnyTable):
     )
 
 
+class Step(Model):
+    """A step on the way to a fast network."""
+
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`: timed")
+    precision: Literal["float32", "bfloat16"] = Field(description="of its weights and its time")
+    experiment: name_in("screen_experiments") | None = Field(
+        None, description="a name in `screen_experiments`: its error, in 16-bit floats"
+    )
+
+
+class ScreenStepsTable(AnyTable):
+    """A table from a large network of whole frames to a fast one (Datta et al. 2022, 3.5)."""
+
+    kind: Literal["screen_steps"] = Field(description="`screen_steps`")
+    frame_set: name_in("frame_sets") = Field(description="whose test frames they are asked about")
+    steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")
+
+
 class ScreenTemporalTable(AnyTable):
     """A table of how much methods flicker on a frame set's sequences, with and without TAA."""
 

@@ -12,6 +12,7 @@ from neural_shadows.config.frame_sets import OwnFrames
 from neural_shadows.config.screen_tables import (
     ScreenNetworksTable,
     ScreenProfileTable,
+    ScreenStepsTable,
     ScreenTemporalTable,
     ScreenTrainedTable,
 )
@@ -112,6 +113,7 @@ Table = by_kind(
     ScreenProfileTable,
     ScreenNetworksTable,
     ScreenTrainedTable,
+    ScreenStepsTable,
     ScreenTemporalTable,
     default="comparison",
 )

@@ -6,13 +6,19 @@ from neural_shadows.evaluation.soft_method_names import is_network
 from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
 
-KINDS = ("screen_depth", "screen_features", "screen_temporal")
+KINDS = ("screen_depth", "screen_features", "screen_steps", "screen_temporal")
 
 
 def methods(layout: Layout, table: str) -> list[str]:
     """The methods of a table in its order, each once."""
     settings = layout.entry("tables", table)
-    named = settings["columns"].values() if "columns" in settings else settings["methods"]
+    match settings["kind"]:
+        case "screen_steps":
+            named = [one["experiment"] for one in settings["steps"].values() if one["experiment"]]
+        case "screen_temporal":
+            named = settings["methods"]
+        case _:
+            named = settings["columns"].values()
     return list(dict.fromkeys(named))
 
 
@@ -25,8 +31,14 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "soft_metrics": [paths.soft_evaluation("csv", frame_set, method) for method in named],
         "trainings": [paths.screen_network("training.json", name) for name in networks],
         "sensitivities": [paths.screen_sensitivity(frame_set, name) for name in networks],
+        "profiles": _profiles(layout, table),
         "frames_json": soft_methods.tests(layout, frame_set)[0],
     }
+
+
+def _profiles(layout: Layout, table: str) -> list[str]:
+    steps = layout.entry("tables", table).get("steps", {}).values()
+    return [layout.paths.screen_profile(name) for name in {step["network"]: 0 for step in steps}]
 
 
 def labels(layout: Layout, table: str) -> dict[str, str]:

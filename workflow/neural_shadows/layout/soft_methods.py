@@ -1,6 +1,5 @@
 """What tables and figures of methods for soft shadows are made of."""
 
-
 from neural_shadows.evaluation.soft_method_names import (
     LABELS,
     NULL,

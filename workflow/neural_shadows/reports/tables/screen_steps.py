@@ -1,0 +1,123 @@
+"""From a large network of whole frames to a fast one, step by step (Datta et al. 2022, 3.5, figure 8)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports import phrases
+from neural_shadows.reports.published_nsm import PAPER, read_published_nsm
+from neural_shadows.reports.screen_profiles import describe, product_share, run_name
+from neural_shadows.reports.tables.screen_rows import (
+    describe_trainings,
+    mean_with_interval,
+    with_printed,
+)
+from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+NUMBER = "nsm.steps"
+BYTES = {"float32": 4, "bfloat16": 2}
+
+
+def write(
+    *,
+    profiles: list[Path],
+    soft_metrics: list[Path],
+    trainings: list[Path],
+    published_nsm_csv: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    steps: Mapping[str, Mapping[str, Any]],
+    labels: Mapping[str, str],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a row for each step: time, size and error, each beside the printed.
+
+    CSV: those of `steps_table`, printed numbers and differences, and the scale.
+
+    Args:
+        profiles: what `profile_screen_network` wrote of the steps' networks.
+        soft_metrics, trainings: of the steps' experiments.
+        steps: of each, by its name in the paper, `network`, `precision` and `experiment`, which may
+            be None.
+        labels: by experiment.
+    """
+    profiled = {path.stem: read_json(path) for path in profiles}
+    records = {path.parent.name: read_json(path) for path in trainings}
+    found = read_soft_metrics(soft_metrics) if soft_metrics else None
+    table = steps_table(steps, profiled, found, run["seed"])
+    numbers = read_published_nsm(published_nsm_csv)
+    for name in ("runtime", "size", "error"):
+        table = with_printed(table, NUMBER, name, name, numbers)
+        bounds = [numbers.get((NUMBER, row, f"{name}_above"), np.nan) for row in table["row"]]
+        table[f"printed_{name}_above"] = bounds
+    table = table.assign(scale=run["scale"])
+    cells = {
+        "step": table["row"],
+        "format": table["precision"],
+        "ms": number_cells(table["runtime"], "{:.1f}"),
+        "printed": _printed(table, "runtime", "{:g}"),
+        "share of the products' rate, %": number_cells(table["share"], "{:.0f}", 100),
+        "MiB": number_cells(table["size"], "{:.2f}"),
+        "printed, MB": _printed(table, "size", "{:g}"),
+        "MSE × 10⁻³": interval_cells(table, ["error", "error_low", "error_high"], 2, 1e3),
+        "printed × 10⁻³": number_cells(table["printed_error"], "{:.2f}", 1e3),
+    }
+    cells = {name: column for name, column in cells.items() if any(column)}
+    notes = [
+        f"Printed: {PAPER}, on an RTX 2080 Ti; another machine's milliseconds. `original`: its width "
+        "is not printed and taken such that its size is as said, above 25 MB.",
+        "Errors: mean over test frames and all lights, in 16-bit floats [95 % bootstrap interval over "
+        "frames].",
+        *(describe(profile) for profile in list(profiled.values())[:1]),
+        *describe_trainings(records, labels),
+        phrases.describe_run(run),
+    ]
+    write_twins(table, cells, csv, md, title=f"{title} ({PAPER}, 3.5)", notes=notes, text_columns=2)
+
+
+def steps_table(
+    steps: Mapping[str, Mapping[str, Any]],
+    profiles: Mapping[str, Mapping[str, Any]],
+    found: pd.DataFrame | None,
+    seed: int,
+) -> pd.DataFrame:
+    """A row for each step.
+
+    Columns: `row`, `network`, `precision`, `runtime` (ms of a frame on all of the machine's threads, or
+    its GPU, see `run`), `share` of a matrix product's rate, `size` (MiB of weights and biases not
+    counted), `error` (mean squared) with the ends of its interval, NaN of what is not trained.
+    """
+    rows = []
+    for name, step in steps.items():
+        profile = profiles[step["network"]]
+        timed = [one for one in profile["runs"] if one["precision"] == step["precision"]][-1]
+        weights = sum(level["weights"] for level in profile["levels"])
+        row = {"row": name, "network": step["network"], "precision": step["precision"]}
+        row |= {"run": run_name(timed), "runtime": timed["whole_ms"]}
+        row |= {"share": product_share(profile, timed)}
+        row |= {"size": weights * BYTES[step["precision"]] / 2**20}
+        row |= dict.fromkeys(("error", "error_low", "error_high"), np.nan)
+        if step["experiment"]:
+            mine = found[(found["metric"] == "mse") & (found["method"] == step["experiment"])]
+            values = mine.groupby(["scene", "part", "frame"])["value"].mean()
+            row |= mean_with_interval(values, "error", seed)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _printed(table: pd.DataFrame, name: str, form: str) -> list[str]:
+    """What is printed: a number, or that it is above one."""
+    numbers = number_cells(table[f"printed_{name}"], form)
+    bounds = number_cells(table[f"printed_{name}_above"], f"> {form}")
+    return [number or bound for number, bound in zip(numbers, bounds)]
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)
