@@ -7,8 +7,8 @@ import pytest
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
-from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.measure_sensitivity import measure_sensitivity
+from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
 from neural_shadows.evaluation.soft_method_names import is_network, is_tuned
 from neural_shadows.evaluation.soft_methods.registry import soft_method
