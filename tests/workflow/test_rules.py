@@ -20,7 +20,7 @@ EXAMPLES = {"scene": "dragon", "sampling": "poisson_quadtree", "over": "width", 
 EXAMPLES |= dict(experiment="dragon_field", method="dragon_field", batch="000", shard="000")
 EXAMPLES |= {"viewer": "viewer"}
 # Of the rules for soft shadows.
-SOFT = {"scene": "room", "frame_set": "frames", "part": "test_000"}
+SOFT = {"scene": "room_dragon", "frame_set": "frames", "part": "test_000"}
 SOFT |= {"method": "pcss", "table": "soft_methods"}
 
 # Of a function that does not have the rule's name.

@@ -72,7 +72,12 @@ experiments.dragon.sampling | null | experiments.dragon.sampling: this key is mi
 claims.slower_than_shadow_maps.pairs | [[dragon, shadow_map_8]] | 'shadow_map_8' (did you me
 frame_sets.frames.scenes | [dragon] | scenes.0: 'dragon' is in `scenes` and has no metres; let it
 frame_sets.frames.scenes | [rom] | frame_sets.frames.scenes.0: 'rom' (did you mean 'room'?) is not among
-frame_sets.frames.unseen | [room] | frame_sets.frames: unseen: room is among `scenes`, too
+frame_sets.frames.unseen | [hall] | frame_sets.frames: unseen: hall is among `scenes`, too
+frame_sets.nsm.scenes | [garden] | 'garden' is a garden, which no network may
+frame_sets.frames.unseen | [room] | frame_sets.frames.unseen: 'room' is a room, which networks train on here, and nothing in it is new
+frame_sets.nsm.twins | {count: 3, light_texels: 1, light: 0.01} | frame_sets.nsm.twins: unknown key: 'light' (did you mean
+frame_sets.nsm.twins | {count: 3, eye_pixels: 1} | frame_sets.nsm.twins: unknown key: 'eye_pixels'
+soft_scenes.room.penumbra | 90 | soft_scenes.room.penumbra: needs `generate: plate` and one object
 frame_sets.frames.radii | [-0.1, 0.2] | frame_sets.frames.radii.0 = -0.1: Input should be greater than
 frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: must grow
 frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence has two frames or more

@@ -53,6 +53,28 @@ class Twins(Model):
     turn_deg: float = Field(0.0, ge=0, le=10, description="how far the view turns about each axis")
 
 
+class TwinsByTexels(Model):
+    """Versions of each training frame with light and eye so far elsewhere that texels change."""
+
+    count: int = Field(0, ge=0, le=8, description="of each frame")
+    light_texels: float = Field(ge=0, le=100, description="how far the light moves, in texels")
+    light_radii: float = Field(0.0, ge=0, le=1, description="and, of the largest light's radius")
+    eye_pixels: float = Field(0.0, ge=0, le=10, description="how far the eye moves, in pixels")
+
+
+AnyTwins = Annotated[
+    Annotated[Twins, Tag("Shares")] | Annotated[TwinsByTexels, Tag("Texels")],
+    Discriminator(
+        lambda value: (
+            "Texels"
+            if (isinstance(value, dict) and "light_texels" in value)
+            or hasattr(value, "light_texels")
+            else "Shares"
+        )
+    ),
+]
+
+
 class Samples(Model):
     """Rays for each of eight places in a pixel and each ring between two radii."""
 
@@ -100,7 +122,7 @@ class RenderedFrames(Model):
         0, ge=0, le=1000, description="frames of each sequence of the first scene; 0 for none"
     )
     shard: int = Field(16, ge=1, le=10_000, description="frames of a file, and of a job")
-    twins: Twins = Field(Twins(), description="versions of training frames")
+    twins: AnyTwins = Field(Twins(), description="versions of training frames")
     samples: Samples = Field(Samples(), description="rays of the exact soft shadows")
     blur: float = Field(0.0, ge=0, le=5, description="σ of the soft shadows' blur, in pixels")
 
@@ -165,12 +187,24 @@ def measured_scenes(frames: RenderedFrames | OwnFrames) -> list[Name]:
 def check(config: "Config") -> None:
     """Check that what networks may train on is kept apart from what they never see."""
     for name, frames in config.frame_sets.items():
-        for scene in getattr(frames, "scenes", ()):
-            generator = config.soft_scenes[scene].generate
-            if generator in UNTRAINED:
+        if isinstance(frames, OwnFrames):
+            continue
+        trained = [config.soft_scenes[scene] for scene in frames.scenes]
+        for scene, one in zip(frames.scenes, trained):
+            if one.generate in UNTRAINED:
                 raise ValueError(
-                    f"frame_sets.{name}.scenes: {scene!r} is a {generator}, which no network may "
-                    f"train on; put it among `unseen` (for training: {', '.join(TRAINED)})"
+                    f"frame_sets.{name}.scenes: {scene!r} is a {one.generate}, which no network "
+                    f"may train on; put it among `unseen` (for training: {', '.join(TRAINED)})"
+                )
+        generators = {one.generate for one in trained}
+        objects = {inserted for one in trained for inserted in one.inserted}
+        for scene in frames.unseen:
+            one = config.soft_scenes[scene]
+            if one.generate in generators and objects.issuperset(one.inserted):
+                raise ValueError(
+                    f"frame_sets.{name}.unseen: {scene!r} is a {one.generate}, which networks train "
+                    "on here, and nothing in it is new to them; let another object stand in it "
+                    "(`inserted`)"
                 )
 
 

@@ -79,7 +79,9 @@ def _soft_scene(config: "Config", name: str) -> Section:
     """What `SoftScene` takes beside the meshes, of whose names it has the axes that point up."""
     scene = config.soft_scenes[name]
     ups = {inserted: config.scenes[inserted].up for inserted in scene.inserted}
-    return {"generate": scene.generate, "seed": config.seed, "inserted": ups}
+    return {"generate": scene.generate, "seed": config.seed, "inserted": ups} | {
+        "penumbra": scene.penumbra
+    }
 
 
 def _experiment(config: "Config", name: str) -> Section:

@@ -20,12 +20,23 @@ class SoftScene(Model):
     inserted: list[name_in("scenes")] = Field(
         [], description="names in `scenes`, whose meshes stand on the scene's spots in this order"
     )
+    penumbra: float | None = Field(
+        None,
+        gt=0,
+        le=1000,
+        description="of a plate: the 95th percentile of its penumbrae's widths in pixels of a frame "
+        "of 512² at 45°, lit by 0.25 m, by Neural Shadow Mapping's model; its object is as high",
+    )
 
 
 def check(config: "Config") -> None:
-    """Check that no object stands in a scene twice."""
+    """Check that no object stands in a scene twice, and that only a plate's object can be raised."""
     for name, scene in config.soft_scenes.items():
         if len(set(scene.inserted)) < len(scene.inserted):
             raise ValueError(
                 f"soft_scenes.{name}.inserted = {scene.inserted}: must name each only once"
+            )
+        if scene.penumbra is not None and (scene.generate != "plate" or len(scene.inserted) != 1):
+            raise ValueError(
+                f"soft_scenes.{name}.penumbra: needs `generate: plate` and one object `inserted`"
             )

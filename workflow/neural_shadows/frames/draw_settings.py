@@ -18,7 +18,6 @@ from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_map import LightMap, cube_map, perspective_map
 
 EYE_CLEARANCE, LIGHT_CLEARANCE = 0.02, 0.03  # of the scene's size
-LIT = (0.05, 0.95)  # the share of a frame that the light's centre reaches
 IN_MAP = 0.99  # of a frame's points, at least (Datta et al. 2022 have no others)
 _DRAWS = 500
 _PREVIEW = 64  # pixels along a frame's longer side
@@ -124,7 +123,8 @@ def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Sett
     start = surface.p + np.float32(OFFSET * opened.size) * surface.n_g
     lit = ~opened.tracer.blocked(start, ways.astype(np.float32))
     lit &= np.einsum("ij,ij->i", surface.n_g, ways) > 0
-    return None if LIT[0] <= lit.mean() <= LIT[1] else "nearly all is lit, or all dark"
+    least, most = scene.arrangement.lit
+    return None if least <= lit.mean() <= most else "nearly all is lit, or all dark"
 
 
 def preview(opened: Scene, kind: FrameKind, setting: Setting) -> Surface:

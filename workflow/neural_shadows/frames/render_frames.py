@@ -101,7 +101,7 @@ def render_frames(
         {"setting": one.as_json(), "twins": [twin.as_json() for twin in its]}
         for one, its in zip(settings, changed)
     ]
-    about = {"use": use, "first": first, "seed": scene["seed"], "scene": dict(scene)}
+    about = {"use": use, "first": first, "seed": scene["seed"], "scene": opened.settings}
     about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
     about |= {"given_radii": frames["radii"], "radius_unit": frames["radius_unit"]}
     about |= {"samples": samples, "blur": frames["blur"]}

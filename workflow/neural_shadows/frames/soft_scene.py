@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.frames.plate_height import height_of
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared, with_normals
 from neural_shadows.scenes.arrangement import Arrangement, scene_of
+from neural_shadows.scenes.generators.plate import arrange_plate
 from neural_shadows.scenes.generators.registry import arrange
 from neural_shadows.scenes.scene import Scene
 
@@ -18,20 +20,28 @@ class SoftScene:
 
     Args:
         scene: `generate`, the generator's name; `seed`; `inserted`, of each mesh by name the axis
-            that points up.
+            that points up; of a plate `penumbra`, which is as wide, see `height_of`, or the
+            `height` that was found for it.
         meshes: the prepared mesh of each, in that order.
 
     Raises:
-        InputError: there is no such generator, it has fewer spots than meshes, or a mesh cannot be
-            read.
+        InputError: there is no such generator, it has fewer spots than meshes, a mesh cannot be
+            read, or penumbrae cannot be as wide.
     """
 
     def __init__(self, scene: Mapping[str, Any], meshes: Sequence[Path]):
-        self.arrangement: Arrangement = arrange(scene["generate"], scene["seed"])
         ups = scene["inserted"].items()
         self._inserted = {
             name: _upright(read_prepared(path), up) for (name, up), path in zip(ups, meshes)
         }
+        self.settings = dict(scene)  # as the scene can be opened again: with the height found
+        if scene.get("penumbra") is None:
+            self.arrangement: Arrangement = arrange(scene["generate"], scene["seed"])
+        else:
+            if "height" not in scene:
+                rng = np.random.default_rng(scene["seed"])
+                self.settings["height"] = height_of(self._inserted, scene["penumbra"], rng)
+            self.arrangement = arrange_plate(self.settings["height"])
 
     @cached_property
     def at_rest(self) -> Scene:

@@ -57,6 +57,7 @@ class Arrangement:
     cameras: Region  # eyes; here and there one is near an object
     targets: Region  # what cameras look at
     mover: str  # name of the object that sequences move
+    lit: tuple[float, float] = (0.05, 0.95)  # the share of a frame that the light's centre reaches
 
 
 def scene_of(

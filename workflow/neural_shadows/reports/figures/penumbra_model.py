@@ -8,12 +8,10 @@ from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_gradient_magnitude, maximum_filter, minimum_filter
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
-from neural_shadows.frames.features import penumbra_model
-from neural_shadows.rendering.light_samples import ring_ways
+from neural_shadows.frames.penumbra_widths import model_widths
 from neural_shadows.reports.figures.style import COLOURS, GRID, Section, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
 
-RAYS = 16  # to the largest light, for the nearest and the farthest blocker
 MIDDLE = (0.35, 0.65)  # visibilities of a penumbra's middle, where its slope says its width
 SMOOTH = 1.5  # pixels of the slope's Gaussian
 SHOWN = 4000  # points a radius
@@ -54,37 +52,11 @@ def widths(measured: MeasuredFrame, k: int) -> np.ndarray:
     depth = surface.depth_image()
     near = maximum_filter(depth, 5) - minimum_filter(depth, 5) < 0.03 * depth
     middle = (target > MIDDLE[0]) & (target < MIDDLE[1]) & near & measured.valid & (slope > 1e-4)
-    chosen = middle.ravel()[surface.pixel]
-    nearest, farthest = _blockers(measured, chosen)
-    distances = np.linalg.norm(frame.ways[chosen], axis=1)
-    model = penumbra_model(distances, nearest, farthest, measured.part.radii[k])
-    eye = np.linalg.norm(surface.p[chosen] - surface.camera.eye, axis=1)
-    pixels = model * surface.camera.focal(surface.height) / eye
+    chosen = np.flatnonzero(middle.ravel()[surface.pixel])
+    radius, focal = measured.part.radii[k], surface.camera.focal(surface.height)
+    pixels = model_widths(frame.scene, surface, frame.centre, radius, focal, chosen)
     pairs = np.stack([4 / (np.pi * slope.ravel()[surface.pixel[chosen]]), pixels])
     return pairs[:, pairs[0] >= NARROWEST]
-
-
-def _blockers(measured: MeasuredFrame, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distance of the nearest and the farthest of what the light sees on the ways to each point, (n,);
-    NaN where all ways are free.
-    """
-    frame, pixel = measured.frame, measured.frame.surface.pixel[chosen]
-    starts = frame.starts[chosen]
-    ways = np.empty((len(starts), RAYS, 3), np.float32)
-    first, counts = np.zeros(len(starts), np.int64), np.array([RAYS])
-    largest = np.array([measured.part.radii[-1]])
-    ring_ways(starts, pixel, first, frame.centre, largest, counts, ways)
-    ways = ways.reshape(-1, 3)
-    on_light = np.repeat(starts, RAYS, axis=0) + ways
-    share, _ = frame.scene.tracer.first_hit(on_light, -ways)
-    blocked = (share < 1 - 1e-3).reshape(-1, RAYS)
-    place = on_light - np.minimum(share, 1)[:, None] * ways
-    away = np.linalg.norm(place - frame.centre, axis=1).reshape(-1, RAYS)
-    with np.errstate(invalid="ignore"):
-        nearest = np.where(blocked, away, np.inf).min(1)
-        farthest = np.where(blocked, away, -np.inf).max(1)
-    known = blocked.any(1)
-    return np.where(known, nearest, np.nan), np.where(known, farthest, np.nan)
 
 
 def model_figure(found: dict[float, np.ndarray], *, title: str, seed: int) -> Figure:

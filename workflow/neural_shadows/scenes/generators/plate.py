@@ -8,13 +8,14 @@ from neural_shadows.scenes.generators.shapes import placed
 
 LIGHT = 3.0  # metres above the ground
 OBJECT = 0.4  # height of the inserted object: a radius of 0.2 m
+HIGHEST = 2.1  # metres that a spot may be over the ground, to keep the object clear of the light
 
 
 def arrange_plate(height: float) -> Arrangement:
     """A ground of 4 m × 4 m and one spot over its middle, from which the object's shadow falls.
 
     Args:
-        height: of the spot over the ground, metres, at most 2.3 to keep clear of the light.
+        height: of the spot over the ground, metres, at most `HIGHEST`.
     """
     middle = np.array([0.0, height, 0.0])
     return Arrangement(
@@ -22,9 +23,10 @@ def arrange_plate(height: float) -> Arrangement:
         (placed("ground", floor(4, 4)),),
         (Spot(middle, OBJECT, 0.0),),
         lights=Region(np.array([-0.1, LIGHT, -0.1]), np.array([0.1, LIGHT, 0.1])),
-        cameras=Region(np.array([-1.5, 0.8, 1.0]), np.array([1.5, 2.0, 1.8])),
+        cameras=Region(np.array([-0.8, 1.6, 1.9]), np.array([0.8, 2.2, 2.4])),  # 3 m away
         targets=Region(np.array([-0.3, 0.0, -0.3]), np.array([0.3, 0.1, 0.3])),
         mover="ground",
+        lit=(0.05, 0.995),  # one shadow of a hand's breadth, on 8 m²
     )
 
 
