@@ -33,9 +33,9 @@ def write_frames(
         targets[number] = edge(column), edge(column, soft=4.0)
         for twin in range(1 + twins):
             hard = edge(column + shift * twin)
-            constant = {"z": 0.5, "d": 0.5, "c_e": 0.7, "c_v": 1.0, "agreement": 1.0}
+            constant = {"z": 0.9, "d": 0.6, "c_e": 0.7, "c_v": 0.3, "agreement": 1.0}
             lit = dict.fromkeys(("hard", "pcf", "msm"), hard)
-            for name, value in {**constant, **lit, "gap": 0.2 * (hard - 1)}.items():
+            for name, value in {**constant, **lit, "gap": 0.8 * (hard - 1)}.items():
                 buffers[number, twin, CHANNELS.index(name)] = value
     path = folder / f"{use}_000.json"
     frames = [{"setting": SETTING, "twins": [SETTING] * twins}] * count

@@ -1,0 +1,87 @@
+"""Each term of the loss has a gradient, none of it through a twin or through what does not count."""
+
+import pytest
+import torch
+import torchvision
+
+from neural_shadows.errors import InputError
+from neural_shadows.training.perceptual import Perceptual
+from neural_shadows.training.screen_loss import ScreenLoss
+
+SHAPE = (1, 1, 32, 32)
+EVERY = torch.ones(SHAPE, dtype=torch.bool)
+
+
+@pytest.fixture(scope="module")
+def trunk(tmp_path_factory):
+    path = tmp_path_factory.mktemp("trunk") / "squeeze.pth"
+    torch.manual_seed(3)
+    torch.save(torchvision.models.squeezenet1_1(weights=None).features.state_dict(), path)
+    return path
+
+
+def pictures():
+    generator = torch.Generator().manual_seed(1)
+    return [torch.rand(SHAPE, generator=generator, requires_grad=True) for _ in range(3)]
+
+
+def perceptual(trunk):
+    return Perceptual("squeeze", trunk, torch.device("cpu"), torch.float32)
+
+
+@pytest.mark.parametrize("alpha", [1.0, 0.0], ids=["L1", "perceptual"])
+@pytest.mark.parametrize("against", ["target", "twin"])
+def test_each_term_moves_the_output_and_nothing_else(trunk, alpha, against):
+    output, target, twin = pictures()
+    loss = ScreenLoss(alpha, 3.0, perceptual(trunk))
+    loss.factor = 1.0
+    if against == "twin":
+        target = output.detach().clone()  # no loss, no gradient from there
+    total = loss(
+        output, target.detach(), EVERY, EVERY.sum(), *((twin, EVERY) * (against == "twin"))
+    )
+    total.backward()
+    assert output.grad.abs().max() > 1e-7
+    assert twin.grad is None
+
+
+def test_a_twin_that_is_the_same_costs_nothing(trunk):
+    output, target, _ = pictures()
+    loss = ScreenLoss(0.9, 3.0, perceptual(trunk))
+    loss.factor = 1.0
+    alone, both = (
+        loss(output, target, EVERY, 1024, *told) for told in ((), (output.detach(), EVERY))
+    )
+    assert both.item() == alone.item() > 0
+
+
+def test_what_does_not_count_has_no_part(trunk):
+    output, target, _ = pictures()
+    valid = EVERY.clone()
+    valid[..., :16] = False
+    loss = ScreenLoss(0.9, 0.0, perceptual(trunk))
+    loss.factor = 1.0
+    loss(output, target, valid, 512).backward()
+    assert output.grad[..., :16].abs().max() == 0 < output.grad[..., 16:].abs().min()
+    alone = ScreenLoss(1.0, 0.0, None)(output, target, valid, 512)
+    assert alone.item() == pytest.approx((output - target)[..., 16:].abs().mean().item())
+
+
+def test_at_its_factor_the_perceptual_term_is_half_of_l1(trunk):
+    output, target, _ = pictures()
+    loss = ScreenLoss(0.9, 0.0, perceptual(trunk))
+    (terms,) = loss.terms(output.detach(), EVERY, [(target, EVERY)], 1024)
+    loss.factor = loss.factor_for(terms)
+    assert loss(output, target, EVERY, 1024).item() == pytest.approx(1.5 * 0.9 * terms.l1.item())
+
+
+@pytest.mark.parametrize(
+    ("net", "key"), [("squeeze", "metrics.lpips.trunk"), ("vgg19", "perceptual.trunk")]
+)
+def test_a_trunk_that_is_none_is_named(tmp_path, net, key):
+    for content in (None, b"not found"):
+        path = tmp_path / f"{net}.pth"
+        if content:
+            path.write_bytes(content)
+        with pytest.raises(InputError, match=f"{net}.pth cannot be used: .*{key} "):
+            Perceptual(net, path, torch.device("cpu"), torch.float32)

@@ -1,0 +1,141 @@
+"""Networks of whole frames learn, repeat themselves to the bit, and go on where they were stopped."""
+
+import json
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+import pytest
+from screen_frames import HEIGHT, WIDTH, write_frames
+
+from neural_shadows.errors import InputError
+from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.training import steps
+from neural_shadows.training.screen_batches import ScreenFrames
+from neural_shadows.training.screen_run import ScreenRun
+from neural_shadows.training.train_screen import train_screen
+
+FEATURES = ["c_e", "view", "ratio", "difference"]
+TRAINING = {
+    **{"steps": 6, "crops": 2, "crop": 16, "learning_rate": 5e-3, "schedule": "cosine"},
+    **{"alpha": 0.9, "perceptual": {"net": "none"}, "perturbation": 3.0, "flips": True},
+}
+SETTINGS = {
+    "network": {"form": "shuffle", "widths": [4, 8], "features": FEATURES},
+    "training": TRAINING,
+    **{"scenes": ["wall"], "seed": 1, "experiment": "nsm", "trunk": None},
+    **{"device": "cpu", "precision": "float32", "threads": 1},
+}
+TRAIN_STEP = ScreenRun.train_step
+
+
+def run(folder: Path, part: Path, *, stop_after=None, **changes) -> dict:
+    """Train in `folder`; gives what training.json says.
+
+    Args:
+        stop_after: KeyboardInterrupt in the step after so many, each with a checkpoint.
+    """
+
+    def step(self, number, pool):
+        if number == stop_after:
+            raise KeyboardInterrupt
+        TRAIN_STEP(self, number, pool)
+
+    told = {"train": [part], "validation": [part], **SETTINGS, **changes}
+    results = folder / "nsm"
+    paths = [results / name for name in ("weights.safetensors", "loss.csv", "training.json")]
+    seconds = steps.CHECKPOINT_SECONDS if stop_after is None else 0.0
+    with (
+        mock.patch.object(ScreenRun, "train_step", step),
+        mock.patch.object(steps, "CHECKPOINT_SECONDS", seconds),
+    ):
+        train_screen(**dict(zip(("weights", "loss_csv", "training_json"), paths)), **told)
+    return json.loads(paths[2].read_text())
+
+
+def contents(folder: Path) -> list[bytes]:
+    return [(folder / "nsm" / name).read_bytes() for name in ("weights.safetensors", "loss.csv")]
+
+
+def test_learns_a_frame_by_heart(tmp_path):
+    """A hard shadow and the softest at once: the size is told apart, and no sign is wrong."""
+    part = write_frames(tmp_path)
+    training = TRAINING | {"steps": 200, "crop": 64, "crops": 4, "learning_rate": 3e-3}
+    training |= {"perturbation": 0, "flips": False}
+    network = SETTINGS["network"] | {"widths": [32, 64, 128]}
+    found = run(tmp_path, part, network=network, training=training)
+    assert found["null_mse"]["hard_map"][1] > 0.01
+    assert max(found["validation_mse"]) < 1e-3  # 0.0001 each
+    assert [one["step"] for one in found["validations"]] == list(range(20, 200, 20))
+    assert found["samples"] == 200 * 4 * HEIGHT * WIDTH
+    network, header = load_screen_network(tmp_path / "nsm" / "weights.safetensors")
+    told = {"features": FEATURES, "radii": [0, 0.25], "scenes": ["wall"], "perceptual": "none"}
+    assert header.items() >= told.items() and network.features == tuple(FEATURES)
+
+
+def test_resumes_and_does_not_depend_on_threads(tmp_path):
+    part = write_frames(tmp_path, count=3)
+    run(tmp_path / "whole", part)
+    with pytest.raises(KeyboardInterrupt):
+        run(tmp_path / "killed", part, stop_after=4)
+    assert [*(tmp_path / "killed").glob("checkpoints/nsm-*/state.safetensors")]
+    killed = run(tmp_path / "killed", part)
+    run(tmp_path / "threads", part, threads=2)
+    run(tmp_path / "other", part, seed=2)
+    whole = contents(tmp_path / "whole")
+    assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
+    assert contents(tmp_path / "other") != whole
+    assert [one["step"] for one in killed["validations"]] == [1, 2, 3, 4, 5]
+
+
+def test_an_identical_twin_changes_nothing(tmp_path):
+    """With zero jitter the loss against the twin is zero."""
+    part = write_frames(tmp_path, shift=0.0)
+    moved = write_frames(tmp_path / "moved", shift=2.0)
+    one_step = TRAINING | {"steps": 1, "crop": 64}
+    losses = [
+        run(tmp_path / str(number), path, training=one_step | {"perturbation": weight})[
+            "final_loss"
+        ]
+        for number, (path, weight) in enumerate([(part, 0), (part, 3.0), (moved, 3.0)])
+    ]
+    assert losses[0] == losses[1] < losses[2]
+
+
+def test_crops_depend_on_seed_and_step_alone(tmp_path):
+    frames = ScreenFrames([write_frames(tmp_path, count=3)], FEATURES)
+    told = {"crops": 50, "crop": 16, "flips": True, "twins": True}
+    places = frames.places(7, seed=1, **told)
+    assert places == frames.places(7, seed=1, **told) != frames.places(8, seed=1, **told)
+    assert {place.frame for place in places} == {0, 1, 2} and {p.radius for p in places} == {0, 1}
+    assert {p.mirrored for p in places} == {p.upside_down for p in places} == {False, True}
+    assert max(place.left for place in places) <= WIDTH - 16
+    for place in places[:8]:
+        crop = frames.crop(place, 16)
+        whole = np.float32(frames.target(place.frame, place.radius))
+        window = whole[place.top :, place.left :][:16, :16][:, :: -1 if place.mirrored else 1]
+        assert np.array_equal(crop.target[0, 0].numpy()[:: -1 if place.upside_down else 1], window)
+
+
+@pytest.mark.parametrize("stem", ["buffers", "targets"])
+def test_not_a_number(tmp_path, stem):
+    part = write_frames(tmp_path)
+    array = np.load(part.with_suffix(f".{stem}.npy"))
+    array[...] = np.nan
+    np.save(part.with_suffix(f".{stem}.npy"), array)
+    with pytest.raises(InputError, match="train_000.json: .* frame 0 have NaN or infinity; delete"):
+        run(tmp_path, part)
+    assert not (tmp_path / "nsm" / "weights.safetensors").exists()
+
+
+def test_frames_without_twins(tmp_path):
+    with pytest.raises(InputError, match="no twins.*or set `perturbation: 0`"):
+        run(tmp_path, write_frames(tmp_path, twins=0))
+
+
+def test_frames_that_lack_channels(tmp_path):
+    part = write_frames(tmp_path)
+    about = json.loads(part.read_text())
+    part.write_text(json.dumps(about | {"channels": about["channels"][:-1]}))
+    with pytest.raises(InputError, match="train_000.json: channels .*; should be"):
+        run(tmp_path, part)
