@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field, model_validator
 from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in
 from neural_shadows.config.experiments import network_of
 from neural_shadows.config.frame_sets import OwnFrames
+from neural_shadows.config.ratios import Ratio
 from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
 from neural_shadows.evaluation.method_names import (
     is_classic,
@@ -172,6 +173,16 @@ class SoftEqualTimeClaim(SoftClaim):
     )
 
 
+class RatioClaim(AnyClaim):
+    """Numbers of tables over each other, within bounds."""
+
+    kind: Literal["ratio"] = Field(description="`ratio`")
+    ratios: list[Ratio] = Field(min_length=1, description="all of which are to hold")
+    networks: list[name_in("screen_experiments")] = Field(
+        [], description="the trained networks that it is about"
+    )
+
+
 Claim = by_kind(
     "kind",
     BetterClaim,
@@ -181,6 +192,7 @@ Claim = by_kind(
     PrintedClaim,
     SoftBetterClaim,
     SoftEqualTimeClaim,
+    RatioClaim,
 )
 
 
@@ -213,6 +225,8 @@ def check(config: "Config") -> None:
             _check_printed(f"claims.{name}", claim)
         if isinstance(claim, SoftClaim):
             _check_soft(config, f"claims.{name}", claim)
+        for ratio in getattr(claim, "ratios", ()):
+            check_among(f"claims.{name}.ratios.table", ratio.table, config.tables)
         key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
             _check_methods(config, key, methods, claim)

@@ -72,7 +72,7 @@ class MeasuredFrame:
             about, camera = self.part.about, self.part.setting(self.number).camera
             buffers = {name: self._buffer(name) for name in CHANNELS}
             axis = axis_cosines(camera, about["width"], about["height"])
-            found = method.of_buffers(buffers, axis, radius)
+            found = method.of_buffers(buffers, axis, radius, about["size"])
             return np.where(self._buffer("z") > 0, found, np.float32(1))
         if method.channel is not None:
             return self._buffer(method.channel)

@@ -35,6 +35,12 @@ def files(layout: Layout) -> dict[str, Any]:
     found["soft_times"] = [
         path for table in tables_of for path in soft_methods.times(layout, table)
     ]
+    found["tables"] = [layout.paths.report(f"{table}.csv") for table in ratio_tables(layout)]
+    claimed = layout.settings["claims"].values()
+    networks = tables.unique(name for claim in claimed for name in networks_of_frames(claim))
+    found["screen_trainings"] = [
+        layout.paths.screen_network("training.json", name) for name in networks
+    ]
     return found | {"published_csv": layout.source("config/published.csv")}
 
 
@@ -61,6 +67,12 @@ def soft_tables(layout: Layout) -> list[str]:
     """The tables of methods for soft shadows that claims are about."""
     claims = layout.settings["claims"].values()
     return tables.unique(one["table"] for one in claims if one["kind"].startswith("soft_"))
+
+
+def ratio_tables(layout: Layout) -> list[str]:
+    """The tables whose numbers claims compare."""
+    claims = layout.settings["claims"].values()
+    return tables.unique(ratio["table"] for one in claims for ratio in one.get("ratios", ()))
 
 
 def arguments(layout: Layout) -> dict[str, Any]:

@@ -52,7 +52,7 @@ def folder(tmp_path_factory):
         render_frames([], *files, use=use, **told)
     (folder / "lpips.json").write_text(json.dumps({"available": False}))
     (folder / "tiny").mkdir()
-    header = {"network": NETWORK, "training": {}, "radii": RADII}
+    header = {"network": NETWORK, "training": {}, "radii": RADII, "radius_unit": "metres"}
     network = small_answers()
     save_screen_network(folder / "tiny/weights.safetensors", network, header)
     return folder
@@ -110,7 +110,9 @@ def test_features_that_the_answer_does_not_hang_on_have_no_share(folder):
     first.weight.data[:, 4:8] = 0  # view
     path = folder / "blind/weights.safetensors"
     path.parent.mkdir()
-    save_screen_network(path, network, {"network": NETWORK, "training": {}, "radii": RADII})
+    save_screen_network(
+        path, network, {"network": NETWORK, "training": {}, "radii": RADII, "radius_unit": "metres"}
+    )
     out = folder / "sensitivity.json"
     measure_sensitivity([folder / "blinds/test_000.json"], path, out, seed=1, frames=2, repeats=1)
     found = json.loads(out.read_text())["features"]

@@ -39,9 +39,10 @@ class _Answers:
         )
 
     def _of_buffers(
-        self, buffers: Mapping[str, np.ndarray], axis: np.ndarray, radius: float
+        self, buffers: Mapping[str, np.ndarray], axis: np.ndarray, radius: float, size: float
     ) -> np.ndarray:
-        features = named_features(self._network.features, buffers, axis, self._step(radius))
+        step = self._step(radius, size)
+        features = named_features(self._network.features, buffers, axis, step)
         planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
         with (
             torch.inference_mode(),
@@ -67,11 +68,12 @@ class _Answers:
         }
         buffers = {name: surface.image(one.astype(np.float32)) for name, one in values.items()}
         axis = axis_cosines(surface.camera, surface.width, surface.height)
-        return self._of_buffers(buffers, axis, radius).ravel()[surface.pixel]
+        return self._of_buffers(buffers, axis, radius, size).ravel()[surface.pixel]
 
-    def _step(self, radius: float) -> float:
+    def _step(self, radius: float, size: float) -> float:
         """The light's size as the network is told it: 4 for the largest that it was trained on."""
-        largest = max(self._header["radii"])
+        unit = size if self._header["radius_unit"] == "scene_sizes" else 1.0
+        largest = unit * max(self._header["radii"])
         if radius > largest * (1 + 1e-6):
             raise InputError(
                 f"{self._weights}: was trained on lights of up to {largest:g} m, and is asked about "

@@ -12,6 +12,7 @@ from neural_shadows.reports.claims import (
     frame_time,
     lower_loss,
     printed,
+    ratio,
     soft,
     violations,
 )
@@ -35,6 +36,7 @@ KINDS = {
     "printed": printed.comparisons,
     "soft_better": soft.better,
     "soft_equal_time": soft.equal_time,
+    "ratio": ratio.comparisons,
 }
 OF_TRAININGS = ("better", "lower_loss")
 # One training says nothing of how trainings differ. Two are enough for an interval, of Student's t

@@ -20,8 +20,9 @@ NO_SHADOW_ROW = {
     "bias": None,
 }
 
-# Kinds of claims whose methods are not those of a scene's viewpoints: printed numbers, soft shadows.
-WITHOUT_ROWS = ("printed", "soft_better", "soft_equal_time")
+# Kinds of claims whose methods are not those of a scene's viewpoints: printed numbers, soft shadows,
+# numbers of tables.
+WITHOUT_ROWS = ("printed", "soft_better", "soft_equal_time", "ratio")
 
 Row = Mapping[str, Any]  # as `config.rows_of` gives it
 
@@ -56,6 +57,7 @@ class Measured:
         scenes: `procedural` of each: a mesh made to the thesis's description stands in for its own.
         seed: of the resampling of views.
         soft: of each table of soft methods its per-frame metrics, labels and times.
+        tables: CSVs of tables, by name; screen_trainings: training.json of networks of frames.
     """
 
     metrics: Mapping[str, pd.DataFrame]
@@ -69,6 +71,8 @@ class Measured:
     curves: Mapping[str, Sequence[Mapping[str, Any]]]
     seed: int
     soft: Mapping[str, Any] = field(default_factory=dict)
+    tables: Mapping[str, pd.DataFrame] = field(default_factory=dict)
+    screen_trainings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def budgets(self, rows: Iterable[Row]) -> list[Budget]:
         """The budgets, growing, at which all trained methods among the rows share a seed.

@@ -1,12 +1,12 @@
 """Methods for soft shadows against each other: as they are, and against rays of equal time."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import pandas as pd
 
-from neural_shadows.evaluation.soft_method_names import rays_of
+from neural_shadows.evaluation.soft_method_names import is_network, rays_of
 from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.measured import Measured
@@ -45,13 +45,20 @@ def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
 
 
 def better(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
-    """A comparison for each pair and radius, by paired differences over frames."""
+    """A comparison for each pair and radius, by paired differences over frames.
+
+    Frames say nothing of how trainings differ: of a network's one training nothing is judged.
+    """
     table = data.soft[claim["table"]]
-    return [
-        _compared(table, claim["metric"], radius, pair, data.seed)
-        for pair in claim["pairs"]
-        for radius in claim["radii"]
-    ]
+    found = []
+    for pair in claim["pairs"]:
+        for radius in claim["radii"]:
+            one = _compared(table, claim["metric"], radius, pair, data.seed)
+            if not one.untested and any(map(is_network, pair)):
+                why = f"1 seed of {(claim.get('needs') or {}).get('seeds') or 2}"
+                one = replace(one, supports=False, against=1.0, untested=why)
+            found.append(one)
+    return found
 
 
 def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from neural_shadows.evaluation.method_names import NO_SHADOW
+from neural_shadows.evaluation.soft_method_names import is_network
 from neural_shadows.metrics.intervals import FEWEST_VIEWS
 from neural_shadows.reports.claims.comparison import NAMES, interval_text
 from neural_shadows.reports.claims.measured import WITHOUT_ROWS, Budget, Measured, Row, compared
@@ -18,6 +19,8 @@ def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
     Each training of the budget that is compared must be, in the metrics of the thesis's tables
     and those of the claim. Of too few views nothing is said.
     """
+    if networks := networks_of_frames(claim):
+        return "; ".join(filter(None, (_by_validation(name, data) for name in networks)))
     if claim["kind"] in ("frame_time", *WITHOUT_ROWS):
         return ""  # none is about what a network answers
     tested = [
@@ -37,6 +40,28 @@ def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
         if reason:
             said[row["method"]] = f"{row['label']} ({row['scene']}): {reason}"
     return "; ".join(said.values())
+
+
+def networks_of_frames(claim: Mapping[str, Any]) -> list[str]:
+    """The trained networks of frames that a claim is about."""
+    named = claim.get("networks") or []
+    if claim["kind"] == "soft_better":
+        named = [name for pair in claim["pairs"] for name in pair if is_network(name)]
+    return [*dict.fromkeys(named)]
+
+
+def _by_validation(name: str, data: Measured) -> str:
+    """Why a network is not better than the unfiltered map on validation frames, over all lights."""
+    record = data.screen_trainings[name]
+    nulls = {null: sum(errors) for null, errors in record["null_mse"].items()}
+    least = min(nulls, key=nulls.get)
+    errors = record["validation_mse"]
+    if None in errors:
+        return f"{name}: its answers are no numbers"
+    if sum(errors) < nulls[least]:
+        return ""
+    ours, theirs = (1e4 * total / len(errors) for total in (sum(errors), nulls[least]))
+    return f"{name}: MSE {ours:.3g} × 10⁻⁴ on validation frames, {least} {theirs:.3g}"
 
 
 def losers(claim: Mapping[str, Any]) -> set[str]:

@@ -40,6 +40,8 @@ def write_claims(
     meshes: list[Path],
     soft_metrics: list[Path],
     soft_times: list[Path],
+    tables: list[Path],
+    screen_trainings: list[Path],
     published_csv: Path,
     csv: Path,
     md: Path,
@@ -60,6 +62,8 @@ def write_claims(
             their scenes. The folders say of which scene, experiment or table a file is.
         soft_metrics, soft_times: of the methods for soft shadows that claims compare, and of the
             tables that these are in, which the files' names say.
+        tables: CSVs of the tables whose numbers claims compare; screen_trainings: training.json of the
+            networks of frames among them.
         published_csv: the numbers that the thesis prints.
         claims: by name, as `judge` takes them, with `section` and `statement`.
         learning_curves: `experiment`, `steps`, `seed` and `samples` of each training, by
@@ -83,6 +87,8 @@ def write_claims(
         curves=learning_curves,
         seed=run["seed"],
         soft=_soft(soft_metrics, soft_times, soft_tables),
+        tables={path.stem: pd.read_csv(path) for path in tables},
+        screen_trainings={path.parent.name: read_json(path) for path in screen_trainings},
     )
     found = pd.DataFrame(
         {"claim": name} | {key: claim[key] for key in SAID} | judge(claim, data)

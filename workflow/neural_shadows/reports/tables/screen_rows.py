@@ -38,10 +38,9 @@ def describe_trainings(
     alike: dict[str, list[str]] = {}
     for name, record in records.items():
         training = record["training"]
-        perceptual = record["perceptual"]["net"] if record["perceptual"] else "none"
         text = (
             f"{training['steps']:,} steps of {training['crops']} crops of {training['crop']}², rate "
-            f"{training['learning_rate']:g}, seed {training['seed']}, perceptual term: {perceptual}, "
+            f"{training['learning_rate']:g}, seed {training['seed']}, perceptual term: {record['perceptual']}, "
             f"perturbation's weight {training['perturbation']:g}"
         )
         alike.setdefault(text, []).append(labels.get(name, name))

@@ -1,0 +1,24 @@
+"""Ratios of numbers of tables, of which claims say how large they are."""
+
+from pydantic import Field, model_validator
+
+from neural_shadows.config.base import Model, Name
+
+
+class Ratio(Model):
+    """A number of a table over another of the same column."""
+
+    table: Name = Field(description="a name in `tables`")
+    column: str = Field(min_length=1, description="of the table's CSV")
+    of: dict[str, str | int] = Field(
+        min_length=1, description="what finds its row: value by column"
+    )
+    to: dict[str, str | int] = Field(min_length=1, description="likewise, of what it is divided by")
+    at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
+    at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")
+
+    @model_validator(mode="after")
+    def _check_bounds(self):
+        if self.at_least is None and self.at_most is None:
+            raise ValueError("a ratio needs `at_least`, `at_most`, or both")
+        return self
