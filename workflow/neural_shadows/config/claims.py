@@ -56,7 +56,7 @@ class AnyClaim(Model):
         description="whose claim it is: the thesis's, Neural Shadow Mapping's (Datta et al. 2022), "
         "Kernel Predicting Neural Shadow Maps' (Hu et al. 2025)",
     )
-    section: str = Field(pattern=r"^[1-9](\.[1-9])*$", description="of that text, as 4.2.1")
+    section: str = Field(pattern=r"^S?[1-9](\.[0-9]+)*$", description="of that text, as 4.2.1")
     statement: str = Field(min_length=1, description="one sentence, as the text draws it")
     needs: Needs = Field(Needs(), description="what a run needs to decide it")
 

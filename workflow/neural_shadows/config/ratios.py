@@ -10,10 +10,12 @@ class Ratio(Model):
 
     table: Name = Field(description="a name in `tables`")
     column: str = Field(min_length=1, description="of the table's CSV")
-    of: dict[str, str | int] = Field(
+    of: dict[str, str | bool | int] = Field(
         min_length=1, description="what finds its row: value by column"
     )
-    to: dict[str, str | int] = Field(min_length=1, description="likewise, of what it is divided by")
+    to: dict[str, str | bool | int] | None = Field(
+        None, description="likewise, of what it is divided by; without it the sum of all others"
+    )
     at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
     at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")
 

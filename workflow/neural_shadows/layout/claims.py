@@ -5,7 +5,7 @@ from typing import Any
 
 from neural_shadows.layout import soft_methods, tables
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.claims.measured import WITHOUT_ROWS
+from neural_shadows.reports.claims.measured import WITHOUT_ROWS, networks_of_frames
 
 
 def files(layout: Layout) -> dict[str, Any]:

@@ -13,17 +13,21 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     """A comparison for each of a claim's ratios of two cells of one table.
 
     Each of a claim's `ratios` has a `table` and a `column`, which `of` and `to`, values by column,
-    find the rows of, and `at_least` or `at_most`. What trained networks measure is not judged by
-    fewer trainings than the claim needs.
+    find the rows of (without `to` it is over the sum of all other rows), and `at_least` or
+    `at_most`. What trained networks measure is not judged by fewer trainings than the claim needs.
     """
     return [_compared(claim, ratio, data) for ratio in claim["ratios"]]
 
 
 def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured) -> Comparison:
     table = data.tables[ratio["table"]]
-    names = [", ".join(map(str, ratio[key].values())) for key in ("of", "to")]
+    names = [_name(ratio[key]) for key in ("of", "to")]
     kept = {"metric": ratio["column"], "methods": f"{names[0]} over {names[1]}"}
-    values = [_cell(table, ratio["column"], ratio[key]) for key in ("of", "to")]
+    values = [_cell(table, ratio["column"], ratio["of"])]
+    if ratio["to"] is None:
+        values.append(table[ratio["column"]].sum() - values[0])
+    else:
+        values.append(_cell(table, ratio["column"], ratio["to"]))
     texts = [f"{name} {value:.4g}" for name, value in zip(names, values)]
     kept["text"] = f"{ratio['column']} of {' over '.join(texts)} ({ratio['table']})"
     if not all(value == value for value in values):
@@ -38,6 +42,10 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
         return Comparison(**kept, **number, supports=False, against=1.0, untested=why)
     holds = asked.get("at_least", 0.0) <= found <= asked.get("at_most", float("inf"))
     return Comparison(**kept, **number, supports=holds, against=float(holds))
+
+
+def _name(where: Mapping[str, Any] | None) -> str:
+    return "all others" if where is None else ", ".join(map(str, where.values()))
 
 
 def _cell(table: pd.DataFrame, column: str, where: Mapping[str, Any]) -> float:

@@ -4,10 +4,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from neural_shadows.evaluation.method_names import NO_SHADOW
-from neural_shadows.evaluation.soft_method_names import is_network
 from neural_shadows.metrics.intervals import FEWEST_VIEWS
 from neural_shadows.reports.claims.comparison import NAMES, interval_text
-from neural_shadows.reports.claims.measured import WITHOUT_ROWS, Budget, Measured, Row, compared
+from neural_shadows.reports.claims.measured import (
+    WITHOUT_ROWS,
+    Budget,
+    Measured,
+    Row,
+    compared,
+    networks_of_frames,
+)
 from neural_shadows.reports.learned import THESIS_METRICS, has_learned, learned
 
 LOSS_MARGIN = 0.02  # of no shadow's loss: what chance does to the end of a curve
@@ -40,14 +46,6 @@ def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
         if reason:
             said[row["method"]] = f"{row['label']} ({row['scene']}): {reason}"
     return "; ".join(said.values())
-
-
-def networks_of_frames(claim: Mapping[str, Any]) -> list[str]:
-    """The trained networks of frames that a claim is about."""
-    named = claim.get("networks") or []
-    if claim["kind"] == "soft_better":
-        named = [name for pair in claim["pairs"] for name in pair if is_network(name)]
-    return [*dict.fromkeys(named)]
 
 
 def _by_validation(name: str, data: Measured) -> str:
