@@ -7,12 +7,10 @@ from shapes import prepared
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting
-from neural_shadows.frames.plate_height import FOV, RADIUS, SIDE, height_of
 from neural_shadows.frames.penumbra_widths import model_widths
+from neural_shadows.frames.plate_height import FOV, RADIUS, SIDE, height_of
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.rendering.surface import see_surface
-from neural_shadows.scenes.arrangement import scene_of
-from neural_shadows.scenes.generators.plate import arrange_plate
 
 PICTURE = {"kind": "perspective", "fov": 80, "resolution": SIDE}
 KIND = FrameKind(SIDE, SIDE, FOV, None, PICTURE, RADIUS)
