@@ -5,9 +5,9 @@ import pytest
 
 from neural_shadows.frames.features import (
     kpnsm_features,
-    penumbra_model,
     penumbra_pixels,
 )
+from neural_shadows.frames.penumbra_widths import penumbra_model
 
 
 def buffers(seed=0):

@@ -134,21 +134,3 @@ def kpnsm_features(
         base,
     ]
     return np.stack(planes).astype(np.float32)
-
-
-def penumbra_model(
-    z: np.ndarray, nearest: np.ndarray, farthest: np.ndarray, radius: float
-) -> np.ndarray:
-    """Width of the penumbra that a sphere between two blockers' distances casts (Datta et al., 3.6).
-
-    From the outer boundary to the umbra's, in the unit of the distances; 0 where nothing blocks.
-
-    Args:
-        z: from the light to the receiver; nearest, farthest: to the blockers on the way, NaN for none.
-    """
-    middle, half = (farthest + nearest) / 2, (farthest - nearest) / 2
-    spread = np.arcsin(np.clip(half / np.hypot(middle, radius), 0, 1))
-    angle = np.arctan(radius / middle)
-    outer = z * np.tan(np.minimum(angle + spread, np.pi / 2 - 1e-3)) - radius
-    inner = z * np.tan(angle - spread) - radius
-    return np.nan_to_num(outer + inner, nan=0.0)

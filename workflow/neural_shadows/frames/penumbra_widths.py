@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from neural_shadows.frames.features import penumbra_model
 from neural_shadows.rendering.blockers import blockers
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.cameras import camera_axes
@@ -30,3 +29,21 @@ def model_widths(
     widths = penumbra_model(np.linalg.norm(p - centre, axis=1), nearest, farthest, radius)
     forward = camera_axes(camera.eye, camera.target, camera.up)[2]
     return widths * focal / ((p - camera.eye) @ forward)
+
+
+def penumbra_model(
+    z: np.ndarray, nearest: np.ndarray, farthest: np.ndarray, radius: float
+) -> np.ndarray:
+    """Width of the penumbra that a sphere between two blockers' distances casts (Datta et al., 3.6).
+
+    From the outer boundary to the umbra's, in the unit of the distances; 0 where nothing blocks.
+
+    Args:
+        z: from the light to the receiver; nearest, farthest: to the blockers on the way, NaN for none.
+    """
+    middle, half = (farthest + nearest) / 2, (farthest - nearest) / 2
+    spread = np.arcsin(np.clip(half / np.hypot(middle, radius), 0, 1))
+    angle = np.arctan(radius / middle)
+    outer = z * np.tan(np.minimum(angle + spread, np.pi / 2 - 1e-3)) - radius
+    inner = z * np.tan(angle - spread) - radius
+    return np.nan_to_num(outer + inner, nan=0.0)
