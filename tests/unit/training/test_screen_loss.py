@@ -70,7 +70,7 @@ def test_what_does_not_count_has_no_part(trunk):
 def test_at_its_factor_the_perceptual_term_is_half_of_l1(trunk):
     output, target, _ = pictures()
     loss = ScreenLoss(0.9, 0.0, perceptual(trunk))
-    (terms,) = loss.terms(output.detach(), EVERY, [(target, EVERY)], 1024)
+    (terms,) = loss.terms(output.detach(), EVERY, [(target.detach(), EVERY)], 1024)
     loss.factor = loss.factor_for(terms)
     assert loss(output, target, EVERY, 1024).item() == pytest.approx(1.5 * 0.9 * terms.l1.item())
 

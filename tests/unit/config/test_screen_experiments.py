@@ -1,0 +1,51 @@
+"""What a network of whole frames may be trained on, told in one line; the trunk that it gets."""
+
+import pytest
+from shipped import shipped
+
+from neural_shadows.config.reading import read_config
+from neural_shadows.config.resolved import resolved
+from neural_shadows.errors import InputError
+
+EXPERIMENT = {"network": "nsm", "training": "nsm", "frame_set": "frames", "scenes": ["room"]}
+
+
+def read(frames=None, metrics=None, **changes):
+    sections = {"screen_experiments": {"mine": EXPERIMENT | changes}}
+    if frames is not None:
+        sections["frame_sets"] = {"frames": frames}
+    if metrics is not None:
+        sections["metrics"] = {"lpips": metrics}
+    return read_config(shipped(**sections))
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"scenes": ["garden"]}, "'garden' is among `unseen` of frame_sets.frames"),
+        ({"scenes": ["rom"]}, "did you mean 'room'"),
+        ({"frames": {"train": 0}}, "frame_sets.frames has train = 0"),
+        ({"frames": {"twins": {"count": 0}}}, "perturbation = 3 needs twins"),
+        (
+            {"training": {"steps": 1, "crops": 1, "crop": 15, "learning_rate": 1.0}},
+            "give 16 pixels",
+        ),
+        ({"network": "original_5"}, "not among nsm, trimmed"),
+    ],
+)
+def test_what_cannot_be_trained_is_refused(changes, told):
+    with pytest.raises(InputError, match=f"config: screen_experiments.mine.*{told}"):
+        read(**changes)
+
+
+@pytest.mark.parametrize(
+    ("metrics", "net", "trunk"),
+    [
+        ({"net": "squeeze", "trunk": "squeeze.pth"}, "squeeze", "squeeze.pth"),
+        ({"net": "alex", "trunk": "alex.pth"}, "none", None),
+        ({"net": "squeeze"}, "none", None),
+    ],
+)
+def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
+    found = resolved(read(metrics=metrics))["screen_experiments"]["mine"]
+    assert (found["training"]["perceptual"]["net"], found["trunk"]) == (net, trunk)
