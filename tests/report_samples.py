@@ -113,6 +113,8 @@ def written_table(write, folder, **given):
         "md": folder / "table.md",
         "title": "Title",
         "published": None,
+        "tables": [],
+        "screen_trainings": [],
         "against": None,
         "durations": {},
         "run": RUN,

@@ -83,7 +83,7 @@ frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: mu
 frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence has two frames or more
 frame_sets.windows.of | {width: 64, height: 64} | frame_sets.windows: of = 64 × 64: must not be smaller
 frame_sets.frames.light_map.resolution | 100 | light_map.resolution: 100 is not a power of two
-frame_sets.frames | {path: mine} | soft_methods.methods: 'hard' needs a scene to look at, and frames of
+frame_sets.windows | {path: mine} | soft_windows.methods: 'hard' needs a scene to look at, and frames of
 soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each only once
 tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'

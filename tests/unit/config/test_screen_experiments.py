@@ -7,13 +7,16 @@ from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
 
-EXPERIMENT = {"network": "nsm", "training": "nsm", "frame_set": "frames", "scenes": ["room"]}
+FRAMES = {
+    **{"scenes": ["atrium"], "unseen": ["garden"], "width": 64, "height": 32, "radii": [0, 0.25]},
+    **{"light_map": {"kind": "perspective", "resolution": 64}, "train": 2, "twins": {"count": 1}},
+}
+EXPERIMENT = {"network": "nsm", "training": "nsm", "frame_set": "few", "scenes": ["atrium"]}
 
 
 def read(frames=None, metrics=None, **changes):
     sections = {"screen_experiments": {"mine": EXPERIMENT | changes}}
-    if frames is not None:
-        sections["frame_sets"] = {"frames": frames}
+    sections["frame_sets"] = {"few": FRAMES | (frames or {})}
     if metrics is not None:
         sections["metrics"] = {"lpips": metrics}
     return read_config(shipped(**sections))
@@ -22,9 +25,9 @@ def read(frames=None, metrics=None, **changes):
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
-        ({"scenes": ["garden"]}, "'garden' is among `unseen` of frame_sets.frames"),
-        ({"scenes": ["rom"]}, "did you mean 'room'"),
-        ({"frames": {"train": 0}}, "frame_sets.frames has train = 0"),
+        ({"scenes": ["garden"]}, "'garden' is among `unseen` of frame_sets.few"),
+        ({"scenes": ["atrim"]}, "did you mean 'atrium'"),
+        ({"frames": {"train": 0}}, "frame_sets.few has train = 0"),
         ({"frames": {"twins": {"count": 0}}}, "perturbation = 3 needs twins"),
         (
             {"training": {"steps": 1, "crops": 1, "crop": 15, "learning_rate": 1.0}},

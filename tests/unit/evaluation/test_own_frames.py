@@ -74,6 +74,7 @@ def evaluate(layout, method):
             "sequences": soft_methods.sequences(layout, "mine"),
             "meshes": soft_methods.all_meshes(layout, "mine"),
             "constants_json": soft_methods.chosen(layout, "mine", method),
+            "weights": soft_methods.weights(layout, method),
             "lpips_json": layout.paths.lpips,
         },
         output={"metrics_csv": files["csv"], "answers_npz": files["npz"]},

@@ -7,16 +7,7 @@ from pydantic import Field
 from neural_shadows.config.base import Model, Text, by_kind
 
 
-class _Pretrained(Model):
-    factor: float | None = Field(
-        None,
-        gt=0,
-        le=1e6,
-        description="of the distance; without it, such that the term is half of L1 at the start",
-    )
-
-
-class Squeeze(_Pretrained):
+class Squeeze(Model):
     """SqueezeNet 1.1, after its first ReLU and after fire3."""
 
     net: Literal["squeeze"] = Field(
@@ -25,7 +16,7 @@ class Squeeze(_Pretrained):
     )
 
 
-class Vgg19(_Pretrained):
+class Vgg19(Model):
     """VGG-19, relu2_2: the paper's."""
 
     net: Literal["vgg19"] = Field(description="`vgg19`, the paper's")

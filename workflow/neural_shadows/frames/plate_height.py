@@ -12,7 +12,7 @@ from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import UP, scene_of
 from neural_shadows.scenes.cameras import Camera
-from neural_shadows.scenes.generators.plate import HIGHEST, arrange_plate
+from neural_shadows.scenes.generators.registry import generator
 
 # What the width is of: the paper's largest light and, in pixels, its frames' size.
 RADIUS, SIDE, FOV = 0.25, 512, 45.0
@@ -35,7 +35,7 @@ def height_of(
     def too_wide(height: float) -> float:
         return np.log(_width(inserted, height, settings) / penumbra)
 
-    ends = 0.0, HIGHEST
+    ends = 0.0, generator("plate").HIGHEST
     least, most = (penumbra * np.exp(too_wide(end)) for end in ends)
     if not least < penumbra < most:
         raise InputError(
@@ -46,14 +46,14 @@ def height_of(
 
 
 def _drawn(rng: np.random.Generator) -> tuple[Camera, np.ndarray]:
-    plate = arrange_plate(0.0)
+    plate = generator("plate").arrange_plate(0.0)
     eye, target, centre = (one.draw(rng) for one in (plate.cameras, plate.targets, plate.lights))
     return Camera(eye, target, UP, FOV), centre
 
 
 def _width(inserted: Mapping[str, PreparedMesh], height: float, settings) -> float:
     """The percentile, in pixels of a whole frame, with the spot at a height."""
-    scene = scene_of(arrange_plate(height), inserted)
+    scene = scene_of(generator("plate").arrange_plate(height), inserted)
     found = []
     for camera, centre in settings:
         surface = see_surface(scene, camera, _PIXELS, _PIXELS)

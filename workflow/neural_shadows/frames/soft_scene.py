@@ -10,8 +10,7 @@ import numpy as np
 from neural_shadows.frames.plate_height import height_of
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared, with_normals
 from neural_shadows.scenes.arrangement import Arrangement, scene_of
-from neural_shadows.scenes.generators.plate import arrange_plate
-from neural_shadows.scenes.generators.registry import arrange
+from neural_shadows.scenes.generators.registry import arrange, generator
 from neural_shadows.scenes.scene import Scene
 
 
@@ -41,7 +40,7 @@ class SoftScene:
             if "height" not in scene:
                 rng = np.random.default_rng(scene["seed"])
                 self.settings["height"] = height_of(self._inserted, scene["penumbra"], rng)
-            self.arrangement = arrange_plate(self.settings["height"])
+            self.arrangement = generator("plate").arrange_plate(self.settings["height"])
 
     @cached_property
     def at_rest(self) -> Scene:

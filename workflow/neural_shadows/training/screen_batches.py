@@ -11,9 +11,8 @@ import torch
 from torch import Tensor
 
 from neural_shadows.errors import InputError
-from neural_shadows.frames.axis_cosines import axis_cosines
 from neural_shadows.frames.buffers import CHANNELS
-from neural_shadows.frames.features import LARGEST_STEP, named_features
+from neural_shadows.frames.features import LARGEST_STEP, axis_cosines, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.training.batches import batch_indices
 
@@ -148,6 +147,19 @@ class ScreenFrames:
         axis = self._axis(part, number)[window]
         step = LARGEST_STEP * part.radii[radius] / (max(part.radii) or 1)
         return named_features(self._features, dict(zip(CHANNELS, buffers)), axis, step)
+
+    def ranges(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mean and standard deviation of each channel over valid pixels of up to 16 frames, for all
+        radii together, (C,) float32 each; a deviation of 1 of one that is the same everywhere.
+        """
+        seen = [
+            self.features(frame, radius)[:, self.valid(frame)]
+            for frame in range(0, len(self), -(-len(self) // 16))
+            for radius in range(self.radii)
+        ]
+        together = np.concatenate(seen, axis=1)
+        spreads = together.std(axis=1)
+        return together.mean(axis=1), np.where(spreads > 1e-6, spreads, 1).astype(np.float32)
 
     def target(self, frame: int, radius: int) -> np.ndarray:
         """The exact soft shadow, (H, W) float32."""

@@ -88,6 +88,8 @@ def train_screen(
     model = make_screen_network(network)
     model.initialise(seed)
     frames, held_out = (ScreenFrames(paths, model.features) for paths in (train, validation))
+    for place, values in zip((model.centres, model.spreads), frames.ranges()):
+        place.copy_(torch.from_numpy(values))
     _check_twins(frames, train, training)
     net = training["perceptual"]["net"]
     perceptual = None if trunk is None else Perceptual(net, trunk, chosen, dtype)
@@ -110,7 +112,7 @@ def train_screen(
     with gradient_pool(threads) as pool:
         if perceptual is not None:
             # Of the first weights, whatever step the run continues at.
-            loss.factor = training["perceptual"]["factor"] or loss.factor_for(run.first_terms(pool))
+            loss.factor = loss.factor_for(run.first_terms(pool))
         if (checkpoint / STATE).exists():
             run.restore(checkpoint / STATE)
         points = partial(_points, run, held_out, pool)

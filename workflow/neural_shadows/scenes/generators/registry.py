@@ -2,6 +2,7 @@
 
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +21,11 @@ def generator_module(name: str) -> Path:
     return Path(__file__).with_name(f"{name}.py")
 
 
+def generator(name: str) -> ModuleType:
+    """That module, imported by its name: a result depends on its own scenes' alone."""
+    return import_module(f"neural_shadows.scenes.generators.{name}")
+
+
 def arrange(name: str, seed: int) -> "Arrangement":
     """A scene's arrangement, drawn from a seed.
 
@@ -28,5 +34,4 @@ def arrange(name: str, seed: int) -> "Arrangement":
     """
     if name not in TRAINED + UNTRAINED:
         raise InputError(f"{name!r} is no scene; use one of {', '.join(TRAINED + UNTRAINED)}")
-    module = import_module(f"neural_shadows.scenes.generators.{name}")
-    return module.arrange(np.random.default_rng(seed))
+    return generator(name).arrange(np.random.default_rng(seed))
