@@ -30,6 +30,10 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
         values.append(_cell(table, ratio["column"], ratio["to"]))
     texts = [f"{name} {value:.4g}" for name, value in zip(names, values)]
     kept["text"] = f"{ratio['column']} of {' over '.join(texts)} ({ratio['table']})"
+    if ratio["column"] == "runtime" and not table["of_printed_size"].all():
+        return Comparison(
+            **kept, **unjudged(incomparable="times of frames that have not the paper's size")
+        )
     if not all(value == value for value in values):
         return Comparison(**kept, **unjudged(untested=f"no {ratio['column']} of one of them"))
     found = values[0] / values[1]

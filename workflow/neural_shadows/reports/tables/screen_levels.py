@@ -75,7 +75,7 @@ def level_table(
 ) -> pd.DataFrame:
     """A row for each level.
 
-    Columns `level`, `ms_RUN` of each run, and of `COLUMNS` ours, `printed_`, `_minus_printed` (of
+    Columns `level`, `of_printed_size`, whether frames are of the paper's size, `ms_RUN` of each run, and of `COLUMNS` ours, `printed_`, `_minus_printed` (of
     times, multiply-adds and storage in frames of the paper's size alone), `product_share`.
     """
     levels = pd.DataFrame(profile["levels"])
@@ -92,6 +92,7 @@ def level_table(
     rate = 1e12 * table["compute"] / table["runtime"]
     table["product_share"] = rate / run["product_macs"]
     same = (profile["width"], profile["height"]) == printed_size(numbers)
+    table["of_printed_size"] = same
     rows = [f"level_{level}" for level in table["level"]]
     for name in COLUMNS:
         table[f"printed_{name}"] = printed(numbers, published, rows, name)

@@ -10,7 +10,7 @@ import pandas as pd
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
-from neural_shadows.reports.published_nsm import PAPER, read_published_nsm
+from neural_shadows.reports.published_nsm import PAPER, printed_size, read_published_nsm
 from neural_shadows.reports.screen_profiles import describe, product_share, run_name
 from neural_shadows.reports.tables.screen_rows import (
     describe_trainings,
@@ -39,7 +39,8 @@ def write(
 ) -> None:
     """Write a row for each step: time, size and error, each beside the printed.
 
-    CSV: those of `steps_table`, printed numbers and differences, and the scale.
+    CSV: those of `steps_table`, printed numbers and differences, `of_printed_size`, whether frames are
+    timed that have the paper's, and the scale.
 
     Args:
         profiles: what `profile_screen_network` wrote of the steps' networks.
@@ -53,6 +54,8 @@ def write(
     found = read_soft_metrics(soft_metrics) if soft_metrics else None
     table = steps_table(steps, profiled, found, run["seed"])
     numbers = read_published_nsm(published_nsm_csv)
+    sizes = [(one["width"], one["height"]) for one in profiled.values()]
+    table["of_printed_size"] = all(size == printed_size(numbers) for size in sizes)
     for name in ("runtime", "size", "error"):
         table = with_printed(table, NUMBER, name, name, numbers)
         bounds = [numbers.get((NUMBER, row, f"{name}_above"), np.nan) for row in table["row"]]

@@ -1,0 +1,173 @@
+"""Tables of trained networks on frames, from made numbers; their figures."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+from report_samples import PUBLISHED as THESIS_CSV
+
+from neural_shadows.evaluation.soft_metrics import write_soft_metrics
+from neural_shadows.reports.figures import screen_flicker, screen_sensitivity
+from neural_shadows.reports.tables import (
+    screen_depth,
+    screen_features,
+    screen_steps,
+    screen_temporal,
+)
+
+PUBLISHED = THESIS_CSV.with_name("published_nsm.csv")
+RUN = {"scale": "test", "seed": 1}
+TRAINING = {"steps": 10, "crops": 2, "crop": 32, "learning_rate": 1e-3, "seed": 5}
+TRAINING |= {"perturbation": 3.0}
+LABELS = {"three": "3 levels", "five": "5 levels"}
+
+
+def metrics(path, rows):
+    key = {"part": "test_000", "frame": 0, "radius": 0, "scene": "plate_90"}
+    write_soft_metrics(path, [{**key, **row} for row in rows])
+    return path
+
+
+def training(folder, name, levels):
+    path = folder / name / "training.json"
+    path.parent.mkdir()
+    network = {"widths": [8] * levels}
+    path.write_text(json.dumps({"network": network, "training": TRAINING, "perceptual": "squeeze"}))
+    return path
+
+
+@pytest.fixture
+def trained(tmp_path):
+    return [training(tmp_path, "three", 3), training(tmp_path, "five", 5)]
+
+
+@pytest.fixture
+def about(tmp_path):
+    path = tmp_path / "frames.json"
+    path.write_text(json.dumps({"width": 8, "height": 4, "radii": [0, 0.25]}))
+    return path
+
+
+def written(write, tmp_path, **told):
+    csv, md = tmp_path / "table.csv", tmp_path / "table.md"
+    write(**told, csv=csv, md=md, title="Title", run=RUN)
+    return pd.read_csv(csv), md.read_text(encoding="utf-8")
+
+
+def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
+    """Of the largest light alone, over the frames of each plate."""
+    files = [
+        metrics(
+            tmp_path / f"{name}.csv",
+            [
+                {"scene": scene, "frame": i, "radius": k, "metric": "mse", "value": value * (1 + k)}
+                for scene, value in values.items()
+                for i in range(4)
+                for k in (0, 1)
+            ],
+        )
+        for name, values in {
+            "three": {"plate_21": 0.01, "plate_90": 0.08},
+            "five": {"plate_21": 0.02, "plate_90": 0.01},
+        }.items()
+    ]
+    told = {"soft_metrics": files, "trainings": trained, "frames_json": about}
+    told |= {"published_nsm_csv": PUBLISHED, "published": "nsm.1", "labels": LABELS}
+    columns = {"layers_3": "three", "layers_5": "five"}
+    table, text = written(screen_depth.write, tmp_path, columns=columns, **told)
+    cells = table.set_index(["row", "column"])
+    assert cells["mse"].to_dict() == {
+        **{("penumbra_21", "layers_3"): 0.02, ("penumbra_21", "layers_5"): 0.04},
+        **{("penumbra_90", "layers_3"): 0.16, ("penumbra_90", "layers_5"): 0.02},
+    }
+    assert cells.loc[("penumbra_90", "layers_3"), "printed_mse"] == 0.083
+    assert cells.loc[("penumbra_90", "layers_3"), "mse_minus_printed"] == pytest.approx(0.077)
+    assert cells.loc[("penumbra_90", "layers_3"), "ratio"] == 8
+    assert cells["receptive_field"].tolist() == [24, 96, 24, 96]
+    assert "| 90 px" in text and "8.0 / 1.0" in text and "table 1 of Datta" in text
+    assert "perceptual term: squeeze" in text and "3 levels, 5 levels." in text
+
+
+def test_features_with_their_worth(tmp_path, trained):
+    files, shares = [], []
+    for name, value in {"three": 0.02, "five": 0.01}.items():
+        rows = [
+            {"frame": i, "radius": k, "metric": "mse", "value": value * (1 + k)}
+            for i in range(4)
+            for k in (0, 1)
+        ]
+        files.append(metrics(tmp_path / f"{name}.csv", rows))
+        parts = {"ratio": 0.9, "n": 0.1} if name == "five" else {"ratio": 1.0}
+        found = {k: {"share": v, "sensitivity": v, "as_printed": 2 * v} for k, v in parts.items()}
+        shares.append(tmp_path / f"{name}.json")
+        shares[-1].write_text(json.dumps({"features": found}))
+    told = {"soft_metrics": files, "trainings": trained, "sensitivities": shares}
+    told |= {"published_nsm_csv": PUBLISHED, "published": "nsm.s1", "labels": LABELS}
+    columns = {"features_2": "three", "extraction": "five"}
+    table, text = written(screen_features.write, tmp_path, columns=columns, **told)
+    assert table["error"].tolist() == [0.03, 0.015] and table["channels"].tolist() == [1, 4]
+    assert table["printed_error"].tolist() == [0.00686, 0.00664]  # of the table and of the text
+    assert table["share_n"].tolist()[1] == 0.1 and np.isnan(table["share_n"][0])
+    assert "ratio 90.0, n 10.0" in text
+    outputs = tmp_path / "figure.png", tmp_path / "figure.svg"
+    screen_sensitivity.draw(tmp_path / "table.csv", *outputs, title="Worth", run=RUN)
+    assert "5 levels, n: 10.0 %" in outputs[1].read_text(encoding="utf-8")
+
+
+def test_steps(tmp_path, trained):
+    run = {"device": "cpu", "threads": 2, "product_macs": 1e12, "parts": []}
+    runs = [
+        run | {"precision": "float32", "whole_ms": 400.0},
+        run | {"precision": "bfloat16", "whole_ms": 100.0},
+    ]
+    profile = {"width": 2048, "height": 1024, "runs": runs, "machine": {"cpu": "a CPU"}}
+    profile |= {"repeats": 10, "warm_up": 3, "product_size": 2048}
+    profile |= {"levels": [{"weights": 2**18, "macs": 1e4}]}
+    path = tmp_path / "trimmed.json"
+    path.write_text(json.dumps(profile))
+    values = metrics(tmp_path / "five.csv", [{"metric": "mse", "value": 0.007, "frame": 0}])
+    steps = {
+        "trimmed": {"network": "trimmed", "precision": "float32", "experiment": None},
+        "trimmed_half": {"network": "trimmed", "precision": "bfloat16", "experiment": "five"},
+    }
+    told = {"profiles": [path], "soft_metrics": [values], "trainings": trained[1:]}
+    told |= {"published_nsm_csv": PUBLISHED, "steps": steps, "labels": LABELS}
+    table, text = written(screen_steps.write, tmp_path, **told)
+    assert table["runtime"].tolist() == [400, 100] and table["printed_runtime"].tolist() == [28, 17]
+    assert table["size"].tolist() == [1, 0.5] and table["error"].tolist()[1] == 0.007
+    assert table["share"].tolist() == pytest.approx([2**21 * 1e4 / 0.4e12, 2**21 * 1e4 / 0.1e12])
+    assert table["of_printed_size"].all() and " 6.67 |" in text
+
+
+def test_flicker_by_what_moves(tmp_path, trained, about):
+    rows = [
+        {"part": f"{kind}_000", "metric": metric, "value": value}
+        for kind, factor in {"camera": 1, "light": 2}.items()
+        for metric, value in {
+            **{"instability": 0.2 * factor, "instability_taa": 0.1 * factor},
+            **{"instability_reference": 0.05, "mse_sequence": 0.02, "mse_taa": 0.03},
+        }.items()
+    ]
+    rows.append({"metric": "mse_edge", "value": 0.5})
+    files = [metrics(tmp_path / "five.csv", rows)]
+    told = {"soft_metrics": files, "trainings": trained[1:], "frames_json": about}
+    table, text = written(screen_temporal.write, tmp_path, labels={"five": "Five"}, **told)
+    assert table["label"].tolist() == ["Five", "Five + TAA"]
+    assert table["e_light"].tolist() == [0.4, 0.2] and table["e_camera"].tolist() == [0.2, 0.1]
+    assert table["mse_sequence"].tolist() == [0.02, 0.03] and table["mse_edge"][0] == 0.5
+    assert "E, light" in text
+
+
+def test_maps_of_flicker_are_drawn(tmp_path):
+    from neural_shadows.evaluation.soft_answers import flicker_name, write_answers
+
+    part = tmp_path / "room" / "light_000.json"
+    image = np.zeros((4, 8))
+    image[1, 2] = 0.5
+    names = {flicker_name(part): image, flicker_name(part, exact=True): 0 * image}
+    write_answers(tmp_path / "five.npz", names)
+    outputs = tmp_path / "figure.png", tmp_path / "figure.svg"
+    told = {"title": "Flicker", "labels": {"five": "Five"}, "run": RUN}
+    screen_flicker.draw([part], [tmp_path / "five.npz"], *outputs, **told)
+    assert "Five, light moves: 0.0157" in outputs[1].read_text(encoding="utf-8")

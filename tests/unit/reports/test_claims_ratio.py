@@ -1,0 +1,58 @@
+"""Claims on numbers of tables over each other, from made tables."""
+
+import pandas as pd
+import pytest
+from claim_samples import measured
+
+from neural_shadows.reports import verdicts
+from neural_shadows.reports.claims.gates import judge
+
+STEPS = pd.DataFrame(
+    {
+        **{"row": ["original", "trimmed"], "size": [26.0, 2.5], "runtime": [100.0, 28.0]},
+        "of_printed_size": True,
+    }
+)
+LEARNED = {"validation_mse": [0.01, 0.02], "null_mse": {"hard_map": [0.02, 0.05]}}
+
+
+def judged(ratio, trainings=None, steps=STEPS, **told):
+    ratio = {"table": "steps", "of": {"row": "original"}, "to": {"row": "trimmed"}, **ratio}
+    ratio = {"at_least": None, "at_most": None} | ratio
+    claim = {"kind": "ratio", "ratios": [ratio], "networks": [], "needs": {}, **told}
+    data = measured(tables={"steps": steps}, screen_trainings=trainings or {})
+    return judge(claim, data)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "verdict"),
+    [
+        ({"column": "size", "at_least": 10}, verdicts.SUPPORTED),
+        ({"column": "size", "at_most": 10}, verdicts.CONTRADICTED),
+        ({"column": "size", "at_least": 10, "to": None}, verdicts.SUPPORTED),  # all others
+        ({"column": "size", "at_least": 10, "to": {"row": "other"}}, verdicts.TOO_SMALL),
+        ({"column": "weights", "at_least": 10}, verdicts.TOO_SMALL),
+    ],
+)
+def test_numbers_are_within_bounds(ratio, verdict):
+    found = judged(ratio)
+    assert found["verdict"] == verdict
+    if ratio["column"] == "size" and verdict != verdicts.TOO_SMALL:
+        assert "ratio 10.4" in found["evidence"]
+
+
+def test_times_are_of_frames_of_the_paper_s_size():
+    ratio = {"column": "runtime", "at_least": 3.5}
+    assert judged(ratio)["verdict"] == verdicts.SUPPORTED
+    other = judged(ratio, steps=STEPS.assign(of_printed_size=False))
+    assert other["verdict"] == verdicts.NOT_COMPARABLE
+
+
+def test_what_networks_measure_needs_seeds_and_that_they_learned():
+    told = {"networks": ["nsm"], "needs": {"seeds": 3}}
+    ratio = {"column": "size", "at_most": 1}
+    found = judged(ratio, {"nsm": LEARNED}, **told)
+    assert found["verdict"] == verdicts.TOO_SMALL and "1 seed of 3" in found["reason"]
+    worse = LEARNED | {"validation_mse": [0.03, 0.05]}
+    found = judged(ratio, {"nsm": worse}, **told)
+    assert found["verdict"] == verdicts.NOT_LEARNED and "hard_map 350" in found["reason"]
