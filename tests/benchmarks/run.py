@@ -18,6 +18,7 @@ import bench_default
 import bench_labels
 import bench_queries
 import bench_screen_networks
+import bench_screen_training
 import bench_soft
 import bench_training
 import bench_viewpoint
@@ -41,7 +42,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
-        "screen": lambda: bench_screen_networks.rows(quick),
+        "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),
         "default": bench_default.rows,
     }
     for stage in arguments.only:

@@ -58,7 +58,7 @@ def test_examples_of_the_readme_are_valid():
             values.get(section, {}) | entries if isinstance(entries, dict) else entries
         )
     experiments = resolved(read_config(values))["experiments"]
-    assert len(examples) == 5 and {"teapot", "dragon_small"} <= experiments.keys()
+    assert len(examples) == 6 and {"teapot", "dragon_small"} <= experiments.keys()
 
 
 def test_schema_is_checked_in():
