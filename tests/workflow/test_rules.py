@@ -22,6 +22,7 @@ EXAMPLES |= {"viewer": "viewer"}
 # Of the rules for soft shadows.
 SOFT = {"scene": "room_dragon", "frame_set": "frames", "part": "test_000"}
 SOFT |= {"method": "pcss", "table": "soft_methods"}
+SCREEN = {"network": "nsm", "experiment": "nsm", "frame_set": "nsm"}
 
 # Of a function that does not have the rule's name.
 FUNCTIONS = {"table": "write", "figure": "draw", "preview_scene": "draw"}
@@ -49,6 +50,8 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
         return [{rule.name: name} for name in settings[f"{rule.name}s"]]
     if "soft" in rule.name or rule.name == "render_frames":
         return [SOFT]
+    if "screen" in rule.name or rule.name == "measure_sensitivity":
+        return [SCREEN]
     timed = next(name for name, table in settings["tables"].items() if table["kind"] == "networks")
     return [{**EXAMPLES, "table": timed}]
 
