@@ -90,6 +90,7 @@ def make_page(folder: Path, **changes) -> Path:
         "data": {"figure_front": "beyond"},
         "beyond": ["beyond"],
         "soft": [],
+        "networks": [],
         "folded": ["figure_4_1"],
         "missing": {},
         "rows": [samples.row(method, label) for method, label in LABELS.items()],

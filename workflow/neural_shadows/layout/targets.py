@@ -95,6 +95,7 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
         "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "beyond": beyond(layout),
         "soft": soft(layout),
+        "networks": [one["label"] for one in layout.settings["screen_experiments"].values()],
         "folded": [name for name, one in figures.items() if one["kind"] == "contact_sheet"],
         "missing": {},
         "rows": pictured(layout),

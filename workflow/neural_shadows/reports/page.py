@@ -44,6 +44,7 @@ def write_page(
     data: Mapping[str, str],
     beyond: Sequence[str],
     soft: Sequence[str],
+    networks: Sequence[str],
     folded: Sequence[str],
     missing: Mapping[str, Sequence[str]],
     rows: Sequence[Mapping[str, Any]],
@@ -64,6 +65,7 @@ def write_page(
         front: the figure of quality over bytes that is shown first, if there is one.
         data: the tables that figures show, by the figures' names.
         beyond: names of the tables and figures that are not the thesis's; soft: of soft shadows.
+        networks: what those of frames are called.
         folded: names of the figures that are shown when asked for: contact sheets.
         missing: what is asked for and not there, by the section where it would stand.
         rows: `method`, `scene` and `label` of the methods that have pictures.
@@ -78,7 +80,8 @@ def write_page(
     claims = table_block(claims_md, looks) if claims_md else None
     claims_csv = claims_md.with_suffix(".csv") if claims_md else None
     cards = read_cards(claims_csv) if claims_csv else []
-    blocks = [table_block(path, SOFT_METHODS | looks) for path in tables]
+    soft_looks = SOFT_METHODS | dict.fromkeys(networks, SOFT_LOOKS["network"])
+    blocks = [table_block(path, soft_looks | looks) for path in tables]
     csvs = {path.stem: path.with_suffix(".csv") for path in tables}
     shown = {figure: csvs[table] for figure, table in data.items() if table in csvs}
     drawings = figure_blocks(figures, titles, shown)
