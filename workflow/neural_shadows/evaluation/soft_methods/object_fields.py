@@ -5,6 +5,7 @@ what is open has no inside and is traced as it is.
 """
 
 from functools import lru_cache, partial
+from hashlib import sha256
 
 import numpy as np
 import trimesh
@@ -23,6 +24,8 @@ from neural_shadows.scenes.tracing import Tracer
 
 CELL = 0.0005  # of the scene's size: what a field's cells are no smaller than …
 MOST = 256  # … nor are there more along an axis
+_MOST_KEPT = 64  # objects, of some 5 MiB each
+_kept: dict[tuple[bytes, float], "ObjectField | None"] = {}
 _MARGIN = 1.02  # of an object's sphere, so that its surface is inside the grid
 
 
@@ -58,10 +61,9 @@ class SceneFields:
     """The fields of a scene's closed objects, and a tracer of the others."""
 
     def __init__(self, scene: Scene):
-        closed = [_is_closed(mesh) for mesh in scene.objects]
-        cell = CELL * scene.size
-        self.fields = [ObjectField(one, cell) for one, is_ in zip(scene.objects, closed) if is_]
-        rest = [mesh for mesh, is_ in zip(scene.objects, closed) if not is_]
+        found = [_field_of(mesh, CELL * scene.size) for mesh in scene.objects]
+        self.fields = [field for field in found if field is not None]
+        rest = [mesh for mesh, field in zip(scene.objects, found) if field is None]
         joined = joined_meshes(rest) if rest else None
         self.tracer = Tracer(joined.vertices, joined.faces) if rest else None
 
@@ -73,6 +75,20 @@ class SceneFields:
         for field in self.fields:
             field.block(points, ways, found)
         return found
+
+
+def _field_of(mesh: PreparedMesh, cell: float) -> ObjectField | None:
+    """The field of an object where it stands, kept until other scenes need the room; None of an open
+    one.
+
+    Of a sequence in which one object moves, all others are made once.
+    """
+    key = sha256(mesh.vertices.tobytes() + mesh.faces.tobytes()).digest(), cell
+    if key not in _kept:
+        if len(_kept) >= _MOST_KEPT:
+            _kept.clear()
+        _kept[key] = ObjectField(mesh, cell) if _is_closed(mesh) else None
+    return _kept[key]
 
 
 def _is_closed(mesh: PreparedMesh) -> bool:
