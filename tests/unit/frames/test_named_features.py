@@ -7,8 +7,9 @@ from scipy.spatial.transform import Rotation
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.buffers import CHANNELS, buffers_of
-from neural_shadows.frames.features import FEATURES, axis_cosines, named_features
+from neural_shadows.frames.features import DIFFERENCE_SCALE, FEATURES, RATIO_SCALE, named_features
 from neural_shadows.meshes.prepared_mesh import with_normals
+from neural_shadows.rendering.gbuffer import axis_cosines
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import UP
 from neural_shadows.scenes.cameras import Camera, Window
@@ -30,7 +31,12 @@ def rendered(scene, view, centre):
 def by_name(names, buffers, view, step=2.0):
     found = named_features(names, buffers, axis_cosines(view, WIDTH, HEIGHT), step)
     ends = np.cumsum([FEATURES[name] for name in names])[:-1]
-    return dict(zip(names, (np.squeeze(one) for one in np.split(found, ends))))
+    images = dict(zip(names, (np.squeeze(one) for one in np.split(found, ends))))
+    for name, scale, centre in (("ratio", RATIO_SCALE, 1), ("difference", DIFFERENCE_SCALE, 0)):
+        if name in images:  # as the paper has them
+            log = images[name]
+            images[name] = centre + np.sign(log) * np.expm1(np.abs(log)) / scale
+    return images
 
 
 def test_the_candidates_are_15_channels():
@@ -71,6 +77,7 @@ def test_a_pixel_without_a_surface_has_the_step_alone():
     found, sky = by_name(tuple(FEATURES), buffers, AWAY), ~surface.image(surface.p[:, 0] < 9)
     assert 0.1 < sky.mean() < 0.9
     assert np.all(found.pop("c_e")[sky] == np.float32(2 / 5))
+    found["ratio"] -= 1  # there is no distance to be in proportion to
     assert not any(one[..., sky].any() for one in found.values())
 
 

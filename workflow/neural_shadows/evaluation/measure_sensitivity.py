@@ -9,9 +9,10 @@ import torch
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.frames.features import LARGEST_STEP, axis_cosines, named_features
+from neural_shadows.frames.features import LARGEST_STEP, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.rendering.gbuffer import axis_cosines
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 

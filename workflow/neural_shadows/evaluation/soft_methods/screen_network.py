@@ -8,10 +8,11 @@ import torch
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.features import LARGEST_STEP, axis_cosines, named_features
+from neural_shadows.frames.features import LARGEST_STEP, named_features
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.rendering.gbuffer import axis_cosines
 
 
 def screen_method(weights: Path) -> SoftMethod:
