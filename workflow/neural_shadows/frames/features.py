@@ -37,6 +37,18 @@ _MADE_OF = {
 }
 
 
+def buffers_of(names: Sequence[str]) -> list[str]:
+    """The buffers that features are made of, each once.
+
+    Raises:
+        InputError: there is no such feature.
+    """
+    for name in names:
+        if name not in FEATURES:
+            raise InputError(f"{name!r} is no feature; use some of {', '.join(FEATURES)}")
+    return list(dict.fromkeys(buffer for name in names for buffer in _MADE_OF[name]))
+
+
 def named_features(
     names: Sequence[str], buffers: Mapping[str, np.ndarray], axis: np.ndarray, step: float
 ) -> np.ndarray:
@@ -58,15 +70,13 @@ def named_features(
     Raises:
         InputError: there is no such feature, or the buffers lack a channel that one is made of.
     """
+    if lacking := [one for one in buffers_of(names) if one not in buffers]:
+        raise InputError(f"the features {', '.join(names)} need the buffer {', '.join(lacking)}")
     images = [image for name in names for image in _feature(name, buffers, axis, step)]
     return np.stack(images).astype(np.float32)
 
 
 def _feature(name: str, buffers: Mapping[str, np.ndarray], axis: np.ndarray, step: float):
-    if name not in FEATURES:
-        raise InputError(f"{name!r} is no feature; use some of {', '.join(FEATURES)}")
-    if lacking := [one for one in _MADE_OF[name] if one not in buffers]:
-        raise InputError(f"the feature {name!r} needs the buffer {', '.join(lacking)}")
     of = [buffers[one] for one in _MADE_OF[name]]
     if name == "c_e":
         return [(np.clip(of[0], 0, 1) + step) / (LARGEST_STEP + 1)]
@@ -84,7 +94,7 @@ def _feature(name: str, buffers: Mapping[str, np.ndarray], axis: np.ndarray, ste
 
 def signed_log(x: np.ndarray) -> np.ndarray:
     """sign(x) log(1 + |x|): as x is near 0, as its logarithm is far from it."""
-    return np.sign(x) * np.log1p(np.abs(x))
+    return np.copysign(np.log1p(np.abs(x)), x)
 
 
 def penumbra_pixels(

@@ -59,5 +59,26 @@ class Perceptual:
 
     @staticmethod
     def distance(one: Sequence[Tensor], other: Sequence[Tensor]) -> Tensor:
-        """The mean squared differences of the layers, added."""
-        return torch.stack([(a - b).float().square().mean() for a, b in zip(one, other)]).sum()
+        """The mean squared differences of the layers, added; with gradients for the first alone."""
+        return torch.stack([MeanSquare.apply(a, b) for a, b in zip(one, other)]).sum()
+
+
+class MeanSquare(torch.autograd.Function):
+    """Mean squared difference of two pictures, with a gradient for the first.
+
+    That of torch's own operations comes in float32 and in another order of memory: 10 ms instead of 1
+    of 127 × 127 × 64 values in bfloat16.
+    """
+
+    @staticmethod
+    def forward(ctx, a: Tensor, b: Tensor) -> Tensor:
+        """Of two (B, C, H, W), in float32."""
+        difference = a - b
+        ctx.save_for_backward(difference)
+        norms = torch.linalg.vector_norm(difference, dim=1)  # no float32 of all of it
+        return norms.float().square().sum() / difference.numel()
+
+    @staticmethod
+    def backward(ctx, gradient: Tensor) -> tuple[Tensor, None]:
+        (difference,) = ctx.saved_tensors
+        return difference * (2 / difference.numel() * gradient).to(difference.dtype), None

@@ -120,7 +120,7 @@ class TrainingState:
         """
         for weight, *terms in zip(self.weights.values(), *gradients):
             # An optimiser goes through a weight and its gradient by their places in memory.
-            weight.grad = terms[0].contiguous()
+            weight.grad = terms[0].to(weight.dtype).contiguous()
             for term in terms[1:]:
                 weight.grad += term
             if self.loss_scale != 1:

@@ -30,8 +30,7 @@ class _Answers:
     def __init__(self, weights: Path):
         self._weights = weights
         network, self._header = load_screen_network(weights)
-        self._network = network.eval().to(memory_format=torch.channels_last)
-        self._dtype = choose_dtype("auto", torch.device("cpu"))
+        self._network = network.in_format(choose_dtype("auto", torch.device("cpu")))
 
     def method(self) -> SoftMethod:
         bytes_held = 2 * sum(one.numel() for one in self._network.parameters())  # 16 bits each
@@ -45,10 +44,7 @@ class _Answers:
         step = self._step(radius, size)
         features = named_features(self._network.features, buffers, axis, step)
         planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
-        with (
-            torch.inference_mode(),
-            torch.autocast("cpu", self._dtype, enabled=self._dtype != torch.float32),
-        ):
+        with torch.inference_mode():
             found = self._network(planes)
         return found[0, 0].float().clamp(0, 1).numpy()
 

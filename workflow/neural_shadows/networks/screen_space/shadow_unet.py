@@ -1,6 +1,7 @@
 """The network of Neural Shadow Mapping in all its forms: from a frame's buffers to visibility."""
 
 from collections.abc import Sequence
+from copy import deepcopy
 
 import torch
 from torch import Tensor, nn
@@ -60,7 +61,8 @@ class ShadowUnet(nn.Module):
 
     From channels `centres` are taken, and what is left is divided by `spreads`: means and standard
     deviations over a training's frames, which it sets. The latter differ by 60 times; and of a ratio
-    near 1 bfloat16 would leave steps of 0.004, more than most shadows' rims are away from it.
+    near 1 bfloat16 would leave steps of 0.004, more than most shadows' rims are away from it. So it
+    takes float32, whatever format it computes in: that of its weights, see `in_format`.
 
     Raises:
         KeyError, ValueError: there is no such form, pool or feature.
@@ -116,6 +118,7 @@ class ShadowUnet(nn.Module):
     def forward(self, x: Tensor) -> Tensor:
         """Visibility, not cut off at 0 and 1: (B, 1, H, W) of features (B, C, H, W), any H and W."""
         x = (x - self.centres[:, None, None]) / self.spreads[:, None, None]
+        x = x.to(next(self.parameters()).dtype)
         height, width = x.shape[-2:]
         below, right = -height % self.multiple, -width % self.multiple
         if below or right:
@@ -133,6 +136,13 @@ class ShadowUnet(nn.Module):
             x = level.decoder(x if level.skip is None else level.skip(x, beside))
         x = x if self.exit is None else self.exit(x)
         return x[..., :height, :width]
+
+    def in_format(self, dtype: torch.dtype) -> "ShadowUnet":
+        """A copy that computes in a number format; centres and spreads stay as they are."""
+        copied = deepcopy(self).to(memory_format=torch.channels_last)
+        for weight in copied.parameters():
+            weight.data = weight.data.to(dtype)
+        return copied
 
     def parts(self) -> dict[tuple[int, str], nn.Module]:
         """The modules that do the work of each level, by level and part.
