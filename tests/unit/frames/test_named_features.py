@@ -115,5 +115,5 @@ def test_what_is_lacking_is_named():
     one = np.ones((2, 2), np.float32)
     with pytest.raises(InputError, match="'colour' is no feature; use some of c_e, view"):
         named_features((*MAIN[:1], "colour"), {"c_e": one}, one, 0)
-    with pytest.raises(InputError, match="the feature 'n_e' needs the buffer e_y, e_z"):
+    with pytest.raises(InputError, match="the features n_e need the buffer e_y, e_z"):
         named_features(("n_e",), {"e_x": one}, one, 0)

@@ -5,7 +5,7 @@ import torch
 import torchvision
 
 from neural_shadows.errors import InputError
-from neural_shadows.training.perceptual import Perceptual
+from neural_shadows.training.perceptual import MeanSquare, Perceptual
 from neural_shadows.training.screen_loss import ScreenLoss
 
 SHAPE = (1, 1, 32, 32)
@@ -43,6 +43,17 @@ def test_each_term_moves_the_output_and_nothing_else(trunk, alpha, against):
     total.backward()
     assert output.grad.abs().max() > 1e-7
     assert twin.grad is None
+
+
+def test_the_mean_square_and_its_gradient():
+    a, b = (torch.randn(2, 3, 5, 7, requires_grad=True) for _ in range(2))
+    found = MeanSquare.apply(a, b)
+    expected = torch.nn.functional.mse_loss(a, b)
+    assert found.item() == pytest.approx(expected.item(), rel=1e-5)
+    gradients = [torch.autograd.grad(3 * one, a)[0] for one in (found, expected)]
+    assert torch.allclose(*gradients, rtol=1e-5)
+    reduced = MeanSquare.apply(a.bfloat16(), b.bfloat16())
+    assert reduced.item() == pytest.approx(expected.item(), rel=0.02)
 
 
 def test_a_twin_that_is_the_same_costs_nothing(trunk):

@@ -91,10 +91,19 @@ def test_the_first_skip_and_the_pool_are_what_they_are_set_to():
 @pytest.mark.parametrize("form", FORMS)
 def test_every_weight_learns_in_bfloat16_too(form):
     network = made(form, extraction=6, first_skip=True) if form == "full" else made(form)
-    with torch.autocast("cpu", torch.bfloat16):
-        found = network(torch.rand(1, 4, 16, 16).contiguous(memory_format=torch.channels_last))
+    reduced = network.in_format(torch.bfloat16)
+    found = reduced(torch.rand(1, 4, 16, 16).contiguous(memory_format=torch.channels_last))
     found.float().square().mean().backward()
-    assert all(one.grad.abs().sum() > 0 for one in network.parameters() if one.ndim == 4)
+    assert all(one.grad.abs().sum() > 0 for one in reduced.parameters() if one.ndim == 4)
+
+
+def test_a_network_in_another_format_scales_channels_as_before():
+    network = made()
+    network.centres[:], network.spreads[:] = 1.003, 0.01
+    x = 1 + 0.01 * torch.rand(1, 4, 16, 16)
+    found = answer(network.in_format(torch.bfloat16), x).float()
+    off = (found - answer(network, x)).abs().mean()
+    assert off < 0.1 * answer(network, x).std()
 
 
 def test_features_of_three_channels_count_as_three():
