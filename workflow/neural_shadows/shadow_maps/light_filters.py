@@ -8,10 +8,10 @@ round the receiver's, so that they go on from face to face of a cube.
 import numpy as np
 from numba import njit
 
-from neural_shadows.shadow_maps.light_map import LightMap, texel_of
+from neural_shadows.shadow_maps.light_discs import across, blockers, looked_up, vogel_disc
+from neural_shadows.shadow_maps.light_map import LightMap
 
 MOST_SLOPE = 20.0  # texels
-_GOLDEN_ANGLE = 2.399963229728653
 
 
 def receiver_bias(
@@ -53,10 +53,8 @@ def disc_visibility(
 ) -> np.ndarray:
     """Percentage-closer filtering over a disc of so many texels' radius, (n,) float32."""
     angle = texels * 2 * light_map.half / light_map.resolution
-    angles = np.full(len(ways), angle, np.float32)
     found = np.empty(len(ways), np.float32)
-    maps = light_map.faces, light_map.half, light_map.resolution
-    _filter(ways, bias, angles, _vogel_disc(samples), keys, depths, *maps, found)
+    _fill_even(ways, bias, angle, vogel_disc(samples), keys, *looked_up(light_map, depths), found)
     return found
 
 
@@ -81,74 +79,67 @@ def soft_disc_visibility(
     Args:
         searched, samples: of the search and of the filter, 64 and 128 (Hu et al. 2025, 6.1).
     """
-    distance = np.linalg.norm(ways, axis=1)
-    maps = light_map.faces, light_map.half, light_map.resolution
-    widest = np.float32(radius) * (1 / (nearest * distance) - 1 / distance)
-    blockers = np.empty(len(ways), np.float32)
-    widest, disc = widest.astype(np.float32), _vogel_disc(searched)
-    _mean_blocker(ways, bias, widest, disc, keys, depths, *maps, blockers)
-    with np.errstate(divide="ignore", invalid="ignore"):  # where nothing hides a receiver
-        angles = radius * (distance - blockers) / (distance * blockers)
-    texel = light_map.half / light_map.resolution  # half of one: no narrower than that
-    angles = np.where(blockers > 0, np.maximum(angles, texel), 0).astype(np.float32)
+    discs = vogel_disc(searched), vogel_disc(samples)
     found = np.empty(len(ways), np.float32)
-    _filter(ways, bias, angles, _vogel_disc(samples), keys, depths, *maps, found)
-    return np.where(blockers > 0, found, np.float32(1))
+    seen = looked_up(light_map, depths)
+    _fill_soft(ways, bias, float(radius), nearest, discs, keys, *seen, found)
+    return found
 
 
-def _vogel_disc(count: int) -> np.ndarray:
-    """Places evenly spread over a unit disc (Vogel 1979), (count, 2)."""
-    k = np.arange(count)
-    places = np.stack([np.cos(k * _GOLDEN_ANGLE), np.sin(k * _GOLDEN_ANGLE)], axis=1)
-    return places * np.sqrt((k + 0.5) / count)[:, None]
-
-
-@njit(cache=True, nogil=True, inline="always")
-def _cone(way, angle, key):
-    """The distance to a receiver, the direction to it, and two vectors across that are as long as a
-    disc of directions is wide, turned by the receiver's key.
-    """
-    x, y, z = way[0], way[1], way[2]
-    distance = np.sqrt(x * x + y * y + z * z)
-    x, y, z = x / distance, y / distance, z / distance
-    # Two unit vectors across (Duff et al. 2017).
-    sign = 1.0 if z >= 0 else -1.0
-    a = -1 / (sign + z)
-    b = x * y * a
-    ux, uy, uz = 1 + sign * x * x * a, sign * b, -sign * x
-    vx, vy, vz = b, sign + y * y * a, -y
-    turn = (key * 0.6180339887498949) % 1 * 2 * np.pi
-    c, s = angle * np.cos(turn), angle * np.sin(turn)
-    u = c * ux + s * vx, c * uy + s * vy, c * uz + s * vz
-    v = c * vx - s * ux, c * vy - s * uy, c * vz - s * uz
-    return distance, (x, y, z), u, v
-
-
-@njit(cache=True, nogil=True)
-def _filter(ways, bias, angles, disc, keys, depths, faces, half, resolution, visibility):
+@njit(cache=True, nogil=True, error_model="numpy")
+def _fill_even(
+    ways, bias, angle, disc, keys, depths, projections, faces, half, resolution, visibility
+):
     """Share of a disc's directions whose texels do not hide the receiver."""
     for i in range(len(ways)):
-        distance, (x, y, z), u, v = _cone(ways[i], angles[i], keys[i])
-        lit = 0
-        for k in range(len(disc)):
-            p, q = disc[k, 0], disc[k, 1]
-            way = x + p * u[0] + q * v[0], y + p * u[1] + q * v[1], z + p * u[2] + q * v[2]
-            texel = texel_of(way[0], way[1], way[2], faces, half, resolution)
-            lit += texel < 0 or distance <= depths[texel] + bias[i]
-        visibility[i] = lit / len(disc)
+        distance, way = _distance_and_way(ways, i)
+        u, v = across(*way, keys[i])
+        hidden, _ = blockers(
+            disc, way, u, v, angle, distance - bias[i], depths, projections, faces, half, resolution
+        )
+        visibility[i] = 1 - hidden / disc.shape[1]
 
 
-@njit(cache=True, nogil=True)
-def _mean_blocker(ways, bias, angles, disc, keys, depths, faces, half, resolution, blockers):
-    """Mean distance of what hides a receiver in a disc of directions; 0 where nothing does."""
+@njit(cache=True, nogil=True, error_model="numpy")
+def _fill_soft(
+    ways,
+    bias,
+    radius,
+    nearest,
+    discs,
+    keys,
+    depths,
+    projections,
+    faces,
+    half,
+    resolution,
+    visibility,
+):
+    """The same of discs as wide as the penumbra that the blockers in a first disc make."""
+    searched, disc = discs
     for i in range(len(ways)):
-        distance, (x, y, z), u, v = _cone(ways[i], angles[i], keys[i])
-        total, count = 0.0, 0
-        for k in range(len(disc)):
-            p, q = disc[k, 0], disc[k, 1]
-            way = x + p * u[0] + q * v[0], y + p * u[1] + q * v[1], z + p * u[2] + q * v[2]
-            texel = texel_of(way[0], way[1], way[2], faces, half, resolution)
-            if texel >= 0 and distance > depths[texel] + bias[i]:
-                total += depths[texel]
-                count += 1
-        blockers[i] = total / count if count else 0.0
+        distance, way = _distance_and_way(ways, i)
+        u, v = across(*way, keys[i])
+        first = distance - bias[i]
+        widest = radius * (1 / (nearest * distance) - 1 / distance)
+        hidden, total = blockers(
+            searched, way, u, v, widest, first, depths, projections, faces, half, resolution
+        )
+        if not hidden:
+            visibility[i] = 1
+            continue
+        blocker = total / hidden
+        angle = radius * (distance - blocker) / (distance * blocker)
+        angle = max(angle, half / resolution)  # half a texel: no narrower than that
+        hidden, _ = blockers(
+            disc, way, u, v, angle, first, depths, projections, faces, half, resolution
+        )
+        visibility[i] = 1 - hidden / disc.shape[1]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _distance_and_way(ways, i):
+    """A vector's length, and the unit vector along it, in float64."""
+    x, y, z = np.float64(ways[i, 0]), np.float64(ways[i, 1]), np.float64(ways[i, 2])
+    distance = np.sqrt(x * x + y * y + z * z)
+    return distance, (x / distance, y / distance, z / distance)
