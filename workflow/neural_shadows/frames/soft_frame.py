@@ -9,7 +9,7 @@ from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_filters import receiver_bias
-from neural_shadows.shadow_maps.light_map import LightMap
+from neural_shadows.shadow_maps.light_map import LightMap, distances_of
 from neural_shadows.shadow_maps.rasterised_light_map import rasterised_depths
 
 
@@ -42,7 +42,7 @@ class SoftFrame:
     def cosines(self) -> np.ndarray:
         """Between each point's geometric normal and the direction to the light, (n,) float32."""
         away = np.einsum("ij,ij->i", self.ways, self.surface.n_g)
-        return -away / np.linalg.norm(self.ways, axis=1)
+        return -away / distances_of(self.ways)
 
     @cached_property
     def bias(self) -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.shadow_maps.face_views import face_views
-from neural_shadows.shadow_maps.light_map import LightMap
+from neural_shadows.shadow_maps.light_map import LightMap, distances_of
 
 
 def box_visibility(
@@ -20,7 +20,7 @@ def box_visibility(
         bias: (n,) by how much a receiver may lie behind a texel and still be lit.
         size: odd.
     """
-    distances = np.linalg.norm(ways, axis=1)
+    distances = distances_of(ways)
     visibility = np.ones(len(ways), np.float32)
     for view in face_views(light_map, depths, ways, size):
         nearest = (distances - bias)[view.receivers].astype(np.float32)

@@ -8,17 +8,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 
 from neural_shadows.shadow_maps.light_map import LightMap
 
 
 @dataclass(frozen=True, eq=False)
 class FaceView:
-    """One face with its margin, N texels a side in all, and the m receivers in the face."""
+    """What the m receivers in a face look at, with its margin."""
 
     receivers: np.ndarray  # (m,) int64, indices among all n
     places: np.ndarray  # (m, 2) float64, row and column; the centre of texel i is at i
-    depths: np.ndarray  # (N, N) float32
+    depths: np.ndarray  # (H, W) float32
 
 
 def face_views(
@@ -32,10 +33,34 @@ def face_views(
     """
     margin = kernel // 2 + 1
     faces, places = light_map.places_of(ways)
-    for face in np.unique(faces[faces >= 0]):
-        receivers = np.flatnonzero(faces == face)
-        within = places[receivers] + (margin - 0.5)
-        yield FaceView(receivers, within, _with_margin(light_map, depths, face, margin))
+    for face in range(len(light_map.faces)):
+        receivers, within = _receivers_in(face, faces, places)
+        if not len(receivers):
+            continue
+        within += margin - 0.5
+        whole = _with_margin(light_map, depths, face, margin)
+        (top, bottom), (left, right) = (
+            (int(along.min()) - kernel // 2, int(along.max()) + kernel // 2 + 2)
+            for along in within.T
+        )
+        within -= [top, left]
+        yield FaceView(receivers, within, np.ascontiguousarray(whole[top:bottom, left:right]))
+
+
+@njit(cache=True, nogil=True)
+def _receivers_in(face, faces, places):
+    """Indices of the receivers in a face, and their places there."""
+    count = 0
+    for i in range(len(faces)):
+        count += faces[i] == face
+    receivers, within = np.empty(count, np.int64), np.empty((count, 2))
+    count = 0
+    for i in range(len(faces)):
+        if faces[i] == face:
+            receivers[count] = i
+            within[count, 0], within[count, 1] = places[i, 0], places[i, 1]
+            count += 1
+    return receivers, within
 
 
 def _with_margin(light_map: LightMap, depths: np.ndarray, face: int, margin: int) -> np.ndarray:

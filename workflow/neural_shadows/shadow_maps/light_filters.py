@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.shadow_maps.light_discs import across, blockers, looked_up, vogel_disc
-from neural_shadows.shadow_maps.light_map import LightMap
+from neural_shadows.shadow_maps.light_map import LightMap, distances_of
 
 MOST_SLOPE = 20.0  # texels
 
@@ -25,7 +25,7 @@ def receiver_bias(
     Args:
         ways: (n, 3) from the light to receivers; cosines: (n,), of θ.
     """
-    distance = np.linalg.norm(ways, axis=1)
+    distance = distances_of(ways)
     texel = light_map.texel_size(ways / distance[:, None]) * distance
     tangent = np.sqrt(1 / np.clip(cosines, 0.01, 1) ** 2 - 1)
     slope = np.minimum(0.5 + 0.75 * tangent, MOST_SLOPE)
@@ -38,7 +38,7 @@ def hard_visibility(
     """1 where a receiver is the first in its texel or off the map, else 0: (n,) float32."""
     texels = light_map.texels_of(ways)
     first = np.where(texels < 0, np.float32(np.inf), depths[texels])
-    return (np.linalg.norm(ways, axis=1) <= first + bias).astype(np.float32)
+    return (distances_of(ways) <= first + bias).astype(np.float32)
 
 
 def disc_visibility(

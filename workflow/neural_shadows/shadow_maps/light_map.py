@@ -103,6 +103,11 @@ def perspective_map(
     return LightMap(np.asarray(centre, np.float64), np.array([face]), half, resolution)
 
 
+def distances_of(ways: np.ndarray) -> np.ndarray:
+    """Lengths of vectors (n, 3), (n,) of their type; numpy's norm takes four times as long."""
+    return np.sqrt(np.einsum("ij,ij->i", ways, ways))
+
+
 @njit(cache=True, nogil=True, inline="always")
 def place_of(x, y, z, faces, half, resolution):
     """The face into which a direction looks, or −1, and its row and column there in texels."""

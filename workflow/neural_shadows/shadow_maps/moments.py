@@ -10,7 +10,6 @@ give visibilities in [0, 1], float32.
 
 import numpy as np
 from numba import njit
-from scipy.ndimage import convolve1d
 
 LEAST_VARIANCE = 1e-6
 MOMENT_BIAS = 3e-5  # towards (½, ½, ½, ½); with float32 moments
@@ -20,14 +19,40 @@ POSITIVE, NEGATIVE = 40.0, 5.0
 
 def powers(depth: np.ndarray, count: int) -> np.ndarray:
     """The first `count` powers of depths (…): (…, count) float64, whose fourth keeps its digits."""
-    depth = np.asarray(depth, np.float64)[..., None]
-    return depth ** np.arange(1, count + 1)
+    found = np.empty((*np.shape(depth), count))
+    found[..., 0] = depth
+    for k in range(1, count):
+        np.multiply(found[..., k - 1], found[..., 0], out=found[..., k])
+    return found
 
 
 def blurred(moments: np.ndarray, kernel: np.ndarray) -> np.ndarray:
-    """A map (H, W, moments) filtered along rows and columns; its rim goes on outside."""
-    once = convolve1d(moments, kernel, axis=0, mode="nearest")
-    return convolve1d(once, kernel, axis=1, mode="nearest")
+    """A map (H, W, moments) filtered by k weights along rows and columns, float64.
+
+    Returns:
+        (H − k + 1, W − k + 1, moments): only where the kernel is within the map.
+    """
+    height, width, count = moments.shape
+    less = len(kernel) - 1
+    found = np.empty((height - less, width - less, count))
+    rows = np.ascontiguousarray(moments, np.float64).reshape(height, -1)
+    _fill_blurred(rows, kernel, count, found.reshape(height - less, -1))
+    return found
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"})
+def _fill_blurred(rows, kernel, count, found):
+    """From rows (H, W · count), through one row at a time that is filtered down the columns."""
+    line = np.empty(rows.shape[1])
+    for i in range(found.shape[0]):
+        line[:] = 0
+        for k in range(len(kernel)):
+            for j in range(len(line)):
+                line[j] += kernel[k] * rows[i + k, j]
+        found[i] = 0
+        for k in range(len(kernel)):
+            for j in range(found.shape[1]):
+                found[i, j] += kernel[k] * line[j + k * count]
 
 
 def box(size: int) -> np.ndarray:

@@ -11,6 +11,7 @@ import numpy as np
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.shadow_maps.filtered_moments import filtered_moments
+from neural_shadows.shadow_maps.light_map import distances_of
 
 # `bias`: times that of a test against one texel. `bleeding`: visibilities up to it are made 0, and
 # those above it stretched to [0, 1] again (Lauritzen 2007).
@@ -36,7 +37,7 @@ def moment_method(
 def _answer(
     frame: SoftFrame, radius: float, *, kernel, of, visibility, bias: float, bleeding: float
 ) -> np.ndarray:
-    distances = np.linalg.norm(frame.ways, axis=1)
+    distances = distances_of(frame.ways)
     # A light far outside of the scene has receivers beyond.
     far = float(distances.max(initial=2 * frame.scene.size))
     moments = filtered_moments(
