@@ -39,16 +39,21 @@ def filtered_moments(
     found = np.tile(nothing, (len(ways), 1))
     for view in face_views(light_map, depths, ways, len(kernel)):
         moments = blurred(of(np.minimum(view.depths / np.float32(far), 1)), kernel)
-        _fill_bilinear(moments, view.places - len(kernel) // 2, view.receivers, found)
+        _fill_bilinear(moments, view.places, len(kernel) // 2, view.receivers, found)
     return found
 
 
 @njit(cache=True, nogil=True)
-def _fill_bilinear(moments, places, receivers, found):
-    """Values (H, W, moments) at places (m, 2), of which all four neighbours are within."""
+def _fill_bilinear(moments, places, reach, receivers, found):
+    """Values (H, W, moments) at places (m, 2), of which all four neighbours are within.
+
+    Args:
+        reach: by how many rows and columns of the places the filter made the map smaller.
+    """
     for i in range(len(places)):
-        row, column = int(places[i, 0]), int(places[i, 1])
-        down, right = places[i, 0] - row, places[i, 1] - column
+        y, x = places[i, 0] - reach, places[i, 1] - reach
+        row, column = int(y), int(x)
+        down, right = y - row, x - column
         a, b = (1 - down) * (1 - right), (1 - down) * right
         c, d = down * (1 - right), down * right
         for k in range(moments.shape[2]):

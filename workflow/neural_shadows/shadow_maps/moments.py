@@ -27,7 +27,7 @@ def powers(depth: np.ndarray, count: int) -> np.ndarray:
 
 
 def blurred(moments: np.ndarray, kernel: np.ndarray) -> np.ndarray:
-    """A map (H, W, moments) filtered by k weights along rows and columns, float64.
+    """A map (H, W, moments) filtered by k weights, odd, along rows and columns: float64.
 
     Returns:
         (H − k + 1, W − k + 1, moments): only where the kernel is within the map.
@@ -35,24 +35,32 @@ def blurred(moments: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     height, width, count = moments.shape
     less = len(kernel) - 1
     found = np.empty((height - less, width - less, count))
-    rows = np.ascontiguousarray(moments, np.float64).reshape(height, -1)
-    _fill_blurred(rows, kernel, count, found.reshape(height - less, -1))
+    values = np.ascontiguousarray(moments, np.float64).ravel()
+    _fill_blurred(values, width * count, kernel, count, found.reshape(height - less, -1))
     return found
 
 
+@njit(cache=True, nogil=True)
+def _fill_blurred(values, width, kernel, count, found):
+    """From values in rows of a width, each filtered down the columns before it is along itself."""
+    line = np.empty(width)
+    for i in range(len(found)):
+        _fill_sums(values[i * width :], width, kernel, line)
+        _fill_sums(line, count, kernel, found[i])
+
+
 @njit(cache=True, nogil=True, fastmath={"contract"})
-def _fill_blurred(rows, kernel, count, found):
-    """From rows (H, W · count), through one row at a time that is filtered down the columns."""
-    line = np.empty(rows.shape[1])
-    for i in range(found.shape[0]):
-        line[:] = 0
-        for k in range(len(kernel)):
-            for j in range(len(line)):
-                line[j] += kernel[k] * rows[i + k, j]
-        found[i] = 0
-        for k in range(len(kernel)):
-            for j in range(found.shape[1]):
-                found[i, j] += kernel[k] * line[j + k * count]
+def _fill_sums(values, step, kernel, sums):
+    """Sums of values (…) a step apart by the kernel's weights, odd in number."""
+    weight = kernel[0]
+    for j in range(len(sums)):
+        sums[j] = weight * values[j]
+    # Two weights at once: half as many sums are written and read again.
+    for k in range(1, len(kernel), 2):
+        a, b = kernel[k], kernel[k + 1]
+        one, other = values[k * step :], values[(k + 1) * step :]
+        for j in range(len(sums)):
+            sums[j] += a * one[j] + b * other[j]
 
 
 def box(size: int) -> np.ndarray:
@@ -95,7 +103,7 @@ def exponential_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray
     return np.minimum(*bounds).astype(np.float32)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def hamburger_visibility(moments, depth):
     """From four moments (n, 4), of receivers at depths (n,): the least shadow that they allow.
 
