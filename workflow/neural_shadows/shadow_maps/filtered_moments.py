@@ -13,6 +13,8 @@ from neural_shadows.shadow_maps.face_views import face_views
 from neural_shadows.shadow_maps.light_map import LightMap
 from neural_shadows.shadow_maps.moments import blurred
 
+_BAND = 32  # rows filtered at once: of 1024 texels and four moments 1 MB
+
 
 def filtered_moments(
     light_map: LightMap,
@@ -38,8 +40,20 @@ def filtered_moments(
     nothing = of(np.ones(1))[0]
     found = np.tile(nothing, (len(ways), 1))
     for view in face_views(light_map, depths, ways, len(kernel)):
-        moments = blurred(of(np.minimum(view.depths / np.float32(far), 1)), kernel)
+        moments = _filtered(np.minimum(view.depths / np.float32(far), 1), of, kernel)
         _fill_bilinear(moments, view.places, len(kernel) // 2, view.receivers, found)
+    return found
+
+
+def _filtered(depths: np.ndarray, of: Callable, kernel: np.ndarray) -> np.ndarray:
+    """Moments of depths (H, W) where the kernel is within, a band of rows after the other: those
+    before the filter stay in the processor's cache.
+    """
+    less = len(kernel) - 1
+    height, width = (size - less for size in depths.shape)
+    found = np.empty((height, width, of(np.ones(1)).shape[1]))
+    for k in range(0, height, _BAND):
+        found[k : k + _BAND] = blurred(of(depths[k : k + _BAND + less]), kernel)
     return found
 
 
