@@ -149,26 +149,27 @@ def _lit_share(frame: SoftFrame, angles: np.ndarray, samples: int) -> np.ndarray
 
 
 def _looked_up(frame: SoftFrame, angles: np.ndarray, samples: int):
-    """Texels of each sample of a disc of directions round each point's."""
+    """Texels of each sample of a disc of directions round each point's; −1 off a map of one face."""
     forward = frame.ways / np.linalg.norm(frame.ways, axis=1, keepdims=True)
-    right = np.cross(forward, [0.3, 0.5, 0.8])
+    right = np.cross(forward, np.array([0.3, 0.5, 0.8], np.float32))
     right /= np.linalg.norm(right, axis=1, keepdims=True)
     down = np.cross(forward, right)
+    face = frame.light_map.faces[0].astype(np.float32)
+    middle, *across = (face @ one.T for one in (forward, right, down))  # as the map has its axes
     for k in range(samples):
-        radius, turn = np.sqrt((k + 0.5) / samples) * angles, k * GOLDEN_ANGLE
-        across = np.cos(turn) * right + np.sin(turn) * down
-        yield numpy_texels(frame.light_map, forward + radius[:, None] * across)
+        radius = (np.sqrt((k + 0.5) / samples) * angles).astype(np.float32)
+        turn = np.float32(k * GOLDEN_ANGLE)
+        way = middle + radius * (np.cos(turn) * across[0] + np.sin(turn) * across[1])
+        yield _numpy_texels(frame.light_map, way)
 
 
-def numpy_texels(light_map: LightMap, directions: np.ndarray) -> np.ndarray:
-    """Texels of a map of one face, −1 beyond it."""
-    right, down, forward = (directions @ light_map.faces[0].T.astype(directions.dtype)).T
+def _numpy_texels(light_map: LightMap, way: np.ndarray) -> np.ndarray:
+    """Texels in a map of one face, −1 off it, by directions (3, n) right, down and forward in it."""
     size = light_map.resolution
-    with np.errstate(divide="ignore", invalid="ignore"):
-        scale = 0.5 * size / (light_map.half * forward)
-        column, row = np.floor(right * scale + 0.5 * size), np.floor(down * scale + 0.5 * size)
-    inside = (forward > 0) & (column >= 0) & (column < size) & (row >= 0) & (row < size)
-    return np.where(inside, row * size + column, -1).astype(np.int64)
+    scale = np.float32(0.5 * size / light_map.half) / way[2]
+    column, row = (np.floor(way[k] * scale + np.float32(size / 2)) for k in (0, 1))
+    inside = (way[2] > 0) & (column >= 0) & (column < size) & (row >= 0) & (row < size)
+    return np.where(inside, row * np.float32(size) + column, -1).astype(np.int64)
 
 
 def numpy_moments(frame: SoftFrame) -> np.ndarray:
@@ -178,7 +179,7 @@ def numpy_moments(frame: SoftFrame) -> np.ndarray:
     kernel, moments = box(9), q[..., None] ** np.arange(1, 5)
     for axis in (0, 1):
         moments = np.apply_along_axis(np.convolve, axis, moments, kernel, "same")
-    texels = np.maximum(numpy_texels(frame.light_map, frame.ways), 0)
+    texels = np.maximum(_numpy_texels(frame.light_map, frame.light_map.faces[0] @ frame.ways.T), 0)
     b = (1 - 3e-5) * moments.reshape(-1, 4)[texels] + 1.5e-5
     z = (np.linalg.norm(frame.ways, axis=1) - frame.bias) / far
     one = np.ones_like(z)

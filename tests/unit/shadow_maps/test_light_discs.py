@@ -1,0 +1,82 @@
+"""Discs of directions in a light's map beside the same samples one by one in numpy."""
+
+import numpy as np
+import pytest
+
+from neural_shadows.shadow_maps.light_discs import vogel_disc
+from neural_shadows.shadow_maps.light_filters import disc_visibility, soft_disc_visibility
+from neural_shadows.shadow_maps.light_map import cube_map, perspective_map
+
+CENTRE = np.zeros(3)
+MAPS = {
+    "cube": cube_map(CENTRE, 64),
+    "picture": perspective_map(CENTRE, np.array([1.0, 2.0, 3.0]), 110.0, 64),
+}
+RADIUS, NEAREST = 0.15, 0.5
+
+
+@pytest.fixture(scope="module", params=MAPS)
+def seen(request):
+    """A map of noise with holes, and receivers all round: ways, biases, keys."""
+    light_map, rng = MAPS[request.param], np.random.default_rng(3)
+    depths = rng.uniform(0.6, 1.4, light_map.count).astype(np.float32)
+    depths[rng.random(light_map.count) < 0.1] = np.inf
+    ways = rng.normal(size=(3000, 3)).astype(np.float32)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    return light_map, depths, ways, np.full(len(ways), 0.01, np.float32), rng.permutation(3000)
+
+
+def samples_of(light_map, ways, angles, keys, count):
+    """Texels that discs look up, (n, count), and which discs lie within one face."""
+    x, y, z = ways.T.astype(np.float64)
+    sign = np.where(z >= 0, 1, -1)
+    a = -1 / (sign + z)
+    one = np.stack([1 + sign * x * x * a, sign * x * y * a, -sign * x], axis=1)
+    two = np.stack([x * y * a, sign + y * y * a, -y], axis=1)
+    turn = 2 * np.pi * (keys * 0.6180339887498949 % 1)[:, None]
+    u, v = np.cos(turn) * one + np.sin(turn) * two, np.cos(turn) * two - np.sin(turn) * one
+    p, q = vogel_disc(count).astype(np.float64)[:, None, :, None] * angles[:, None, None]
+    all_ways = (ways[:, None] + p * u[:, None] + q * v[:, None]).reshape(-1, 3)
+    faces = light_map.places_of(all_ways)[0].reshape(len(ways), count)
+    whole = (faces == faces[:, :1]).all(1) & (faces[:, 0] >= 0)
+    return light_map.texels_of(all_ways).reshape(len(ways), count), whole
+
+
+def hidden(depths, texels, ways, bias):
+    """Which samples hide their receiver, and their depths."""
+    depth = np.where(texels < 0, np.inf, depths[texels])
+    return np.linalg.norm(ways, axis=1)[:, None] - bias[:, None] > depth, depth
+
+
+@pytest.mark.parametrize("radius", [0.5, 12.0])
+def test_discs_within_a_face_and_over_its_rim(seen, radius):
+    """Each a whole number of samples: another at a texel's border, where float32 rounds."""
+    light_map, depths, ways, bias, keys = seen
+    found = disc_visibility(light_map, depths, ways, bias, texels=radius, samples=64, keys=keys)
+    angles = np.full(len(ways), radius * 2 * light_map.half / light_map.resolution)
+    texels, whole = samples_of(light_map, ways, angles, keys, 64)
+    wrong = found - (1 - hidden(depths, texels, ways, bias)[0].mean(1))
+    for some in (whole, ~whole):
+        assert some.sum() > 100
+        assert np.mean(np.abs(wrong[some]) > 1e-6) < 0.02
+        assert np.abs(wrong[some]).max() < 2.5 / 64
+
+
+def test_blocker_search_within_a_face_and_over_its_rim(seen):
+    light_map, depths, ways, bias, keys = seen
+    told = {"radius": RADIUS, "nearest": NEAREST, "searched": 32, "samples": 64, "keys": keys}
+    found = soft_disc_visibility(light_map, depths, ways, bias, **told)
+    distance = np.linalg.norm(ways, axis=1)
+    widest = RADIUS * (1 / (NEAREST * distance) - 1 / distance)
+    texels, _ = samples_of(light_map, ways, widest, keys, 32)
+    blocks, depth = hidden(depths, texels, ways, bias)
+    blocker = np.where(blocks, depth, 0).sum(1) / np.maximum(blocks.sum(1), 1)
+    angles = RADIUS * (distance - blocker) / (distance * np.maximum(blocker, 0.1))
+    angles = np.maximum(angles, light_map.half / light_map.resolution)
+    texels, whole = samples_of(light_map, ways, angles, keys, 64)
+    lit = np.where(blocks.any(1), 1 - hidden(depths, texels, ways, bias)[0].mean(1), 1)
+    assert lit.min() < 0.7 and lit.max() == 1
+    for some in (whole, ~whole):
+        assert some.sum() > 100
+        assert np.mean(np.abs(found - lit)[some] > 1e-6) < 0.02
+        assert abs((found - lit)[some].mean()) < 1e-3
