@@ -23,8 +23,8 @@ def vogel_disc(count: int) -> np.ndarray:
 
 
 def looked_up(light_map: LightMap, depths: np.ndarray) -> tuple:
-    """A map (texels,) float32 as `blockers` takes it: with each face's projection, (F, 3, 3), which
-    makes of a direction (column · w, row · w, w), in texels.
+    """A map's depths (texels,) float32, each face's projection (F, 3, 3), which makes of a direction
+    (column · w, row · w, w) in texels, and the map's faces, half and resolution: for `blockers`.
     """
     right, down, forward = light_map.faces.transpose(1, 0, 2)
     middle = light_map.resolution / 2
@@ -58,7 +58,8 @@ def blockers(disc, way, u, v, angle, nearest, depths, projections, faces, half, 
     Args:
         disc: places in a unit disc, (2, samples) float32. way: the direction in the middle, of unit
             length. u, v: see `across`. angle: the tangent of half the disc's angle.
-        light_map: see `looked_up`; beyond its rim there is nothing.
+        depths, projections, faces, half, resolution: see `looked_up`, one by one, since numba counts
+            a tuple's arrays anew for each receiver; beyond a map's rim there is nothing.
     """
     face = _face_of(projections, way)
     if face >= 0:
