@@ -17,7 +17,14 @@ from neural_shadows.training.train_screen import train_screen
 
 FEATURES = ["c_e", "view", "ratio", "difference"]
 TRAINING = {
-    **{"steps": 6, "crops": 2, "crop": 16, "learning_rate": 5e-3, "schedule": "cosine"},
+    **{
+        "optimiser": "adam",
+        "steps": 6,
+        "crops": 2,
+        "crop": 16,
+        "learning_rate": 5e-3,
+        "schedule": "cosine",
+    },
     **{"alpha": 0.9, "perceptual": {"net": "none"}, "perturbation": 3.0, "flips": True},
 }
 SETTINGS = {
@@ -73,15 +80,19 @@ def test_learns_a_frame_by_heart(tmp_path):
     assert header.items() >= told.items() and network.features == tuple(FEATURES)
 
 
-def test_resumes_and_does_not_depend_on_threads(tmp_path):
+@pytest.mark.parametrize("optimiser", ["adam", "muon"])
+@pytest.mark.parametrize("precision", ["float32", "bfloat16"])
+def test_resumes_and_does_not_depend_on_threads(tmp_path, optimiser, precision):
     part = write_frames(tmp_path, count=3)
-    run(tmp_path / "whole", part)
+    training = TRAINING | {"optimiser": optimiser, "adam_rate": 1e-3}
+    told = {"training": training, "precision": precision}
+    run(tmp_path / "whole", part, **told)
     with pytest.raises(KeyboardInterrupt):
-        run(tmp_path / "killed", part, stop_after=4)
+        run(tmp_path / "killed", part, stop_after=4, **told)
     assert [*(tmp_path / "killed").glob("checkpoints/nsm-*/state.safetensors")]
-    killed = run(tmp_path / "killed", part)
-    run(tmp_path / "threads", part, threads=2)
-    run(tmp_path / "other", part, seed=2)
+    killed = run(tmp_path / "killed", part, **told)
+    run(tmp_path / "threads", part, threads=2, **told)
+    run(tmp_path / "other", part, seed=2, **told)
     whole = contents(tmp_path / "whole")
     assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
     assert contents(tmp_path / "other") != whole

@@ -30,14 +30,18 @@ class NoPerceptual(Model):
 
 
 class ScreenTraining(Model):
-    """Adam on crops of training frames."""
+    """Crops of training frames, and what is learnt of them."""
 
+    optimiser: Literal["adam", "muon"] = Field(
+        "adam", description="`adam`, or `muon` for all convolutions but the first and the last"
+    )
     steps: int = Field(ge=1, description="optimiser steps")
     crops: int = Field(ge=1, le=1024, description="crops of a step")
     crop: int = Field(
         ge=2, le=4096, description="side of a crop in pixels; of a smaller frame its whole side"
     )
     learning_rate: float = Field(gt=0, le=1, description="the optimiser's rate (at its start)")
+    adam_rate: float = Field(0.003, gt=0, le=1, description="with muon, Adam's rate, of all else")
     schedule: Literal["constant", "cosine"] = Field(
         "cosine", description="of the rate: constant or cosine to zero"
     )

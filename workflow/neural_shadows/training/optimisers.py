@@ -6,7 +6,7 @@ job, and their bookkeeping takes 0.1 to 0.5 ms a step.
 """
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 import torch
@@ -69,8 +69,10 @@ class Adam:
 class Muon:
     """Muon (Jordan 2024) on matrices, by name: steps along the orthogonalised momentum.
 
-    With torch's constants and no weight decay. On networks of coordinates it was better than Adam
-    by up to 9 dB where Adam kept the first and the last layer (arXiv 2512.14366).
+    With torch's constants and no weight decay. Kernels of convolutions are matrices of as many rows
+    as they have outputs. On networks of coordinates it was better than Adam by up to 9 dB where Adam
+    kept the first and the last layer (arXiv 2512.14366); on Neural Shadow Mapping's, 400 steps of it
+    end at two thirds of the error of 800 by Adam.
     """
 
     def __init__(self, weights: Mapping[str, Tensor]):
@@ -99,10 +101,9 @@ class Muon:
             # torch's Muon takes its rate as a number, which a recorded step could never change,
             # and would read a tensor back from a GPU: hence a whole step from zero, then scaled.
             whole = torch.zeros_like(weight)
+            matrices = (whole, weight.grad, self._momentum[name])
             muon(
-                [whole],
-                [weight.grad],
-                [self._momentum[name]],
+                *([one.view(len(one), -1)] for one in matrices),
                 lr=1.0,
                 weight_decay=0.0,
                 momentum=0.95,
@@ -117,22 +118,27 @@ class Muon:
 
 
 def make_optimisers(
-    weights: Mapping[str, Tensor], settings: Mapping[str, Any]
+    weights: Mapping[str, Tensor],
+    settings: Mapping[str, Any],
+    hidden: Collection[str] | None = None,
 ) -> dict[str, Adam | Muon]:
     """The optimisers of a training's weights, by the setting that holds their rate.
 
     Args:
         settings: `optimiser`: `adam`, or `muon` with an `adam_rate` for what is not hidden.
+        hidden: names of what is; without it `layers` of a network but the first.
 
     Raises:
         InputError: `muon` on a network that has no hidden layers.
     """
     if settings["optimiser"] == "adam":
         return {"learning_rate": Adam(weights)}
-    hidden = {name: weight for name, weight in weights.items() if _HIDDEN.fullmatch(name)}
+    if hidden is None:
+        hidden = [name for name in weights if _HIDDEN.fullmatch(name)]
     if not hidden:
         raise InputError(
             "optimiser: muon is for hidden layers, and this network has none; set optimiser: adam"
         )
-    others = {name: weight for name, weight in weights.items() if name not in hidden}
-    return {"learning_rate": Muon(hidden), "adam_rate": Adam(others)}
+    inner = {name: weights[name] for name in hidden}
+    others = {name: weight for name, weight in weights.items() if name not in inner}
+    return {"learning_rate": Muon(inner), "adam_rate": Adam(others)}

@@ -40,7 +40,7 @@ class ScreenRun(TrainingState):
         self.validations: list[Mapping[str, Any]] = []
         side = settings["crop"]
         pixels = settings["crops"] * min(side, frames.height) * min(side, frames.width)
-        super().__init__(dict(network.named_parameters()), settings, pixels)
+        super().__init__(dict(network.named_parameters()), settings, pixels, network.hidden())
         # Made anew of the weights after each step. Under autocast each crop would: 10 ms of 60.
         self._computing = self.network.in_format(self.dtype)
         self.loss_scale = LOSS_SCALE.get(self.dtype, 1.0)

@@ -97,7 +97,7 @@ def train_screen(
     header = {
         "name": experiment,
         "network": dict(network),
-        "training": {**training, "optimiser": "adam", **made},
+        "training": {**training, **made},
         "features": list(model.features),
         "radii": frames.about.get("given_radii", frames.about["radii"]),
         "radius_unit": frames.about.get("radius_unit", "metres"),

@@ -1,7 +1,7 @@
 """The state of a training: what each kind of network has that is trained here."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -38,6 +38,7 @@ class TrainingState:
         weights: by name, on the device; what the training changes.
         settings: `optimiser` and its rates, `steps` and `schedule`.
         samples_a_step: how many rays or pixels a step has.
+        hidden: see `make_optimisers`.
 
     Raises:
         InputError: an optimiser that is not for this network.
@@ -46,7 +47,11 @@ class TrainingState:
     KEPT = ("seconds", "curve", "died_at_step")  # in a checkpoint's header, beside the step
 
     def __init__(
-        self, weights: Mapping[str, Tensor], settings: Mapping[str, Any], samples_a_step: int
+        self,
+        weights: Mapping[str, Tensor],
+        settings: Mapping[str, Any],
+        samples_a_step: int,
+        hidden: Collection[str] | None = None,
     ):
         self.weights, self.settings = dict(weights), settings
         self.samples_a_step = samples_a_step
@@ -59,7 +64,7 @@ class TrainingState:
         # Of the first point at which the loss was not finite, or all outputs were the same.
         self.died_at_step: int | None = None
         self.loss_scale = 1.0
-        self.optimisers = make_optimisers(self.weights, settings)
+        self.optimisers = make_optimisers(self.weights, settings, hidden)
 
     def _places(self) -> dict[str, Tensor]:
         """All tensors of the state, by their names in a checkpoint."""

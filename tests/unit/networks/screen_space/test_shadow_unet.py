@@ -110,3 +110,12 @@ def test_features_of_three_channels_count_as_three():
     network = made(features=["ratio", "n"])
     assert network.features == ("ratio", "n")
     assert answer(network, torch.zeros(1, 4, 4, 4)).shape == (1, 1, 4, 4)
+
+
+def test_all_convolutions_but_the_first_and_the_last_are_hidden():
+    network = made(extraction=6)
+    weights = {name: one for name, one in network.named_parameters() if one.ndim == 4}
+    ends = {*weights} - {*network.hidden()}
+    assert ends == {"extraction.0.weight", "levels.0.decoder.4.weight"}
+    shapes = {tuple(weights[name].shape[:2]) for name in ends}
+    assert shapes == {(6, 4), (1, 8)}  # from four features, to one visibility

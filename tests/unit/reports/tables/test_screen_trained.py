@@ -18,7 +18,14 @@ from neural_shadows.reports.tables import (
 
 PUBLISHED = THESIS_CSV.with_name("published_nsm.csv")
 RUN = {"scale": "test", "seed": 1}
-TRAINING = {"steps": 10, "crops": 2, "crop": 32, "learning_rate": 1e-3, "seed": 5}
+TRAINING = {
+    "steps": 10,
+    "crops": 2,
+    "crop": 32,
+    "learning_rate": 1e-3,
+    "seed": 5,
+    "optimiser": "adam",
+}
 TRAINING |= {"perturbation": 3.0}
 LABELS = {"three": "3 levels", "five": "5 levels"}
 

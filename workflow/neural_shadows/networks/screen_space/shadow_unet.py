@@ -137,6 +137,13 @@ class ShadowUnet(nn.Module):
         x = x if self.exit is None else self.exit(x)
         return x[..., :height, :width]
 
+    def hidden(self) -> list[str]:
+        """Names of the weights of all convolutions but the first and the last."""
+        layers = (nn.Conv2d, nn.ConvTranspose2d)
+        found = [name for name, one in self.named_modules() if isinstance(one, layers)]
+        last = f"levels.0.decoder.{len(self.levels[0].decoder) - 1}"
+        return [f"{name}.weight" for name in found[1:] if name != last]
+
     def in_format(self, dtype: torch.dtype) -> "ShadowUnet":
         """A copy that computes in a number format; centres and spreads stay as they are."""
         copied = deepcopy(self).to(memory_format=torch.channels_last)

@@ -39,8 +39,8 @@ def describe_trainings(
     for name, record in records.items():
         training = record["training"]
         text = (
-            f"{training['steps']:,} steps of {training['crops']} crops of {training['crop']}², rate "
-            f"{training['learning_rate']:g}, seed {training['seed']}, perceptual term: {record['perceptual']}, "
+            f"{training['steps']:,} steps of {training['crops']} crops of {training['crop']}², "
+            f"{training['optimiser'].capitalize()} at {training['learning_rate']:g}, seed {training['seed']}, perceptual term: {record['perceptual']}, "
             f"perturbation's weight {training['perturbation']:g}"
         )
         alike.setdefault(text, []).append(labels.get(name, name))
