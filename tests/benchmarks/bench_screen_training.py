@@ -29,7 +29,15 @@ NETWORK = {
 }
 SETTINGS = {
     **{"steps": 1000, "crops": CROPS, "crop": SIDE, "learning_rate": 1e-3, "schedule": "cosine"},
-    **{"perturbation": 3.0, "flips": True, "optimiser": "adam", "seed": 0, "device": "cpu"},
+    **{
+        "perturbation": 3.0,
+        "perturbation_from": 0.0,
+        "flips": True,
+        "optimiser": "muon",
+        "adam_rate": 3e-3,
+        "seed": 0,
+        "device": "cpu",
+    },
 }
 
 

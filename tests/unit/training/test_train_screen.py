@@ -25,7 +25,13 @@ TRAINING = {
         "learning_rate": 5e-3,
         "schedule": "cosine",
     },
-    **{"alpha": 0.9, "perceptual": {"net": "none"}, "perturbation": 3.0, "flips": True},
+    **{
+        "alpha": 0.9,
+        "perceptual": {"net": "none"},
+        "perturbation": 3.0,
+        "perturbation_from": 0.0,
+        "flips": True,
+    },
 }
 SETTINGS = {
     "network": {"form": "shuffle", "widths": [4, 8], "features": FEATURES},
@@ -111,6 +117,19 @@ def test_an_identical_twin_changes_nothing(tmp_path):
         for number, (path, weight) in enumerate([(part, 0), (part, 3.0), (moved, 3.0)])
     ]
     assert losses[0] == losses[1] < losses[2]
+
+
+def test_twins_have_no_part_before_their_time(tmp_path):
+    part = write_frames(tmp_path, shift=2.0)
+    losses = []
+    for weight, share in ((0, 0.0), (3.0, 0.5), (3.0, 0.2), (3.0, 0.0)):
+        training = TRAINING | {"steps": 2, "perturbation": weight, "perturbation_from": share}
+        run(tmp_path / f"{weight} {share}", part, training=training)
+        curve = (tmp_path / f"{weight} {share}" / "nsm" / "loss.csv").read_text().splitlines()
+        losses.append([float(line.split(",")[-1]) for line in curve[1:]])
+    none, half, fifth, whole = losses
+    assert none[0] == half[0] == fifth[0] < whole[0]
+    assert none[1] < half[1] == fifth[1]
 
 
 def test_crops_depend_on_seed_and_step_alone(tmp_path):

@@ -52,4 +52,7 @@ class ScreenTraining(Model):
     perturbation: float = Field(
         3.0, ge=0, le=100, description="weight of the loss against a twin's output; 0 for none"
     )
+    perturbation_from: float = Field(
+        0.0, ge=0, lt=1, description="share of the steps that are done before that loss has a part"
+    )
     flips: bool = Field(True, description="whether crops are mirrored and turned over at random")

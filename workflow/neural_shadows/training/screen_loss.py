@@ -18,8 +18,9 @@ class Terms(NamedTuple):
 class ScreenLoss:
     """L(a, b) = α |a − b| + (1 − α) factor · perceptual(a, b), means over valid pixels.
 
-    A step's loss is L(output, target) + p · L(output, twin's output), where the twin's output carries
-    no gradient. With p times one twin drawn of p, the expectation is the paper's sum over all p.
+    A step's loss is L(output, target), and if a twin is given + p · L(output, twin's output), where
+    the twin's output carries no gradient. With p times one twin drawn of p, the expectation is the
+    paper's sum over all p.
 
     Args:
         alpha: α. perturbation: p. perceptual: None for L1 alone, whose weight is α then, too.

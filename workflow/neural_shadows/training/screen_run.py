@@ -100,7 +100,9 @@ class ScreenRun(TrainingState):
 
     def _gathered(self, step: int, pool: Executor) -> tuple[Sequence[Crops], int]:
         """The chunks of a step, and how many of its pixels are valid."""
-        settings, twins = self.settings, self.settings["perturbation"] > 0
+        settings = self.settings
+        late = step >= settings["perturbation_from"] * settings["steps"]
+        twins = settings["perturbation"] > 0 and late
         told = {key: settings[key] for key in ("seed", "crops", "crop", "flips")}
 
         def crop(place: Place) -> Crops:

@@ -26,7 +26,7 @@ TRAINING = {
     "seed": 5,
     "optimiser": "adam",
 }
-TRAINING |= {"perturbation": 3.0}
+TRAINING |= {"perturbation": 3.0, "perturbation_from": 0.5}
 LABELS = {"three": "3 levels", "five": "5 levels"}
 
 

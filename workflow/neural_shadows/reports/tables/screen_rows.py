@@ -42,6 +42,8 @@ def describe_trainings(
             f"{training['steps']:,} steps of {training['crops']} crops of {training['crop']}², "
             f"{training['optimiser'].capitalize()} at {training['learning_rate']:g}, seed {training['seed']}, perceptual term: {record['perceptual']}, "
             f"perturbation's weight {training['perturbation']:g}"
+            + f" from {training['perturbation_from']:.0%} on"
+            * (training["perturbation"] > 0)
         )
         alike.setdefault(text, []).append(labels.get(name, name))
     return [f"Trained for {text}: {', '.join(names)}." for text, names in alike.items()]
