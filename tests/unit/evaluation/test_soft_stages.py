@@ -1,6 +1,7 @@
 """The stages of methods for soft shadows, on a few tiny frames."""
 
 import json
+import time
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from neural_shadows.evaluation.soft_answers import read_answer
 from neural_shadows.evaluation.soft_method_names import is_tuned
 from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
-from neural_shadows.evaluation.time_soft_methods import time_soft_methods
+from neural_shadows.evaluation.time_soft_methods import medians, time_soft_methods
 from neural_shadows.evaluation.tune_soft_method import tune_soft_method
 from neural_shadows.frames.render_frames import render_frames
 
@@ -153,6 +154,19 @@ def test_times(folder):
     floats = {name: found["methods"][name]["texel_floats"] for name in names}
     assert floats == {"hard": 1, "msm_3": 4, "rt_1": 0}
     assert all(ms > 0 for name in names for ms in found["methods"][name]["ms"])
+
+
+def test_what_takes_long_is_timed_once():
+    called = []
+
+    def work(name, seconds):
+        called.append(name)
+        time.sleep(seconds)
+
+    works = {"slow": lambda: work("slow", 0.11), "quick": lambda: work("quick", 0.001)}
+    found = medians(works, 3)
+    assert called == ["slow", "quick", "quick", "quick"]
+    assert found["slow"] >= 110 and 1 <= found["quick"] < found["slow"]
 
 
 def test_of_frames_without_a_scene_the_buffers_can_be_measured(folder, tmp_path):

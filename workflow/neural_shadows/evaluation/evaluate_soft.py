@@ -1,6 +1,7 @@
 """The stage that measures one method for soft shadows on test frames and sequences."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -62,23 +63,26 @@ def evaluate_soft(
 
     rows: list[Row] = []
     kept: dict[str, np.ndarray] = {}  # to be drawn
-    total = sum(len(FrameSetPart(path)) for path in [*parts, *sequences])
+    paths = [*parts, *sequences]
+    total = sum(len(FrameSetPart(path)) for path in paths)
     with progress_bar(total, "frames", f"evaluate {method}") as bar:
-        for measured in measured_frames(parts, meshes):
-            for k in range(len(measured.part.radii)):
-                if asked.asked_again(constants, k):
-                    found = measured.answered(asked, measured.part.radii[k], constants[k])
-                if measured.number == 0:
-                    kept[name_of(measured.part.frames_json, k)] = found
-                key = _key(measured.part, measured.number, k)
-                values = _values(measured, found, k, quick if measured.number else images)
-                rows += [{**key, "metric": name, "value": value} for name, value in values.items()]
-            bar.update()
-        for path in sequences:
-            frames = measured_frames([path], meshes)
-            found, maps = _flicker(frames, asked, constants, bar.update)
-            rows += found
-            kept |= {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}
+        # Of all in one call, for which each scene is opened once.
+        by_part = groupby(measured_frames(paths, meshes), lambda one: one.part.frames_json)
+        for path, frames in by_part:
+            if path in sequences:
+                found, maps = _flicker(frames, asked, constants, bar.update)
+                rows += found
+                kept |= {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}
+                continue
+            for measured in frames:
+                metrics = quick if measured.number else images
+                for k, found in enumerate(_all_radii(measured, asked, constants)):
+                    if measured.number == 0:
+                        kept[name_of(path, k)] = found
+                    values = _values(measured, found, k, metrics)
+                    key = _key(measured.part, measured.number, k)
+                    rows += [{**key, "metric": name, "value": one} for name, one in values.items()]
+                bar.update()
     write_soft_metrics(metrics_csv, rows)
     write_answers(answers_npz, kept)
 
@@ -86,6 +90,16 @@ def evaluate_soft(
 def _constants(path: Path | None, radii: int) -> list[Constants]:
     """By radius; none of a method that has none."""
     return [one["constants"] for one in read_json(path)["radii"]] if path else [{}] * radii
+
+
+def _all_radii(
+    measured: MeasuredFrame, method: SoftMethod, constants: Sequence[Constants]
+) -> Iterator[np.ndarray]:
+    """The method's picture of each radius; it is asked once where they have the same."""
+    for k, radius in enumerate(measured.part.radii):
+        if method.asked_again(constants, k):
+            found = measured.answered(method, radius, constants[k])
+        yield found
 
 
 def _values(

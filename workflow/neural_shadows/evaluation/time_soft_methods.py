@@ -19,6 +19,10 @@ from neural_shadows.running.hardware import describe_machine
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
+# Milliseconds; a disturbance of some is then a small share. All methods of the default table three
+# times each take 120 s.
+_LONG = 100
+
 
 def time_soft_methods(
     parts: list[Path],
@@ -39,7 +43,7 @@ def time_soft_methods(
         parts: of test frames, one a scene. constants: of the methods that have some.
         weights: of the methods that are networks, each in a folder of its name.
         times_json: of each method and radius `ms`, the median over frames of the median over
-            `repeats`, of its answer alone; `map_ms` of rasterising the light's map, which those that
+            `repeats`, or one of what takes long, of its answer alone; `map_ms` of rasterising the light's map, which those that
             look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
 
     Raises:
@@ -60,7 +64,7 @@ def time_soft_methods(
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
             frame = _prepared(measured)
-            maps.append(_medians({"map": partial(_rasterised, frame)}, repeats)["map"])
+            maps.append(medians({"map": partial(_rasterised, frame)}, repeats)["map"])
             for k in radii:
                 radius = measured.part.radii[k]
                 works = {
@@ -68,9 +72,11 @@ def time_soft_methods(
                     for name, method in timed.items()
                     if method.asked_again(chosen[name], k)
                 }
-                for work in works.values() if number == 0 else ():
-                    work()  # compiles
-                found = _medians(works, repeats)
+                # What is compiled, and what a method makes of a scene: a point light's may be another
+                # path than that of all others.
+                for work in works.values() if k <= (number == 0) else ():
+                    work()
+                found = medians(works, repeats)
                 for name, each in taken.items():
                     each[number, k] = found[name] if name in found else each[number, k - 1]
                 bar.update()
@@ -79,6 +85,7 @@ def time_soft_methods(
         {
             "frames": len(frames),
             "repeats": repeats,
+            "once_above_ms": _LONG,
             "map_ms": float(np.median(maps)),
             "texels": frames[0].frame.light_map.count,
             "methods": {
@@ -111,11 +118,13 @@ def _rasterised(frame: SoftFrame) -> np.ndarray:
     return replace(frame).depths
 
 
-def _medians(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
-    """Milliseconds of each call, which take turns."""
+def medians(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
+    """Milliseconds of each call, which take turns; what takes long is called once."""
     found: dict[str, list[float]] = {name: [] for name in works}
     for _ in range(repeats):
         for name, work in works.items():
+            if found[name] and found[name][0] > _LONG:
+                continue
             started = time.perf_counter()
             work()
             found[name].append(1000 * (time.perf_counter() - started))

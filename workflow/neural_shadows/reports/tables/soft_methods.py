@@ -186,8 +186,8 @@ def _describe_times(times: Mapping[str, Any]) -> list[str]:
     if not times["methods"]:
         return []
     return [
-        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, one thread "
-        f"of {times['machine']['cpu']}; methods that look at a map have {times['map_ms']:.1f} ms of "
+        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
+        f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; methods that look at a map have {times['map_ms']:.1f} ms of "
         "rasterising it in theirs. KiB: the map with its moments, or the fields. What only needs rays "
         "has none, but the mesh and its tree, which all have for the primary rays."
     ]
