@@ -111,7 +111,7 @@ def test_rings_add_up_to_the_disc():
     assert np.allclose(shares[2], np.array([1, 3, 12]) / 16)
     points, count = np.zeros((1, 3), np.float32), np.full(3, 4096)
     ways = np.empty((1, count.sum(), 3), np.float32)
-    ring_ways(points, np.array([7]), np.array([0]), CENTRE, radii, count, ways)
+    ring_ways(points, np.array([7]), 0, CENTRE, radii, count, ways)
     away = (ways[0] - CENTRE).astype(float)
     assert np.abs(away[:, 1]).max() < 1e-6  # across the way to the centre
     radius = np.hypot(away[:, 0], away[:, 2]).reshape(3, -1)

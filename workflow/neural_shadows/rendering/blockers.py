@@ -22,8 +22,8 @@ def blockers(
     starts = np.take(surface.p, chosen, axis=0)
     starts += np.float32(OFFSET * scene.size) * np.take(surface.n_g, chosen, axis=0)
     ways = np.empty((len(starts), RAYS, 3), np.float32)
-    first, counts = np.zeros(len(starts), np.int64), np.array([RAYS])
-    ring_ways(starts, surface.pixel[chosen], first, centre, np.array([radius]), counts, ways)
+    counts = np.array([RAYS])
+    ring_ways(starts, surface.pixel[chosen], 0, centre, np.array([radius]), counts, ways)
     ways = ways.reshape(-1, 3)
     on_light = np.repeat(starts, RAYS, axis=0) + ways
     share, _ = scene.tracer.first_hit(on_light, -ways)

@@ -113,8 +113,7 @@ class _Place:
             part = points[begin : begin + size]
             start = np.take(self.start, part, axis=0)
             some, from_ = ways[: len(part)], starts[: len(part)]
-            done = np.full(len(part), first, np.int64)
-            ring_ways(start, self.surface.pixel[part], done, self.centre, self.rings, counts, some)
+            ring_ways(start, self.surface.pixel[part], first, self.centre, self.rings, counts, some)
             from_[:] = start[:, None]
             normals = np.take(self.surface.n_g, part, axis=0)
             seen = self._seen(from_.reshape(-1, 3), some.reshape(-1, 3), normals, each)

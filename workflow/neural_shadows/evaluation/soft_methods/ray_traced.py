@@ -42,7 +42,7 @@ def ray_traced(
         ways = frame.centre.astype(np.float32) - starts
         return _shares(blocked, starts, ways[:, None], normals)
     # Other numbers than the exact shadow's, whose errors would be these rays' own.
-    keys, drawn = frame.surface.pixel + _SALT, np.full(len(starts), frame.number * samples)
+    keys, drawn = frame.surface.pixel + _SALT, frame.number * samples
     radii, counts = np.array([radius], np.float64), np.array([samples], np.int64)
     size = max(1, _RAYS // samples)
     ways, origins = (np.empty((size, samples, 3), np.float32) for _ in range(2))
@@ -51,7 +51,7 @@ def ray_traced(
         part = slice(begin, begin + size)
         some = starts[part]
         there, here = ways[: len(some)], origins[: len(some)]
-        ring_ways(some, keys[part], drawn[part], frame.centre, radii, counts, there)
+        ring_ways(some, keys[part], drawn, frame.centre, radii, counts, there)
         here[:] = some[:, None]
         found[part] = _shares(blocked, here, there, normals[part])
     return found
