@@ -123,7 +123,8 @@ def test_twins_have_no_part_before_their_time(tmp_path):
     part = write_frames(tmp_path, shift=2.0)
     losses = []
     for weight, share in ((0, 0.0), (3.0, 0.5), (3.0, 0.2), (3.0, 0.0)):
-        training = TRAINING | {"steps": 2, "perturbation": weight, "perturbation_from": share}
+        training = TRAINING | {"steps": 2, "crop": 64, "perturbation": weight}
+        training |= {"perturbation_from": share}
         run(tmp_path / f"{weight} {share}", part, training=training)
         curve = (tmp_path / f"{weight} {share}" / "nsm" / "loss.csv").read_text().splitlines()
         losses.append([float(line.split(",")[-1]) for line in curve[1:]])
