@@ -16,11 +16,13 @@ STEPS = pd.DataFrame(
 LEARNED = {"validation_mse": [0.01, 0.02], "null_mse": {"hard_map": [0.02, 0.05]}}
 
 
-def judged(ratio, trainings=None, steps=STEPS, **told):
+def judged(ratio, trainings=None, steps=STEPS, again=(), **told):
     ratio = {"table": "steps", "of": {"row": "original"}, "to": {"row": "trimmed"}, **ratio}
     ratio = {"at_least": None, "at_most": None} | ratio
+    others = {f"steps_{number}": table for number, table in enumerate(again)}
     claim = {"kind": "ratio", "ratios": [ratio], "networks": [], "needs": {}, **told}
-    data = measured(tables={"steps": steps}, screen_trainings=trainings or {})
+    claim["again"] = {"steps": [*others]}
+    data = measured(tables={"steps": steps, **others}, screen_trainings=trainings or {})
     return judge(claim, data)
 
 
@@ -39,6 +41,26 @@ def test_numbers_are_within_bounds(ratio, verdict):
     assert found["verdict"] == verdict
     if ratio["column"] == "size" and verdict != verdicts.TOO_SMALL:
         assert "ratio 10.4" in found["evidence"]
+
+
+@pytest.mark.parametrize(
+    ("sizes", "verdict", "number"),
+    [
+        ((10, 10.5, 11), verdicts.SUPPORTED, "ratio 10.5 [9.32, 11.8] over 3 seeds"),
+        ((2, 2.1, 2.2), verdicts.CONTRADICTED, "ratio 2.1 ["),
+        ((2, 10, 40), verdicts.UNDECIDED, "ratio 9.28 ["),
+        ((10, 10.5), verdicts.TOO_SMALL, "2 seeds of 3"),
+    ],
+)
+def test_tables_of_other_seeds_decide_by_student_s_t(sizes, verdict, number):
+    steps, *others = (
+        pd.DataFrame({"row": ["original", "trimmed"], "size": [size, 1.0]}) for size in sizes
+    )
+    told = {"networks": ["nsm"], "needs": {"seeds": 3}}
+    ratio = {"column": "size", "at_least": 5}
+    found = judged(ratio, {"nsm": LEARNED}, steps, others, **told)
+    assert found["verdict"] == verdict
+    assert number in f"{found['number']} {found['reason']}"
 
 
 def test_times_are_of_frames_of_the_paper_s_size():

@@ -181,6 +181,10 @@ class RatioClaim(AnyClaim):
     networks: list[name_in("screen_experiments")] = Field(
         [], description="the trained networks that it is about"
     )
+    again: dict[Name, list[Name]] = Field(
+        {},
+        description="by table, those with the same rows of networks that were trained from other seeds",
+    )
 
 
 Claim = by_kind(
@@ -227,6 +231,10 @@ def check(config: "Config") -> None:
             _check_soft(config, f"claims.{name}", claim)
         for ratio in getattr(claim, "ratios", ()):
             check_among(f"claims.{name}.ratios.table", ratio.table, config.tables)
+        for table, others in getattr(claim, "again", {}).items():
+            check_among(f"claims.{name}.again", table, [one.table for one in claim.ratios])
+            for other in others:
+                check_among(f"claims.{name}.again.{table}", other, config.tables)
         key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
             _check_methods(config, key, methods, claim)

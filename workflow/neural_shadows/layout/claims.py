@@ -71,8 +71,10 @@ def soft_tables(layout: Layout) -> list[str]:
 
 def ratio_tables(layout: Layout) -> list[str]:
     """The tables whose numbers claims compare."""
-    claims = layout.settings["claims"].values()
-    return tables.unique(ratio["table"] for one in claims for ratio in one.get("ratios", ()))
+    claims = [one for one in layout.settings["claims"].values() if one["kind"] == "ratio"]
+    asked = [ratio["table"] for one in claims for ratio in one["ratios"]]
+    again = [table for one in claims for others in one["again"].values() for table in others]
+    return tables.unique([*asked, *again])
 
 
 def arguments(layout: Layout) -> dict[str, Any]:

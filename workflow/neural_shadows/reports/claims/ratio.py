@@ -3,8 +3,10 @@
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
+from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.reports.claims.comparison import Comparison, unjudged
 from neural_shadows.reports.claims.measured import Measured
 
@@ -14,38 +16,71 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
 
     Each of a claim's `ratios` has a `table` and a `column`, which `of` and `to`, values by column,
     find the rows of (without `to` it is over the sum of all other rows), and `at_least` or
-    `at_most`. What trained networks measure is not judged by fewer trainings than the claim needs.
+    `at_most`. What trained networks measure is not judged by fewer trainings than the claim needs:
+    a seed is one of the table, and one each of those in `again`. Of more than one the ratios'
+    logarithms decide, by Student's t.
     """
     return [_compared(claim, ratio, data) for ratio in claim["ratios"]]
 
 
 def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured) -> Comparison:
-    table = data.tables[ratio["table"]]
+    tables = [data.tables[name] for name in (ratio["table"], *_again(claim, ratio))]
     names = [_name(ratio[key]) for key in ("of", "to")]
     kept = {"metric": ratio["column"], "methods": f"{names[0]} over {names[1]}"}
-    values = [_cell(table, ratio["column"], ratio["of"])]
-    if ratio["to"] is None:
-        values.append(table[ratio["column"]].sum() - values[0])
-    else:
-        values.append(_cell(table, ratio["column"], ratio["to"]))
-    texts = [f"{name} {value:.4g}" for name, value in zip(names, values)]
+    values = np.array([_values(table, ratio) for table in tables])
+    texts = [f"{name} {value:.4g}" for name, value in zip(names, values.mean(axis=0))]
     kept["text"] = f"{ratio['column']} of {' over '.join(texts)} ({ratio['table']})"
-    if ratio["column"] == "runtime" and not table["of_printed_size"].all():
+    if ratio["column"] == "runtime" and not tables[0]["of_printed_size"].all():
         return Comparison(
             **kept, **unjudged(incomparable="times of frames that have not the paper's size")
         )
-    if not all(value == value for value in values):
+    if not np.isfinite(values).all():
         return Comparison(**kept, **unjudged(untested=f"no {ratio['column']} of one of them"))
-    found = values[0] / values[1]
-    asked = {key: ratio[key] for key in ("at_least", "at_most") if ratio[key] is not None}
-    limits = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in asked.items())
-    number = {"number": f"ratio {found:.3g}", "remark": f" ({limits})"}
+    ratios = values[:, 0] / values[:, 1]
     needed = (claim.get("needs") or {}).get("seeds") or 1
-    if claim["networks"] and needed > 1:
-        why = f"1 seed of {needed}"
+    if claim["networks"] and len(tables) < needed:
+        why = f"{len(tables)} seed{'s' * (len(tables) > 1)} of {needed}"
+        number = _number(ratios, _limits(ratio))
         return Comparison(**kept, **number, supports=False, against=1.0, untested=why)
-    holds = asked.get("at_least", 0.0) <= found <= asked.get("at_most", float("inf"))
-    return Comparison(**kept, **number, supports=holds, against=float(holds))
+    return Comparison(**kept, **_number(ratios, _limits(ratio)), **_judged(ratios, _limits(ratio)))
+
+
+def _again(claim: Mapping[str, Any], ratio: Mapping[str, Any]) -> list[str]:
+    return claim["again"].get(ratio["table"], [])
+
+
+def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
+    value = _cell(table, ratio["column"], ratio["of"])
+    if ratio["to"] is None:
+        return [value, table[ratio["column"]].sum() - value]
+    return [value, _cell(table, ratio["column"], ratio["to"])]
+
+
+def _limits(ratio: Mapping[str, Any]) -> dict[str, float]:
+    return {key: ratio[key] for key in ("at_least", "at_most") if ratio[key] is not None}
+
+
+def _number(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, str]:
+    """The ratio, of several their geometric mean, and its bounds, in words."""
+    bounds = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in limits.items())
+    mean, low, high, _ = np.exp(t_interval(np.log(ratios)))
+    interval = f" [{low:.3g}, {high:.3g}] over {len(ratios)} seeds" if len(ratios) > 1 else ""
+    return {"number": f"ratio {mean:.3g}{interval}", "remark": f" ({bounds})"}
+
+
+def _judged(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:
+    """Whether ratios are within bounds: the only one as it is, several by Student's t."""
+    sides = {"at_least": 1, "at_most": -1}
+    inside = {key: sides[key] * np.log(ratios / limit) for key, limit in limits.items()}
+    if len(ratios) == 1:
+        holds = all(one >= 0 for one in inside.values())
+        return {"supports": holds, "against": float(holds)}
+    found = [t_interval(one) for one in inside.values()]
+    against = [p for mean, _, _, p in found if mean < 0]
+    return {
+        "supports": all(low > 0 for _, low, _, _ in found),
+        "against": min(against, default=1.0),
+    }
 
 
 def _name(where: Mapping[str, Any] | None) -> str:
