@@ -49,6 +49,19 @@ def test_every_key_is_of_use_to_a_shipped_file():
     assert unused == {"trunk", "path"}
 
 
+def test_commands_name_their_targets_first():
+    """Snakemake takes all that follows `--configfile` for config files."""
+    texts = [ROOT / "README.md", *(ROOT / "config").glob("*.md"), *(ROOT / "config").glob("*.yaml")]
+    told = [
+        re.split(r"`|#|$", line.split("--configfile", 1)[1])[0].split()
+        for path in texts
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if "snakemake" in line and "--configfile " in line
+    ]
+    assert len(told) > 10
+    assert [files for files in told if not all(one.endswith(".yaml") for one in files)] == []
+
+
 def test_examples_of_the_readme_are_valid():
     text = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
     examples = [yaml.safe_load(one) for one in re.findall(r"```yaml\n(.*?)```", text, re.DOTALL)]
