@@ -104,7 +104,7 @@ def _convolutions(run: ScreenRun, trunk: Path | None):
         return hook
 
     crops = run.frames.crop(None, SIDE)
-    parts = [(run.network, 2, (True, True))]
+    parts = [(run._computing, 2, (True, True))]
     if trunk is not None:
         parts.append((run.loss._perceptual._layers, 3, (True, False)))
     hooks = [

@@ -77,7 +77,8 @@ class ScreenRun(TrainingState):
             parts = torch.autograd.grad(self.loss_scale * loss, weights)
             return loss.detach(), output.detach().flatten(), parts
 
-        self.change_weights(*zip(*self._compute(pool)(gradients, chunks)))
+        compute = self._compute(pool)
+        self.change_weights(*zip(*compute(gradients, chunks)), compute)
         self._round_weights()
 
     def first_terms(self, pool: Executor) -> Terms:
