@@ -1,0 +1,145 @@
+"""The filter by pixels' own kernels, beside `unfold` in float64 and by answers that are known."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+import torch
+from torch.nn import functional
+
+from neural_shadows.networks.screen_space.pixel_kernels import by_shifts, filtered
+
+SIZES = {"wide": (21, 150), "one pixel": (1, 1), "smaller than a kernel": (3, 5), "odd": (37, 35)}
+
+
+def by_unfold(logits, base, factor=1):
+    """As section 3 of Hu et al. 2025 has it, softmax first, then the borders, in float64."""
+    if factor > 1:
+        logits = functional.interpolate(logits, scale_factor=factor, mode="bilinear")
+    size = base.shape[-2:]
+    logits = logits[..., : size[0], : size[1]]
+    picture = base
+    for level, own in enumerate(logits.split(25, dim=1)):
+        weights = own.softmax(dim=1)
+        near = {"kernel_size": 5, "dilation": 2**level, "padding": 2 * 2**level}
+        seen = functional.unfold(picture, **near).view(-1, 25, *size)
+        inside = functional.unfold(torch.ones_like(picture), **near).view(-1, 25, *size)
+        total = (weights * inside).sum(1, keepdim=True)
+        picture = (weights * seen).sum(1, keepdim=True) / total
+    return picture
+
+
+def drawn(size, factor=1, levels=4, images=2, spread=3.0, dtype=torch.float32):
+    """Logits, base and a gradient, of no more digits than the format of the logits."""
+    generator = torch.Generator().manual_seed(sum(size))
+    low = [-(-side // factor) for side in size]
+    logits = spread * torch.randn(images, 25 * levels, *low, generator=generator)
+    base, gradient = torch.rand(2, images, 1, *size, generator=generator)
+    logits = logits.to(dtype).contiguous(memory_format=torch.channels_last)
+    return logits.requires_grad_(), base.requires_grad_(), gradient
+
+
+def values_and_gradients(work, logits, base, gradient, factor, dtype):
+    inputs = [one.detach().to(dtype or one.dtype).requires_grad_() for one in (logits, base)]
+    found = work(*inputs, factor)
+    return [found.detach(), *torch.autograd.grad(found, inputs, gradient.to(found.dtype))]
+
+
+@pytest.mark.parametrize("work", [filtered, by_shifts])
+@pytest.mark.parametrize("factor", [1, 2])
+@pytest.mark.parametrize("size", SIZES.values(), ids=SIZES)
+def test_values_and_gradients_are_those_of_unfold(work, factor, size):
+    made = drawn(size, factor)
+    ours = values_and_gradients(work, *made, factor, None)
+    theirs = values_and_gradients(by_unfold, *made, factor, torch.float64)
+    for one, other in zip(ours, theirs, strict=True):
+        assert one.dtype == torch.float32
+        assert torch.allclose(one.double(), other, rtol=0, atol=3e-6)
+
+
+@pytest.mark.parametrize("factor", [1, 2])
+def test_bfloat16_is_read_to_its_last_digit(factor):
+    made = drawn((18, 130), factor, dtype=torch.bfloat16)
+    value, of_logits, of_base = values_and_gradients(filtered, *made, factor, None)
+    theirs = values_and_gradients(by_unfold, *made, factor, torch.float64)
+    assert value.dtype == of_base.dtype == torch.float32 and of_logits.dtype == torch.bfloat16
+    assert torch.allclose(value.double(), theirs[0], rtol=0, atol=3e-6)
+    assert torch.allclose(of_base.double(), theirs[2], rtol=0, atol=3e-6)
+    assert torch.allclose(of_logits.double(), theirs[1], rtol=2**-8, atol=1e-6)
+
+
+def test_gradients_are_differences_of_values():
+    """Along a random direction of both inputs; float32 leaves three digits."""
+    logits, base, gradient = drawn((13, 20), spread=1.0)
+    ways = [torch.randn_like(one) for one in (logits, base)]
+    slopes = torch.autograd.grad(filtered(logits, base), [logits, base], gradient)
+    for number, (slope, way) in enumerate(zip(slopes, ways)):
+        inputs = [logits.detach(), base.detach()]
+        ends = []
+        for sign in (1, -1):
+            moved = list(inputs)
+            moved[number] = moved[number] + sign * 5e-3 * way
+            ends.append((filtered(*moved).double() * gradient).sum())
+        assert float((slope * way).sum()) == pytest.approx(float(ends[0] - ends[1]) / 1e-2, rel=2e-3)
+
+
+@pytest.mark.parametrize(("levels", "reach"), [(3, 14), (4, 30), (5, 62)])
+def test_a_pixel_is_within_what_its_kernels_reach(levels, reach):
+    """The smallest and the largest of 29, 61, 125 pixels along and down; and no fewer count."""
+    logits, base, _ = drawn((130, 132), levels=levels, images=1)
+    base = base.detach() * (torch.rand_like(base) < 0.002)
+    found = filtered(logits, base).detach()
+    largest = functional.max_pool2d(base, 2 * reach + 1, 1, reach)
+    smallest = -functional.max_pool2d(-base, 2 * reach + 1, 1, reach)
+    assert bool((found <= largest * (1 + 1e-6)).all())
+    assert bool((found >= smallest * (1 - 1e-6)).all())
+    assert bool((largest == 0).any() or levels > 3)
+    impulse = torch.zeros_like(base)
+    impulse[0, 0, 65, 66] = 1
+    seen = filtered(torch.zeros_like(logits), impulse)[0, 0] > 0
+    assert seen.any(0).sum() == seen.any(1).sum() == min(2 * reach + 1, 130)
+
+
+def test_a_picture_of_one_value_stays_as_it_is_up_to_its_border():
+    logits, base, _ = drawn((33, 140), spread=30.0)
+    found = filtered(logits, torch.full_like(base, 0.3))
+    assert torch.allclose(found, torch.tensor(0.3), rtol=1e-6, atol=0)
+
+
+def test_a_constant_added_to_a_level_s_logits_changes_nothing():
+    logits, base, _ = drawn((9, 20))
+    added = torch.tensor([0.0, 40.0, -40.0, 8.0]).repeat_interleave(25)[:, None, None]
+    assert torch.allclose(filtered(logits, base), filtered(logits + added, base), atol=2e-6)
+
+
+def test_weight_outside_the_frame_alone_leaves_the_taps_within():
+    """Softmax first would leave 0 / 0 in float32."""
+    logits, base = torch.zeros(1, 25, 1, 4), torch.tensor([[[[1.0, 2.0, 3.0, 4.0]]]])
+    logits[:, 2] = 200  # the row above
+    found = filtered(logits, base)
+    assert torch.allclose(found[0, 0, 0], torch.tensor([2.0, 2.5, 2.5, 3.0]))
+
+
+def test_a_tap_is_moved_by_its_level_s_dilation():
+    logits, base, _ = drawn((30, 40), levels=3, images=1)
+    chosen = torch.full_like(logits, -100.0)
+    for level, tap in enumerate((3, 10, 12)):  # right and up; left by two; the middle
+        chosen[:, 25 * level + tap] = 100
+    found = filtered(chosen, base)[0, 0, 10:20, 10:20]
+    # Level 0 goes two up and one right, level 1 four left.
+    assert torch.allclose(found, base[0, 0, 8:18, 7:17])
+
+
+def test_threads_change_nothing_neither_inside_nor_outside():
+    made = drawn((40, 64), factor=2, images=1)
+    expected = values_and_gradients(filtered, *made, 2, None)
+    with ThreadPoolExecutor(3) as pool:
+        side_by_side = [
+            pool.submit(values_and_gradients, filtered, *made, 2, None) for _ in range(6)
+        ]
+        assert all(map(torch.equal, one.result(), expected) for one in side_by_side)
+    kept = torch.get_num_threads()
+    try:
+        torch.set_num_threads(3)
+        assert torch.equal(filtered(made[0], made[1], 2).detach(), expected[0])
+    finally:
+        torch.set_num_threads(kept)

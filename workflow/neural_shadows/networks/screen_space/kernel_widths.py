@@ -1,0 +1,44 @@
+"""The convolutions of networks that predict kernels (Hu et al. 2025, 4.2.1, and its code).
+
+Level 1 is the first: 2 × 2 pixels are channels. Counts are those of `widths.py`.
+"""
+
+from collections.abc import Sequence
+
+from neural_shadows.networks.screen_space.widths import Convolution
+
+KERNEL_FORMS = ("kernels", "direct")
+KERNEL_TAPS = 25  # of each of a pixel's kernels
+_BEFORE_LAST = 16  # channels in front of the direct form's answer
+
+
+def kernel_convolutions(
+    form: str, widths: Sequence[int], channels: int, filters: int
+) -> list[Convolution]:
+    """All convolutions of a network, in the order in which they compute.
+
+    Args:
+        form: `kernels`, or `direct`, which answers visibility itself.
+        widths: channels of each level, from the first. channels: that the network is given.
+        filters: how many kernels a pixel has; of no account in the direct form.
+
+    Raises:
+        ValueError: there is no such form.
+    """
+    if form not in KERNEL_FORMS:
+        raise ValueError(f"form {form!r} is not among {', '.join(KERNEL_FORMS)}")
+    down, up = [Convolution(1, "encoder", 1, 4 * channels, widths[0])], []
+    for level, (above, width) in enumerate(zip(widths, widths[1:]), 2):
+        down += _pair(level, "encoder", above, width)
+        raised = Convolution(level - 1, "upsample", 2, width, above, transposed=True)
+        up = [raised, *_pair(level - 1, "decoder", above, above)] + up
+    if form == "kernels":
+        return down + up + [Convolution(1, "head", 1, widths[0], filters * KERNEL_TAPS)]
+    return down + up + [
+        Convolution(0, "head", 3, widths[0], _BEFORE_LAST),
+        Convolution(0, "head", 1, _BEFORE_LAST, 1),
+    ]
+
+
+def _pair(level: int, part: str, inputs: int, outputs: int) -> list[Convolution]:
+    return [Convolution(level, part, 3, one, outputs) for one in (inputs, outputs)]
