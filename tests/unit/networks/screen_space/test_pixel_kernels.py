@@ -79,7 +79,9 @@ def test_gradients_are_differences_of_values():
             moved = list(inputs)
             moved[number] = moved[number] + sign * 5e-3 * way
             ends.append((filtered(*moved).double() * gradient).sum())
-        assert float((slope * way).sum()) == pytest.approx(float(ends[0] - ends[1]) / 1e-2, rel=2e-3)
+        assert float((slope * way).sum()) == pytest.approx(
+            float(ends[0] - ends[1]) / 1e-2, rel=2e-3
+        )
 
 
 @pytest.mark.parametrize(("levels", "reach"), [(3, 14), (4, 30), (5, 62)])

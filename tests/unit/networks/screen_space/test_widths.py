@@ -3,9 +3,8 @@
 import functools
 
 import pytest
-import torch
+from counted import counted
 from shipped import shipped
-from torch import nn
 
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 from neural_shadows.networks.screen_space.widths import by_level, convolutions, total
@@ -40,23 +39,6 @@ def layers_of(name):
         settings["form"], settings["widths"], channels, settings.get("extraction")
     )
     return make_screen_network(settings), layers
-
-
-def counted(network, channels, size=64):
-    """Weights without biases of a network's parameters, and multiply-adds a pixel by hooks."""
-    done = []
-
-    def hook(layer, inputs, output):
-        x = inputs[0] if isinstance(layer, nn.ConvTranspose2d) else output
-        done.append(layer.weight.numel() * x[0, 0].numel())
-
-    for layer in network.modules():
-        if isinstance(layer, nn.Conv2d | nn.ConvTranspose2d):
-            layer.register_forward_hook(hook)
-    with torch.inference_mode():
-        network(torch.zeros(1, channels, size, size))
-    weights = sum(one.numel() for one in network.parameters() if one.ndim == 4)
-    return weights, sum(done) / size**2
 
 
 @pytest.mark.parametrize("name", COUNTS)

@@ -45,10 +45,16 @@ class ChunkNorm(nn.Module):
 
     def __init__(self, channels: int):
         super().__init__()
-        self.weight, self.bias = (nn.Parameter(make(channels)) for make in (torch.ones, torch.zeros))
-        self.register_buffer("running_mean", torch.zeros(channels))
-        self.register_buffer("running_var", torch.ones(channels))
+        self.weight, self.bias = (nn.Parameter(torch.empty(channels)) for _ in range(2))
+        for name in ("running_mean", "running_var"):
+            self.register_buffer(name, torch.empty(channels))
         self.eps = EPSILON  # under the name that `fuse_conv_bn_eval` asks for
+        self.reset()
+
+    def reset(self) -> None:
+        """To where a training starts: it changes nothing."""
+        for name, one in (*self.named_parameters(), *self.named_buffers()):
+            one.data.fill_(0 if name in ("bias", "running_mean") else 1)
 
     def forward(self, x: Tensor) -> Tensor:
         """(B, C, H, W), in the format of x."""
@@ -58,9 +64,7 @@ class ChunkNorm(nn.Module):
             seen.append(Statistics(mean, variance))
         own = seen is not None
         # Of momentum 1 it leaves a chunk's own statistics in both.
-        return functional.batch_norm(
-            x, mean, variance, self.weight, self.bias, own, 1.0, self.eps
-        )
+        return functional.batch_norm(x, mean, variance, self.weight, self.bias, own, 1.0, self.eps)
 
     def update(self, chunks: Sequence[Statistics]) -> None:
         """Move the running statistics by a tenth to those of all pixels of a step.

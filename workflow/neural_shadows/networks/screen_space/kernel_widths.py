@@ -34,10 +34,14 @@ def kernel_convolutions(
         up = [raised, *_pair(level - 1, "decoder", above, above)] + up
     if form == "kernels":
         return down + up + [Convolution(1, "head", 1, widths[0], filters * KERNEL_TAPS)]
-    return down + up + [
-        Convolution(0, "head", 3, widths[0], _BEFORE_LAST),
-        Convolution(0, "head", 1, _BEFORE_LAST, 1),
-    ]
+    return (
+        down
+        + up
+        + [
+            Convolution(0, "head", 3, widths[0], _BEFORE_LAST),
+            Convolution(0, "head", 1, _BEFORE_LAST, 1),
+        ]
+    )
 
 
 def _pair(level: int, part: str, inputs: int, outputs: int) -> list[Convolution]:

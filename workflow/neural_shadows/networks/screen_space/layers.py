@@ -82,4 +82,5 @@ def initialise(layer: nn.Conv2d | nn.ConvTranspose2d, generator: torch.Generator
     drawn = torch.randn(layer.weight.shape, generator=generator)
     with torch.no_grad():
         layer.weight.copy_((2 / inputs) ** 0.5 * drawn)
-        layer.bias.zero_()
+        if layer.bias is not None:
+            layer.bias.zero_()

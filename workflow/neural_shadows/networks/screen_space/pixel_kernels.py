@@ -1,5 +1,6 @@
 """The filter of Kernel Predicting Neural Shadow Maps: each pixel has kernels of its own."""
 
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -26,7 +27,7 @@ def filtered(logits: Tensor, base: Tensor, factor: int = 1) -> Tensor:
     is within the base's smallest and largest values that its kernels reach: 61 × 61 pixels of four.
 
     Args:
-        logits: (B, levels · 25, h, w), a level's taps row by row; best channels-last.
+        logits: (B, levels · 25, h, w), a level's taps row by row; copied unless contiguous.
         base: (B, 1, H, W) float32. H ≤ factor · h and W ≤ factor · w: the rest is not looked at.
         factor: 1, or 2 where logits are of half the resolution: they are enlarged bilinearly.
     """
@@ -43,12 +44,11 @@ class _Filter(torch.autograd.Function):
     @staticmethod
     def forward(ctx, logits: Tensor, base: Tensor, factor: int) -> Tensor:
         """See `filtered`."""
-        bits = _bits(logits)
-        levels = bits.shape[-1] // TAPS
+        logits = logits.detach().contiguous()
         pictures = [np.ascontiguousarray(base.detach()[:, 0].numpy())]
-        for level in range(levels):
+        for level, bits in enumerate(_levels(logits)):
             result = np.empty_like(pictures[-1])
-            _in_bands(bits, factor, level, pictures[-1], result)
+            _in_bands(bits, factor, 2**level, pictures[-1], result)
             pictures.append(result)
         ctx.save_for_backward(logits)
         ctx.pictures, ctx.factor = pictures, factor
@@ -58,34 +58,33 @@ class _Filter(torch.autograd.Function):
     def backward(ctx, gradient: Tensor) -> tuple[Tensor, Tensor, None]:
         """Of the logits, in their format, and of the base."""
         (logits,) = ctx.saved_tensors
-        bits = _bits(logits)
-        to_logits = np.zeros(bits.shape, np.float32)
+        to_logits = torch.zeros(logits.shape)
         given = np.ascontiguousarray(gradient[:, 0].numpy())
-        for level in reversed(range(bits.shape[-1] // TAPS)):
+        levels = list(enumerate(zip(_levels(logits), to_logits.split(TAPS, dim=1))))
+        for level, (bits, of_level) in reversed(levels):
             to_source = np.zeros_like(given)
             source, result = ctx.pictures[level : level + 2]
-            for image in range(len(bits)):
-                ours = (array[image] for array in (source, result, given, to_source, to_logits))
-                add_gradients(bits[image], ctx.factor, level, *ours)
+            for image, here in enumerate(of_level.numpy()):
+                ours = (array[image] for array in (source, result, given, to_source))
+                add_gradients(bits[image], ctx.factor, 2**level, *ours, here)
             given = to_source
-        of_logits = torch.from_numpy(to_logits).permute(0, 3, 1, 2).to(logits.dtype)
-        return of_logits, torch.from_numpy(given)[:, None], None
+        return to_logits.to(logits.dtype), torch.from_numpy(given)[:, None], None
 
 
-def _bits(logits: Tensor) -> np.ndarray:
-    """(B, h, w, channels), as integers: numpy has no bfloat16."""
-    last = logits.detach().permute(0, 2, 3, 1).contiguous()
-    return last.view(_BITS[logits.dtype]).numpy()
+def _levels(logits: Tensor) -> Iterator[np.ndarray]:
+    """(B, 25, h, w) of each level, as integers: numpy has no bfloat16."""
+    for level in logits.view(_BITS[logits.dtype]).split(TAPS, dim=1):
+        yield level.numpy()
 
 
 def _in_bands(
-    bits: np.ndarray, factor: int, level: int, source: np.ndarray, result: np.ndarray
+    bits: np.ndarray, factor: int, step: int, source: np.ndarray, result: np.ndarray
 ) -> None:
     """A level of some pictures; rows are shared among torch's threads."""
     height, threads = source.shape[1], torch.get_num_threads()
     ends = [height * number // threads for number in range(threads + 1)]
     bands = [
-        (bits[image], factor, level, source[image], *rows, result[image])
+        (bits[image], factor, step, source[image], *rows, result[image])
         for image in range(len(source))
         for rows in zip(ends, ends[1:])
     ]

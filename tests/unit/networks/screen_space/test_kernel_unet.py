@@ -1,0 +1,169 @@
+"""The network of Kernel Predicting Neural Shadow Maps: its counts, and answers that are known."""
+
+import pytest
+import torch
+from counted import counted
+from torch.nn import functional
+
+from neural_shadows.networks.screen_space.chunk_norm import chunk_statistics
+from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
+from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
+from neural_shadows.networks.screen_space.widths import by_level, total
+
+EIGHT = ["c_e", "view", "z", "penumbra", "difference", "ratio", "z_b", "base"]
+FOUR = ["c_e", "view", "difference", "ratio"]
+WIDTHS = {3: [64, 128, 256], 4: [64, 64, 128, 256], 5: [64, 64, 128, 256, 512]}
+SLIM = [32, 32, 64, 128]
+TINY = [4, 4, 8]
+# Parameters by layers and filters; multiply-adds a pixel with 4 filters at the frame's own size (spec
+# 2.1): 6400 of the last convolution, of which a quarter is left at half the resolution.
+PARAMETERS = {
+    **{(3, 3): 1_648_011, (3, 4): 1_649_636, (3, 5): 1_651_261},
+    **{(4, 3): 1_812_427, (4, 4): 1_814_052, (4, 5): 1_815_677},
+    **{(5, 3): 7_058_635, (5, 4): 7_060_260, (5, 5): 7_061_885},
+}
+MACS = {3: 75_520, 4: 48_128, 5: 56_704}
+
+
+def parameters(network):
+    return sum(one.numel() for one in network.parameters())
+
+
+def tiny(form="kernels", seed=0):
+    """A network whose norms have statistics and weights of their own."""
+    network = KernelUnet(form, TINY, EIGHT if form == "kernels" else FOUR, filters=2, seed=seed)
+    generator = torch.Generator().manual_seed(1)
+    for norm in network.norms():
+        for one in (norm.weight.data, norm.running_var):
+            one.copy_(0.5 + torch.rand(one.shape, generator=generator))
+        for one in (norm.bias.data, norm.running_mean):
+            one.copy_(torch.randn(one.shape, generator=generator) / 4)
+    return network
+
+
+def planes(network, *size):
+    generator = torch.Generator().manual_seed(2)
+    return torch.rand(1, len(network.features), *size, generator=generator)
+
+
+def answer(network, x):
+    with torch.inference_mode():
+        return network(x)
+
+
+@pytest.mark.parametrize(("layers", "filters"), PARAMETERS)
+def test_parameters_are_those_of_the_table(layers, filters):
+    assert (
+        parameters(KernelUnet("kernels", WIDTHS[layers], EIGHT, filters))
+        == PARAMETERS[layers, filters]
+    )
+
+
+def test_parameters_of_the_slim_and_the_direct_form():
+    assert parameters(KernelUnet("kernels", SLIM, EIGHT)) == 456_516
+    assert parameters(KernelUnet("direct", WIDTHS[4], FOUR)) == 1_815_809
+
+
+@pytest.mark.parametrize("layers", WIDTHS)
+def test_multiply_adds_are_those_of_the_table_with_the_head_at_half_resolution(layers):
+    network = KernelUnet("kernels", WIDTHS[layers], EIGHT)
+    expected = MACS[layers] - 6400 * 3 / 4
+    assert counted(network, 8)[1] == expected
+    assert total(kernel_convolutions("kernels", WIDTHS[layers], 8, 4), "macs") == expected
+
+
+@pytest.mark.parametrize("form", ["kernels", "direct"])
+def test_modules_of_a_level_have_its_weights(form):
+    network = KernelUnet(form, SLIM, EIGHT, filters=3)
+    layers = kernel_convolutions(form, SLIM, 8, 3)
+    expected, found = {0: 0} | by_level(layers, "weights"), dict.fromkeys(range(5), 0)
+    for (level, _), part in network.parts().items():
+        found[level] += sum(one.numel() for one in part.parameters() if one.ndim == 4)
+    assert found == expected
+    assert counted(network, 8) == (total(layers, "weights"), total(layers, "macs"))
+
+
+def test_the_head_before_the_enlargement_is_the_head_behind_it():
+    """And what it leaves is filtered as `unfold` does it."""
+    network, size = tiny(), (13, 21)
+    x = planes(network, *size)
+    with torch.inference_mode():
+        large = functional.interpolate(network.inner(x), scale_factor=2, mode="bilinear")
+        logits = network.head(large)[..., : size[0], : size[1]]
+        picture = x[:, -1:]
+        for level in range(2):
+            weights = logits[:, 25 * level : 25 * (level + 1)].softmax(1)
+            near = {"kernel_size": 5, "dilation": 2**level, "padding": 2 ** (level + 1)}
+            seen = functional.unfold(picture, **near).view(1, 25, *size)
+            inside = functional.unfold(torch.ones_like(picture), **near).view(1, 25, *size)
+            picture = (weights * seen).sum(1, True) / (weights * inside).sum(1, True)
+    assert torch.allclose(answer(network, x), picture, atol=1e-6)
+
+
+@pytest.mark.parametrize("form", ["kernels", "direct"])
+@pytest.mark.parametrize("size", [(1, 1), (5, 7), (8, 16)])
+def test_any_size_is_padded_by_its_border_and_cropped(form, size):
+    network = tiny(form)
+    x = planes(network, *size)
+    found = answer(network, x)
+    padded = functional.pad(x, (0, -size[1] % 8, 0, -size[0] % 8), mode="replicate")
+    assert found.shape == (1, 1, *size) and found.dtype == torch.float32
+    with torch.inference_mode():
+        assert torch.equal(network.inner(x), network.inner(padded))
+    if form == "direct":
+        assert torch.equal(found, answer(network, padded)[..., : size[0], : size[1]])
+
+
+@pytest.mark.parametrize("form", ["kernels", "direct"])
+def test_norms_that_are_folded_into_convolutions_answer_the_same(form):
+    network = tiny(form)
+    x, folded = planes(network, 24, 16), network.folded()
+    assert not folded.norms() and len(network.norms()) == (5 if form == "kernels" else 6) + 4
+    assert torch.allclose(answer(folded, x), answer(network, x), atol=1e-5)
+
+
+@pytest.mark.parametrize("form", ["kernels", "direct"])
+def test_every_weight_learns_in_bfloat16_too(form):
+    network = tiny(form).in_format(torch.bfloat16)
+    x = planes(network, 16, 16).contiguous(memory_format=torch.channels_last)
+    with chunk_statistics():
+        network(x).square().mean().backward()
+    assert all(one.grad.abs().sum() > 0 for one in network.parameters() if one.ndim == 4)
+    assert {one.weight.dtype for one in network.norms()} == {torch.float32}
+
+
+@pytest.mark.parametrize("form", ["kernels", "direct"])
+def test_bfloat16_answers_nearly_the_same(form):
+    network = tiny(form)
+    x = planes(network, 32, 32)
+    exact = answer(network, x)
+    for one in (network, network.folded()):
+        off = (answer(one.in_format(torch.bfloat16), x) - exact).abs().mean()
+        assert 0 < off < 0.1 * exact.std()
+
+
+def test_weights_are_of_the_seed_alone():
+    first, other = tiny(seed=3), tiny()
+    other.initialise(3)
+    second = KernelUnet("kernels", TINY, EIGHT, filters=2, seed=3)
+    assert all(map(torch.equal, other.state_dict().values(), second.state_dict().values()))
+    assert torch.equal(first.head.weight, second.head.weight)
+    assert not torch.equal(tiny(seed=4).head.weight, second.head.weight)
+
+
+@pytest.mark.parametrize("form", ["kernels", "direct"])
+def test_all_convolutions_but_the_first_and_the_last_are_hidden(form):
+    network = tiny(form)
+    weights = {name: one for name, one in network.named_parameters() if one.ndim == 4}
+    ends = {*weights} - {*network.hidden()}
+    assert ends == {
+        "levels.0.encoder.0.weight",
+        "head.weight" if form == "kernels" else "head.3.weight",
+    }
+
+
+def test_kernels_without_a_base_are_refused():
+    with pytest.raises(ValueError, match="filter the feature 'base', which is not among"):
+        KernelUnet("kernels", TINY, FOUR)
+    with pytest.raises(ValueError, match="'kernel' is not among kernels, direct"):
+        KernelUnet("kernel", TINY, EIGHT)

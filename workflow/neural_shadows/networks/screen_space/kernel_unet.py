@@ -1,0 +1,202 @@
+"""The network of Kernel Predicting Neural Shadow Maps: from a frame's planes to kernels, or visibility."""
+
+from collections.abc import Sequence
+from copy import deepcopy
+
+import torch
+from torch import Tensor, nn
+from torch.nn import functional
+from torch.nn.utils.fusion import fuse_conv_bn_eval
+
+from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm, Statistics
+from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
+from neural_shadows.networks.screen_space.layers import Sum, doubled, initialise
+from neural_shadows.networks.screen_space.pixel_kernels import filtered
+from neural_shadows.networks.screen_space.widths import Convolution
+
+BASE = "base"  # the feature that is filtered
+_CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
+
+
+class KernelLevel(nn.Module):
+    """What a level but the deepest does: on the way down, and on the way up."""
+
+    def __init__(self, layers: Sequence[Convolution]):
+        super().__init__()
+        self.encoder = _normed(layers, "encoder")
+        self.downsample = nn.MaxPool2d(2)
+        (raised,) = (one for one in layers if one.part == "upsample")
+        self.upsample = nn.ConvTranspose2d(raised.inputs, raised.outputs, 2, stride=2)
+        self.skip = Sum()
+        self.decoder = _normed(layers, "decoder")
+
+
+class PixelKernels(nn.Module):
+    """The filter as a part of a network: of a frame's kernels at half its resolution, and its base."""
+
+    def forward(self, logits: Tensor, base: Tensor) -> Tensor:
+        """See `filtered`."""
+        return filtered(logits, base, factor=2)
+
+
+class KernelUnet(nn.Module):
+    """A U-Net with batch norms and sums for skips (Hu et al. 2025, 4.2.1, and its code).
+
+    The last 1 × 1 convolution of the kernels computes at half the resolution, before the bilinear
+    enlargement: both orders are equal, and this one is a quarter of the work.
+
+    Args:
+        form: `kernels`, which filter the feature `base`; `direct`, which answers visibility itself: the
+            paper's form of Neural Shadow Mapping.
+        widths: channels of each level, from that of half the frame's resolution.
+        features: names of the planes that it is given, in this order, without any scaling.
+        filters: 5 × 5 kernels of a pixel, of dilation 1, 2, 4 …
+        seed: of the first weights.
+
+    Its norms take running statistics, but for inside `chunk_statistics`, where a training computes.
+
+    Raises:
+        ValueError: there is no such form, or no `base` to be filtered.
+    """
+
+    def __init__(
+        self,
+        form: str,
+        widths: Sequence[int],
+        features: Sequence[str],
+        filters: int = 4,
+        seed: int = 0,
+    ):
+        super().__init__()
+        self.form, self.features = form, tuple(features)
+        layers = kernel_convolutions(form, widths, len(self.features), filters)
+        if form == "kernels" and BASE not in self.features:
+            raise ValueError(
+                f"kernels filter the feature {BASE!r}, which is not among its features"
+            )
+        self.multiple = 2 ** len(widths)
+        self.entrance = nn.PixelUnshuffle(2)
+        of_level = [[one for one in layers if one.level == k] for k in range(len(widths) + 1)]
+        self.levels = nn.ModuleList(KernelLevel(one) for one in of_level[1:-1])
+        self.deepest = _normed(of_level[-1], "encoder")
+        last = [one for one in layers if one.part == "head"]
+        if form == "kernels":
+            self.head = nn.Conv2d(last[0].inputs, last[0].outputs, 1)
+            self.exit = PixelKernels()
+        else:
+            before, answer = (
+                nn.Conv2d(x.inputs, x.outputs, x.size, padding=x.size // 2) for x in last
+            )
+            norm = ChunkNorm(last[0].outputs)
+            self.head = nn.Sequential(before, norm, nn.ReLU(inplace=True), answer)
+            self.exit = doubled()
+        self.initialise(seed)
+
+    def initialise(self, seed: int) -> None:
+        """Set the weights that a training starts from: the same of a seed, everywhere."""
+        generator = torch.Generator().manual_seed(seed)
+        for layer in self.modules():
+            if isinstance(layer, _CONVOLUTIONS):
+                initialise(layer, generator)
+            elif isinstance(layer, ChunkNorm):
+                layer.reset()
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Visibility, (B, 1, H, W) float32, of planes (B, C, H, W) float32 of any H and W.
+
+        Of the direct form it is not cut off at 0 and 1.
+        """
+        height, width = x.shape[-2:]
+        inner = self.inner(x)
+        if self.form == "kernels":
+            number = self.features.index(BASE)
+            return self.exit(self.head(inner), x[:, number : number + 1].float())
+        return self.head(self.exit(inner))[..., :height, :width].float()
+
+    def inner(self, x: Tensor) -> Tensor:
+        """What the head is given: (B, C, h, w) at half the resolution, of padded planes."""
+        height, width = x.shape[-2:]
+        x = x.to(next(self.parameters()).dtype)
+        below, right = -height % self.multiple, -width % self.multiple
+        if below or right:
+            x = functional.pad(x, (0, right, 0, below), mode="replicate")
+        x, kept = self.entrance(x), []
+        for level in self.levels:
+            x = level.encoder(x)
+            kept.append(x)
+            x = level.downsample(x)
+        x = self.deepest(x)
+        for level in reversed(self.levels):
+            x = level.decoder(level.skip(level.upsample(x), kept.pop()))
+        return x
+
+    def hidden(self) -> list[str]:
+        """Names of the weights of all convolutions but the first and the last."""
+        found = [name for name, one in self.named_modules() if isinstance(one, _CONVOLUTIONS)]
+        ends = {found[0], "head" if self.form == "kernels" else "head.3"}
+        return [f"{name}.weight" for name in found if name not in ends]
+
+    def in_format(self, dtype: torch.dtype) -> "KernelUnet":
+        """A copy whose convolutions compute in a number format; norms keep theirs, float32."""
+        copied = deepcopy(self).to(memory_format=torch.channels_last)
+        for layer in copied.modules():
+            if isinstance(layer, _CONVOLUTIONS):
+                layer.to(dtype)
+        return copied
+
+    def folded(self) -> "KernelUnet":
+        """A copy for answers alone: each norm is part of the convolution before it."""
+        copied = deepcopy(self)
+        for block in copied.modules():
+            if isinstance(block, nn.Sequential):
+                _fold(block)
+        return copied
+
+    def norms(self) -> list[ChunkNorm]:
+        """In the order in which they compute."""
+        levels = [*self.levels]
+        blocks = [one.encoder for one in levels] + [self.deepest]
+        blocks += [one.decoder for one in reversed(levels)] + [self.head]
+        return [layer for block in blocks for layer in block.modules() if _is_norm(layer)]
+
+    def update_norms(self, chunks: Sequence[Sequence[Statistics]]) -> None:
+        """Move the running statistics to those of a step, what `chunk_statistics` gave of its chunks."""
+        for norm, *seen in zip(self.norms(), *chunks, strict=True):
+            norm.update(seen)
+
+    def parts(self) -> dict[tuple[int, str], nn.Module]:
+        """The modules that do the work of each level, by level and part.
+
+        Parts: `entrance`, `exit` (level 0), `encoder`, `downsample`, `upsample`, `skip`, `decoder`,
+        `head` (level 1 of kernels, level 0 of the direct form).
+        """
+        found = {(0, "entrance"): self.entrance, (0, "exit"): self.exit}
+        for number, level in enumerate(self.levels, 1):
+            found |= {(number, name): part for name, part in level.named_children()}
+        found[(1 + len(self.levels), "encoder")] = self.deepest
+        return found | {(int(self.form == "kernels"), "head"): self.head}
+
+
+def _is_norm(layer: nn.Module) -> bool:
+    return isinstance(layer, ChunkNorm)
+
+
+def _normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:
+    """The convolutions of a part, with a norm and a ReLU after each; a 3 × 3 has no bias."""
+    found: list[nn.Module] = []
+    for one in layers:
+        if one.part == part:
+            wide = one.size > 1
+            made = nn.Conv2d(
+                one.inputs, one.outputs, one.size, padding=one.size // 2, bias=not wide
+            )
+            found += [made, ChunkNorm(one.outputs), nn.ReLU(inplace=True)]
+    return nn.Sequential(*found)
+
+
+def _fold(block: nn.Sequential) -> None:
+    """Take the norms of a block into the convolutions before them."""
+    for number in reversed(range(1, len(block))):
+        if _is_norm(block[number]):
+            block[number - 1] = fuse_conv_bn_eval(block[number - 1].eval(), block[number].eval())
+            del block[number]
