@@ -1,6 +1,6 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
-    python tests/benchmarks/run.py [--quick] [--only labels training queries viewpoint soft screen default]
+    python tests/benchmarks/run.py [--quick] [--only labels training queries viewpoint soft screen kernels default]
         [--mesh results/scenes/dragon/mesh.ply] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import bench_default
+import bench_kernels
 import bench_labels
 import bench_queries
 import bench_screen_networks
@@ -29,7 +30,7 @@ from neural_shadows.meshes.generate_mesh import generate_mesh
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.running.hardware import describe_machine
 
-STAGES = ("labels", "training", "queries", "viewpoint", "soft", "screen", "default")
+STAGES = ("labels", "training", "queries", "viewpoint", "soft", "screen", "kernels", "default")
 TABLE = Path("reports/benchmarks.csv")
 
 
@@ -43,6 +44,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
         "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),
+        "kernels": lambda: bench_kernels.rows(quick),
         "default": bench_default.rows,
     }
     for stage in arguments.only:

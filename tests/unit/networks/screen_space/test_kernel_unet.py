@@ -4,6 +4,7 @@ import pytest
 import torch
 from counted import counted
 from torch.nn import functional
+from unfolded import by_unfold
 
 from neural_shadows.networks.screen_space.chunk_norm import chunk_statistics
 from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
@@ -90,14 +91,17 @@ def test_the_head_before_the_enlargement_is_the_head_behind_it():
     with torch.inference_mode():
         large = functional.interpolate(network.inner(x), scale_factor=2, mode="bilinear")
         logits = network.head(large)[..., : size[0], : size[1]]
-        picture = x[:, -1:]
-        for level in range(2):
-            weights = logits[:, 25 * level : 25 * (level + 1)].softmax(1)
-            near = {"kernel_size": 5, "dilation": 2**level, "padding": 2 ** (level + 1)}
-            seen = functional.unfold(picture, **near).view(1, 25, *size)
-            inside = functional.unfold(torch.ones_like(picture), **near).view(1, 25, *size)
-            picture = (weights * seen).sum(1, True) / (weights * inside).sum(1, True)
-    assert torch.allclose(answer(network, x), picture, atol=1e-6)
+        expected = by_unfold(logits, x[:, -1:])
+    assert torch.allclose(answer(network, x), expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("images", [1, 3])
+def test_logits_lie_plane_by_plane_and_are_the_convolution_s(images):
+    head = tiny().head
+    x = torch.rand(images, 4, 6, 10).contiguous(memory_format=torch.channels_last)
+    found = head(x)
+    assert found.is_contiguous()
+    assert torch.allclose(found, functional.conv2d(x, head.weight, head.bias), atol=1e-6)
 
 
 @pytest.mark.parametrize("form", ["kernels", "direct"])

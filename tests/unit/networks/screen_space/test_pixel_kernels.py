@@ -5,27 +5,11 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 import torch
 from torch.nn import functional
+from unfolded import by_unfold
 
 from neural_shadows.networks.screen_space.pixel_kernels import by_shifts, filtered
 
 SIZES = {"wide": (21, 150), "one pixel": (1, 1), "smaller than a kernel": (3, 5), "odd": (37, 35)}
-
-
-def by_unfold(logits, base, factor=1):
-    """As section 3 of Hu et al. 2025 has it, softmax first, then the borders, in float64."""
-    if factor > 1:
-        logits = functional.interpolate(logits, scale_factor=factor, mode="bilinear")
-    size = base.shape[-2:]
-    logits = logits[..., : size[0], : size[1]]
-    picture = base
-    for level, own in enumerate(logits.split(25, dim=1)):
-        weights = own.softmax(dim=1)
-        near = {"kernel_size": 5, "dilation": 2**level, "padding": 2 * 2**level}
-        seen = functional.unfold(picture, **near).view(-1, 25, *size)
-        inside = functional.unfold(torch.ones_like(picture), **near).view(-1, 25, *size)
-        total = (weights * inside).sum(1, keepdim=True)
-        picture = (weights * seen).sum(1, keepdim=True) / total
-    return picture
 
 
 def drawn(size, factor=1, levels=4, images=2, spread=3.0, dtype=torch.float32):

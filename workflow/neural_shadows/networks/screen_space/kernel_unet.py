@@ -31,6 +31,20 @@ class KernelLevel(nn.Module):
         self.decoder = _normed(layers, "decoder")
 
 
+class PlanesOfLogits(nn.Conv2d):
+    """A 1 × 1 convolution whose answer lies channel by channel, as the filter reads it.
+
+    From channels-last to there a copy takes 8 ms of 256 × 128 pixels, 320 ms of 1024 × 512; as a
+    product of matrices it needs none.
+    """
+
+    def forward(self, x: Tensor) -> Tensor:
+        """(B, channels, H, W), contiguous."""
+        weight, bias = self.weight.flatten(1), self.bias[:, None]
+        found = [torch.addmm(bias, weight, image.flatten(1)).view(-1, *x.shape[2:]) for image in x]
+        return torch.stack(found) if len(found) > 1 else found[0][None]
+
+
 class PixelKernels(nn.Module):
     """The filter as a part of a network: of a frame's kernels at half its resolution, and its base."""
 
@@ -81,7 +95,7 @@ class KernelUnet(nn.Module):
         self.deepest = _normed(of_level[-1], "encoder")
         last = [one for one in layers if one.part == "head"]
         if form == "kernels":
-            self.head = nn.Conv2d(last[0].inputs, last[0].outputs, 1)
+            self.head = PlanesOfLogits(last[0].inputs, last[0].outputs, 1)
             self.exit = PixelKernels()
         else:
             before, answer = (

@@ -35,6 +35,12 @@ def _exp(x):
 
 
 @njit(cache=True, nogil=True, inline="always")
+def _row():
+    """Of a block. A row taken out of an array of several is to numba one with gaps, and slow."""
+    return np.empty(_BLOCK, np.float32)
+
+
+@njit(cache=True, nogil=True, inline="always")
 def _reach(tap, y, left, right, step, height, width):
     """Row v that a tap reads for pixels (y, left … right), by how far to the right it looks, and for
     which pixels [first, last) of the block it lies within the frame; none if v does not.
@@ -154,7 +160,7 @@ def filter_rows(bits, factor, step, source, begin, end, result):
     """
     height, width = source.shape
     planes, half = np.empty((TAPS, _BLOCK), np.float32), np.empty(_BLOCK // 2 + 3, np.float32)
-    top, total, sums = np.empty((3, _BLOCK), np.float32)
+    top, total, sums = _row(), _row(), _row()
     for y in range(begin, end):
         for left in range(0, width, _BLOCK):
             right = min(left + _BLOCK, width)
@@ -182,7 +188,7 @@ def add_gradients(bits, factor, step, source, result, gradient, to_source, to_lo
     """
     height, width = source.shape
     planes, half = np.empty((TAPS, _BLOCK), np.float32), np.empty(_BLOCK // 2 + 3, np.float32)
-    top, total, shares = np.empty((3, _BLOCK), np.float32)
+    top, total, shares = _row(), _row(), _row()
     for y in range(height):
         for left in range(0, width, _BLOCK):
             right = min(left + _BLOCK, width)
