@@ -127,6 +127,23 @@ def test_norms_that_are_folded_into_convolutions_answer_the_same(form):
 
 
 @pytest.mark.parametrize("form", ["kernels", "direct"])
+def test_norms_are_told_of_statistics_in_the_order_in_which_they_compute(form):
+    network, order = tiny(form), []
+    before = [norm.running_mean.clone() for norm in network.norms()]
+    for norm in network.norms():
+        norm.register_forward_hook(lambda layer, *_: order.append(layer))
+    chunks = []
+    for _ in range(2):
+        with chunk_statistics() as seen:
+            network(planes(network, 16, 16))
+        chunks.append(seen)
+    assert order == 2 * network.norms()
+    network.update_norms(chunks)
+    for norm, old, one in zip(network.norms(), before, chunks[0], strict=True):
+        assert torch.allclose(norm.running_mean, 0.9 * old + 0.1 * one.mean, atol=1e-6)
+
+
+@pytest.mark.parametrize("form", ["kernels", "direct"])
 def test_every_weight_learns_in_bfloat16_too(form):
     network = tiny(form).in_format(torch.bfloat16)
     x = planes(network, 16, 16).contiguous(memory_format=torch.channels_last)

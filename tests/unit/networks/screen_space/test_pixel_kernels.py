@@ -105,6 +105,25 @@ def test_weight_outside_the_frame_alone_leaves_the_taps_within():
     assert torch.allclose(found[0, 0, 0], torch.tensor([2.0, 2.5, 2.5, 3.0]))
 
 
+@pytest.mark.parametrize("broken", [torch.nan, torch.inf])
+def test_a_logit_that_is_no_number_shows(broken):
+    """A training looks for it in the loss."""
+    logits, base = torch.zeros(1, 25, 4, 4), torch.rand(1, 1, 4, 4)
+    logits[0, 12, 1, 2] = broken
+    found = filtered(logits, base)[0, 0]
+    assert found.isnan()[1, 2] and found.isnan().sum() == 1
+
+
+@pytest.mark.parametrize(
+    ("logits", "base", "factor"),
+    [((1, 25, 4, 4), (1, 1, 4, 5), 1), ((1, 25, 4, 4), (1, 1, 9, 8), 2)]
+    + [((2, 25, 4, 4), (1, 1, 4, 4), 1), ((1, 24, 4, 4), (1, 1, 4, 4), 1)],
+)
+def test_a_base_of_another_size_is_refused(logits, base, factor):
+    with pytest.raises(ValueError, match="do not fit a base of"):
+        filtered(torch.zeros(logits), torch.zeros(base), factor)
+
+
 def test_a_tap_is_moved_by_its_level_s_dilation():
     logits, base, _ = drawn((30, 40), levels=3, images=1)
     chosen = torch.full_like(logits, -100.0)

@@ -26,7 +26,7 @@ _LEAST = np.float32(-1e30)
 def _exp(x):
     """Of x ≤ 0, to 3e-7 of itself at x = −10; numba's own is a call for each number."""
     t = x * _LOG2_E
-    t = t if t > np.float32(-126) else np.float32(-126)
+    t = np.float32(-126) if t < np.float32(-126) else t  # what is no number stays none
     rounded = np.float32(t + _ROUNDS)  # its last bits are the whole number next to t
     f = t - (rounded - _ROUNDS)
     p = ((((_P5 * f + _P4) * f + _P3) * f + _P2) * f + _P1) * f + _P0

@@ -30,7 +30,16 @@ def filtered(logits: Tensor, base: Tensor, factor: int = 1) -> Tensor:
         logits: (B, levels · 25, h, w), a level's taps row by row; copied unless contiguous.
         base: (B, 1, H, W) float32. H ≤ factor · h and W ≤ factor · w: the rest is not looked at.
         factor: 1, or 2 where logits are of half the resolution: they are enlarged bilinearly.
+
+    Raises:
+        ValueError: the logits do not cover the base, or are not of whole levels.
     """
+    covers = all(side <= factor * low for side, low in zip(base.shape[-2:], logits.shape[-2:]))
+    if not covers or len(base) != len(logits) or logits.shape[1] % TAPS:
+        raise ValueError(
+            f"kernels of {tuple(logits.shape)}, enlarged {factor} times, do not fit a base of "
+            f"{tuple(base.shape)}"
+        )
     if base.device.type != "cpu":
         return by_shifts(logits, base, factor)
     if logits.dtype not in _BITS:
@@ -58,7 +67,8 @@ class _Filter(torch.autograd.Function):
     def backward(ctx, gradient: Tensor) -> tuple[Tensor, Tensor, None]:
         """Of the logits, in their format, and of the base."""
         (logits,) = ctx.saved_tensors
-        to_logits = torch.zeros(logits.shape)
+        # By numpy, whose zeros are not written before they are added to.
+        to_logits = torch.from_numpy(np.zeros(logits.shape, np.float32))
         given = np.ascontiguousarray(gradient[:, 0].numpy())
         levels = list(enumerate(zip(_levels(logits), to_logits.split(TAPS, dim=1))))
         for level, (bits, of_level) in reversed(levels):

@@ -7,28 +7,34 @@ from typing import Any
 import torch
 
 from neural_shadows.errors import InputError
+from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
+from neural_shadows.networks.screen_space.kernel_widths import KERNEL_FORMS
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
 from neural_shadows.networks.weight_file import load_tensors, save_tensors
 
 STORED = torch.float16
 
+ScreenNetwork = ShadowUnet | KernelUnet
 
-def make_screen_network(settings: Mapping[str, Any]) -> ShadowUnet:
-    """A network from an entry of the config's `screen_networks`: the arguments of `ShadowUnet`.
+
+def make_screen_network(settings: Mapping[str, Any]) -> ScreenNetwork:
+    """A network from an entry of the config's `screen_networks`: the arguments of `KernelUnet` for its
+    forms, of `ShadowUnet` for all others.
 
     Raises:
         KeyError, TypeError, ValueError: an argument is missing, unknown or wrong.
     """
-    return ShadowUnet(**settings)
+    made = KernelUnet if settings["form"] in KERNEL_FORMS else ShadowUnet
+    return made(**settings)
 
 
-def save_screen_network(path: Path, network: ShadowUnet, header: Mapping[str, Any]) -> None:
+def save_screen_network(path: Path, network: ScreenNetwork, header: Mapping[str, Any]) -> None:
     """Write a network's weights in 16 bits; `header["network"]` must hold its settings."""
     tensors = {name: one.to(STORED) for name, one in network.state_dict().items()}
     save_tensors(path, tensors, header)
 
 
-def load_screen_network(path: Path) -> tuple[ShadowUnet, dict[str, Any]]:
+def load_screen_network(path: Path) -> tuple[ScreenNetwork, dict[str, Any]]:
     """Read a network, in float32, and the header that it was saved with.
 
     Raises:
