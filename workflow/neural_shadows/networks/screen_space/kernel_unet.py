@@ -6,51 +6,20 @@ from copy import deepcopy
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
-from torch.nn.utils.fusion import fuse_conv_bn_eval
 
 from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm, Statistics
+from neural_shadows.networks.screen_space.kernel_parts import (
+    KernelLevel,
+    PixelKernels,
+    PlanesOfLogits,
+    fold,
+    normed,
+)
 from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
-from neural_shadows.networks.screen_space.layers import Sum, doubled, initialise
-from neural_shadows.networks.screen_space.pixel_kernels import filtered
-from neural_shadows.networks.screen_space.widths import Convolution
+from neural_shadows.networks.screen_space.layers import doubled, initialise
 
 BASE = "base"  # the feature that is filtered
 _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
-
-
-class KernelLevel(nn.Module):
-    """What a level but the deepest does: on the way down, and on the way up."""
-
-    def __init__(self, layers: Sequence[Convolution]):
-        super().__init__()
-        self.encoder = _normed(layers, "encoder")
-        self.downsample = nn.MaxPool2d(2)
-        (raised,) = (one for one in layers if one.part == "upsample")
-        self.upsample = nn.ConvTranspose2d(raised.inputs, raised.outputs, 2, stride=2)
-        self.skip = Sum()
-        self.decoder = _normed(layers, "decoder")
-
-
-class PlanesOfLogits(nn.Conv2d):
-    """A 1 × 1 convolution whose answer lies channel by channel, as the filter reads it.
-
-    From channels-last to there a copy takes 8 ms of 256 × 128 pixels, 320 ms of 1024 × 512; as a
-    product of matrices it needs none.
-    """
-
-    def forward(self, x: Tensor) -> Tensor:
-        """(B, channels, H, W), contiguous."""
-        weight, bias = self.weight.flatten(1), self.bias[:, None]
-        found = [torch.addmm(bias, weight, image.flatten(1)).view(-1, *x.shape[2:]) for image in x]
-        return torch.stack(found) if len(found) > 1 else found[0][None]
-
-
-class PixelKernels(nn.Module):
-    """The filter as a part of a network: of a frame's kernels at half its resolution, and its base."""
-
-    def forward(self, logits: Tensor, base: Tensor) -> Tensor:
-        """See `filtered`."""
-        return filtered(logits, base, factor=2)
 
 
 class KernelUnet(nn.Module):
@@ -92,7 +61,7 @@ class KernelUnet(nn.Module):
         self.entrance = nn.PixelUnshuffle(2)
         of_level = [[one for one in layers if one.level == k] for k in range(len(widths) + 1)]
         self.levels = nn.ModuleList(KernelLevel(one) for one in of_level[1:-1])
-        self.deepest = _normed(of_level[-1], "encoder")
+        self.deepest = normed(of_level[-1], "encoder")
         last = [one for one in layers if one.part == "head"]
         if form == "kernels":
             self.head = PlanesOfLogits(last[0].inputs, last[0].outputs, 1)
@@ -163,7 +132,7 @@ class KernelUnet(nn.Module):
         copied = deepcopy(self)
         for block in copied.modules():
             if isinstance(block, nn.Sequential):
-                _fold(block)
+                fold(block)
         return copied
 
     def norms(self) -> list[ChunkNorm]:
@@ -171,7 +140,9 @@ class KernelUnet(nn.Module):
         levels = [*self.levels]
         blocks = [one.encoder for one in levels] + [self.deepest]
         blocks += [one.decoder for one in reversed(levels)] + [self.head]
-        return [layer for block in blocks for layer in block.modules() if _is_norm(layer)]
+        return [
+            layer for block in blocks for layer in block.modules() if isinstance(layer, ChunkNorm)
+        ]
 
     def update_norms(self, chunks: Sequence[Sequence[Statistics]]) -> None:
         """Move the running statistics to those of a step, what `chunk_statistics` gave of its chunks."""
@@ -189,28 +160,3 @@ class KernelUnet(nn.Module):
             found |= {(number, name): part for name, part in level.named_children()}
         found[(1 + len(self.levels), "encoder")] = self.deepest
         return found | {(int(self.form == "kernels"), "head"): self.head}
-
-
-def _is_norm(layer: nn.Module) -> bool:
-    return isinstance(layer, ChunkNorm)
-
-
-def _normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:
-    """The convolutions of a part, with a norm and a ReLU after each; a 3 × 3 has no bias."""
-    found: list[nn.Module] = []
-    for one in layers:
-        if one.part == part:
-            wide = one.size > 1
-            made = nn.Conv2d(
-                one.inputs, one.outputs, one.size, padding=one.size // 2, bias=not wide
-            )
-            found += [made, ChunkNorm(one.outputs), nn.ReLU(inplace=True)]
-    return nn.Sequential(*found)
-
-
-def _fold(block: nn.Sequential) -> None:
-    """Take the norms of a block into the convolutions before them."""
-    for number in reversed(range(1, len(block))):
-        if _is_norm(block[number]):
-            block[number - 1] = fuse_conv_bn_eval(block[number - 1].eval(), block[number].eval())
-            del block[number]

@@ -1,0 +1,68 @@
+"""What networks of kernels are built of, each a module, so that each can be timed."""
+
+from collections.abc import Sequence
+
+import torch
+from torch import Tensor, nn
+from torch.nn.utils.fusion import fuse_conv_bn_eval
+
+from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm
+from neural_shadows.networks.screen_space.layers import Sum
+from neural_shadows.networks.screen_space.pixel_kernels import filtered
+from neural_shadows.networks.screen_space.widths import Convolution
+
+
+class KernelLevel(nn.Module):
+    """What a level but the deepest does: on the way down, and on the way up."""
+
+    def __init__(self, layers: Sequence[Convolution]):
+        super().__init__()
+        self.encoder = normed(layers, "encoder")
+        self.downsample = nn.MaxPool2d(2)
+        (raised,) = (one for one in layers if one.part == "upsample")
+        self.upsample = nn.ConvTranspose2d(raised.inputs, raised.outputs, 2, stride=2)
+        self.skip = Sum()
+        self.decoder = normed(layers, "decoder")
+
+
+class PlanesOfLogits(nn.Conv2d):
+    """A 1 × 1 convolution whose answer lies channel by channel, as the filter reads it.
+
+    From channels-last to there a copy takes 8 ms of 256 × 128 pixels, 320 ms of 1024 × 512; as a
+    product of matrices it needs none.
+    """
+
+    def forward(self, x: Tensor) -> Tensor:
+        """(B, channels, H, W), contiguous."""
+        weight, bias = self.weight.flatten(1), self.bias[:, None]
+        found = [torch.addmm(bias, weight, image.flatten(1)).view(-1, *x.shape[2:]) for image in x]
+        return torch.stack(found) if len(found) > 1 else found[0][None]
+
+
+class PixelKernels(nn.Module):
+    """The filter as a part of a network: of a frame's kernels at half its resolution, and its base."""
+
+    def forward(self, logits: Tensor, base: Tensor) -> Tensor:
+        """See `filtered`."""
+        return filtered(logits, base, factor=2)
+
+
+def normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:
+    """The convolutions of a part, with a norm and a ReLU after each; a 3 × 3 has no bias."""
+    found: list[nn.Module] = []
+    for one in layers:
+        if one.part == part:
+            wide = one.size > 1
+            made = nn.Conv2d(
+                one.inputs, one.outputs, one.size, padding=one.size // 2, bias=not wide
+            )
+            found += [made, ChunkNorm(one.outputs), nn.ReLU(inplace=True)]
+    return nn.Sequential(*found)
+
+
+def fold(block: nn.Sequential) -> None:
+    """Take the norms of a block into the convolutions before them."""
+    for number in reversed(range(1, len(block))):
+        if isinstance(block[number], ChunkNorm):
+            block[number - 1] = fuse_conv_bn_eval(block[number - 1].eval(), block[number].eval())
+            del block[number]
