@@ -21,7 +21,7 @@ from neural_shadows.networks.screen_space.widths import total
 from neural_shadows.running.process_memory import held_bytes, peak_bytes
 
 WAYS = {"ours": filtered, "unfold": by_unfold}
-FEATURES = ["c_e", "view", "z", "penumbra", "difference", "ratio", "z_b", "base"]
+FEATURES = ["cosine", "c_v_by_d", "z_f", "penumbra", "behind", "z_b_by_z", "z_b", "base_msm"]
 WIDTHS, FILTERS = [64, 64, 128, 256], 4
 PRODUCT = 2048  # rows and columns of the matrices
 THREADS = (1, 2)

@@ -3,19 +3,27 @@
 import numpy as np
 import pytest
 
-from neural_shadows.frames.features import (
-    kpnsm_features,
-    penumbra_pixels,
-)
+from neural_shadows.frames.feature_names import KPNSM_FEATURES
+from neural_shadows.frames.features import named_features
+from neural_shadows.frames.kernel_features import penumbra_pixels
+from neural_shadows.frames.light_size import light_size
 from neural_shadows.frames.penumbra_widths import penumbra_model
+from neural_shadows.rendering.gbuffer import Lens
+
+FOCAL = 983.5  # pixels, of its 2048 × 1024 frames
+LENS, LIGHT = Lens(np.float32(1), FOCAL), light_size(0.02, 0.025, 4.0)
+EIGHT = ("cosine", "c_v_by_d", "z_f", "penumbra", "behind", "z_b_by_z", "z_b", "base_msm")
 
 
 def buffers(seed=0):
+    """Of 4 × 6 pixels, about half of them lit."""
     rng = np.random.default_rng(seed)
-    z = rng.uniform(0.2, 1, (4, 6)).astype(np.float32)
-    z_b = z * rng.uniform(0.3, 1, z.shape).astype(np.float32)
-    d, c_v = rng.uniform(0.2, 2, z.shape), rng.uniform(0.1, 1, z.shape)
-    return {"z": z, "z_b": z_b, "d": d, "c_e": rng.uniform(-1, 1, z.shape), "c_v": c_v}
+    drawn = {
+        **{"z": (0.2, 1), "gap": (-0.1, 0.02), "d": (0.2, 2), "c_e": (-1, 1), "c_v": (0.1, 1)},
+        **{"msm": (0, 1), "pcf": (0, 1)},
+    }
+    found = {name: np.float32(rng.uniform(*ends, (4, 6))) for name, ends in drawn.items()}
+    return found | {"hard": np.float32(rng.uniform(0, 1, (4, 6)) < 0.5)}
 
 
 def test_published_vectors_of_the_penumbra_model():
@@ -41,13 +49,36 @@ def test_penumbra_is_as_wide_as_similar_triangles_say():
     assert half[0, 0] == pytest.approx(pixels[0, 0] / 2)
 
 
-def test_kpnsms_planes_in_its_order():
+def test_the_eight_planes_of_its_code():
+    """Spec: 1.2 and 1.3; W = 2048 of a focal length of 983.5, lit points are not behind anything."""
     told = buffers()
-    base = np.full((4, 6), 0.25, np.float32)
-    planes = kpnsm_features(**told, base=base, radius=0.005, focal=983.5)
-    assert planes.shape == (8, 4, 6) and planes.dtype == np.float32
-    assert np.allclose(planes[4], told["z"] - told["z_b"], atol=1e-6)
-    assert np.allclose(planes[5] * planes[2], planes[6], atol=1e-6)
-    assert planes[3].min() >= 0 and planes[3].max() <= 1 and np.all(planes[7] == 0.25)
-    lit = kpnsm_features(**told | {"z_b": told["z"]}, base=base, radius=0.005, focal=983.5)
-    assert not lit[3].any() and not lit[4].any()
+    planes = dict(zip(EIGHT, named_features(EIGHT, told, LENS, LIGHT)))
+    z, d, c_e, c_v, lit = (told[name] for name in ("z", "d", "c_e", "c_v", "hard"))
+    z_b = np.where(lit == 1, z, np.minimum(z, z + told["gap"]))
+    p = (z - z_b) * 0.005 / (z_b + 1e-5) / d * 2048 * np.sqrt(c_v / (np.abs(c_e) + 1e-5))
+    exact = [c_e, c_v / d, z, np.clip(p, 0, 50) / 50, z - z_b, z_b / z, z_b, told["msm"]]
+    for name, plane in zip(EIGHT, exact):
+        assert np.allclose(planes[name], plane, rtol=1e-4, atol=1e-6), name
+    assert np.unique(planes["penumbra"]).size > 5 and planes["penumbra"].max() <= 1
+    assert not planes["penumbra"][lit == 1].any() and not planes["behind"][lit == 1].any()
+
+
+def test_variants():
+    """Other bases, and what its table 4 has in the penumbra's place."""
+    told, names = buffers(), ("base_hard", "base_pcf", "r_e", "penumbra", "penumbra_pcss")
+    hard, pcf, r_e, slanted, straight = named_features(names, told, LENS, LIGHT)
+    assert np.array_equal(hard, told["hard"]) and np.array_equal(pcf, told["pcf"])
+    assert np.all(r_e == np.float32(0.8))
+    root = np.sqrt(told["c_v"] / np.abs(told["c_e"]))
+    seen = (slanted > 0) & (slanted < 1) & (straight < 1)
+    assert seen.sum() > 3
+    assert np.allclose(slanted[seen], (straight * root)[seen], rtol=1e-3)
+
+
+def test_a_point_light_has_no_penumbra_and_a_pixel_without_surface_no_features():
+    told = buffers()
+    (point,) = named_features(("penumbra",), told, LENS, light_size(0.0, 0.0, 4.0))
+    assert not point.any()
+    empty = dict.fromkeys(told, np.zeros((4, 6), np.float32)) | {"hard": np.ones((4, 6))}
+    names = tuple(name for name in KPNSM_FEATURES if name not in ("base_hard", "r_e"))
+    assert not named_features(names, empty, LENS, LIGHT).any()

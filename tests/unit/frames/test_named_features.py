@@ -7,9 +7,11 @@ from scipy.spatial.transform import Rotation
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.buffers import CHANNELS, buffers_of
-from neural_shadows.frames.features import DIFFERENCE_SCALE, FEATURES, RATIO_SCALE, named_features
+from neural_shadows.frames.feature_names import FEATURES, NSM_FEATURES
+from neural_shadows.frames.features import DIFFERENCE_SCALE, RATIO_SCALE, named_features
+from neural_shadows.frames.light_size import LightSize
 from neural_shadows.meshes.prepared_mesh import with_normals
-from neural_shadows.rendering.gbuffer import axis_cosines
+from neural_shadows.rendering.gbuffer import Lens, axis_cosines, lens_of
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import UP
 from neural_shadows.scenes.cameras import Camera, Window
@@ -18,6 +20,7 @@ from neural_shadows.shadow_maps.light_map import perspective_map
 
 DOWN = np.array([0.0, -1.0, 0.0])
 MAIN = ("c_e", "view", "ratio", "difference")
+HEAD_ON, LIGHT = Lens(np.float32(1), 100.0), LightSize(1.0, 0.0)
 AWAY = Camera(np.array([0.0, 0.5, 1.9]), np.array([0.0, 0.6, 0.0]), UP, 50.0)  # half of it is sky
 
 
@@ -29,7 +32,7 @@ def rendered(scene, view, centre):
 
 
 def by_name(names, buffers, view, step=2.0):
-    found = named_features(names, buffers, axis_cosines(view, WIDTH, HEIGHT), step)
+    found = named_features(names, buffers, lens_of(view, WIDTH, HEIGHT), LightSize(step, 0.0))
     ends = np.cumsum([FEATURES[name] for name in names])[:-1]
     images = dict(zip(names, (np.squeeze(one) for one in np.split(found, ends))))
     for name, scale, centre in (("ratio", RATIO_SCALE, 1), ("difference", DIFFERENCE_SCALE, 0)):
@@ -41,16 +44,16 @@ def by_name(names, buffers, view, step=2.0):
 
 def test_the_candidates_are_15_channels():
     buffers, _ = rendered(plate(), camera(), CENTRE)
-    found = named_features(tuple(FEATURES), buffers, axis_cosines(camera(), WIDTH, HEIGHT), 1.0)
+    found = named_features(tuple(NSM_FEATURES), buffers, lens_of(camera(), WIDTH, HEIGHT), LIGHT)
     assert found.shape == (15, HEIGHT, WIDTH) and found.dtype == np.float32
     assert np.isfinite(found).all()
-    assert named_features(("n", "d"), buffers, np.ones((HEIGHT, WIDTH)), 0).shape[0] == 4
+    assert named_features(("n", "d"), buffers, HEAD_ON, LIGHT).shape[0] == 4
 
 
 def test_lit_ground():
     """What the light sees is the point itself, but for a texel's slope."""
     buffers, surface = rendered(plate(), camera(), CENTRE)
-    found, lit = by_name(tuple(FEATURES), buffers, camera()), buffers["hard"] == 1
+    found, lit = by_name(tuple(NSM_FEATURES), buffers, camera()), buffers["hard"] == 1
     size, p = plate().size, surface.image(surface.p)
     z_f = np.linalg.norm(p - CENTRE, axis=-1) / size
     assert np.allclose(found["ratio"][lit], 1, atol=0.01)
@@ -68,13 +71,13 @@ def test_lit_ground():
 @pytest.mark.parametrize("step", [0, 1, 2, 3, 4])
 def test_a_whole_step_can_be_read_from_the_first_channel(step):
     buffers = {"c_e": np.random.default_rng(0).uniform(-1, 1, (4, 6)).astype(np.float32)}
-    (first,) = named_features(("c_e",), buffers, np.ones((4, 6)), step)
+    (first,) = named_features(("c_e",), buffers, HEAD_ON, LightSize(step, 0.0))
     assert np.all(np.floor(np.minimum(5 * first, step + 0.999)) == step)
 
 
 def test_a_pixel_without_a_surface_has_the_step_alone():
     buffers, surface = rendered(plate(), AWAY, CENTRE)
-    found, sky = by_name(tuple(FEATURES), buffers, AWAY), ~surface.image(surface.p[:, 0] < 9)
+    found, sky = by_name(tuple(NSM_FEATURES), buffers, AWAY), ~surface.image(surface.p[:, 0] < 9)
     assert 0.1 < sky.mean() < 0.9
     assert np.all(found.pop("c_e")[sky] == np.float32(2 / 5))
     found["ratio"] -= 1  # there is no distance to be in proportion to
@@ -91,14 +94,14 @@ def test_a_motion_of_all_turns_normals_and_nothing_else():
     scene = make_scene(*meshes, up=UP, ground=False, light=None)
     eye, target = (turn.apply(one) + shift for one in (AWAY.eye, AWAY.target))
     view = Camera(eye, target, AWAY.up, AWAY.fov)
-    before = by_name(tuple(FEATURES), rendered(plate(), AWAY, CENTRE)[0], AWAY)
-    after = by_name(tuple(FEATURES), rendered(scene, view, turn.apply(CENTRE) + shift)[0], view)
+    before = by_name(tuple(NSM_FEATURES), rendered(plate(), AWAY, CENTRE)[0], AWAY)
+    after = by_name(tuple(NSM_FEATURES), rendered(scene, view, turn.apply(CENTRE) + shift)[0], view)
     for name in ("n", "n_e"):
         before[name] = np.moveaxis(
             turn.apply(np.moveaxis(before[name], 0, -1).reshape(-1, 3)), 0, 1
         )
         before[name] = before[name].reshape(after[name].shape)
-    for name in FEATURES:  # roundings decide a texel here and there
+    for name in NSM_FEATURES:  # roundings decide a texel here and there
         assert np.mean(np.abs(after[name] - before[name]) > 4e-3) < 0.01, name
 
 
@@ -114,6 +117,6 @@ def test_a_window_has_its_frames_cosines():
 def test_what_is_lacking_is_named():
     one = np.ones((2, 2), np.float32)
     with pytest.raises(InputError, match="'colour' is no feature; use some of c_e, view"):
-        named_features((*MAIN[:1], "colour"), {"c_e": one}, one, 0)
+        named_features((*MAIN[:1], "colour"), {"c_e": one}, HEAD_ON, LIGHT)
     with pytest.raises(InputError, match="the features n_e need the buffer e_y, e_z"):
-        named_features(("n_e",), {"e_x": one}, one, 0)
+        named_features(("n_e",), {"e_x": one}, HEAD_ON, LIGHT)

@@ -9,10 +9,11 @@ import torch
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.frames.features import LARGEST_STEP, named_features
+from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.frames.light_size import light_size
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
-from neural_shadows.rendering.gbuffer import axis_cosines
+from neural_shadows.rendering.gbuffer import lens_of
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -84,11 +85,12 @@ def _features(
     numbered = [(part, number) for part in opened for number in range(len(part))]
     for part, number in numbered[:: max(1, len(numbered) // count)][:count]:
         planes = part.buffers[number, 0].astype(np.float32)
-        axis = axis_cosines(part.setting(number).camera, part.about["width"], part.about["height"])
+        about = part.about
+        lens = lens_of(part.setting(number).camera, about["width"], about["height"])
         for radius in part.radii:
-            step = LARGEST_STEP * radius / max(part.radii)
+            light = light_size(radius, max(part.radii), about["size"])
             yield (
-                named_features(names, dict(zip(CHANNELS, planes)), axis, step),
+                named_features(names, dict(zip(CHANNELS, planes)), lens, light),
                 part.valid[number, 0],
             )
 

@@ -14,7 +14,7 @@ from neural_shadows.frames.draw_settings import light_map_of
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.rendering.gbuffer import axis_cosines
+from neural_shadows.rendering.gbuffer import lens_of
 from neural_shadows.rendering.surface import see_surface
 
 
@@ -71,8 +71,8 @@ class MeasuredFrame:
         if method.of_buffers is not None:
             about, camera = self.part.about, self.part.setting(self.number).camera
             buffers = {name: self._buffer(name) for name in CHANNELS}
-            axis = axis_cosines(camera, about["width"], about["height"])
-            found = method.of_buffers(buffers, axis, radius, about["size"])
+            lens = lens_of(camera, about["width"], about["height"])
+            found = method.of_buffers(buffers, lens, radius, about["size"])
             return np.where(self._buffer("z") > 0, found, np.float32(1))
         if method.channel is not None:
             return self._buffer(method.channel)

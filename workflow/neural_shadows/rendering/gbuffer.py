@@ -1,6 +1,7 @@
 """What a camera sees, and where it must ask for shadow."""
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -58,6 +59,20 @@ def pixel_directions(
         column = (forward[k] + y * upward[k]).astype(np.float32)
         np.add(column[:, None], (x * right[k]).astype(np.float32), out=directions[..., k])
     return directions.reshape(-1, 3)
+
+
+class Lens(NamedTuple):
+    """What the pixels of an image have of its camera alone: their `axis_cosines` (H, W) float32, and
+    the focal length in pixels.
+    """
+
+    axis: np.ndarray
+    focal: float
+
+
+def lens_of(camera: Camera, width: int, height: int) -> Lens:
+    """The lens of a camera's image."""
+    return Lens(axis_cosines(camera, width, height), camera.focal(height))
 
 
 def axis_cosines(camera: Camera, width: int, height: int) -> np.ndarray:

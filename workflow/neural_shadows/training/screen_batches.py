@@ -12,9 +12,10 @@ from torch import Tensor
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.buffers import CHANNELS
-from neural_shadows.frames.features import LARGEST_STEP, buffers_of, named_features
+from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
-from neural_shadows.rendering.gbuffer import axis_cosines
+from neural_shadows.frames.light_size import light_size
+from neural_shadows.rendering.gbuffer import Lens, lens_of
 from neural_shadows.training.batches import batch_indices
 
 _DRAWS = 7  # numbers that are drawn for a crop
@@ -74,7 +75,7 @@ class ScreenFrames:
             )
         ((self.radii, self.height, self.width, versions),) = kinds
         self.twins = versions - 1
-        self._axes: dict[Any, np.ndarray] = {}
+        self._lenses: dict[Any, Lens] = {}
 
     def __len__(self) -> int:
         return len(self._frames)
@@ -148,9 +149,9 @@ class ScreenFrames:
             name: np.float32(part.buffers[number, version, CHANNELS.index(name)][window])
             for name in self._buffers
         }
-        axis = self._axis(part, number)[window]
-        step = LARGEST_STEP * part.radii[radius] / (max(part.radii) or 1)
-        return named_features(self._features, buffers, axis, step)
+        lens = self._lens(part, number)
+        light = light_size(part.radii[radius], max(part.radii), part.about["size"])
+        return named_features(self._features, buffers, lens._replace(axis=lens.axis[window]), light)
 
     def ranges(self) -> tuple[np.ndarray, np.ndarray]:
         """Mean and standard deviation of each channel over valid pixels of up to 16 frames, for all
@@ -180,15 +181,15 @@ class ScreenFrames:
         part, number = self._frames[frame]
         return part.valid[number, 0]
 
-    def _axis(self, part: FrameSetPart, number: int) -> np.ndarray:
+    def _lens(self, part: FrameSetPart, number: int) -> Lens:
         # A twin has its frame's field of view and window.
         camera = part.setting(number).camera
         key = camera.fov, camera.window
-        if key not in self._axes:
-            if len(self._axes) >= 64:  # windows are all different
-                self._axes.clear()
-            self._axes[key] = axis_cosines(camera, self.width, self.height)
-        return self._axes[key]
+        if key not in self._lenses:
+            if len(self._lenses) >= 64:  # windows are all different
+                self._lenses.clear()
+            self._lenses[key] = lens_of(camera, self.width, self.height)
+        return self._lenses[key]
 
     def _check_finite(self, frame: int, arrays: Sequence[Tensor]) -> None:
         # A sum has what is not finite in it, at a tenth of the time of asking of each number.

@@ -11,7 +11,7 @@ from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
 from neural_shadows.networks.screen_space.widths import by_level, total
 
-EIGHT = ["c_e", "view", "z", "penumbra", "difference", "ratio", "z_b", "base"]
+EIGHT = ["cosine", "c_v_by_d", "z_f", "penumbra", "behind", "z_b_by_z", "z_b", "base_msm"]
 FOUR = ["c_e", "view", "difference", "ratio"]
 WIDTHS = {3: [64, 128, 256], 4: [64, 64, 128, 256], 5: [64, 64, 128, 256, 512]}
 SLIM = [32, 32, 64, 128]
@@ -183,8 +183,18 @@ def test_all_convolutions_but_the_first_and_the_last_are_hidden(form):
     }
 
 
+def test_the_base_is_found_behind_features_of_three_channels():
+    """Kernels of one base everywhere leave it as it is."""
+    network = KernelUnet("kernels", TINY, ["n", "base_hard"])
+    planes = torch.rand(1, 4, 16, 16)
+    planes[:, 3] = 0.25
+    assert torch.allclose(network(planes), torch.tensor(0.25))
+
+
 def test_kernels_without_a_base_are_refused():
-    with pytest.raises(ValueError, match="filter the feature 'base', which is not among"):
+    with pytest.raises(ValueError, match="filter one of the features base_hard, .*; there is none"):
         KernelUnet("kernels", TINY, FOUR)
+    with pytest.raises(ValueError, match="there is base_msm and base_pcf"):
+        KernelUnet("kernels", TINY, [*EIGHT, "base_pcf"])
     with pytest.raises(ValueError, match="'kernel' is not among kernels, direct"):
         KernelUnet("kernel", TINY, EIGHT)

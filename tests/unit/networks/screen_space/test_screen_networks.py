@@ -26,13 +26,13 @@ def test_a_file_holds_16_bits_and_gives_the_same_network_again(tmp_path):
 
 
 def test_a_file_of_a_network_of_kernels_holds_the_statistics_of_its_norms(tmp_path):
-    settings = {"form": "kernels", "widths": [4, 8], "features": ["z", "base"], "filters": 2}
+    settings = {"form": "kernels", "widths": [4, 8], "features": ["z", "base_hard"], "filters": 2}
     path, network = tmp_path / "weights.safetensors", make_screen_network(settings)
     for norm in network.norms():
         norm.running_mean += 0.25
     save_screen_network(path, network, {"network": settings})
     loaded, _ = load_screen_network(path)
-    assert loaded.features == ("z", "base")
+    assert loaded.features == ("z", "base_hard")
     for name, one in loaded.state_dict().items():
         assert torch.equal(one, network.state_dict()[name].half().float()), name
 

@@ -8,11 +8,12 @@ import torch
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.features import LARGEST_STEP, named_features
+from neural_shadows.frames.features import named_features
+from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
-from neural_shadows.rendering.gbuffer import axis_cosines
+from neural_shadows.rendering.gbuffer import Lens, lens_of
 
 
 def screen_method(weights: Path) -> SoftMethod:
@@ -39,10 +40,10 @@ class _Answers:
         )
 
     def _of_buffers(
-        self, buffers: Mapping[str, np.ndarray], axis: np.ndarray, radius: float, size: float
+        self, buffers: Mapping[str, np.ndarray], lens: Lens, radius: float, size: float
     ) -> np.ndarray:
-        step = self._step(radius, size)
-        features = named_features(self._network.features, buffers, axis, step)
+        light = self._light(radius, size)
+        features = named_features(self._network.features, buffers, lens, light)
         planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
         with torch.inference_mode():
             found = self._network(planes)
@@ -64,11 +65,11 @@ class _Answers:
             "c_v": np.einsum("ij,ij->i", eye, surface.n) / d,
         }
         buffers = {name: surface.image(one.astype(np.float32)) for name, one in values.items()}
-        axis = axis_cosines(surface.camera, surface.width, surface.height)
-        return self._of_buffers(buffers, axis, radius, size).ravel()[surface.pixel]
+        lens = lens_of(surface.camera, surface.width, surface.height)
+        return self._of_buffers(buffers, lens, radius, size).ravel()[surface.pixel]
 
-    def _step(self, radius: float, size: float) -> float:
-        """The light's size as the network is told it: 4 for the largest that it was trained on."""
+    def _light(self, radius: float, size: float) -> LightSize:
+        """The light's size as the network is told it: step 4 for the largest that it was trained on."""
         unit = size if self._header["radius_unit"] == "scene_sizes" else 1.0
         largest = unit * max(self._header["radii"])
         if radius > largest * (1 + 1e-6):
@@ -76,4 +77,4 @@ class _Answers:
                 f"{self._weights}: was trained on lights of up to {largest:g} m, and is asked about "
                 f"one of {radius:g} m; train it on a frame set that has such a light in `radii`"
             )
-        return LARGEST_STEP * radius / largest
+        return light_size(radius, largest, size)

@@ -7,6 +7,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
+from neural_shadows.frames.feature_names import FEATURES, base_of
 from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm, Statistics
 from neural_shadows.networks.screen_space.kernel_parts import (
     KernelLevel,
@@ -18,7 +19,6 @@ from neural_shadows.networks.screen_space.kernel_parts import (
 from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
 from neural_shadows.networks.screen_space.layers import doubled, initialise
 
-BASE = "base"  # the feature that is filtered
 _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
 
 
@@ -29,17 +29,17 @@ class KernelUnet(nn.Module):
     enlargement: both orders are equal, and this one is a quarter of the work.
 
     Args:
-        form: `kernels`, which filter the feature `base`; `direct`, which answers visibility itself: the
+        form: `kernels`, which filter the one of its features in BASES; `direct`, which answers visibility itself: the
             paper's form of Neural Shadow Mapping.
         widths: channels of each level, from that of half the frame's resolution.
-        features: names of the planes that it is given, in this order, without any scaling.
+        features: names in FEATURES; their planes are the input, in this order, without any scaling.
         filters: 5 × 5 kernels of a pixel, of dilation 1, 2, 4 …
         seed: of the first weights.
 
     Its norms take running statistics, but for inside `chunk_statistics`, where a training computes.
 
     Raises:
-        ValueError: there is no such form, or no `base` to be filtered.
+        KeyError, ValueError: there is no such form or feature, or not one base to be filtered.
     """
 
     def __init__(
@@ -52,11 +52,11 @@ class KernelUnet(nn.Module):
     ):
         super().__init__()
         self.form, self.features = form, tuple(features)
-        layers = kernel_convolutions(form, widths, len(self.features), filters)
-        if form == "kernels" and BASE not in self.features:
-            raise ValueError(
-                f"kernels filter the feature {BASE!r}, which is not among its features"
-            )
+        channels = [FEATURES[name] for name in self.features]
+        layers = kernel_convolutions(form, widths, sum(channels), filters)
+        if form == "kernels":
+            base = self.features.index(base_of(self.features))
+            self._base = sum(channels[:base])  # its plane
         self.multiple = 2 ** len(widths)
         self.entrance = nn.PixelUnshuffle(2)
         of_level = [[one for one in layers if one.level == k] for k in range(len(widths) + 1)]
@@ -92,8 +92,7 @@ class KernelUnet(nn.Module):
         height, width = x.shape[-2:]
         inner = self.inner(x)
         if self.form == "kernels":
-            number = self.features.index(BASE)
-            return self.exit(self.head(inner), x[:, number : number + 1].float())
+            return self.exit(self.head(inner), x[:, self._base : self._base + 1].float())
         return self.head(self.exit(inner))[..., :height, :width].float()
 
     def inner(self, x: Tensor) -> Tensor:

@@ -1,0 +1,89 @@
+"""The planes of Kernel Predicting Neural Shadow Maps (Hu et al. 2025, 4.1, 6.2.5), and its code's.
+
+Its inputs, in the order of its code: cosine, c_v_by_d, z_f (its z), penumbra, behind, z_b_by_z, z_b,
+and a base. Its table 4 has `penumbra_pcss` or `r_e` in the penumbra's place, or Neural Shadow
+Mapping's `c_e`, to which the light's size is added.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from neural_shadows.frames.feature_names import BASES
+from neural_shadows.frames.light_size import LARGEST_STEP, LightSize
+from neural_shadows.rendering.gbuffer import Lens
+
+PENUMBRA_PIXELS = 50.0  # the widest that the network is told apart
+FULL_WIDTH = 2048  # pixels of the frame that it was made for …
+FULL_FOCAL = 983.5  # … whose focal length is this many
+
+_BLOCKED = ("z", "gap", "hard")
+MADE_OF = {
+    "cosine": ("c_e",),
+    "c_v_by_d": ("c_v", "d"),
+    "penumbra": (*_BLOCKED, "d", "c_e", "c_v"),
+    "penumbra_pcss": (*_BLOCKED, "d"),
+    "behind": _BLOCKED,
+    "z_b_by_z": _BLOCKED,
+    "z_b": _BLOCKED,
+    "r_e": ("z",),
+    **{name: (name.removeprefix("base_"),) for name in BASES},
+}
+
+
+def kernel_feature(
+    name: str, buffers: Mapping[str, np.ndarray], lens: Lens, light: LightSize
+) -> np.ndarray:
+    """A feature of `MADE_OF`, (H, W), without any scaling but the paper's.
+
+    `r_e` is 1 everywhere for the largest light.
+    """
+    if name in BASES:
+        return buffers[name.removeprefix("base_")]
+    if name == "cosine":
+        return buffers["c_e"]
+    if name == "c_v_by_d":
+        return buffers["c_v"] / (buffers["d"] + 1e-10)
+    if name == "r_e":
+        return np.full_like(buffers["z"], light.step / LARGEST_STEP)
+    z, z_b = buffers["z"], blocker(buffers)
+    if name == "behind":
+        return z - z_b
+    if name == "z_b_by_z":
+        return z_b / (z + 1e-10)
+    if name == "z_b":
+        return z_b
+    slant = (buffers["c_e"], buffers["c_v"]) if name == "penumbra" else (1.0, 1.0)
+    pixels = penumbra_pixels(z, z_b, buffers["d"], *slant, light.share, lens.focal)
+    return np.clip(pixels, 0, PENUMBRA_PIXELS) / PENUMBRA_PIXELS
+
+
+def blocker(buffers: Mapping[str, np.ndarray]) -> np.ndarray:
+    """z_b (H, W): the distance from the light to what hides a point from it; of a lit one its own.
+
+    As the authors' frames have it. Of the texel as it is, slanted surfaces would hide themselves.
+    """
+    lit = buffers["hard"] > 0.5
+    return buffers["z"] + np.where(lit, 0, np.minimum(buffers["gap"], 0))
+
+
+def penumbra_pixels(
+    z: np.ndarray,
+    z_b: np.ndarray,
+    d: np.ndarray,
+    c_e: np.ndarray | float,
+    c_v: np.ndarray | float,
+    radius: float,
+    focal: float,
+) -> np.ndarray:
+    """How wide a penumbra is in the frame, in pixels; 0 where nothing blocks (Hu et al. 2025, eq. 2, 3).
+
+    With the distance d and the focal length that the paper leaves out and its code has.
+
+    Args:
+        radius: of the light, in shares of S. focal: of the camera, in pixels.
+    """
+    width = FULL_WIDTH * focal / FULL_FOCAL
+    slant = np.sqrt(np.abs(c_v) / (np.abs(c_e) + 1e-5))
+    blocked = (z - z_b) * radius / (z_b + 1e-5)
+    return (blocked / np.maximum(d, 1e-5) * width * slant).astype(np.float32)

@@ -1,0 +1,22 @@
+"""How large a spherical light is, as networks are told it."""
+
+from typing import NamedTuple
+
+LARGEST_STEP = 4  # NSM's index of the largest light: 50 cm across
+
+
+class LightSize(NamedTuple):
+    """A light's size: as a step, 0 for a point to 4 for the largest of a training, and as its radius
+    in shares of the scene's size.
+    """
+
+    step: float
+    share: float
+
+
+def light_size(radius: float, largest: float, scene_size: float) -> LightSize:
+    """Of a light among those of up to a largest radius; all lengths in one unit.
+
+    Where the largest is a point, the step is 0.
+    """
+    return LightSize(LARGEST_STEP * radius / (largest or 1), radius / scene_size)
