@@ -16,7 +16,7 @@ from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.pretrained_trunk import MODELS
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 from neural_shadows.training.perceptual import Perceptual
-from neural_shadows.training.screen_batches import Crops, Place
+from neural_shadows.training.screen_crops import Crops, Place
 from neural_shadows.training.screen_loss import ScreenLoss
 from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.training_state import gradient_pool
@@ -32,6 +32,7 @@ SETTINGS = {
     **{
         "perturbation": 3.0,
         "perturbation_from": 0.0,
+        "aligned": False,
         "flips": True,
         "optimiser": "muon",
         "adam_rate": 3e-3,

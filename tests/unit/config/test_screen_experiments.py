@@ -34,6 +34,24 @@ def read(frames=None, metrics=None, **changes):
             "give 16 pixels",
         ),
         ({"network": "original_5"}, "not among nsm, trimmed"),
+        (
+            {"network": {"form": "kernels", "widths": [4, 8], "features": ["cosine", "z_b"]}},
+            "network.features: kernels filter one of the features base_hard.*; there is none",
+        ),
+        (
+            {
+                "network": {"form": "direct", "widths": [4, 8, 8, 8], "features": ["c_e"]},
+                "training": {"steps": 1, "crops": 1, "crop": 15, "learning_rate": 1.0},
+            },
+            "1/16 of a frame",
+        ),
+        (
+            {
+                "network": {"form": "direct", "widths": [4, 8], "features": ["c_e"]},
+                "training": {"steps": 1, "crops": 3, "crop": 64, "learning_rate": 1.0},
+            },
+            "crops = 3: .* give an even number",
+        ),
     ],
 )
 def test_what_cannot_be_trained_is_refused(changes, told):

@@ -1,17 +1,23 @@
 """Networks of whole frames learn, repeat themselves to the bit, and go on where they were stopped."""
 
+import itertools
 import json
 from pathlib import Path
 from unittest import mock
 
 import numpy as np
 import pytest
-from screen_frames import HEIGHT, WIDTH, write_frames
+import torch
+from screen_frames import HEIGHT, SETTING, WIDTH, write_frames
 
 from neural_shadows.errors import InputError
+from neural_shadows.frames.buffers import CHANNELS
+from neural_shadows.frames.setting import setting_of
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.rendering.gbuffer import axis_cosines
 from neural_shadows.training import steps
 from neural_shadows.training.screen_batches import ScreenFrames
+from neural_shadows.training.screen_crops import Place, crop_places
 from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.train_screen import train_screen
 
@@ -30,6 +36,7 @@ TRAINING = {
         "perceptual": {"net": "none"},
         "perturbation": 3.0,
         "perturbation_from": 0.0,
+        "aligned": False,
         "flips": True,
     },
 }
@@ -39,6 +46,8 @@ SETTINGS = {
     **{"scenes": ["wall"], "seed": 1, "experiment": "nsm", "trunk": None},
     **{"device": "cpu", "precision": "float32", "threads": 1},
 }
+KERNELS = {"form": "kernels", "widths": [4, 8], "filters": 2}
+KERNELS |= {"features": ["cosine", "penumbra", "z_b", "base_hard"]}
 TRAIN_STEP = ScreenRun.train_step
 
 
@@ -86,12 +95,20 @@ def test_learns_a_frame_by_heart(tmp_path):
     assert header.items() >= told.items() and network.features == tuple(FEATURES)
 
 
-@pytest.mark.parametrize("optimiser", ["adam", "muon"])
-@pytest.mark.parametrize("precision", ["float32", "bfloat16"])
-def test_resumes_and_does_not_depend_on_threads(tmp_path, optimiser, precision):
+@pytest.mark.parametrize(
+    ("network", "optimiser", "precision"),
+    [
+        (SETTINGS["network"], "adam", "float32"),
+        (SETTINGS["network"], "muon", "bfloat16"),
+        (KERNELS, "muon", "float32"),
+        (KERNELS, "adam", "bfloat16"),
+    ],
+)
+def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, precision):
     part = write_frames(tmp_path, count=3)
-    training = TRAINING | {"optimiser": optimiser, "adam_rate": 1e-3}
-    told = {"training": training, "precision": precision}
+    training = TRAINING | {"optimiser": optimiser, "adam_rate": 1e-3, "crops": 4}
+    training |= {"aligned": network == KERNELS}
+    told = {"network": network, "training": training, "precision": precision}
     run(tmp_path / "whole", part, **told)
     with pytest.raises(KeyboardInterrupt):
         run(tmp_path / "killed", part, stop_after=4, **told)
@@ -136,8 +153,10 @@ def test_twins_have_no_part_before_their_time(tmp_path):
 def test_crops_depend_on_seed_and_step_alone(tmp_path):
     frames = ScreenFrames([write_frames(tmp_path, count=3)], FEATURES)
     told = {"crops": 50, "crop": 16, "flips": True, "twins": True}
-    places = frames.places(7, seed=1, **told)
-    assert places == frames.places(7, seed=1, **told) != frames.places(8, seed=1, **told)
+    places = crop_places(frames, 7, seed=1, **told)
+    assert (
+        places == crop_places(frames, 7, seed=1, **told) != crop_places(frames, 8, seed=1, **told)
+    )
     assert {place.frame for place in places} == {0, 1, 2} and {p.radius for p in places} == {0, 1}
     assert {p.mirrored for p in places} == {p.upside_down for p in places} == {False, True}
     assert max(place.left for place in places) <= WIDTH - 16
@@ -146,6 +165,46 @@ def test_crops_depend_on_seed_and_step_alone(tmp_path):
         whole = np.float32(frames.target(place.frame, place.radius))
         window = whole[place.top :, place.left :][:16, :16][:, :: -1 if place.mirrored else 1]
         assert np.array_equal(crop.target[0, 0].numpy()[:: -1 if place.upside_down else 1], window)
+
+
+def test_of_a_pair_each_has_another_radius(tmp_path):
+    part = write_frames(tmp_path)
+    told = {"seed": 1, "crops": 60, "crop": 16, "flips": False, "twins": False, "pairs": True}
+    frames = ScreenFrames([part], FEATURES)
+    places = crop_places(frames, 3, **told)
+    assert all(one.radius != other.radius for one, other in zip(places[::2], places[1::2]))
+    assert {place.radius for place in places[::2]} == {0, 1}
+
+
+def test_an_aligned_twin_is_looked_up_where_it_shows_the_same(tmp_path):
+    """A wall whose edge the twin sees 2 pixels farther right, from 2 pixels farther left."""
+    part = write_frames(tmp_path, shift=2.0)
+    about = json.loads(part.read_text())
+    camera = setting_of(SETTING).camera
+    aside = [-2.0 / camera.focal(HEIGHT), 0.0, 0.0]
+    moved = {name: np.add(SETTING[name], aside).tolist() for name in ("eye", "target")}
+    about["frames"][0]["twins"] = [SETTING | moved]
+    part.write_text(json.dumps(about))
+    buffers = np.load(part.with_suffix(".buffers.npy"))
+    buffers[:, :, CHANNELS.index("d")] = 1 / axis_cosines(camera, WIDTH, HEIGHT) / about["size"]
+    np.save(part.with_suffix(".buffers.npy"), buffers)
+    frames = ScreenFrames([part], ["base_hard"])
+    for turns in itertools.product((False, True), repeat=2):
+        crop = frames.crop(Place(0, 0, 1, 4, 14, *turns), 24, aligned=True)
+        there = crop.twin.flatten()[crop.twin_at.flatten()].view_as(crop.twin)
+        assert torch.equal(there[crop.twin_valid], crop.features[crop.twin_valid])
+        assert not torch.equal(crop.twin[crop.twin_valid], crop.features[crop.twin_valid])
+        assert crop.twin_valid.sum() == 24 * (24 - 2)  # of the rim the twin's crop has nothing
+    (outside,) = frames.crop(Place(0, 0, 1, 4, 0, False, False), 24, aligned=True).twin_valid[0]
+    assert torch.equal(outside.all(0), torch.arange(24) < 22)
+
+
+def test_running_statistics_are_kept_in_the_weights(tmp_path):
+    """Of what its first norm has seen: not those that it starts from."""
+    training = TRAINING | {"perturbation": 0}
+    run(tmp_path, write_frames(tmp_path), network=KERNELS, training=training)
+    network, _ = load_screen_network(tmp_path / "nsm" / "weights.safetensors")
+    assert all((norm.running_var != 1).all() for norm in network.norms())
 
 
 @pytest.mark.parametrize("stem", ["buffers", "targets"])

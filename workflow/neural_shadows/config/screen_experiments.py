@@ -8,6 +8,7 @@ from neural_shadows.config.base import Model, Seed, Text, check_among, name_in, 
 from neural_shadows.config.frame_sets import OwnFrames, own_parts
 from neural_shadows.config.screen_networks import ScreenNetwork
 from neural_shadows.config.screen_trainings import ScreenTraining
+from neural_shadows.networks.screen_space.kernel_widths import KERNEL_FORMS
 from neural_shadows.networks.screen_space.widths import deepest_level
 
 if TYPE_CHECKING:
@@ -85,6 +86,11 @@ def check(config: "Config") -> None:
             raise ValueError(
                 f"{key}.training: crop = {training_of(config, name).crop}: the network's deepest level "
                 f"is 1/{least} of a frame; give {least} pixels or more"
+            )
+        if network.form in KERNEL_FORMS and training_of(config, name).crops % 2:
+            raise ValueError(
+                f"{key}.training: crops = {training_of(config, name).crops}: the network's batch norms "
+                "see two crops at a time; give an even number"
             )
 
 

@@ -1,11 +1,13 @@
-"""`screen_networks`: networks that answer whole frames, by form (Datta et al. 2022, 3.5)."""
+"""`screen_networks`: networks that answer whole frames, by form (Datta et al. 2022, 3.5; Hu et al.
+2025, 4.2.1).
+"""
 
 from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag, field_validator
 
 from neural_shadows.config.base import Model, by_kind, not_among
-from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.frames.feature_names import FEATURES, base_of
 
 Channels = Annotated[int, Field(ge=1, le=4096)]
 # Mid and out: what the 3 × 3 convolution leaves, and the 1 × 1 behind it.
@@ -73,4 +75,37 @@ class OriginalNetwork(AnyScreenNetwork):
     )
 
 
-ScreenNetwork = by_kind("form", FullNetwork, SmallerNetwork, OriginalNetwork)
+class UnetOfSums(AnyScreenNetwork):
+    """2 × 2 pixels as channels, two 3 × 3 convolutions with batch norms a level, sums for skips."""
+
+    widths: list[Channels] = Field(
+        min_length=2, max_length=8, description="channels of each level, from half the frame's size"
+    )
+
+
+class KernelNetwork(UnetOfSums):
+    """Kernels of each pixel, which filter a base: Kernel Predicting Neural Shadow Maps."""
+
+    form: Literal["kernels"] = Field(
+        description="`kernels` that filter one of its features, a base"
+    )
+    filters: int = Field(
+        4, ge=1, le=6, description="5 × 5 kernels of a pixel, each twice as wide as the one before"
+    )
+
+    @field_validator("features")
+    @classmethod
+    def _check_base(cls, features: list[str]) -> list[str]:
+        base_of(features)
+        return features
+
+
+class DirectNetwork(UnetOfSums):
+    """The same network with visibility itself for its answer, which it is compared with."""
+
+    form: Literal["direct"] = Field(description="`direct`: visibility instead of kernels")
+
+
+ScreenNetwork = by_kind(
+    "form", FullNetwork, SmallerNetwork, OriginalNetwork, KernelNetwork, DirectNetwork
+)

@@ -55,4 +55,9 @@ class ScreenTraining(Model):
     perturbation_from: float = Field(
         0.0, ge=0, lt=1, description="share of the steps that are done before that loss has a part"
     )
+    aligned: bool = Field(
+        False,
+        description="whether the twin's output is looked up where it shows what the frame does; else "
+        "pixels are compared as they lie",
+    )
     flips: bool = Field(True, description="whether crops are mirrored and turned over at random")

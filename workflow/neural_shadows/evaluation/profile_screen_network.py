@@ -13,9 +13,10 @@ import torch
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.networks.compute import choose_device
+from neural_shadows.networks.screen_space.kernel_widths import layers_of
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
-from neural_shadows.networks.screen_space.widths import by_level, convolutions
+from neural_shadows.networks.screen_space.widths import by_level
 from neural_shadows.running.hardware import describe_machine
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
@@ -79,8 +80,7 @@ def profile_screen_network(
 
 
 def _counts(network: Mapping[str, Any]) -> list[dict[str, float]]:
-    channels = sum(FEATURES[name] for name in network["features"])
-    layers = convolutions(network["form"], network["widths"], channels, network.get("extraction"))
+    layers = layers_of(network)
     found = {name: by_level(layers, name) for name in ("weights", "macs", "storage")}
     levels = found["weights"]
     return [{"level": k} | {name: each[k] for name, each in found.items()} for k in levels]

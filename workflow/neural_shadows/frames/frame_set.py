@@ -73,6 +73,10 @@ class FrameSetPart:
         """The setting of a frame."""
         return setting_of(self.about["frames"][number]["setting"])
 
+    def twin_setting(self, number: int, twin: int) -> Setting:
+        """That of a frame's twin, counted from 0."""
+        return setting_of(self.about["frames"][number]["twins"][twin])
+
     @cached_property
     def buffers(self) -> np.ndarray:
         """(F, 1 + T, C, H, W) float16."""

@@ -1,53 +1,22 @@
 """Where the samples of screen-space networks come from: crops of frames on disk."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor
 
 from neural_shadows.errors import InputError
+from neural_shadows.frames.aligned_twins import ALIGNED_BY, twin_pixels
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import light_size
 from neural_shadows.rendering.gbuffer import Lens, lens_of
-from neural_shadows.training.batches import batch_indices
-
-_DRAWS = 7  # numbers that are drawn for a crop
-
-
-@dataclass(frozen=True)
-class Place:
-    """Which crop: of a frame, a radius and a twin, and where it lies in the frame."""
-
-    frame: int
-    radius: int
-    twin: int  # from 1; 0 where none is wanted
-    top: int
-    left: int
-    upside_down: bool
-    mirrored: bool
-
-
-class Crops(NamedTuple):
-    """B crops: features (B, C, h, w) float32, of a twin too if one is wanted; target (B, 1, h, w)
-    float32; which pixels count, (B, 1, h, w) bool.
-    """
-
-    features: Tensor
-    target: Tensor
-    valid: Tensor
-    twin: Tensor | None
-    twin_valid: Tensor | None
-
-    def to(self, device: torch.device) -> "Crops":
-        """The same on a device."""
-        return Crops(*(one if one is None else one.to(device) for one in self))
+from neural_shadows.training.screen_crops import Crops, Place
 
 
 class ScreenFrames:
@@ -85,30 +54,11 @@ class ScreenFrames:
         """The description of the first part."""
         return self.parts[0].about
 
-    def places(
-        self, step: int, *, seed: int, crops: int, crop: int, flips: bool, twins: bool
-    ) -> list[Place]:
-        """The crops of a step; they depend on (seed, step) alone.
+    def crop(self, place: Place, side: int, aligned: bool = False) -> Crops:
+        """A crop, B = 1.
 
         Args:
-            crop: side in pixels; where the frame is smaller, all of it is taken.
-            twins: whether each has one of the frame's twins.
-        """
-        drawn = batch_indices(
-            torch.tensor(step), seed=seed, batch_size=_DRAWS * crops, count=1 << 62
-        )
-        spare = [max(side - crop, 0) + 1 for side in (self.height, self.width)]
-        versions = self.twins if twins else 1
-        sides = 2 if flips else 1
-        bounds = torch.tensor([len(self), self.radii, versions, *spare, sides, sides])
-        chosen = (drawn.view(crops, _DRAWS) % bounds).tolist()
-        return [
-            Place(frame, radius, twin + 1 if twins else 0, top, left, bool(down), bool(mirrored))
-            for frame, radius, twin, top, left, down, mirrored in chosen
-        ]
-
-    def crop(self, place: Place, side: int) -> Crops:
-        """A crop, B = 1.
+            aligned: whether its twin is compared where it shows the same.
 
         Raises:
             InputError: it holds NaN or infinity.
@@ -129,26 +79,56 @@ class ScreenFrames:
         features = [
             picture(self.features(place.frame, place.radius, one, window)) for one in versions
         ]
-        valid = [picture(part.valid[number, one][window]) for one in versions]
+        valid = [part.valid[number, one][window] for one in versions]
         target = picture(target)
         self._check_finite(place.frame, [*features, target])
-        return Crops(
-            features[0],
-            target,
-            valid[0],
-            features[1] if place.twin else None,
-            valid[1] if place.twin else None,
-        )
+        found = Crops(features[0], target, picture(valid[0]), None, None, None)
+        if not place.twin:
+            return found
+        found = found._replace(twin=features[1], twin_valid=picture(valid[1]))
+        if not aligned:
+            return found
+        counts, at = self._aligned(place, window, valid[1])
+        return found._replace(twin_valid=picture(counts), twin_at=picture(at))
+
+    def _aligned(
+        self, place: Place, window: tuple[slice, slice], valid: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Which pixels of a crop its twin shows, and where in the twin's crop as it is turned."""
+        part, number = self._frames[place.frame]
+        settings = part.setting(number), part.twin_setting(number, place.twin - 1)
+        seen = [
+            value
+            for version, setting in zip((0, place.twin), settings)
+            for value in (setting.camera, self._read(place.frame, version, ALIGNED_BY))
+        ]
+        found = twin_pixels(*seen, part.about["size"])
+        counts, row, column = (one[window] for one in found)
+        row, column = row - place.top, column - place.left
+        height, width = valid.shape
+        inside = (row >= 0) & (row < height) & (column >= 0) & (column < width)
+        row, column = np.where(inside, row, 0), np.where(inside, column, 0)
+        counts = counts & inside & valid[row, column]
+        row = height - 1 - row if place.upside_down else row
+        column = width - 1 - column if place.mirrored else column
+        return counts, row * width + column
+
+    def _read(
+        self, frame: int, version: int, names: Sequence[str], window=(slice(None), slice(None))
+    ) -> dict[str, np.ndarray]:
+        """Buffers of a frame (version 0) or a twin by name, (h, w) float32."""
+        part, number = self._frames[frame]
+        return {
+            name: np.float32(part.buffers[number, version, CHANNELS.index(name)][window])
+            for name in names
+        }
 
     def features(
         self, frame: int, radius: int, version: int = 0, window=(slice(None), slice(None))
     ) -> np.ndarray:
         """What the network is told of a frame (version 0) or a twin: (C, h, w) float32."""
         part, number = self._frames[frame]
-        buffers = {
-            name: np.float32(part.buffers[number, version, CHANNELS.index(name)][window])
-            for name in self._buffers
-        }
+        buffers = self._read(frame, version, self._buffers, window)
         lens = self._lens(part, number)
         light = light_size(part.radii[radius], max(part.radii), part.about["size"])
         return named_features(self._features, buffers, lens._replace(axis=lens.axis[window]), light)

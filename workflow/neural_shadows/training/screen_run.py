@@ -9,7 +9,10 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.networks.compute import choose_dtype
-from neural_shadows.training.screen_batches import Crops, Place, ScreenFrames
+from neural_shadows.networks.screen_space.chunk_norm import chunk_statistics
+from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
+from neural_shadows.training.screen_batches import ScreenFrames
+from neural_shadows.training.screen_crops import Crops, Place, crop_places
 from neural_shadows.training.screen_loss import ScreenLoss, Terms
 from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
 
@@ -17,7 +20,8 @@ from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
 class ScreenRun(TrainingState):
     """The changing state of one run, and what a step of it does.
 
-    On a CPU each crop is a chunk for one thread of a pool, on a GPU all are one chunk.
+    On a CPU each crop is a chunk for one thread of a pool, of networks with batch norms each two, of
+    lights of different sizes; on a GPU all are one chunk.
 
     Args:
         network: with the weights to start from; goes to the device.
@@ -44,15 +48,22 @@ class ScreenRun(TrainingState):
         # Made anew of the weights after each step. Under autocast each crop would: 10 ms of 60.
         self._computing = self.network.in_format(self.dtype)
         self.loss_scale = LOSS_SCALE.get(self.dtype, 1.0)
+        self._normed = isinstance(network, KernelUnet)
+
+    def _places(self) -> dict[str, Tensor]:
+        return super()._places() | dict(self.network.named_buffers())
 
     def answer(self, features: Tensor) -> Tensor:
         """What the network says of (B, C, H, W) float32: (B, 1, H, W) float32."""
         return self._computing(features.contiguous(memory_format=torch.channels_last)).float()
 
     def _round_weights(self) -> None:
+        """Bring the computing copy to the weights, and to the norms' running statistics."""
         with torch.no_grad():
             for rounded, weight in zip(self._computing.parameters(), self.weights.values()):
                 rounded.copy_(weight)
+            for copied, own in zip(self._computing.buffers(), self.network.buffers()):
+                copied.copy_(own)
 
     def restore(self, path: Path) -> None:
         super().restore(path)
@@ -68,25 +79,34 @@ class ScreenRun(TrainingState):
         weights = list(self._computing.parameters())
 
         def gradients(crops: Crops):
-            output = self.answer(crops.features)
-            twin = None
-            if crops.twin is not None:
-                with torch.no_grad():
-                    twin = self.answer(crops.twin)
+            with chunk_statistics() as seen:
+                output = self.answer(crops.features)
+            twin = None if crops.twin is None else self._twin(crops)
             loss = self.loss(output, crops.target, crops.valid, count, twin, crops.twin_valid)
             parts = torch.autograd.grad(self.loss_scale * loss, weights)
-            return loss.detach(), output.detach().flatten(), parts
+            return (loss.detach(), output.detach().flatten(), parts), seen
 
         compute = self._compute(pool)
-        self.change_weights(*zip(*compute(gradients, chunks)), compute)
+        found, seen = zip(*compute(gradients, chunks))
+        self.change_weights(*zip(*found), compute)
+        if self._normed:
+            self.network.update_norms(seen)
         self._round_weights()
+
+    def _twin(self, crops: Crops) -> Tensor:
+        """What the network says of twins, by the norms' running statistics, where they are compared."""
+        with torch.no_grad():
+            answer = self.answer(crops.twin)
+        if crops.twin_at is None:
+            return answer
+        return answer.flatten(1).gather(1, crops.twin_at.flatten(1)).view_as(answer)
 
     def first_terms(self, pool: Executor) -> Terms:
         """The terms of the first step's loss against the targets, with the weights as they are."""
         chunks, count = self._gathered(0, pool)
 
         def terms(crops: Crops) -> Terms:
-            with torch.no_grad():
+            with torch.no_grad(), chunk_statistics():
                 output = self.answer(crops.features)
                 (found,) = self.loss.terms(
                     output, crops.valid, [(crops.target, crops.valid)], count
@@ -107,11 +127,13 @@ class ScreenRun(TrainingState):
         told = {key: settings[key] for key in ("seed", "crops", "crop", "flips")}
 
         def crop(place: Place) -> Crops:
-            return self.frames.crop(place, settings["crop"])
+            return self.frames.crop(place, settings["crop"], settings["aligned"])
 
-        crops = list(pool.map(crop, self.frames.places(step, twins=twins, **told)))
+        places = crop_places(self.frames, step, twins=twins, pairs=self._normed, **told)
+        crops = list(pool.map(crop, places))
         count = max(sum(int(one.valid.sum()) for one in crops), 1)
         if self.device.type == "cpu":
-            return crops, count
-        joined = (torch.cat(parts) if parts[0] is not None else None for parts in zip(*crops))
-        return [Crops(*joined).to(self.device)], count
+            size = 2 if self._normed else 1
+            chunks = (crops[first : first + size] for first in range(0, len(crops), size))
+            return [Crops.joined(chunk) for chunk in chunks], count
+        return [Crops.joined(crops).to(self.device)], count

@@ -20,6 +20,7 @@ from neural_shadows.networks.screen_space.screen_networks import (
     make_screen_network,
     save_screen_network,
 )
+from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
 from neural_shadows.running.hardware import describe_machine
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
@@ -88,8 +89,9 @@ def train_screen(
     model = make_screen_network(network)
     model.initialise(seed)
     frames, held_out = (ScreenFrames(paths, model.features) for paths in (train, validation))
-    for place, values in zip((model.centres, model.spreads), frames.ranges()):
-        place.copy_(torch.from_numpy(values))
+    if isinstance(model, ShadowUnet):
+        for place, values in zip((model.centres, model.spreads), frames.ranges()):
+            place.copy_(torch.from_numpy(values))
     _check_twins(frames, train, training)
     net = training["perceptual"]["net"]
     perceptual = None if trunk is None else Perceptual(net, trunk, chosen, dtype)

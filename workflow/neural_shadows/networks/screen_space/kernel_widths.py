@@ -3,9 +3,11 @@
 Level 1 is the first: 2 × 2 pixels are channels. Counts are those of `widths.py`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-from neural_shadows.networks.screen_space.widths import Convolution
+from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.networks.screen_space.widths import Convolution, convolutions
 
 KERNEL_FORMS = ("kernels", "direct")
 KERNEL_TAPS = 25  # of each of a pixel's kernels
@@ -42,6 +44,15 @@ def kernel_convolutions(
             Convolution(0, "head", 1, _BEFORE_LAST, 1),
         ]
     )
+
+
+def layers_of(settings: Mapping[str, Any]) -> list[Convolution]:
+    """The convolutions of an entry of the config's `screen_networks`, of any form."""
+    form, widths = settings["form"], settings["widths"]
+    channels = sum(FEATURES[name] for name in settings["features"])
+    if form in KERNEL_FORMS:
+        return kernel_convolutions(form, widths, channels, settings.get("filters", 0))
+    return convolutions(form, widths, channels, settings.get("extraction"))
 
 
 def _pair(level: int, part: str, inputs: int, outputs: int) -> list[Convolution]:

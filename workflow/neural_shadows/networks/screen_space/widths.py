@@ -46,7 +46,7 @@ class Convolution:
 
 def first_level(form: str) -> int:
     """The level that the convolutions begin at: 1 if they never see the frame's own size."""
-    return int(form in ("shuffle", "half"))
+    return int(form not in ("full", "original"))
 
 
 def deepest_level(form: str, widths: Widths) -> int:

@@ -6,8 +6,8 @@ from typing import Any
 
 import pandas as pd
 
-from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.networks.screen_space.widths import convolutions, deepest_level, total
+from neural_shadows.networks.screen_space.kernel_widths import layers_of
+from neural_shadows.networks.screen_space.widths import deepest_level, total
 from neural_shadows.reports import phrases
 from neural_shadows.reports.published_nsm import printed, read_published_nsm, titled
 from neural_shadows.reports.tables.writing import number_cells, write_twins
@@ -61,9 +61,8 @@ def network_table(
     records = []
     for one in networks:
         settings = one["settings"]
-        channels = sum(FEATURES[name] for name in settings["features"])
         widths, form = settings["widths"], settings["form"]
-        layers = convolutions(form, widths, channels, settings.get("extraction"))
+        layers = layers_of(settings)
         records.append(
             {
                 "network": one["name"],
