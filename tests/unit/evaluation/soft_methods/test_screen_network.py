@@ -69,6 +69,26 @@ def test_it_answers_by_buffers_what_it_answers_by_the_map(folder):
     assert asked[0].min() >= 0 and asked[0].max() <= 1
 
 
+@pytest.mark.parametrize("base", ["hard", "pcf", "msm"])
+def test_networks_of_kernels_answer_as_well(folder, base):
+    """Its norms are folded; the base is made from the map, too, where it is timed."""
+    features = ["cosine", "c_v_by_d", "penumbra", "behind", "z_b_by_z", f"base_{base}"]
+    settings = {"form": "kernels", "widths": [4, 8], "features": features, "filters": 2}
+    network = make_screen_network(settings)
+    path = folder / base / "weights.safetensors"
+    path.parent.mkdir()
+    header = {"network": settings, "radii": RADII, "radius_unit": "metres"}
+    save_screen_network(path, network, header)
+    method = soft_method("tiny", path)
+    frame = next(measured_frames([folder / "blinds/test_000.json"], []))
+    asked = [frame.answered(method, radius, {}) for radius in RADII]
+    assert not np.allclose(asked[0], asked[2])
+    timed = frame.frame.surface.image(method.answer(frame.frame, 0.25), 1.0)
+    off = np.abs(timed - asked[2])[frame.valid]
+    assert np.median(off) < 2e-3 and off.mean() < 0.02
+    assert asked[0].min() >= 0 and asked[0].max() <= 1
+
+
 def test_it_is_measured_as_others_are(folder):
     assert is_network("tiny") and not is_tuned("tiny")
     out = folder / "tiny.csv", folder / "tiny.npz"

@@ -1,4 +1,4 @@
-"""A trained network that answers a whole frame from its buffers (Datta et al. 2022)."""
+"""A trained network that answers a whole frame from its buffers (Datta et al. 2022; Hu et al. 2025)."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,11 +7,14 @@ import numpy as np
 import torch
 
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation.soft_methods.base_shadows import base_by_map
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.features import named_features
+from neural_shadows.frames.buffers import LIT
+from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.networks.compute import choose_dtype
+from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.rendering.gbuffer import Lens, lens_of
 
@@ -31,6 +34,8 @@ class _Answers:
     def __init__(self, weights: Path):
         self._weights = weights
         network, self._header = load_screen_network(weights)
+        if isinstance(network, KernelUnet):
+            network = network.folded()
         self._network = network.in_format(choose_dtype("auto", torch.device("cpu")))
 
     def method(self) -> SoftMethod:
@@ -64,7 +69,12 @@ class _Answers:
             "c_e": -np.einsum("ij,ij->i", frame.ways, surface.n) / z,
             "c_v": np.einsum("ij,ij->i", eye, surface.n) / d,
         }
-        buffers = {name: surface.image(one.astype(np.float32)) for name, one in values.items()}
+        asked = buffers_of(self._network.features)
+        values |= {name: base_by_map(name, frame) for name in LIT if name in asked}
+        buffers = {
+            name: surface.image(one.astype(np.float32), float(name in LIT))
+            for name, one in values.items()
+        }
         lens = lens_of(surface.camera, surface.width, surface.height)
         return self._of_buffers(buffers, lens, radius, size).ravel()[surface.pixel]
 
