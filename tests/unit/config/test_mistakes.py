@@ -83,7 +83,6 @@ frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: mu
 frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence has two frames or more
 frame_sets.windows.of | {width: 64, height: 64} | frame_sets.windows: of = 64 × 64: must not be smaller
 frame_sets.frames.light_map.resolution | 100 | light_map.resolution: 100 is not a power of two
-frame_sets.windows | {path: mine} | soft_windows.methods: 'hard' needs a scene to look at, and frames of
 soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each only once
 tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'
@@ -108,3 +107,10 @@ def test_mistakes(message, values, mistake):
     if value == {"like": "dragon"}:
         value = values["experiments"]["dragon"] | {"label": "Twin"}
     assert words in message(key, value)
+
+
+def test_maps_need_a_scene(message, values):
+    values["frame_sets"]["mine"] = {"path": "mine"}
+    values["tables"]["soft_windows"]["frame_set"] = "mine"
+    told = "soft_windows.methods: 'hard' needs a scene to look at, and frames of"
+    assert told in message(values)
