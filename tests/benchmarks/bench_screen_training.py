@@ -45,19 +45,18 @@ SETTINGS = {
 class RandomFrames:
     """Crops of noise: the rate does not depend on what they show."""
 
-    height, width, twins = SIDE, 2 * SIDE, 3
+    height, width, twins, radii = SIDE, 2 * SIDE, 3, 5
 
     def __init__(self):
         generator = torch.Generator().manual_seed(0)
         one, twin = (torch.rand(1, 4, SIDE, SIDE, generator=generator) for _ in range(2))
         valid = torch.ones(1, 1, SIDE, SIDE, dtype=torch.bool)
-        self._crops = Crops(one, torch.rand(1, 1, SIDE, SIDE), valid, twin, valid)
+        self._crops = Crops(one, torch.rand(1, 1, SIDE, SIDE), valid, twin, valid, None)
 
-    def places(self, step: int, **_) -> list[Place]:
-        """As many as a step has."""
-        return [Place(0, 0, 1, 0, 0, False, False)] * CROPS
+    def __len__(self) -> int:
+        return 1
 
-    def crop(self, place: Place, side: int) -> Crops:
+    def crop(self, place: Place, side: int, aligned: bool) -> Crops:
         """The same each time."""
         return self._crops
 
@@ -86,7 +85,7 @@ class WholeBatch(ScreenRun):
 
     def _gathered(self, step: int, pool):
         chunks, count = super()._gathered(step, pool)
-        return [Crops(*(torch.cat(parts) for parts in zip(*chunks)))], count
+        return [Crops.joined(chunks)], count
 
 
 def _convolutions(run: ScreenRun, trunk: Path | None):
@@ -104,7 +103,7 @@ def _convolutions(run: ScreenRun, trunk: Path | None):
 
         return hook
 
-    crops = run.frames.crop(None, SIDE)
+    crops = run.frames.crop(None, SIDE, False)
     parts = [(run._computing, 2, (True, True))]
     if trunk is not None:
         parts.append((run.loss._perceptual._layers, 3, (True, False)))
