@@ -43,8 +43,8 @@ def time_soft_methods(
         parts: of test frames, one a scene. constants: of the methods that have some.
         weights: of the methods that are networks, each in a folder of its name.
         times_json: of each method and radius `ms`, the median over frames of the median over
-            `repeats`, or one of what takes long, of its answer alone; `map_ms` of rasterising the light's map, which those that
-            look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
+            `repeats`, or one of what takes long, of its answer alone; `map_ms` of rasterising the
+            light's map, which those that look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
 
     Raises:
         InputError: an input file cannot be read.

@@ -19,8 +19,8 @@ from neural_shadows.rendering.gbuffer import Lens
 RATIO_SCALE, DIFFERENCE_SCALE = 200, 500  # what is 1 for `signed_log`: 1/200, and S/500
 NEAREST = 0.05  # in shares of S: nearer points are as far in c_c / d
 
-# The buffers of each of `FEATURES`: of Neural Shadow Mapping's view is c_c / d, ratio z / z_f, difference z − z_f in NSM's symbols,
-# and agreement n · n_e.
+# The buffers of each of `FEATURES`: of Neural Shadow Mapping's, in its symbols, view is c_c / d, ratio
+# z / z_f, difference z − z_f, and agreement n · n_e.
 _MADE_OF = {
     "c_e": ("c_e",),
     "view": ("c_v", "d"),
@@ -55,8 +55,8 @@ def named_features(
     """Features, (C, H, W) float32 in the order of their names, see `FEATURES`.
 
     Those of Kernel Predicting Neural Shadow Maps are as `kernel_feature` has them. Of Neural Shadow
-    Mapping's the light's step is added to all of `c_e`, pixels without a surface included, which have 0 elsewhere;
-    c_e is cut off at 0 before, so that a whole step can be told from it. `view`, `ratio` and
+    Mapping's the light's step is added to all of `c_e`, pixels without a surface included, which have 0
+    elsewhere; c_e is cut off at 0 before, so that a whole step can be told from it. `view`, `ratio` and
     `difference` are clipped where silhouettes and points close by would make them large.
 
     `ratio` − 1 and `difference` are signed logarithms, where the paper has them as they are: most of a

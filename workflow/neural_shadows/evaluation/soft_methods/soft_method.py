@@ -27,7 +27,8 @@ class SoftMethod:
         by_rays: whether it sends rays to the light's points. What faces away from the light's centre
             is made dark for all others: it may see a part of a large light, and rays know.
         of_buffers: of a frame's buffers by name (height, width), the camera's `Lens`, the radius and
-            the scene's size, visibilities (height, width) float32, if buffers are all that it needs; `answer` then makes them, to be timed.
+            the scene's size, visibilities (height, width) float32, if buffers are all that it needs;
+            `answer` then makes them, to be timed.
         channel: of the frame's buffers, if its answer is there already.
         constant: the visibility of all that faces the light, of what knows nothing else.
     """

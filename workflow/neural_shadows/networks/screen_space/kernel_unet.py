@@ -5,7 +5,6 @@ from copy import deepcopy
 
 import torch
 from torch import Tensor, nn
-from torch.nn import functional
 
 from neural_shadows.frames.feature_names import FEATURES, base_of
 from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm, Statistics
@@ -17,7 +16,7 @@ from neural_shadows.networks.screen_space.kernel_parts import (
     normed,
 )
 from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
-from neural_shadows.networks.screen_space.layers import doubled, initialise
+from neural_shadows.networks.screen_space.layers import doubled, down_and_up, initialise, padded
 
 _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
 
@@ -29,8 +28,8 @@ class KernelUnet(nn.Module):
     enlargement: both orders are equal, and this one is a quarter of the work.
 
     Args:
-        form: `kernels`, which filter the one of its features in BASES; `direct`, which answers visibility itself: the
-            paper's form of Neural Shadow Mapping.
+        form: `kernels`, which filter the one of its features in BASES; `direct`, which answers
+            visibility itself: the paper's form of Neural Shadow Mapping.
         widths: channels of each level, from that of half the frame's resolution.
         features: names in FEATURES; their planes are the input, in this order, without any scaling.
         filters: 5 × 5 kernels of a pixel, of dilation 1, 2, 4 …
@@ -97,20 +96,8 @@ class KernelUnet(nn.Module):
 
     def inner(self, x: Tensor) -> Tensor:
         """What the head is given: (B, C, h, w) at half the resolution, of padded planes."""
-        height, width = x.shape[-2:]
-        x = x.to(next(self.parameters()).dtype)
-        below, right = -height % self.multiple, -width % self.multiple
-        if below or right:
-            x = functional.pad(x, (0, right, 0, below), mode="replicate")
-        x, kept = self.entrance(x), []
-        for level in self.levels:
-            x = level.encoder(x)
-            kept.append(x)
-            x = level.downsample(x)
-        x = self.deepest(x)
-        for level in reversed(self.levels):
-            x = level.decoder(level.skip(level.upsample(x), kept.pop()))
-        return x
+        x = padded(x.to(next(self.parameters()).dtype), self.multiple)
+        return down_and_up(self.levels, self.deepest, self.entrance(x))
 
     def hidden(self) -> list[str]:
         """Names of the weights of all convolutions but the first and the last."""

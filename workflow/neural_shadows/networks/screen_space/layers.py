@@ -58,6 +58,28 @@ def doubled() -> nn.Module:
     return nn.Upsample(scale_factor=2, mode="bilinear", align_corners=False)
 
 
+def padded(x: Tensor, multiple: int) -> Tensor:
+    """Pictures whose sides are multiples of a number: their last rows and columns are repeated."""
+    below, right = (-side % multiple for side in x.shape[-2:])
+    return functional.pad(x, (0, right, 0, below), mode="replicate") if below or right else x
+
+
+def down_and_up(levels: nn.ModuleList, deepest: nn.Module, x: Tensor) -> Tensor:
+    """What a U-Net makes of its finest level's input: of each level `encoder` and `downsample`, then
+    the deepest, and back by `upsample`, `skip` (None for none) and `decoder`.
+    """
+    kept = []
+    for level in levels:
+        x = level.encoder(x)
+        kept.append(x)
+        x = level.downsample(x)
+    x = deepest(x)
+    for level in reversed(levels):
+        x, beside = level.upsample(x), kept.pop()
+        x = level.decoder(x if level.skip is None else level.skip(x, beside))
+    return x
+
+
 def stacked(layers: Sequence[Convolution], linear_end: bool = False) -> nn.Sequential:
     """Convolutions with a ReLU after each, but for the last if the end is linear."""
     found: list[nn.Module] = []

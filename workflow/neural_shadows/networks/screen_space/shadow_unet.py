@@ -5,7 +5,6 @@ from copy import deepcopy
 
 import torch
 from torch import Tensor, nn
-from torch.nn import functional
 
 from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.networks.screen_space.layers import (
@@ -14,7 +13,9 @@ from neural_shadows.networks.screen_space.layers import (
     SquareOfPixels,
     Sum,
     doubled,
+    down_and_up,
     initialise,
+    padded,
     stacked,
 )
 from neural_shadows.networks.screen_space.widths import (
@@ -120,20 +121,10 @@ class ShadowUnet(nn.Module):
         x = (x - self.centres[:, None, None]) / self.spreads[:, None, None]
         x = x.to(next(self.parameters()).dtype)
         height, width = x.shape[-2:]
-        below, right = -height % self.multiple, -width % self.multiple
-        if below or right:
-            x = functional.pad(x, (0, right, 0, below), mode="replicate")
+        x = padded(x, self.multiple)
         for before in (self.extraction, self.entrance):
             x = x if before is None else before(x)
-        kept = []
-        for level in self.levels:
-            x = level.encoder(x)
-            kept.append(x)
-            x = level.downsample(x)
-        x = self.deepest(x)
-        for level in reversed(self.levels):
-            x, beside = level.upsample(x), kept.pop()
-            x = level.decoder(x if level.skip is None else level.skip(x, beside))
+        x = down_and_up(self.levels, self.deepest, x)
         x = x if self.exit is None else self.exit(x)
         return x[..., :height, :width]
 

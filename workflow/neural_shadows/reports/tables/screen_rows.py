@@ -38,12 +38,12 @@ def describe_trainings(
     alike: dict[str, list[str]] = {}
     for name, record in records.items():
         training = record["training"]
+        begins = f" from {training['perturbation_from']:.0%} of them on"
         text = (
             f"{training['steps']:,} steps of {training['crops']} crops of {training['crop']}², "
-            f"{training['optimiser'].capitalize()} at {training['learning_rate']:g}, seed {training['seed']}, perceptual term: {record['perceptual']}, "
-            f"perturbation's weight {training['perturbation']:g}"
-            + f" from {training['perturbation_from']:.0%} on"
-            * (training["perturbation"] > 0)
+            f"{training['optimiser'].capitalize()} at {training['learning_rate']:g}, seed "
+            f"{training['seed']}, perceptual term: {record['perceptual']}, perturbation's weight "
+            f"{training['perturbation']:g}{begins if training['perturbation'] else ''}"
         )
         alike.setdefault(text, []).append(labels.get(name, name))
     return [f"Trained for {text}: {', '.join(names)}." for text, names in alike.items()]
