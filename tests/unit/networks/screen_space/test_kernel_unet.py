@@ -191,6 +191,17 @@ def test_the_base_is_found_behind_features_of_three_channels():
     assert torch.allclose(network(planes), torch.tensor(0.25))
 
 
+def test_first_kernels_leave_most_of_a_point_where_it_is():
+    """Two of 25 weights each, the middle one of e⁴ against 1: 0.69² of it. A blur would leave 0.002."""
+    network = KernelUnet("kernels", TINY, EIGHT, filters=2)
+    x = planes(network, 32, 32)
+    x[:, -1] = 0
+    x[0, -1, 16, 16] = 1
+    with chunk_statistics():
+        found = answer(network, x)[0, 0]
+    assert 0.3 < found[16, 16] < 0.6 and found.flatten().sort().values[-2] < 0.1
+
+
 def test_kernels_without_a_base_are_refused():
     with pytest.raises(ValueError, match="filter one of the features base_hard, .*; there is none"):
         KernelUnet("kernels", TINY, FOUR)

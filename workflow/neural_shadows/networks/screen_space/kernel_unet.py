@@ -82,6 +82,8 @@ class KernelUnet(nn.Module):
                 initialise(layer, generator)
             elif isinstance(layer, ChunkNorm):
                 layer.reset()
+        if self.form == "kernels":
+            self.head.start_at_the_base()
 
     def forward(self, x: Tensor) -> Tensor:
         """Visibility, (B, 1, H, W) float32, of planes (B, C, H, W) float32 of any H and W.
