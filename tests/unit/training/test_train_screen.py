@@ -120,6 +120,8 @@ def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, pr
     assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
     assert contents(tmp_path / "other") != whole
     assert [one["step"] for one in killed["validations"]] == [1, 2, 3, 4, 5]
+    bases = ["base_hard"] if network == KERNELS else []  # what it is given is no merit of its own
+    assert [*killed["null_mse"]] == ["no_shadow", "hard_map", *bases]
 
 
 def test_an_identical_twin_changes_nothing(tmp_path):

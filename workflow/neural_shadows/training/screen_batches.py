@@ -12,6 +12,7 @@ from torch import Tensor
 from neural_shadows.errors import InputError
 from neural_shadows.frames.aligned_twins import ALIGNED_BY, twin_pixels
 from neural_shadows.frames.buffers import CHANNELS
+from neural_shadows.frames.feature_names import BASES
 from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import light_size
@@ -24,7 +25,8 @@ class ScreenFrames:
 
     Args:
         parts: their JSON files.
-        features: names of the channels that a network is told, see `named_features`.
+        features: names of the channels that a network is told, see `named_features`; those of them
+            that are shadows already are its `bases`.
 
     Raises:
         InputError: there is no frame, a part is damaged, or they differ in size, radii or twins.
@@ -32,6 +34,7 @@ class ScreenFrames:
 
     def __init__(self, parts: Sequence[Path], features: Sequence[str]):
         self._features, self._buffers = tuple(features), buffers_of(features)
+        self.bases = [name for name in self._features if name in BASES]
         self.parts = [FrameSetPart(path) for path in parts]
         self._frames = [(part, number) for part in self.parts for number in range(len(part))]
         if not self._frames:
@@ -151,10 +154,10 @@ class ScreenFrames:
         part, number = self._frames[frame]
         return np.float32(part.targets[number, radius])
 
-    def hard_map(self, frame: int) -> np.ndarray:
-        """Visibility by the light's map, unfiltered: (H, W) float32."""
+    def base(self, name: str, frame: int) -> np.ndarray:
+        """Visibility by one of `BASES`, (H, W) float32."""
         part, number = self._frames[frame]
-        return np.float32(part.buffers[number, 0, CHANNELS.index("hard")])
+        return np.float32(part.buffers[number, 0, CHANNELS.index(name.removeprefix("base_"))])
 
     def valid(self, frame: int) -> np.ndarray:
         """Which pixels count, (H, W) bool."""

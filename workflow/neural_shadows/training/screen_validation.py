@@ -1,6 +1,7 @@
 """How far screen-space networks are from the exact soft shadows of frames that none trains on."""
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import torch
@@ -24,11 +25,19 @@ def network_answer(run: ScreenRun, frames: ScreenFrames) -> Answer:
 
 
 def null_answers(frames: ScreenFrames) -> dict[str, Answer]:
-    """What answers without learning: that all is lit, and the light's map, unfiltered."""
+    """What answers without learning: that all is lit, the light's map, unfiltered, and what the
+    network is given as its base.
+    """
     lit = np.ones((frames.height, frames.width), np.float32)
+
+    def shadow(name: str, frame: int, radius: int) -> np.ndarray:
+        return frames.base(name, frame)
+
+    bases = {name: partial(shadow, name) for name in frames.bases}
     return {
         "no_shadow": lambda frame, radius: lit,
-        "hard_map": lambda frame, radius: frames.hard_map(frame),
+        "hard_map": partial(shadow, "base_hard"),
+        **bases,
     }
 
 

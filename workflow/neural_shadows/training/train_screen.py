@@ -71,8 +71,8 @@ def train_screen(
         weights: in a folder of the experiment's, with `checkpoints` beside it.
         training_json: gets the settings and what came of them: `samples` (pixels), `seconds`,
             `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them
-            `validation_mse`, `null_mse` of what knows nothing (`no_shadow`, `hard_map`);
-            `validations` on the way; `perceptual` (`none` for L1 alone), `perceptual_factor`.
+            `validation_mse`, `null_mse` of what knows nothing (`no_shadow`, `hard_map`, and the
+            network's own base); `validations` on the way; `perceptual` (`none` for L1 alone), `perceptual_factor`.
         network: what `make_screen_network` makes it from.
         training: see the config's `screen_trainings`; `perceptual` as it is in this run.
         scenes: whose parts these are.
