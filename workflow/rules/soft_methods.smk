@@ -82,7 +82,7 @@ rule time_soft_methods:
     resources:
         **usual(4000, minutes=120),
     params:
-        methods=of(soft_methods.methods),
+        methods=of(soft_methods.timed_methods),
     message:
         "Timing the methods of {wildcards.table}"
     script:

@@ -95,7 +95,7 @@ def evaluate(folder, method):
         [folder / "camera_000.json", folder / "light_000.json"],
         [],
         folder / f"{method}.json" if is_tuned(method) else None,
-        None,
+        [],
         folder / "lpips.json",
         target / f"{method}.csv",
         target / f"{method}.npz",
@@ -147,7 +147,13 @@ def test_times(folder):
     tune(folder, "msm_3")
     out = folder / "times.json"
     time_soft_methods(
-        [folder / "test_000.json"], [folder / "msm_3.json"], [], [], out, methods=names, repeats=1
+        [folder / "test_000.json"],
+        [folder / "msm_3.json"],
+        [],
+        [],
+        out,
+        methods=dict.fromkeys(names),
+        repeats=1,
     )
     found = json.loads(out.read_text())
     assert found["texels"] == 64**2 and found["map_ms"] > 0 and found["frames"] == 1

@@ -48,7 +48,7 @@ def data(frames=20, noise=0.001, methods=TIMES["methods"]):
 
 
 def claim(kind, **told):
-    return {"kind": kind, "table": "soft", "needs": {}, "metric": "mse", "radii": [1, 2], **told}
+    return {"kind": kind, "table": "soft", "needs": {}, "metrics": ["mse"], "radii": [1, 2], **told}
 
 
 @pytest.mark.parametrize(
@@ -86,5 +86,48 @@ def test_a_method_that_is_faster_than_any_ray_is_not_judged():
 
 
 def test_a_metric_that_is_missing_is_said():
-    found = judge(claim("soft_better", pairs=[["pcss", "msm_15"]], metric="lpips"), data())
+    found = judge(claim("soft_better", pairs=[["pcss", "msm_15"]], metrics=["lpips"]), data())
     assert found["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in found["reason"]
+
+
+def of_networks(seeds, gains, metric="mse"):
+    """A network that is better than PCSS by a gain of its own, each seed by another."""
+    runs = ["mine", *(f"mine_{seed}" for seed in range(1, seeds))]
+    rng = np.random.default_rng(4)
+    rows = [
+        {"scene": ("room", "tree")[i % 2], "part": "test_000", "frame": i, "radius": k}
+        | {"metric": metric, "method": method, "value": value + rng.normal(0, 1e-4)}
+        for i in range(20)
+        for k in range(3)
+        for method, value in {"pcss": 0.01, **{a: 0.01 - b for a, b in zip(runs, gains)}}.items()
+    ]
+    labels = {"pcss": "PCSS", "mine": "Mine"}
+    table = SoftTable(soft_values(pd.DataFrame(rows)), labels, None, RADII)
+    record = {"validation_mse": [0.01], "null_mse": {"hard_map": [0.02]}}
+    known = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))
+    told = {"again": {"mine": runs[1:]}, "networks": runs, "needs": {"seeds": 3}, "radii": None}
+    return claim("soft_better", pairs=[["mine", "pcss"]], metrics=[metric], **told), known
+
+
+@pytest.mark.parametrize(
+    ("gains", "verdict"),
+    [
+        ([0.002, 0.0021, 0.0019], verdicts.SUPPORTED),
+        ([-0.002, -0.0021, -0.0019], verdicts.CONTRADICTED),
+        ([0.004, -0.003, 0.002], verdicts.UNDECIDED),
+        ([0.002, 0.002], verdicts.TOO_SMALL),
+    ],
+)
+def test_three_trainings_decide_over_all_lights(gains, verdict):
+    """How they differ counts as much as how frames do."""
+    found = judge(*of_networks(len(gains), gains))
+    assert found["verdict"] == verdict
+    assert (
+        "MSE × 10⁻⁴ at all lights of Mine" in found["evidence"] and "nan" not in found["evidence"]
+    )
+    assert verdict != verdicts.TOO_SMALL or "2 seeds of 3" in found["reason"]
+
+
+def test_of_ssim_more_is_better():
+    gains = [-0.002, -0.0021, -0.0019]
+    assert judge(*of_networks(3, gains, "ssim"))["verdict"] == verdicts.SUPPORTED

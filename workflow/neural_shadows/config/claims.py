@@ -16,6 +16,7 @@ from neural_shadows.evaluation.method_names import (
     shadow_map_key,
     unbiased,
 )
+from neural_shadows.evaluation.soft_method_names import is_network
 from neural_shadows.reports.claims.measured import WITHOUT_ROWS
 from neural_shadows.reports.published import read_published
 
@@ -63,6 +64,7 @@ class AnyClaim(Model):
 
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
 Pairs = Annotated[list[Pair], Field(min_length=1)]
+SoftRadii = list[Annotated[int, Field(ge=1)]]
 
 
 class BetterClaim(AnyClaim):
@@ -146,21 +148,27 @@ class PrintedClaim(AnyClaim):
 
 
 class SoftClaim(AnyClaim):
-    """Methods for soft shadows, compared on the same frames at several radii."""
+    """Methods for soft shadows, compared on the same frames."""
 
-    table: Name = Field(description="a table of `soft_methods` in `tables`")
-    radii: list[Annotated[int, Field(ge=1)]] = Field(
-        min_length=1, description="of its frame set, counted from 0, at all of which it is to hold"
-    )
+    table: Name = Field(description="a table of `soft_methods` or `soft_summary` in `tables`")
 
 
 class SoftBetterClaim(SoftClaim):
     """One method has a smaller error than another."""
 
     kind: Literal["soft_better"] = Field(description="`soft_better`")
+    radii: SoftRadii | None = Field(
+        None,
+        min_length=1,
+        description="as of `soft_equal_time`; without it the mean over all is compared",
+    )
     pairs: Pairs = Field(description="methods of the table, the claimed winner first")
-    metric: Literal["mse", "l1", "light_leak", "false_shadow", "flip", "lpips"] = Field(
-        "mse", description="of which less is better"
+    metrics: Annotated[
+        list[Literal["mse", "ssim", "l1", "light_leak", "false_shadow", "flip", "lpips"]],
+        AfterValidator(_no_twins),
+    ] = Field(["mse"], min_length=1, description="in all of which it is to hold")
+    again: dict[Name, list[name_in("screen_experiments")]] = Field(
+        {}, description="by network, those that are the same, trained from other seeds"
     )
 
 
@@ -168,6 +176,10 @@ class SoftEqualTimeClaim(SoftClaim):
     """As many rays as fit into a method's time have a smaller squared error than it."""
 
     kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
+    radii: SoftRadii = Field(
+        min_length=1,
+        description="of the table's frame set, counted from 0, at all of which it is to hold",
+    )
     methods: list[str] = Field(
         min_length=1, description="methods of the table that rays are to beat"
     )
@@ -207,6 +219,14 @@ def compared(claim: AnyClaim) -> list[list[str]]:
     return getattr(claim, "pairs", None) or [[method] for method in claim.methods]
 
 
+def networks_of_claim(config: "Config", claim: SoftBetterClaim) -> list[str]:
+    """The trained networks that a claim on soft shadows is about, those of other seeds among them."""
+    named = [method for pair in claim.pairs for method in pair if is_network(method)]
+    named += [name for others in claim.again.values() for name in others]
+    known = config.networks_by_scene
+    return [x for name in named for x in (known[name].experiments if name in known else [name])]
+
+
 def rows_of_claim(config: "Config", methods: list[str]) -> list[Row]:
     """Methods that a claim compares as rows: one that is no network is on the network's scene."""
     names = [unbiased(method) for method in methods]
@@ -231,7 +251,7 @@ def check(config: "Config") -> None:
             _check_soft(config, f"claims.{name}", claim)
         for ratio in getattr(claim, "ratios", ()):
             check_among(f"claims.{name}.ratios.table", ratio.table, config.tables)
-        for table, others in getattr(claim, "again", {}).items():
+        for table, others in claim.again.items() if isinstance(claim, RatioClaim) else ():
             check_among(f"claims.{name}.again", table, [one.table for one in claim.ratios])
             for other in others:
                 check_among(f"claims.{name}.again.{table}", other, config.tables)
@@ -278,16 +298,19 @@ def _check_printed(key: str, claim: PrintedClaim) -> None:
 
 
 def _check_soft(config: "Config", key: str, claim: SoftBetterClaim | SoftEqualTimeClaim) -> None:
-    tables = [name for name, table in config.tables.items() if table.kind == "soft_methods"]
+    kinds = ("soft_methods", "soft_summary")[: 1 + (claim.kind == "soft_better")]
+    tables = [name for name, table in config.tables.items() if table.kind in kinds]
     check_among(f"{key}.table", claim.table, tables)
     table = config.tables[claim.table]
     if isinstance(config.frame_sets[table.frame_set], OwnFrames):
         raise ValueError(f"{key}.table: {claim.table!r} is of frames of a user's own")
     given = getattr(claim, "methods", None) or [m for pair in claim.pairs for m in pair]
     for method in given:
-        check_among(f"{key}: {claim.table}.methods", method, table.methods)
+        check_among(f"{key}: {claim.table}.methods", method, table.asked)
     radii = config.frame_sets[table.frame_set].radii
-    for k in claim.radii:
+    for method in getattr(claim, "again", ()):
+        check_among(f"{key}.again", method, given)
+    for k in claim.radii or ():
         if k >= len(radii):
             raise ValueError(
                 f"{key}.radii: {k} is not below {len(radii)}, the number of radii of "

@@ -131,6 +131,13 @@ class SoftPicturesFigure(AnyFigure):
     methods: list[str] = Field(min_length=1, description="which of the table's methods")
 
 
+class SoftRadiiFigure(AnyFigure):
+    """Error over the light's radius, of methods for soft shadows."""
+
+    kind: Literal["soft_radii"] = Field(description="`soft_radii`")
+    table: Name = Field(description="a table of `soft_summary` in `tables`, `by: radius`")
+
+
 class ScreenTableFigure(AnyFigure):
     """Of a network of whole frames the time by level and part, or the worth of its features."""
 
@@ -178,6 +185,7 @@ Figure = by_kind(
     SamplingFigure,
     SoftTableFigure,
     SoftPicturesFigure,
+    SoftRadiiFigure,
     PenumbraFigure,
     ScreenTableFigure,
     ScreenFlickerFigure,
@@ -191,7 +199,8 @@ KINDS_OF_TABLE = {
     "learning_curves": ("learning_curves",),
     "cost": ("cost",),
     "soft_equal_time": ("soft_methods",),
-    "soft_pictures": ("soft_methods",),
+    "soft_pictures": ("soft_methods", "soft_summary"),
+    "soft_radii": ("soft_summary",),
     "screen_level_time": ("screen_parts",),
     "screen_sensitivity": ("screen_features",),
     "screen_flicker": ("screen_temporal",),
@@ -244,6 +253,9 @@ def check(config: "Config") -> None:
                         f"{key}.frame_set: {figure.frame_set!r} is of a user's own frames, which have "
                         "no scene to look at"
                     )
+            case SoftRadiiFigure():
+                if config.tables[figure.table].by != "radius":
+                    raise ValueError(f"{key}.table: {figure.table!r} is not `by: radius`")
             case SoftTableFigure() | SoftPicturesFigure():
                 _check_soft(config, key, figure)
             case NetworkFigure(kind="field_slice" | "field_3d"):
@@ -278,4 +290,4 @@ def _check_soft(config: "Config", key: str, figure: SoftTableFigure | SoftPictur
     if isinstance(figure, SoftPicturesFigure):
         check_among(f"{key}.soft_scene", figure.soft_scene, measured_scenes(frames))
         for method in figure.methods:
-            check_among(f"{key}.methods", method, table.methods)
+            check_among(f"{key}.methods", method, table.asked)

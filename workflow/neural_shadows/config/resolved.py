@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from neural_shadows.config import screen_experiments
-from neural_shadows.config.claims import compared, rows_of_claim
+from neural_shadows.config.claims import compared, networks_of_claim, rows_of_claim
 from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
 from neural_shadows.config.figures import LossFigure, TableFigure, rows_of_figure, scene_of
 from neural_shadows.config.frame_sets import as_settings
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Section = dict[str, Any]
 
 # Figures of tables whose rows are no methods of a scene's frames.
-WITHOUT_ROWS = ("cost", "soft_equal_time", "soft_pictures")
+WITHOUT_ROWS = ("cost", "soft_equal_time", "soft_pictures", "soft_radii")
 WITHOUT_ROWS += ("screen_level_time", "screen_sensitivity", "screen_flicker")
 
 
@@ -118,6 +118,8 @@ def _figure(config: "Config", name: str) -> Section:
 def _claim(config: "Config", name: str) -> Section:
     claim = config.claims[name]
     rows = [rows_of_claim(config, methods) for methods in compared(claim)]
+    if claim.kind == "soft_better":
+        return claim.model_dump() | {"networks": networks_of_claim(config, claim)}
     if not rows:  # of printed numbers, or of soft shadows
         return claim.model_dump()
     if claim.kind == "violations":

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field
 
 from neural_shadows.config.any_table import AnyTable
-from neural_shadows.config.base import Model, Name, Text, by_kind, check_among, name_in, section_or
+from neural_shadows.config.base import Model, Text, by_kind, check_among, name_in, section_or
 from neural_shadows.config.experiments import formatted, network_of, training_of
-from neural_shadows.config.frame_sets import OwnFrames
 from neural_shadows.config.screen_tables import (
     ScreenNetworksTable,
     ScreenProfileTable,
@@ -16,6 +15,7 @@ from neural_shadows.config.screen_tables import (
     ScreenTemporalTable,
     ScreenTrainedTable,
 )
+from neural_shadows.config.soft_tables import SoftMethodsTable, SoftSummaryTable, check_soft
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
     CLASSIC,
@@ -27,8 +27,6 @@ from neural_shadows.evaluation.method_names import (
     is_classic,
     is_null,
 )
-from neural_shadows.evaluation.soft_method_names import BASE, LABELS
-from neural_shadows.evaluation.soft_method_names import NULL as SOFT_NULL
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -92,24 +90,13 @@ class CostTable(AnyTable):
     frame_width: list[Annotated[int, Field(ge=48, le=8192)]] = Field(description="pixels of 3:2")
 
 
-class SoftMethodsTable(AnyTable):
-    """A table of methods for soft shadows on a frame set: errors, flicker, time, bytes, by radius."""
-
-    kind: Literal["soft_methods"] = Field(description="`soft_methods`")
-    frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
-    methods: list[Name] = Field(
-        min_length=1,
-        description="keys of evaluation/soft_method_names.py, in the table's order; `no_shadow` "
-        "and `all_dark` are there without being named",
-    )
-
-
 Table = by_kind(
     "kind",
     TableOfOneScene,
     TableByScene,
     CostTable,
     SoftMethodsTable,
+    SoftSummaryTable,
     ScreenProfileTable,
     ScreenNetworksTable,
     ScreenTrainedTable,
@@ -200,8 +187,8 @@ def check(config: "Config") -> None:
             for size in STAGES:
                 if (values := getattr(table, size)) != sorted(set(values)):
                     raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
-        if isinstance(table, SoftMethodsTable):
-            _check_soft(config, key, table)
+        if isinstance(table, SoftMethodsTable | SoftSummaryTable):
+            check_soft(config, key, table)
         if table.kind == "learning_curves" and config.learning_curves is None:
             raise ValueError(f"{key}.kind: {table.kind!r} needs the section `learning_curves`")
         for scene, rows in settings_by_scene(config, table).items():
@@ -225,17 +212,6 @@ def check(config: "Config") -> None:
             against = against.get(scene) if isinstance(against, dict) else against
             if against is not None:
                 check_among(f"{key}.against", against, [row["method"] for row in made])
-
-
-def _check_soft(config: "Config", key: str, table: SoftMethodsTable) -> None:
-    for method in table.methods:
-        check_among(f"{key}.methods", method, [*LABELS, *config.screen_experiments])
-        own = isinstance(config.frame_sets[table.frame_set], OwnFrames)
-        if own and not method.startswith(BASE) and method not in SOFT_NULL:
-            raise ValueError(
-                f"{key}.methods: {method!r} needs a scene to look at, and frames of a user's own have "
-                f"none; allowed: {', '.join(name for name in LABELS if name.startswith(BASE))}"
-            )
 
 
 def _check_method(

@@ -14,6 +14,7 @@ from neural_shadows.config import (
     figures,
     frame_sets,
     learning_curves,
+    networks_by_scene,
     scenes,
     screen_experiments,
     soft_scenes,
@@ -30,6 +31,7 @@ from neural_shadows.config.frame_times import FrameTimes
 from neural_shadows.config.learning_curves import LearningCurves
 from neural_shadows.config.metrics import Metrics
 from neural_shadows.config.networks import Network
+from neural_shadows.config.networks_by_scene import NetworksByScene
 from neural_shadows.config.rendering import Rendering
 from neural_shadows.config.samplings import Sampling
 from neural_shadows.config.scenes import Scene
@@ -85,6 +87,9 @@ class Config(Model):
     screen_experiments: dict[Name, ScreenExperiment] = Field(
         {}, description="networks of whole frames that are trained, by name"
     )
+    networks_by_scene: dict[Name, NetworksByScene] = Field(
+        {}, description="methods that are one of these for each scene, by name"
+    )
     screen_profiles: ScreenProfiles = Field(
         ScreenProfiles(), description="how these are timed, level by level"
     )
@@ -111,6 +116,7 @@ class Config(Model):
             frame_sets,
             experiments,
             screen_experiments,
+            networks_by_scene,
             learning_curves,
             tables,
             figures,

@@ -9,7 +9,7 @@ import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, name_of, write_answers
-from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.soft_methods.registry import soft_methods_by_scene
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
 from neural_shadows.files.whole_files import read_json
@@ -32,7 +32,7 @@ def evaluate_soft(
     sequences: list[Path],
     meshes: list[Path],
     constants_json: Path | None,
-    weights: Path | None,
+    weights: list[Path],
     lpips_json: Path,
     metrics_csv: Path,
     answers_npz: Path,
@@ -49,13 +49,14 @@ def evaluate_soft(
         parts: of test frames. sequences: parts of consecutive frames; may be none.
         meshes: see `measured_frames`.
         constants_json: what `tune_soft_method` wrote; None for a method without constants.
-        weights: of a network; None for any other method.
+        weights: of a network, or of several, each of which answers the scenes that it learned, and
+            nothing of others; none for any other method.
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    asked = soft_method(method, weights)
+    method_of = soft_methods_by_scene(method, weights)
     constants = _constants(constants_json, len(FrameSetPart(parts[0]).radii))
     quick = {"ssim": ssim}
     # 0.22 s of an image of 512 × 256, where the errors take 0.01: of each part's first frame alone.
@@ -69,6 +70,10 @@ def evaluate_soft(
         # Of all in one call, for which each scene is opened once.
         by_part = groupby(measured_frames(paths, meshes), lambda one: one.part.frames_json)
         for path, frames in by_part:
+            asked = method_of(path.parent.name)
+            if asked is None:
+                bar.update(sum(1 for _ in frames))
+                continue
             if path in sequences:
                 found, maps = _flicker(frames, asked, constants, bar.update)
                 rows += found

@@ -7,8 +7,8 @@ from importlib.util import find_spec
 
 NULL = {"no_shadow": "No shadow", "all_dark": "All dark"}
 BOXES = (3, 5, 9, 15)  # texels of a side
-RAYS = (1, 2, 4, 8, 16, 32, 64)  # of a pixel
-DENOISED_RAYS = (1, 4, 16)
+RAYS = (1, 2, 4, 8, 16, 32, 40, 64)  # of a pixel
+DENOISED_RAYS = (1, 4, 16, 30)
 FIELD_RAYS = (1, 4, 16)  # through occupancy fields
 # By channel of a frame's buffers.
 BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}

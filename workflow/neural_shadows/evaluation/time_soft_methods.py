@@ -31,7 +31,7 @@ def time_soft_methods(
     meshes: list[Path],
     times_json: Path,
     *,
-    methods: list[str],
+    methods: Mapping[str, str | None],
     repeats: int = 3,
 ) -> None:
     """Time each method's answer on the first frame of each part, for each radius.
@@ -41,7 +41,8 @@ def time_soft_methods(
 
     Args:
         parts: of test frames, one a scene. constants: of the methods that have some.
-        weights: of the methods that are networks, each in a folder of its name.
+        weights: of the methods that are networks, each in a folder of its experiment's name.
+        methods: of each the experiment whose weights it has; None of what has none.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, or one of what takes long, of its answer alone; `map_ms` of rasterising the
             light's map, which those that look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
@@ -57,7 +58,7 @@ def time_soft_methods(
     }
     chosen = {name: found.get(tuned_as(name), [{}] * len(radii)) for name in methods}
     trained = {path.parent.name: path for path in weights}
-    asked = {name: soft_method(name, trained.get(name)) for name in methods}
+    asked = {name: soft_method(name, trained.get(network)) for name, network in methods.items()}
     timed = {name: method for name, method in asked.items() if method.answer}
     taken = {name: np.zeros((len(frames), len(radii))) for name in timed}
     maps: list[float] = []

@@ -31,6 +31,7 @@ def files(layout: Layout) -> dict[str, Any]:
     found = {name: tables.unique(paths) for name, paths in found.items()}
     tables_of = soft_tables(layout)
     soft = [soft_methods.evaluations(layout, table, "csv") for table in tables_of]
+    soft += [_other_seeds(layout, claim) for claim in layout.settings["claims"].values()]
     found["soft_metrics"] = tables.unique(path for paths in soft for path in paths)
     found["soft_times"] = [
         path for table in tables_of for path in soft_methods.times(layout, table)
@@ -63,6 +64,15 @@ def methods(claim: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
         yield from pair
 
 
+def _other_seeds(layout: Layout, claim: Mapping[str, Any]) -> list[str]:
+    """What was measured of the networks that are those of a claim, trained from other seeds."""
+    if claim["kind"] != "soft_better":
+        return []
+    frame_set = soft_methods.frame_set(layout, claim["table"])
+    names = [name for others in claim["again"].values() for name in others]
+    return [layout.paths.soft_evaluation("csv", frame_set, name) for name in names]
+
+
 def soft_tables(layout: Layout) -> list[str]:
     """The tables of methods for soft shadows that claims are about."""
     claims = layout.settings["claims"].values()
@@ -87,6 +97,7 @@ def arguments(layout: Layout) -> dict[str, Any]:
             table: {
                 "frame_set": soft_methods.frame_set(layout, table),
                 "labels": soft_methods.labels(layout, table),
+                "scenes": soft_methods.shown_scenes(layout, table),
                 "radii": soft_methods.radii(layout, table),
             }
             for table in soft_tables(layout)

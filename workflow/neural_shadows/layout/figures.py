@@ -21,6 +21,7 @@ TOLD = {
     "quadtree": ("scene", "sampling", "seed"),
     "soft_equal_time": ("radii", "run"),
     "soft_pictures": ("labels", "run"),
+    "soft_radii": ("run",),
     "penumbra_model": ("run",),
     "screen_level_time": ("run",),
     "screen_sensitivity": ("run",),
@@ -62,7 +63,7 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
                 "losses": tables.networks(layout, curves, "loss.csv"),
                 "trainings": tables.networks(layout, curves, "training.json"),
             }
-        case "widths" | "pareto" | "learning_curves" | "soft_equal_time":
+        case "widths" | "pareto" | "learning_curves" | "soft_equal_time" | "soft_radii":
             return {"table": paths.report(f"{settings['table']}.csv")}
         case "screen_level_time" | "screen_sensitivity":
             return {"table": paths.report(f"{settings['table']}.csv")}

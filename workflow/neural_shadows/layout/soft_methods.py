@@ -15,14 +15,20 @@ from neural_shadows.layout.layout import Layout
 
 def methods(layout: Layout, table: str) -> list[str]:
     """The methods of a table in its order that this machine has, with those that know nothing."""
-    named = layout.entry("tables", table)["methods"]
-    return [*filter(available, named), *(method for method in NULL if method not in named)]
+    named = _named(layout, table)
+    # A summary has the rows that it names.
+    nulls = NULL if layout.entry("tables", table)["kind"] == "soft_methods" else ()
+    return [*filter(available, named), *(method for method in nulls if method not in named)]
 
 
 def left_out(layout: Layout, table: str) -> list[str]:
     """The others, as they are called."""
-    named = layout.entry("tables", table)["methods"]
-    return [LABELS[method] for method in named if not available(method)]
+    return [LABELS[method] for method in _named(layout, table) if not available(method)]
+
+
+def _named(layout: Layout, table: str) -> list[str]:
+    rows = layout.entry("tables", table)["methods"]
+    return [row if isinstance(row, str) else row["method"] for row in rows]
 
 
 def frame_set(layout: Layout, table: str) -> str:
@@ -121,20 +127,55 @@ def labels(layout: Layout, table: str) -> dict[str, str]:
 
 def label(layout: Layout, method: str) -> str:
     """What a method is called."""
-    known = layout.settings["screen_experiments"]
-    return known[method]["label"] if is_network(method) else LABELS[method]
+    if not is_network(method):
+        return LABELS[method]
+    by_scene, one = (layout.settings[key] for key in ("networks_by_scene", "screen_experiments"))
+    return (by_scene if method in by_scene else one)[method]["label"]
 
 
 def weights(layout: Layout, method: str) -> list[str]:
-    """The file of a network's weights; none of another method."""
+    """The files of the weights of a network, or of a network for each scene; none of another method."""
+    file = "weights.safetensors"
+    return [layout.paths.screen_network(file, name) for name in experiments(layout, method)]
+
+
+def experiments(layout: Layout, method: str) -> list[str]:
+    """The experiments that a method is: one of a network, several of one for each scene, or none."""
     if not is_network(method):
         return []
-    return [layout.paths.screen_network("weights.safetensors", method)]
+    by_scene = layout.settings["networks_by_scene"]
+    return by_scene[method]["experiments"] if method in by_scene else [method]
+
+
+def timed_methods(layout: Layout, table: str) -> dict[str, str | None]:
+    """The methods of a table, and of each the experiment that is timed: of several the first."""
+    return {one: next(iter(experiments(layout, one)), None) for one in methods(layout, table)}
 
 
 def timed_weights(layout: Layout, table: str) -> list[str]:
-    """The weights of the networks of a table."""
-    return [path for method in methods(layout, table) for path in weights(layout, method)]
+    """The weights of the networks of a table that are timed."""
+    return [
+        layout.paths.screen_network("weights.safetensors", name)
+        for name in timed_methods(layout, table).values()
+        if name
+    ]
+
+
+def trainings(layout: Layout, table: str) -> list[str]:
+    """training.json of the networks of a table."""
+    names = [name for method in methods(layout, table) for name in experiments(layout, method)]
+    return [layout.paths.screen_network("training.json", name) for name in names]
+
+
+def shown_scenes(layout: Layout, table: str) -> list[str]:
+    """The scenes whose test frames a table is of."""
+    settings = layout.entry("tables", table)
+    match settings.get("over"):  # of a summary
+        case "trained":
+            return frame_sets.tuned_scenes(layout, settings["frame_set"])
+        case "unseen":
+            return layout.entry("frame_sets", settings["frame_set"])["unseen"]
+    return frame_sets.measured_scenes(layout, settings["frame_set"])
 
 
 def radii(layout: Layout, table: str) -> list[str]:
@@ -145,6 +186,9 @@ def radii(layout: Layout, table: str) -> list[str]:
 
 
 def times(layout: Layout, table: str) -> list[str]:
-    """The times of a table; none of frames of a user's own, where there is no scene to ask."""
+    """The times of a table; none of one without a column for them, or of frames of a user's own, where
+    there is no scene to ask.
+    """
     own = layout.entry("frame_sets", frame_set(layout, table))["path"] is not None
-    return [] if own else [layout.paths.soft_times(table)]
+    timed = "time" in layout.entry("tables", table).get("metrics", ["time"])
+    return [layout.paths.soft_times(table)] if timed and not own else []

@@ -42,6 +42,13 @@ FILES = {
         "soft_constants",
         "lpips_json",
     ),
+    "soft_summary": (
+        "frames_json",
+        "soft_metrics",
+        "soft_times",
+        "trainings",
+        "published_kpnsm_csv",
+    ),
     "screen_levels": ("profile_json", "published_nsm_csv"),
     "screen_parts": ("profile_json", "published_nsm_csv"),
     "screen_networks": ("published_nsm_csv",),
@@ -58,6 +65,7 @@ TOLD = {
     "memory": ("published", "rows", "run"),
     "cost": ("run",),
     "soft_methods": ("labels", "left_out", "unseen", "run"),
+    "soft_summary": ("published", "methods", "by", "metrics", "measured", "run"),
     "screen_levels": ("published", "run"),
     "screen_parts": ("published", "run"),
     "screen_networks": ("published", "networks", "run"),
@@ -88,14 +96,17 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "lpips_json": paths.lpips,
         "published_csv": layout.source("config/published.csv"),
         "published_nsm_csv": layout.source("config/published_nsm.csv"),
+        "published_kpnsm_csv": layout.source("config/published_kpnsm.csv"),
         "costs": costs(layout, table) if kind == "cost" else [],
         "profile_json": paths.screen_profile(settings["network"]) if "network" in settings else [],
     }
-    if kind == "soft_methods":
+    if kind in ("soft_methods", "soft_summary"):
         values["soft_metrics"] = soft_methods.evaluations(layout, table, "csv")
         values["soft_times"] = soft_methods.times(layout, table)
         values["frames_json"] = soft_methods.tests(layout, settings["frame_set"])[0]
         values["soft_constants"] = soft_methods.constants(layout, table)
+    if kind == "soft_summary":
+        values["trainings"] = soft_methods.trainings(layout, table)
     if kind in screen_tables.KINDS:
         values |= screen_tables.files(layout, table)
     found = {name: values[name] for name in FILES[kind]}
@@ -122,6 +133,13 @@ def arguments(layout: Layout, table: str) -> dict[str, Any]:
         values["labels"] = soft_methods.labels(layout, table)
         values["left_out"] = soft_methods.left_out(layout, table)
         values["unseen"] = frame_set.get("unseen", [])
+    if settings["kind"] == "soft_summary":
+        values["methods"] = [
+            row | {"label": row["label"] or soft_methods.label(layout, row["method"])}
+            for row in settings["methods"]
+            if row["method"] in soft_methods.methods(layout, table)
+        ]
+        values["measured"] = soft_methods.shown_scenes(layout, table)
     if settings["kind"] in screen_tables.KINDS:
         values["labels"] = screen_tables.labels(layout, table)
     if settings["kind"] == "screen_networks":

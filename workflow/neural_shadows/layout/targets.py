@@ -95,7 +95,11 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
         "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "beyond": beyond(layout),
         "soft": soft(layout),
-        "networks": [one["label"] for one in layout.settings["screen_experiments"].values()],
+        "networks": [
+            one["label"]
+            for section in ("screen_experiments", "networks_by_scene")
+            for one in layout.settings[section].values()
+        ],
         "folded": [name for name, one in figures.items() if one["kind"] == "contact_sheet"],
         "missing": {},
         "rows": pictured(layout),
@@ -178,7 +182,8 @@ def beyond(layout: Layout) -> list[str]:
 
 def soft(layout: Layout) -> list[str]:
     """Names of the tables and figures of soft shadows."""
-    kinds = ("soft_methods", "soft_equal_time", "soft_pictures", "penumbra_model")
+    kinds = ("soft_methods", "soft_summary", "soft_equal_time", "soft_pictures", "soft_radii")
+    kinds += ("penumbra_model",)
     entries = [*layout.settings["tables"].items(), *layout.settings["figures"].items()]
     return [
         name

@@ -94,7 +94,7 @@ def test_it_is_measured_as_others_are(folder):
     out = folder / "tiny.csv", folder / "tiny.npz"
     parts = [folder / "blinds/test_000.json"], [folder / "blinds/light_000.json"]
     weights = folder / "tiny/weights.safetensors"
-    files = None, weights, folder / "lpips.json"
+    files = None, [weights], folder / "lpips.json"
     evaluate_soft(*parts, [], *files, *out, method="tiny")
     table = read_soft_metrics(out[:1])
     assert len(table[table["metric"] == "mse"]) == 3 * len(RADII)
@@ -105,12 +105,33 @@ def test_it_is_measured_as_others_are(folder):
     assert maps[0].shape == (32, 48) and not np.allclose(*maps)
 
 
+def test_of_several_networks_each_answers_the_scene_that_it_learned(folder, tmp_path):
+    """A scene that none has learned has no answers."""
+    weights = []
+    for scenes, seed in ((["atrium", "blinds"], 2), (["hall"], 3)):
+        network = small_answers()
+        network.initialise(seed)
+        weights.append(tmp_path / f"{scenes[0]}/weights.safetensors")
+        weights[-1].parent.mkdir()
+        header = {"network": NETWORK, "scenes": scenes, "radii": RADII, "radius_unit": "metres"}
+        save_screen_network(weights[-1], network, header)
+    found = []
+    for files in (weights, weights[:1], weights[1:] * 2):
+        out = tmp_path / "one.csv", tmp_path / "one.npz"
+        lpips = folder / "lpips.json"
+        parts = [folder / "blinds/test_000.json"]
+        evaluate_soft(parts, [], [], None, files, lpips, *out, method="of_scenes")
+        found.append(out[0].read_text())
+    assert found[0] == found[1] and found[2].count("\n") == 1  # the headings alone
+
+
 def test_times(folder):
     out = folder / "times.json"
     weights = [folder / "tiny/weights.safetensors"]
     parts = [folder / "blinds/test_000.json"]
-    time_soft_methods(parts, [], weights, [], out, methods=["hard", "tiny"], repeats=1)
-    found = json.loads(out.read_text())["methods"]["tiny"]
+    methods = {"hard": None, "of_scenes": "tiny"}  # one of several networks is timed for all
+    time_soft_methods(parts, [], weights, [], out, methods=methods, repeats=1)
+    found = json.loads(out.read_text())["methods"]["of_scenes"]
     assert all(ms > 0 for ms in found["ms"])
     count = sum(one.numel() for one in make_screen_network(NETWORK).parameters())
     assert found["held_bytes"] == 2 * count and found["texel_floats"] == 1

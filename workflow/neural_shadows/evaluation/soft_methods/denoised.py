@@ -85,7 +85,7 @@ def svgf_sequence(
 _filter = lru_cache(maxsize=1)(SvgfFilter)
 
 
-_RAYS = (1, 4, 16)
+_RAYS = (1, 4, 16, 30)
 _TRIED = {"sigma_luminance": (2.0, 4.0, 8.0)}
 _BY_RAYS = {"texel_floats": 0, "by_rays": True}
 

@@ -80,5 +80,5 @@ def _share_free(blocked, ways, normals):
 
 METHODS = {
     f"rt_{count}": SoftMethod(partial(ray_traced, samples=count), texel_floats=0, by_rays=True)
-    for count in (1, 2, 4, 8, 16, 32, 64)
+    for count in (1, 2, 4, 8, 16, 32, 40, 64)
 }

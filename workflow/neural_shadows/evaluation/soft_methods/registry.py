@@ -5,6 +5,7 @@ key, so that a result depends on the modules of its own methods alone, as networ
 Any other key is that of a trained network, which its file of weights tells.
 """
 
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -39,3 +40,18 @@ def soft_method(key: str, weights: Path | None = None) -> "SoftMethod":
     """The method of a key, if it is a network, with its weights."""
     module = import_module(f"neural_shadows.evaluation.soft_methods.{method_module(key).stem}")
     return module.screen_method(weights) if is_network(key) else module.METHODS[key]
+
+
+def soft_methods_by_scene(
+    key: str, weights: Sequence[Path] = ()
+) -> "Callable[[str], SoftMethod | None]":
+    """The method of a key, by scene: of several networks the one that learned it, or None."""
+    if len(weights) < 2:
+        method = soft_method(key, *weights)
+        return lambda scene: method
+    module = import_module("neural_shadows.evaluation.soft_methods.screen_network")
+    return {
+        scene: module.screen_method(path)
+        for path in weights
+        for scene in module.learned_scenes(path)
+    }.get

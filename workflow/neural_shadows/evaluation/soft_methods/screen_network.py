@@ -16,6 +16,7 @@ from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.networks.weight_file import load_tensors
 from neural_shadows.rendering.gbuffer import Lens, lens_of
 
 
@@ -26,6 +27,15 @@ def screen_method(weights: Path) -> SoftMethod:
         InputError: the file is damaged, or its weights are of another table of widths.
     """
     return _Answers(weights).method()
+
+
+def learned_scenes(weights: Path) -> list[str]:
+    """The scenes that a network was trained on.
+
+    Raises:
+        InputError: the file is damaged.
+    """
+    return load_tensors(weights)[1]["scenes"]
 
 
 class _Answers:

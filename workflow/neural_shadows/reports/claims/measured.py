@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.evaluation.method_names import NO_SHADOW
-from neural_shadows.evaluation.soft_method_names import is_network
 from neural_shadows.metrics.error_scale import error_of
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
@@ -178,7 +177,4 @@ def rows_of(claim: Mapping[str, Any]) -> list[Row]:
 
 def networks_of_frames(claim: Mapping[str, Any]) -> list[str]:
     """The trained networks of frames that a claim is about."""
-    named = claim.get("networks") or []
-    if claim["kind"] == "soft_better":
-        named = [name for pair in claim["pairs"] for name in pair if is_network(name)]
-    return [*dict.fromkeys(named)]
+    return [*dict.fromkeys(claim.get("networks") or [])]

@@ -2,17 +2,22 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from neural_shadows.evaluation.soft_method_names import is_network, rays_of
+from neural_shadows.metrics.error_scale import error_of
 from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.measured import Measured
 
 # What values are multiplied by, as their names in `NAMES` say.
 FACTORS = {"mse": 1e4, "l1": 100, "light_leak": 100, "false_shadow": 100}
+OF_ALL_LIGHTS = "all lights"
 
 
 @dataclass(frozen=True)
@@ -21,21 +26,37 @@ class SoftTable:
 
     Args:
         values: a row a frame (scene, part, frame), a column a (method, metric, radius).
-        labels: by method. times: what `time_soft_methods` wrote; radii: as they were given, with
-        their unit.
+        labels: by method. times: what `time_soft_methods` wrote; None of what is not timed; radii: as
+        they were given, with their unit.
     """
 
     values: pd.DataFrame
     labels: Mapping[str, str]
-    times: Mapping[str, Any]
+    times: Mapping[str, Any] | None
     radii: Sequence[str]
 
-    def milliseconds(self, method: str, radius: int) -> float:
-        """Of a frame, the map's making included; NaN of what is not timed."""
-        timed = self.times["methods"].get(method)
+    def milliseconds(self, method: str, radius: int | None) -> float:
+        """Of a frame, the map's making included; of no radius the mean over all; NaN of what is not
+        timed.
+        """
+        timed = self.times["methods"].get(method) if self.times else None
         if timed is None:
             return float("nan")
-        return timed["ms"][radius] + self.times["map_ms"] * (timed["texel_floats"] > 0)
+        own = np.mean(timed["ms"]) if radius is None else timed["ms"][radius]
+        return own + self.times["map_ms"] * (timed["texel_floats"] > 0)
+
+    def light(self, radius: int | None) -> str:
+        """What a radius is called."""
+        return OF_ALL_LIGHTS if radius is None else self.radii[radius]
+
+    def errors(self, method: str, metric: str, radius: int | None) -> pd.Series | None:
+        """Of each frame, less is better, SSIM as 1 − SSIM; None if it was not measured."""
+        radii = range(len(self.radii)) if radius is None else [radius]
+        columns = [(method, metric, k) for k in radii]
+        if any(one not in self.values for one in columns):
+            return None
+        found = FACTORS.get(metric, 1) * self.values[columns].mean(axis=1, skipna=False)
+        return found.map(partial(error_of, metric))
 
 
 def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
@@ -45,19 +66,22 @@ def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
 
 
 def better(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
-    """A comparison for each pair and radius, by paired differences over frames.
+    """A comparison for each pair, metric and radius, by paired differences over frames and seeds.
 
-    Frames say nothing of how trainings differ: of a network's one training nothing is judged.
+    Frames say nothing of how trainings differ: of fewer seeds of a network than the claim needs (two,
+    if it does not say) nothing is judged. Other seeds of a network are `again` of its name.
     """
-    table = data.soft[claim["table"]]
+    table, again = data.soft[claim["table"]], claim.get("again") or {}
+    needed = (claim.get("needs") or {}).get("seeds") or 2
     found = []
-    for pair in claim["pairs"]:
-        for radius in claim["radii"]:
-            one = _compared(table, claim["metric"], radius, pair, data.seed)
-            if not one.untested and any(map(is_network, pair)):
-                why = f"1 seed of {(claim.get('needs') or {}).get('seeds') or 2}"
-                one = replace(one, supports=False, against=1.0, untested=why)
-            found.append(one)
+    for pair, metric, radius in product(claim["pairs"], claim["metrics"], claim["radii"] or [None]):
+        runs = [[method, *again.get(method, ())] for method in pair]
+        seeds = min((len(one) for one in runs if is_network(one[0])), default=None)
+        one = _compared(table, metric, radius, [some[:seeds] for some in runs], data.seed)
+        if seeds is not None and seeds < needed and not one.untested:
+            why = f"{seeds} seed{'s' * (seeds > 1)} of {needed}"
+            one = replace(one, supports=False, against=1.0, untested=why)
+        found.append(one)
     return found
 
 
@@ -79,33 +103,36 @@ def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
                 why = unjudged(untested=f"no number of rays fits into {limit:.1f} ms")
                 found.append(Comparison("mse", table.labels[method], text, **why))
                 continue
-            one = _compared(table, "mse", radius, (rays, method), data.seed)
+            one = _compared(table, "mse", radius, ([rays], [method]), data.seed)
             found.append(one)
     return found
 
 
 def _compared(
-    table: SoftTable, metric: str, radius: int, pair: Sequence[str], seed: int
+    table: SoftTable, metric: str, radius: int | None, pair: Sequence[Sequence[str]], seed: int
 ) -> Comparison:
-    factor, labels = FACTORS.get(metric, 1), [table.labels[method] for method in pair]
-    kept = {
-        "metric": metric,
-        "methods": f"{' against '.join(labels)} at {table.radii[radius]}",
-    }
-    columns = [(method, metric, radius) for method in pair]
-    if missing := [one for one in columns if one not in table.values]:
-        told = f"no {NAMES[metric]} of {', '.join(table.labels[one[0]] for one in missing)}"
+    """Of two methods, each by its runs: of as many seeds, or one that all are compared with."""
+    names = [runs[0] for runs in pair]
+    labels, light = [table.labels[name] for name in names], table.light(radius)
+    kept = {"metric": metric, "methods": f"{' against '.join(labels)} at {light}"}
+    errors = [[table.errors(run, metric, radius) for run in runs] for runs in pair]
+    if missing := [label for label, some in zip(labels, errors) if any(x is None for x in some)]:
+        told = f"no {NAMES[metric]} of {', '.join(missing)}"
         return Comparison(**kept, text=kept["methods"], **unjudged(untested=told))
-    values = [factor * table.values[one] for one in columns]
+    frames = [pd.concat(some, axis=1) for some in errors]
+    means = [error_of(metric, one.mean(axis=None)) for one in frames]
     texts = [
-        f"{label} {one.mean():.3g} ({table.milliseconds(method, radius):.0f} ms)"
-        for label, one, method in zip(labels, values, pair)
+        f"{label} {mean:.3g}{_in_time(table.milliseconds(name, radius))}"
+        for label, name, mean in zip(labels, names, means)
     ]
-    gain = (values[1] - values[0]).dropna()
-    kept["text"] = f"{NAMES[metric]} at {table.radii[radius]} of {' against '.join(texts)}"
+    kept["text"] = f"{NAMES[metric]} at {light} of {' against '.join(texts)}"
+    first, second = (one.to_numpy() for one in frames)
+    gain = pd.DataFrame(second - first, frames[0].index).dropna()  # one run stands beside several
     if len(gain) < FEWEST_VIEWS:
         return Comparison(**kept, **unjudged(untested=f"{len(gain)} frames are too few"))
     scenes = gain.index.get_level_values("scene").to_numpy()
-    return Comparison(
-        **kept, **judged(*two_way_interval(gain.to_numpy()[None], seed, groups=scenes))
-    )
+    return Comparison(**kept, **judged(*two_way_interval(gain.to_numpy().T, seed, groups=scenes)))
+
+
+def _in_time(milliseconds: float) -> str:
+    return "" if np.isnan(milliseconds) else f" ({milliseconds:.0f} ms)"

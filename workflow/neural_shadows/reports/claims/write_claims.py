@@ -68,8 +68,8 @@ def write_claims(
         claims: by name, as `judge` takes them, with `section` and `statement`.
         learning_curves: `experiment`, `steps`, `seed` and `samples` of each training, by
             experiment; the budgets grow.
-        soft_tables: of each table of them its `frame_set`, the `labels` of its methods, and its `radii`
-            as texts.
+        soft_tables: of each table of them its `frame_set`, the `labels` of its methods, its `scenes`,
+            and its `radii` as texts.
 
     Raises:
         InputError: a file is missing, or a method lacks a value of a view that others have.
@@ -130,8 +130,9 @@ def _soft(
     found = {}
     for table, about in tables.items():
         mine = [path for path in metrics if path.parent.name == about["frame_set"]]
-        values = soft_values(read_soft_metrics(mine))
-        found[table] = SoftTable(values, about["labels"], timed[table], about["radii"])
+        measured = read_soft_metrics(mine)
+        values = soft_values(measured[measured["scene"].isin(about["scenes"])])
+        found[table] = SoftTable(values, about["labels"], timed.get(table), about["radii"])
     return found
 
 

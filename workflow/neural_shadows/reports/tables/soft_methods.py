@@ -14,6 +14,7 @@ from neural_shadows.metrics.intervals import two_way_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.reports import phrases
 from neural_shadows.reports.soft_looks import light_name
+from neural_shadows.reports.tables.soft_costs import cost, describe_bytes, describe_times
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -97,7 +98,8 @@ def write(
         "surface inside the light's map. What faces away from the light's centre is dark for all "
         "methods but rays. FLIP and LPIPS are of the first frame of each part.",
         *_describe_constants(chosen, labels),
-        *_describe_times(times),
+        *describe_times(times),
+        *describe_bytes(times),
         *_describe_flicker(table, found, radii, unit),
         *([f"Not to be had on this machine: {', '.join(left_out)}."] if left_out else []),
         phrases.describe_lpips(lpips),
@@ -139,20 +141,9 @@ def soft_table(
             row["psnr_pooled"] = float(psnr_of(max(row["mse"], 1e-10)))
             some = here[here["scene"].isin(unseen) & (here["metric"] == "mse")]["value"]
             row["mse_unseen"] = some.mean()
-            rows.append(row | _cost(times, method, number))
+            rows.append(row | cost(times, method, number))
     table = pd.DataFrame(rows)
     return table.merge(_flicker(found), on=["method", "number"], how="left")
-
-
-def _cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float]:
-    """Milliseconds and bytes; NaN where nothing was timed."""
-    if method not in times["methods"]:
-        return dict.fromkeys(("own_ms", "map_ms", "ms", "bytes"), np.nan)
-    timed = times["methods"][method]
-    own, floats = timed["ms"][number], timed["texel_floats"]
-    made = times["map_ms"] * (floats > 0)
-    held = 4 * floats * times["texels"] + timed["held_bytes"]
-    return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": held}
 
 
 def _flicker(found: pd.DataFrame) -> pd.DataFrame:
@@ -179,17 +170,6 @@ def _describe_flicker(
         f"radius of {radii[int(shown['number'].iloc[0])]:.3g} {unit}. Of the exact shadow itself "
         f"{shown['instability_reference'].iloc[0]:.3f}. In sequences the SVGF-like filter has its "
         "history, all else in this table is of single frames."
-    ]
-
-
-def _describe_times(times: Mapping[str, Any]) -> list[str]:
-    if not times["methods"]:
-        return []
-    return [
-        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
-        f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; methods that look at a map have {times['map_ms']:.1f} ms of "
-        "rasterising it in theirs. KiB: the map with its moments, or the fields. What only needs rays "
-        "has none, but the mesh and its tree, which all have for the primary rays."
     ]
 
 

@@ -1,0 +1,112 @@
+"""Summaries of methods for soft shadows beside printed numbers, and their figure, from made numbers."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+from report_samples import PUBLISHED as THESIS_CSV
+
+from neural_shadows.evaluation.soft_metrics import write_soft_metrics
+from neural_shadows.reports.figures import soft_radii
+from neural_shadows.reports.tables import soft_summary
+
+PUBLISHED = THESIS_CSV.with_name("published_kpnsm.csv")
+ABOUT = {"width": 8, "height": 4, "radii": [0, 0.5], "given_radii": [0, 0.25]}
+ABOUT |= {"radius_unit": "scene_sizes"}
+TIMES = {
+    **{"frames": 2, "repeats": 3, "once_above_ms": 100},
+    **{"map_ms": 10.0, "texels": 64, "machine": {"cpu": "a CPU"}},
+    "methods": {"pcss": {"ms": [1.0, 3.0], "texel_floats": 1, "held_bytes": 0}},
+}
+MSE = {"mine": 0.001, "pcss": 0.002}
+ROWS = [
+    {"method": "mine", "label": "Mine", "published": "ours_enhanced", "column": None},
+    {"method": "pcss", "label": "PCSS", "published": None, "column": None},
+]
+
+
+@pytest.fixture
+def files(tmp_path):
+    """Of each method twelve frames of two scenes, the second light and the second scene twice as wrong."""
+    paths = []
+    for method, mse in MSE.items():
+        rows = [
+            {"scene": scene, "part": "test_000", "frame": frame, "radius": k, "metric": name}
+            | {"value": value * (1 + k) * (2 if scene == "tree" else 1)}
+            for scene in ("room", "tree")
+            for frame in range(6)
+            for k in (0, 1)
+            for name, value in {"mse": mse, "ssim": 0.1}.items()
+        ]
+        for what, value in {"both": 0.03, "light": 0.02, "camera": 0.01}.items():
+            key = {"scene": "room", "part": f"{what}_000", "frame": 0, "radius": 1}
+            rows.append({**key, "metric": "temporal_error", "value": value})
+            rows.append({**key, "metric": "temporal_error_reference", "value": value / 2})
+            rows.append({**key, "metric": "mse_sequence", "value": mse})
+        paths.append(tmp_path / f"{method}.csv")
+        write_soft_metrics(paths[-1], rows)
+    for name, content in {"times": TIMES, "frames": ABOUT}.items():
+        (tmp_path / f"{name}.json").write_text(json.dumps(content))
+    return paths
+
+
+def summary(folder, files, **told):
+    csv, md = folder / "table.csv", folder / "table.md"
+    given = {"published": "kpnsm.1", "methods": ROWS, "by": None, "metrics": ["mse", "ssim"]}
+    soft_summary.write(
+        frames_json=folder / "frames.json",
+        soft_metrics=files,
+        trainings=[],
+        published_kpnsm_csv=PUBLISHED,
+        csv=csv,
+        md=md,
+        title="Title",
+        run={"scale": "test", "seed": 1},
+        **{"soft_times": None, "measured": ["room", "tree"], **given, **told},
+    )
+    return pd.read_csv(csv).set_index("method"), md.read_text(encoding="utf-8")
+
+
+def test_the_mean_over_all_lights_beside_what_is_printed(tmp_path, files):
+    times = {"soft_times": tmp_path / "times.json", "metrics": ["mse", "ssim", "time"]}
+    table, text = summary(tmp_path, files, **times)
+    assert table.loc["mine", "mse"] == pytest.approx(0.001 * 1.5 * 1.5)
+    assert table.loc["mine", "printed_mse"] == pytest.approx(9.67e-4)
+    assert table.loc["mine", "mse_minus_printed"] == pytest.approx(0.00225 - 9.67e-4, rel=1e-3)
+    assert table.loc["mine", "printed_ssim"] == 0.979 and table.loc["mine", "printed_time"] == 8.9
+    assert table.loc["pcss", "time"] == 12 and np.isnan(table.loc["pcss", "printed_mse"])
+    assert "12 frames of 8 × 4 of room, tree, and 2 radii" in text
+    assert "22.50" in text and "9.67" in text and "table 1 of Hu et al. 2025" in text
+
+
+def test_some_scenes_alone_and_a_printed_grid(tmp_path, files):
+    grid = [ROWS[0] | {"published": "layers_5", "column": "filters_3"}]
+    told = {"published": "kpnsm.2", "methods": grid, "measured": ["tree"], "metrics": ["mse"]}
+    table, text = summary(tmp_path, files, **told)
+    assert table.loc["mine", "mse"] == pytest.approx(0.003)
+    assert table.loc["mine", "printed_mse"] == pytest.approx(10.19e-4) and "of tree, and" in text
+
+
+def test_parts_by_scene_and_by_light(tmp_path, files):
+    by_scene, text = summary(tmp_path, files, published=None, by="scene")
+    assert by_scene.loc["mine", ["scene", "mse"]].to_numpy().tolist() == [
+        *(["room", pytest.approx(0.0015)], ["tree", pytest.approx(0.003)])
+    ]
+    assert "| scene" in text and "Printed" not in text
+    by_light, text = summary(tmp_path, files, published=None, by="radius")
+    assert by_light.loc["pcss", "mse"].to_numpy() == pytest.approx([0.003, 0.006])
+    assert "light of 0.25 S radius" in text
+    outputs = tmp_path / "figure.png", tmp_path / "figure.svg"
+    soft_radii.draw(tmp_path / "table.csv", *outputs, title="Radii", run={"scale": "test"})
+    assert "PCSS: MSE 30.0, 60.0 × 10⁻⁴ by radius" in outputs[1].read_text(encoding="utf-8")
+
+
+def test_the_temporal_error_is_that_of_light_and_eye_together(tmp_path, files):
+    rows = [ROWS[0] | {"published": "with_temporal_loss", "column": "ours_enhanced"}]
+    told = {"published": "kpnsm.3", "methods": rows, "metrics": ["temporal_error"]}
+    table, text = summary(tmp_path, files, **told)
+    row = table.loc["mine"]
+    assert row["temporal_error"] == 0.03 and row["temporal_error_light"] == 0.02
+    assert row["printed_temporal_error"] == pytest.approx(0.0368) and row["mse_sequence"] == 0.001
+    assert row["temporal_error_reference"] == 0.015 and "a sequence of room" in text

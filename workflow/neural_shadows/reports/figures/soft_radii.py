@@ -1,0 +1,56 @@
+"""Error over the light's radius, a line a method (Hu et al. 2025, figure 9)."""
+
+from itertools import cycle
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from neural_shadows.reports.figures import style
+from neural_shadows.reports.figures.chart import say, write_chart
+from neural_shadows.reports.soft_looks import SOFT_LOOKS, family_of
+from neural_shadows.reports.tables.writing import read_table
+from neural_shadows.running.stage import run_stage
+
+NUMBERS = ("radius", "mse", "mse_low", "mse_high")
+LINES = ("-", "--", ":", "-.")  # of methods of one family, in their order
+
+
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: style.Section) -> None:
+    """Draw the CSV of a table of `soft_summary` that is by radius.
+
+    Raises:
+        InputError: it is missing or not whole.
+    """
+    found = read_table(table, ("method", "label", "unit"), NUMBERS)
+    write_chart(radii_figure(found, title=f"{title} ({run['scale']} scale)"), png, svg)
+
+
+def radii_figure(table: pd.DataFrame, *, title: str) -> Figure:
+    """Mean squared error (logarithmic) over the radius, with its 95 % intervals.
+
+    Args:
+        table: `method`, `label`, `radius`, `unit`, `mse` with its ends.
+    """
+    figure = style.new_figure(title, 8, 5.4)
+    axes = figure.subplots()
+    known = table.dropna(subset="mse")
+    lines: dict[str, cycle] = {}
+    for method, rows in known.groupby("method", sort=False):
+        family = family_of(method)
+        look, label = SOFT_LOOKS[family], rows["label"].iloc[0]
+        drawn = {"color": look.colour, "marker": look.marker, "markersize": 5, "label": label}
+        drawn["linestyle"] = next(lines.setdefault(family, cycle(LINES)))
+        spread = [rows["mse"] - rows["mse_low"], rows["mse_high"] - rows["mse"]]
+        bars = axes.errorbar(rows["radius"], rows["mse"], spread, capsize=2, **drawn)
+        values = ", ".join(f"{1e4 * one:.1f}" for one in rows["mse"])
+        say(bars.lines[0], f"{label}: MSE {values} × 10⁻⁴ by radius")
+    axes.set(yscale="log", xlabel=f"radius of the light, {known['unit'].iloc[0]}")
+    axes.set_ylabel("mean squared error of visibility, lower is better\n(bars: 95 % intervals)")
+    axes.grid(**style.GRID)
+    style.legend_below(figure)
+    return figure
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, draw)

@@ -1,0 +1,38 @@
+"""What methods for soft shadows cost, as `time_soft_methods` wrote it."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+
+def cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float]:
+    """Milliseconds and bytes at a radius, counted from 0; NaN where nothing was timed."""
+    if method not in times["methods"]:
+        return dict.fromkeys(("own_ms", "map_ms", "ms", "bytes"), np.nan)
+    timed = times["methods"][method]
+    own, floats = timed["ms"][number], timed["texel_floats"]
+    made = times["map_ms"] * (floats > 0)
+    held = 4 * floats * times["texels"] + timed["held_bytes"]
+    return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": held}
+
+
+def describe_times(times: Mapping[str, Any]) -> list[str]:
+    """A note on how times were measured; none if nothing was timed."""
+    if not times["methods"]:
+        return []
+    return [
+        f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
+        f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; methods that look at a "
+        f"map have {times['map_ms']:.1f} ms of rasterising it in theirs."
+    ]
+
+
+def describe_bytes(times: Mapping[str, Any]) -> list[str]:
+    """A note on what counts as bytes; none if nothing was timed."""
+    if not times["methods"]:
+        return []
+    return [
+        "KiB: the map with its moments, or the fields. What only needs rays has none, but the mesh and "
+        "its tree, which all have for the primary rays."
+    ]

@@ -1,0 +1,241 @@
+"""Methods for soft shadows over all lights together, beside what is printed of them (Hu et al. 2025,
+tables 1 to 4, figures 7 and 9).
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.metrics.intervals import two_way_interval
+from neural_shadows.reports import phrases
+from neural_shadows.reports.published_kpnsm import (
+    PAPER,
+    printed_value,
+    read_published_kpnsm,
+    titled,
+)
+from neural_shadows.reports.soft_looks import light_name
+from neural_shadows.reports.tables.screen_rows import describe_trainings
+from neural_shadows.reports.tables.soft_costs import cost, describe_times
+from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
+UNITS = {"metres": "m", "scene_sizes": "S"}
+HEADS = {
+    "mse": ("MSE × 10⁻⁴ ↓", "{:.2f}", 1e4),
+    "ssim": ("SSIM ↑", "{:.3f}", 1),
+    "time": ("ms", "{:.1f}", 1),
+    "temporal_error": ("temporal error × 10⁻² ↓", "{:.2f}", 100),
+}
+
+Row = Mapping[str, Any]
+
+
+def write(
+    *,
+    frames_json: Path,
+    soft_metrics: list[Path],
+    soft_times: Path | None,
+    trainings: list[Path],
+    published_kpnsm_csv: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    published: str | None,
+    methods: Sequence[Row],
+    by: str | None,
+    metrics: Sequence[str],
+    measured: Sequence[str],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a row for each method, or for each scene or radius and method.
+
+    CSV: those of `summary_table`, and the scale.
+
+    Args:
+        frames_json: a part of the frame set's test frames.
+        soft_metrics: of each method; trainings: training.json of the networks.
+        soft_times: what `time_soft_methods` wrote; None where `metrics` has no time.
+        published: `kpnsm.` and the paper's number of the table; None for one that it only draws.
+        methods: `method`, `label` and, None if nothing is printed, `published` and `column`.
+        by: `scene`, `radius`, or None; metrics: of `HEADS`.
+        measured: the scenes whose frames count.
+    """
+    about = read_json(frames_json)
+    found = read_soft_metrics(soft_metrics)
+    times = read_json(soft_times) if soft_times else {"methods": {}}
+    unit = UNITS[about.get("radius_unit", "metres")]
+    radii = about.get("given_radii", about["radii"])
+    numbers = read_published_kpnsm(published_kpnsm_csv)
+    frames = found[found["scene"].isin(measured)]
+    records = [
+        group | _row(some, found, times, row, metrics, len(radii), run["seed"])
+        for group, some in _groups(frames, by, measured, radii)
+        for row in methods
+    ]
+    table = pd.DataFrame(records)
+    for metric in metrics:
+        table = _with_printed(table, metric, published, methods, numbers)
+    table = table.assign(unit=unit, scale=run["scale"])
+    notes = [
+        *_describe_frames(frames, metrics, about, radii, unit),
+        *([_describe_sequences(found, metrics)] if "temporal_error" in metrics else []),
+        f"Printed: {PAPER}, their scenes, whole frames of 2048 × 1024, milliseconds of an RTX 4090.",
+        *describe_times(times),
+        *describe_trainings(_records(trainings), {row["method"]: row["label"] for row in methods}),
+        phrases.describe_run(run),
+    ]
+    if published is None:
+        notes = [note for note in notes if not note.startswith("Printed: ")]
+    heading, cells = titled(title, published), _cells(table, by, metrics, unit)
+    write_twins(table, cells, csv, md, title=heading, notes=notes, text_columns=1 + bool(by))
+
+
+def _groups(
+    frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Sequence[float]
+) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
+    """The frames of each part of the table, and the columns that tell it."""
+    match by:
+        case "scene":
+            for scene in scenes:
+                yield {"scene": scene}, frames[frames["scene"] == scene]
+        case "radius":
+            for number, radius in enumerate(radii):
+                yield {"number": number, "radius": radius}, frames[frames["radius"] == number]
+        case _:
+            yield {}, frames
+
+
+def _row(
+    frames: pd.DataFrame,
+    found: pd.DataFrame,
+    times: Mapping[str, Any],
+    row: Row,
+    metrics: Sequence[str],
+    radii: int,
+    seed: int,
+) -> dict[str, Any]:
+    """A method's row: `method`, `label`, and what `metrics` name."""
+    mine = frames[frames["method"] == row["method"]]
+    values: dict[str, Any] = {"method": row["method"], "label": row["label"]}
+    if "mse" in metrics:
+        values |= _mean(mine, "mse", seed)
+    if "ssim" in metrics:
+        values |= _mean(mine, "ssim", seed)
+    if "time" in metrics:
+        values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
+    if "temporal_error" in metrics:
+        values |= _in_sequences(found[found["method"] == row["method"]])
+    return values
+
+
+def _mean(frames: pd.DataFrame, metric: str, seed: int) -> dict[str, float]:
+    """The mean over frames, of each over its radii, and the ends of its interval; NaN of no frame."""
+    each = frames[frames["metric"] == metric].groupby(["scene", "part", "frame"])["value"].mean()
+    if each.empty:
+        return dict.fromkeys((metric, f"{metric}_low", f"{metric}_high"), np.nan)
+    scenes = each.index.get_level_values("scene").to_numpy()
+    mean, low, high, _ = two_way_interval(each.to_numpy()[None], seed, groups=scenes)
+    return {metric: mean, f"{metric}_low": low, f"{metric}_high": high}
+
+
+def _in_sequences(mine: pd.DataFrame) -> dict[str, float]:
+    """The temporal error by what moves, the exact shadow's own, and the squared error there."""
+    moves = mine["part"].str.rsplit("_", n=1).str[0]
+
+    def mean(metric: str, what: str) -> float:
+        return float(mine[(mine["metric"] == metric) & (moves == what)]["value"].mean())
+
+    return {
+        "temporal_error": mean("temporal_error", MOVES[0]),
+        **{f"temporal_error_{what}": mean("temporal_error", what) for what in MOVES[1:]},
+        "temporal_error_reference": mean("temporal_error_reference", MOVES[0]),
+        "mse_sequence": mean("mse_sequence", MOVES[0]),
+    }
+
+
+def _with_printed(
+    table: pd.DataFrame,
+    metric: str,
+    published: str | None,
+    methods: Sequence[Row],
+    numbers: pd.Series,
+) -> pd.DataFrame:
+    """The table with `printed_METRIC` and `METRIC_minus_printed`."""
+    printed = [
+        printed_value(numbers, published, row["published"], row["column"], metric)
+        for row in methods
+    ]
+    table = table.assign(**{f"printed_{metric}": printed * (len(table) // len(methods))})
+    return table.assign(**{f"{metric}_minus_printed": table[metric] - table[f"printed_{metric}"]})
+
+
+def _cells(
+    table: pd.DataFrame, by: str | None, metrics: Sequence[str], unit: str
+) -> dict[str, Sequence[str]]:
+    """What the Markdown shows, by heading; columns without anything are left out."""
+    cells: dict[str, Sequence[str]] = {}
+    if by == "scene":
+        cells["scene"] = table["scene"]
+    if by == "radius":
+        cells["light"] = [light_name(radius, unit) for radius in table["radius"]]
+    cells["method"] = table["label"]
+    for metric in metrics:
+        head, form, factor = HEADS[metric]
+        cells[head] = number_cells(table[metric], form, factor)
+        if metric == "mse":
+            cells[head] = interval_cells(table, ["mse", "mse_low", "mse_high"], 2, factor)
+        cells[f"{head.split(' ')[0]}, printed"] = number_cells(
+            table[f"printed_{metric}"], form, factor
+        )
+        if metric == "temporal_error":
+            for what in MOVES[1:]:
+                column = table[f"temporal_error_{what}"]
+                cells[f"{what} alone"] = number_cells(column, form, factor)
+            exact = table["temporal_error_reference"]
+            cells["exact shadow's"] = number_cells(exact, form, factor)
+            cells["MSE × 10⁻⁴ in sequence"] = number_cells(table["mse_sequence"], "{:.1f}", 1e4)
+    return {head: column for head, column in cells.items() if any(column)}
+
+
+def _records(trainings: Sequence[Path]) -> dict[str, Any]:
+    return {path.parent.name: read_json(path) for path in trainings}
+
+
+def _describe_frames(
+    frames: pd.DataFrame,
+    metrics: Sequence[str],
+    about: Mapping[str, Any],
+    radii: Sequence[float],
+    unit: str,
+) -> list[str]:
+    if not {"mse", "ssim"} & set(metrics):
+        return []
+    one = frames[(frames["metric"] == "mse") & (frames["radius"] == 0)]
+    count = one.groupby("method").size().max()
+    return [
+        f"Mean over {count} frames of {about['width']} × {about['height']} of "
+        f"{', '.join(one['scene'].unique())}, and {len(radii)} "
+        f"radii of the light from {radii[0]:g} to {radii[-1]:g} {unit}, all with the same weight "
+        "[95 % bootstrap interval over frames within scenes]."
+    ]
+
+
+def _describe_sequences(found: pd.DataFrame, metrics: Sequence[str]) -> str:
+    where = found[found["metric"] == "temporal_error"]["scene"].unique()
+    return (
+        "Temporal error: root of the mean squared change along a point's way from frame to frame, "
+        f"over all pixels (eq. 7), in a sequence of {', '.join(where)} in which light and camera move, "
+        "or one of them alone; the exact shadow's own is what truly changes. Blur lowers it: so the "
+        "squared error stands beside it."
+    )
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)
