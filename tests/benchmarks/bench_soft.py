@@ -17,7 +17,7 @@ from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.shadow_maps.light_map import LightMap
-from neural_shadows.shadow_maps.moments import box
+from neural_shadows.shadow_maps.moments import MOMENT_BIAS, box
 
 SCENE = {"generate": "room", "seed": 2026, "inserted": {}}
 RADIUS = 0.125  # metres
@@ -180,7 +180,7 @@ def numpy_moments(frame: SoftFrame) -> np.ndarray:
     for axis in (0, 1):
         moments = np.apply_along_axis(np.convolve, axis, moments, kernel, "same")
     texels = np.maximum(_numpy_texels(frame.light_map, frame.light_map.faces[0] @ frame.ways.T), 0)
-    b = (1 - 3e-5) * moments.reshape(-1, 4)[texels] + 1.5e-5
+    b = (1 - MOMENT_BIAS) * moments.reshape(-1, 4)[texels] + MOMENT_BIAS / 2
     z = (np.linalg.norm(frame.ways, axis=1) - frame.bias) / far
     one = np.ones_like(z)
     rows_ = [[one, b[:, 0], b[:, 1]], [b[:, 0], b[:, 1], b[:, 2]], [b[:, 1], b[:, 2], b[:, 3]]]

@@ -12,7 +12,9 @@ import numpy as np
 from numba import njit
 
 LEAST_VARIANCE = 1e-6
-MOMENT_BIAS = 3e-5  # towards (½, ½, ½, ½); with float32 moments
+# Towards (½, ½, ½, ½), for moments of 32 bits. Of 16 they need 3e-5, which here doubles the light that
+# leaks into the dark of windows without an area (gallery 1.30 % for 0.66, hall 1.17 for 0.67).
+MOMENT_BIAS = 3e-7
 # Lauritzen's constants of float32 maps.
 POSITIVE, NEGATIVE = 40.0, 5.0
 
