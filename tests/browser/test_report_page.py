@@ -2,6 +2,7 @@
 
 import pytest
 from report_page import HOSTILE, LABELS, POINTS, make_page
+from soft_pictures import write_soft_pictures
 
 
 @pytest.fixture(scope="module")
@@ -11,7 +12,7 @@ def address(tmp_path_factory):
 
 @pytest.fixture
 def open_page(browser, address):
-    def open_page(width=1280, height=900, scheme="light", state=""):
+    def open_page(width=1280, height=900, scheme="light", state="", address=address):
         size = {"width": width, "height": height}
         page = browser.new_page(viewport=size, color_scheme=scheme)
         page.set_default_timeout(10_000)
@@ -182,6 +183,28 @@ def test_what_is_shown_of_a_method_and_that_the_reference_has_no_errors(open_pag
         assert scale.nth(1).is_visible() == (shown == "map")
     assert True not in seen["errors"] and seen["frame"] == [*seen["errors"][:2], True]
     assert seen["map"][1:] == [True, True]
+
+
+def test_a_soft_shadow_s_errors_lie_on_its_picture_or_on_white(open_page, tmp_path):
+    soft = make_page(tmp_path, references=[], **write_soft_pictures(tmp_path)).as_uri()
+    page = open_page(address=soft)
+    views = page.locator(".view option").all_inner_texts()
+    assert len(views) == 4 and views[3] == "tree, light of 0.25 m radius"
+    page.locator(".view").select_option("1")
+    under, over = sources(page)
+    assert True not in over and under[1:] == [True, True]
+    first = page.locator(".over img:first-child")
+    page.locator(".shown").select_option("map")
+    _, alone = sources(page)
+    assert alone[1] is True and alone[2] == over[2]
+    assert first.evaluate("image => getComputedStyle(image).visibility") == "hidden"
+    paper = page.locator(".over").evaluate("layer => getComputedStyle(layer).backgroundColor")
+    assert paper == "rgb(255, 255, 255)" and page.locator(".scale").is_visible()
+    # The exact shadow has no errors: it is shown.
+    page.locator(".left").select_option("reference")
+    assert first.evaluate("image => getComputedStyle(image).visibility") == "visible"
+    page.locator(".shown").select_option("frame")
+    assert page.locator(".scale").is_hidden() and page.messages == []
 
 
 def test_a_double_click_zooms_and_leaves_the_divider(open_page):

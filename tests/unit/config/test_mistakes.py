@@ -97,6 +97,7 @@ screen_networks.nsm.features | [z, z] | screen_networks.nsm.features: 'z' is the
 tables.nsm_table_s2.network | nms | tables.nsm_table_s2.network: 'nms' (did you mean 'nsm'?) is not among
 figures.figure_nsm_level_time.table | cost | 'cost' is not among nsm_table_s3
 figures.figure_soft_equal_time.radii | [9] | radii: 9 is not among 0 to 4, the radii of 'frames'
+figures.figure_soft_pictures.radii | [-1] | radii: -1 is not among 0 to 4, the radii of 'frames'
 """
 
 

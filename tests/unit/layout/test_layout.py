@@ -181,6 +181,21 @@ def test_a_page_is_told_its_first_figure_and_every_method_s_kind(desk):
     assert kinds.items() <= told["kinds"].items()
 
 
+def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
+    made, told = targets.page_files(desk), targets.page_arguments(desk)["soft_pictures"]
+    assert "results/frames/nsm/room_dragon/test_000.json" in made["soft_parts"]
+    assert "results/soft_evaluations/nsm/nsm.npz" in made["soft_answers"]
+    assert len(made["soft_answers"]) == len(set(made["soft_answers"]))
+    shown = {(one["table"], one["scene"]): one for one in told}
+    one = shown["nsm_methods", "room_dragon"]
+    assert one["frame_set"] == "nsm" and one["radii"] == [1, 2, 4]
+    assert one["labels"]["nsm"] == "Neural Shadow Mapping"
+    chosen = layout_of(figures={"figure_nsm_pictures": {"radii": [0, 3]}})
+    assert figures.arguments(chosen, "figure_nsm_pictures")["radii"] == [0, 3]
+    # None of them is asked for where there are no such figures.
+    assert targets.page_files(layout_of("claims"))["soft_parts"] == []
+
+
 def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert targets.newest(desk) == 0

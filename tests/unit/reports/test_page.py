@@ -5,6 +5,7 @@ from collections import Counter
 
 import pytest
 from report_page import HOSTILE, LABELS, SHARED, VIEWER, make_page
+from soft_pictures import write_soft_pictures
 
 
 @pytest.fixture(scope="module")
@@ -92,3 +93,14 @@ def test_what_is_asked_for_and_not_there_is_named_once_where_it_would_stand(tmp_
 def test_the_first_viewer_is_in_the_page_and_the_others_are_named(text):
     assert "files of the same folder: viewer_fence.html" in text
     assert "Not made yet" not in text
+
+
+def test_soft_shadows_are_compared_and_led_to_from_their_tables(tmp_path):
+    soft = write_soft_pictures(tmp_path)
+    text = make_page(tmp_path, **soft, soft=["tables"]).read_text()
+    assert text.count('<article class="compare"') == 2
+    assert attributes(text, "id").count("compare-soft-rivals") == 1
+    section = text[text.index('<section id="soft">') :]
+    assert 'href="#compare-soft-rivals"' in section
+    # Hard shadows have a FLIP map, soft ones errors by their size.
+    assert text.count("FLIP map</option>") == text.count("errors alone</option>") == 1

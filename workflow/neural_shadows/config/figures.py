@@ -123,12 +123,21 @@ class SoftTableFigure(AnyFigure):
 
 
 class SoftPicturesFigure(AnyFigure):
-    """A frame by methods of a table of soft shadows, with their errors, at several radii."""
+    """A frame by methods of a table of soft shadows, with their errors, at several radii.
+
+    The page lets any two of them be compared.
+    """
 
     kind: Literal["soft_pictures"] = Field(description="`soft_pictures`")
     table: Name = Field(description="a table of `soft_methods` in `tables`")
     soft_scene: name_in("soft_scenes") = Field(description="whose first test frame is shown")
     methods: list[str] = Field(min_length=1, description="which of the table's methods")
+    radii: list[int] | None = Field(
+        None,
+        min_length=1,
+        description="which radii, counted from 0; by default the least but a point, the middle "
+        "and the largest",
+    )
 
 
 class SoftRadiiFigure(AnyFigure):
@@ -228,6 +237,12 @@ def rows_of_figure(config: "Config", figure: AnyFigure) -> list[Row]:
         drawn = [row for row in rows if row["method"] != RAY_TRACED and not is_null(row["method"])]
         rows = [row for row in drawn if not figure.methods or row["method"] in figure.methods]
     return rows
+
+
+def radii_of(config: "Config", figure: SoftPicturesFigure) -> list[int]:
+    """The radii of a figure's frame set that it shows, counted from 0."""
+    count = len(config.frame_sets[config.tables[figure.table].frame_set].radii)
+    return figure.radii or sorted({min(1, count - 1), count // 2, count - 1})
 
 
 def check(config: "Config") -> None:

@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING, Any
 from neural_shadows.config import screen_experiments
 from neural_shadows.config.claims import compared, networks_of_claim, rows_of_claim
 from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
-from neural_shadows.config.figures import LossFigure, TableFigure, rows_of_figure, scene_of
+from neural_shadows.config.figures import (
+    LossFigure,
+    SoftPicturesFigure,
+    TableFigure,
+    radii_of,
+    rows_of_figure,
+    scene_of,
+)
 from neural_shadows.config.frame_sets import as_settings
 from neural_shadows.config.learning_curves import points_of
 from neural_shadows.config.scenes import mesh_name
@@ -18,7 +25,7 @@ if TYPE_CHECKING:
 Section = dict[str, Any]
 
 # Figures of tables whose rows are no methods of a scene's frames.
-WITHOUT_ROWS = ("cost", "soft_equal_time", "soft_pictures", "soft_radii")
+WITHOUT_ROWS = ("cost", "soft_equal_time", "soft_radii")
 WITHOUT_ROWS += ("screen_level_time", "screen_sensitivity", "screen_flicker")
 
 
@@ -108,6 +115,8 @@ def _figure(config: "Config", name: str) -> Section:
     if isinstance(figure, LossFigure):
         for curve in section["curves"]:
             curve["label"] = formatted(config, curve["experiment"], curve["label"])
+    elif isinstance(figure, SoftPicturesFigure):
+        section["radii"] = radii_of(config, figure)
     elif hasattr(figure, "table") and figure.kind not in WITHOUT_ROWS:
         section["rows"] = rows_of_figure(config, figure)
         if not isinstance(figure, TableFigure):

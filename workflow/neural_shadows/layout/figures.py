@@ -1,5 +1,6 @@
 """What each kind of figure is made of: its files, and what its function is told."""
 
+from collections.abc import Iterable
 from typing import Any
 
 from neural_shadows.evaluation.soft_method_names import available
@@ -20,7 +21,7 @@ TOLD = {
     "overview": ("scene", "sampling", "seed"),
     "quadtree": ("scene", "sampling", "seed"),
     "soft_equal_time": ("radii", "run"),
-    "soft_pictures": ("labels", "run"),
+    "soft_pictures": ("labels", "radii", "run"),
     "soft_radii": ("run",),
     "penumbra_model": ("run",),
     "screen_level_time": ("run",),
@@ -117,6 +118,35 @@ def arguments(layout: Layout, figure: str) -> dict[str, Any]:
     if "sampling" in settings:
         values["sampling"] = layout.entry("samplings", settings["sampling"])
     return {key: values[key] for key in ("title", *TOLD.get(settings["kind"], ("scene",)))}
+
+
+def soft_picture_files(layout: Layout, figures: Iterable[str]) -> dict[str, list[str]]:
+    """What those among some figures that show frames of soft shadows are made of, each once."""
+    entries = layout.settings["figures"]
+    shown = [files(layout, name) for name in figures if entries[name]["kind"] == "soft_pictures"]
+    return {
+        "soft_parts": tables.unique(one["part"] for one in shown),
+        "soft_answers": tables.unique(path for one in shown for path in one["answers"]),
+    }
+
+
+def soft_pictures(layout: Layout) -> list[dict[str, Any]]:
+    """Which frames of soft shadows figures show, as `soft_comparisons` takes them."""
+    found = []
+    for name, figure in layout.settings["figures"].items():
+        if figure["kind"] == "soft_pictures":
+            told, table = arguments(layout, name), figure["table"]
+            found.append(
+                {
+                    "table": table,
+                    "title": layout.entry("tables", table)["title"],
+                    "frame_set": soft_methods.frame_set(layout, table),
+                    "scene": figure["soft_scene"],
+                    "labels": told["labels"],
+                    "radii": told["radii"],
+                }
+            )
+    return found
 
 
 def _scene(layout: Layout, figure: str) -> str | None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.layout import claims, tables
+from neural_shadows.layout.figures import soft_picture_files, soft_pictures
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.figures import opengl
 from neural_shadows.reports.method_look import kind_of
@@ -52,7 +53,9 @@ def page_files(layout: Layout) -> dict[str, Any]:
     settings, paths = layout.settings, layout.paths
     rows = pictured(layout)
     scenes = tables.unique(row["scene"] for row in rows)
-    return _reports(layout, default_tables(layout), default_figures(layout)) | {
+    figures = default_figures(layout)
+    shown = _reports(layout, default_tables(layout), figures) | soft_picture_files(layout, figures)
+    return shown | {
         "claims_md": [paths.report("claims.md")] if settings["claims"] else [],
         "viewers": [paths.report(f"{name}.html") for name in settings["viewers"]],
         "references": tables.references(layout, scenes),
@@ -100,6 +103,7 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
             for section in ("screen_experiments", "networks_by_scene")
             for one in layout.settings[section].values()
         ],
+        "soft_pictures": soft_pictures(layout),
         "folded": [name for name, one in figures.items() if one["kind"] == "contact_sheet"],
         "missing": {},
         "rows": pictured(layout),

@@ -1,7 +1,7 @@
 """The page's frames to compare: a view of each view set by every method, for each scene."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,14 @@ from neural_shadows.reports.method_look import LOOKS, REFERENCE, look_of
 from neural_shadows.reports.page_blocks import webp_uri
 
 MAP_LEVELS = 64  # of a FLIP map: steps of 0.016, and files a third as large as of 256
-SCORES = {"lpips": "LPIPS {:.4f}", "psnr": "PSNR {:.2f} dB", "flip": "FLIP {:.4f}"}
+REFERENCE_NAME = f"{LOOKS[REFERENCE].symbol} Reference"
+# Squared errors in 10⁻⁴, as tables have them.
+SCORES = {
+    "mse": "MSE {:.1f} × 10⁻⁴",
+    "lpips": "LPIPS {:.4f}",
+    "psnr": "PSNR {:.2f} dB",
+    "flip": "FLIP {:.4f}",
+}
 
 
 def frame_comparisons(
@@ -44,58 +51,88 @@ def frame_comparisons(
         frames = read_frames(paths, answered.get(scene, []), values, views)
         if not frames:
             continue
-        # Of a page that is made half-way: what each of the views has.
-        methods = [key for key in frames[0].images if all(key in one.images for one in frames)]
         here = {row["method"]: row for row in rows if row["scene"] == scene}
-        comparisons.append(
-            {
-                "scene": scene,
-                "title": f"{scene}: {meshes.get(scene, '')}",
-                "rule": RULE,
-                "methods": [{"key": key, "name": name} for key, name in _names(methods, here)],
-                "left": _shown_first(methods, here, frames),
-                "right": REFERENCE,
-                "views": [_view(frame, methods) for frame in frames],
-            }
-        )
+        title = f"{scene}: {meshes.get(scene, '')}"
+        shown = comparison(scene, title, frames, _names(here), _shown_first(here, frames), _layers)
+        comparisons.append(shown | {"rule": RULE, "flip": True})
     return comparisons
 
 
-def _names(methods: Sequence[str], rows: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, str]]:
+def comparison(
+    name: str,
+    title: str,
+    frames: Sequence[Frame],
+    names: Mapping[str, str],
+    left: str,
+    layers: Callable[[np.ndarray, np.ndarray], dict[str, Image.Image]],
+) -> dict[str, Any]:
+    """Frames and methods to choose among, as data for the page's script.
+
+    Args:
+        names: of methods, with their symbols; left: the method that is shown first.
+        layers: of a method's image and the reference (H, W) in [0, 1], what the script lays over
+            the reference (`errors`), or shows in its place (`map`), by name.
+    """
+    methods = shared_methods(frames)
+    return {
+        "name": name,
+        "title": title,
+        "methods": [{"key": key, "name": names.get(key, key)} for key in methods],
+        "left": left,
+        "right": REFERENCE,
+        "views": [_view(frame, methods, layers) for frame in frames],
+    }
+
+
+def shared_methods(frames: Sequence[Frame]) -> list[str]:
+    """The methods that all frames have, or of a page that is made half-way those that it can show."""
+    return [key for key in frames[0].images if all(key in one.images for one in frames)]
+
+
+def _names(rows: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
     """Methods with their symbols and labels; two of one label bear their keys."""
     counts = Counter(row["label"] for row in rows.values())
-    names = {REFERENCE: f"{LOOKS[REFERENCE].symbol} Reference"}
+    names = {REFERENCE: REFERENCE_NAME}
     for key, row in rows.items():
         names[key] = f"{look_of(row).symbol} {row['label']}"
         if counts[row["label"]] > 1:
             names[key] += f" ({key})"
-    return [(key, names.get(key, key)) for key in methods]
+    return names
 
 
-def _shown_first(
-    methods: Sequence[str], rows: Mapping[str, Mapping[str, Any]], frames: Sequence[Frame]
-) -> str:
+def _shown_first(rows: Mapping[str, Mapping[str, Any]], frames: Sequence[Frame]) -> str:
     """The trained network that errs least in the frames, or the method that does."""
+    return errs_least(frames, "flip", [key for key, row in rows.items() if row["trained"]])
+
+
+def errs_least(frames: Sequence[Frame], metric: str, networks: Collection[str]) -> str:
+    """The one of some networks that errs least in frames that have it, or the method that does."""
 
     def rank(method: str) -> tuple[bool, float]:
-        trained = method in rows and rows[method]["trained"]
-        return not trained, sum(one.scores[method]["flip"] for one in frames)
+        return method not in networks, sum(one.scores[method][metric] for one in frames)
 
-    return min([m for m in methods if m != REFERENCE], key=rank, default=REFERENCE)
+    methods = [one for one in shared_methods(frames) if one != REFERENCE]
+    return min(methods, key=rank, default=REFERENCE)
 
 
-def _view(frame: Frame, methods: Sequence[str]) -> dict[str, Any]:
+def _layers(image: np.ndarray, reference: np.ndarray) -> dict[str, Image.Image]:
+    return {
+        "errors": Image.fromarray(error_layer(image, reference)),
+        "map": map_picture(flip_map(image, reference)),
+    }
+
+
+def _view(frame: Frame, methods: Sequence[str], layers: Callable) -> dict[str, Any]:
     reference = frame.images[REFERENCE]
     pictures = {REFERENCE: {"scores": ""}}
     for method in methods:
         if method == REFERENCE:
             continue
         image, scores = frame.images[method], frame.scores[method]
-        pictures[method] = {
-            "change": webp_uri(Image.fromarray(change_layer(image, reference))),
-            "errors": webp_uri(Image.fromarray(error_layer(image, reference))),
-            "map": webp_uri(map_picture(flip_map(image, reference))),
-            "scores": ", ".join(SCORES[key].format(scores[key]) for key in SCORES if key in scores),
+        shown = {"change": Image.fromarray(change_layer(image, reference))}
+        shown |= layers(image, reference)
+        pictures[method] = {name: webp_uri(layer) for name, layer in shown.items()} | {
+            "scores": ", ".join(SCORES[key].format(scores[key]) for key in SCORES if key in scores)
         }
     height, width = reference.shape
     return {

@@ -17,6 +17,8 @@ VISIBLE_DIFFERENCE = 0.05
 FEW = 0.0005  # of a frame's pixels: a method with fewer wrong ones has less of a say
 CROP_SHARES = (0.2, 0.06)  # of the frame's height and width
 TINT = 0.75  # of an error's colour; the rest is the picture's
+FULL = 0.5  # a soft shadow's error of so much visibility has the whole colour
+SHADES = 8  # of these colours: a layer of 512 × 256 has 18 KB, with 16 it has 25
 
 
 class Window(NamedTuple):
@@ -82,6 +84,20 @@ def error_layer(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.n
     shown, most = maximum_filter(wrong != 0, size), uniform_filter(wrong, size)
     for where, colour in ((most <= 0, FALSE_SHADOW), (most > 0, LIGHT_LEAK)):
         layer[shown & where] = np.round(255 * np.array(to_rgba(colour, TINT)))
+    return layer
+
+
+def graded_layer(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """What to lay over a soft shadow (H, W), or white: RGBA (H, W, 4) uint8, by how wrong it is.
+
+    Its opacity grows with the error, from none to all at `FULL`.
+    """
+    difference = image - reference
+    share = np.round(SHADES * np.clip(np.abs(difference) / FULL, 0, 1)) / SHADES
+    layer = np.zeros((*image.shape, 4), np.uint8)
+    for where, colour in ((difference < 0, FALSE_SHADOW), (difference > 0, LIGHT_LEAK)):
+        layer[where & (share > 0)] = np.round(255 * np.array(to_rgba(colour)))
+    layer[..., 3] = np.round(255 * share)
     return layer
 
 

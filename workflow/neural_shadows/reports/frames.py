@@ -20,19 +20,13 @@ View = tuple[str, int]  # a view set and a number in it
 class Frame:
     """A viewpoint by `reference` and by methods: grey `images` (H, W) float32 in [0, 1].
 
-    `scores` are by method and metric; the view is one of `count` of its set.
+    `caption` says which it is; `scores` are by method and metric.
     """
 
     view: View
-    count: int
+    caption: str
     images: dict[str, np.ndarray]
     scores: dict[str, dict[str, float]] = field(default_factory=dict)
-
-    @property
-    def caption(self) -> str:
-        """Which view it is, and where the camera is aimed."""
-        view_set, number = self.view
-        return f"View {number} (of 0 to {self.count - 1}), {VIEW_SETS[view_set]}"
 
 
 def read_frames(
@@ -62,7 +56,7 @@ def read_frames(
             if view not in views:
                 continue
             frame, truth = batch[number]
-            found = Frame(view, counts[view[0]], {REFERENCE: shade(frame, truth)})
+            found = Frame(view, _caption(view, counts[view[0]]), {REFERENCE: shade(frame, truth)})
             for method, file in answered.items():
                 if (*view, method) in scores.index:
                     answer = read_visibility(file, number, frame)
@@ -70,3 +64,9 @@ def read_frames(
                     found.scores[method] = scores.loc[*view, method].dropna().to_dict()
             frames[view] = found
     return [frames[view] for view in views if view in frames]
+
+
+def _caption(view: View, count: int) -> str:
+    """Which view of `count` it is, and where the camera is aimed."""
+    view_set, number = view
+    return f"View {number} (of 0 to {count - 1}), {VIEW_SETS[view_set]}"

@@ -19,6 +19,7 @@ from neural_shadows.reports.page_figures import figure_blocks, themed
 from neural_shadows.reports.page_tables import table_block
 from neural_shadows.reports.phrases import describe_mesh
 from neural_shadows.reports.run_facts import run_facts, run_sentence
+from neural_shadows.reports.soft_comparison import soft_comparisons
 from neural_shadows.reports.soft_looks import SOFT_LOOKS, SOFT_METHODS
 from neural_shadows.running.stage import run_stage
 
@@ -36,6 +37,8 @@ def write_page(
     references: list[Path],
     visibilities: list[Path],
     metrics: list[Path],
+    soft_parts: list[Path],
+    soft_answers: list[Path],
     meshes: list[Path],
     trainings: list[Path],
     lpips_json: Path | None,
@@ -45,6 +48,7 @@ def write_page(
     beyond: Sequence[str],
     soft: Sequence[str],
     networks: Sequence[str],
+    soft_pictures: Sequence[Mapping[str, Any]],
     folded: Sequence[str],
     missing: Mapping[str, Sequence[str]],
     rows: Sequence[Mapping[str, Any]],
@@ -62,6 +66,7 @@ def write_page(
         viewers: self-contained HTML, with a poster, a PNG, beside each; 2 MiB each, so that the
             first is within the page and the others are named.
         references, visibilities, metrics: of all batches of each scene, and of each method.
+        soft_parts, soft_answers, soft_pictures: see `soft_comparisons`.
         front: the figure of quality over bytes that is shown first, if there is one.
         data: the tables that figures show, by the figures' names.
         beyond: names of the tables and figures that are not the thesis's; soft: of soft shadows.
@@ -118,7 +123,10 @@ def write_page(
         other_viewers=[path.name for path in viewers[1:]],
         missing=missing,
         front=next((block for block in drawings if block.name == front), None),
-        comparisons=frame_comparisons(references, visibilities, metrics, rows, described),
+        comparisons=[
+            *frame_comparisons(references, visibilities, metrics, rows, described),
+            *soft_comparisons(soft_parts, soft_answers, soft_pictures),
+        ],
         tables=[block for block in blocks if block.name not in (*beyond, *soft)],
         figures=[
             block

@@ -1,5 +1,8 @@
 """How each family of methods for soft shadows looks, the same everywhere."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from neural_shadows.evaluation.soft_method_names import LABELS, NULL, is_network
 from neural_shadows.reports.figures.style import COLOURS
 from neural_shadows.reports.method_look import Look
@@ -60,6 +63,15 @@ def family_of(method: str) -> str:
     if first == "rt":
         return rest.partition("_")[2] or "rt"
     return "moments" if first in ("vsm", "evsm", "msm") else first
+
+
+UNITS = {"metres": "m", "scene_sizes": "S"}
+
+
+def light_names(about: Mapping[str, Any]) -> list[str]:
+    """What the lights of a part of a frame set are called, in its order; `about`: its JSON."""
+    unit = UNITS[about.get("radius_unit", "metres")]
+    return [light_name(radius, unit) for radius in about.get("given_radii", about["radii"])]
 
 
 def light_name(radius: float, unit: str) -> str:

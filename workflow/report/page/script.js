@@ -40,9 +40,13 @@ for (const article of document.querySelectorAll("article.compare")) {
       // Over the reference lies what a method changes, and over that its errors; the reference has
       // neither, and no map.
       const map = shown.value === "map" && picture.map;
+      // Without a map the errors lie on white.
+      const alone = shown.value === "map" && !map && picture.errors;
+      const errors = (alone || shown.value === "errors") && picture.errors;
       const [image, ...others] = layer.children;
       image.src = map || item.reference;
-      [!map && picture.change, shown.value === "errors" && picture.errors].forEach((source, i) => {
+      layer.classList.toggle("alone", Boolean(alone));
+      [!map && !alone && picture.change, errors].forEach((source, i) => {
         others[i].hidden = !source;
         if (source) others[i].src = source;
       });
@@ -50,7 +54,7 @@ for (const article of document.querySelectorAll("article.compare")) {
       name.textContent = picture.scores ? `${names[key]}: ${picture.scores}` : names[key];
     }
     for (const scale of article.querySelectorAll(".scale")) {
-      scale.hidden = scale.dataset.of !== shown.value;
+      scale.hidden = !scale.dataset.of.split(" ").includes(shown.value);
     }
   }
 

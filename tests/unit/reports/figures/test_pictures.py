@@ -6,7 +6,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from neural_shadows.reports.figures import pictures
 from neural_shadows.reports.figures.pictures import picture_strip
-from neural_shadows.reports.frame_errors import choose_crops, error_layer, with_errors
+from neural_shadows.reports.frame_errors import (
+    choose_crops,
+    error_layer,
+    graded_layer,
+    with_errors,
+)
 from neural_shadows.reports.frames import Frame
 from neural_shadows.reports.method_look import look_of
 from neural_shadows.reports.tables.quality import METRICS
@@ -49,13 +54,20 @@ def test_errors_are_red_where_too_dark_and_blue_where_too_light():
         np.testing.assert_array_equal(channel[same], image[same])
 
 
+def test_a_soft_shadow_s_errors_are_as_opaque_as_they_are_large():
+    layer = graded_layer(np.array([[0.5, 0.75, 0.25, 1.0]]), np.array([[0.5, 0.5, 0.5, 0.0]]))
+    assert layer[0, :, 3].tolist() == [0, 128, 128, 255]  # half of the light has the whole colour
+    red, _, blue = np.moveaxis(layer[0, :, :3].astype(int), 1, 0)
+    assert (blue > red).tolist() == [False, True, False, True] and red[2] > blue[2]
+
+
 def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():
     label = "Occupancy-clipped ray grid (single axis)"
     heads = {f"map_{i}": (f"{label} {i}", look_of(samples.row("shadow_map_64"))) for i in range(8)}
     images = {
         name: np.roll(discs(20, 12), i, axis=1) for i, name in enumerate(["reference", *heads])
     }
-    frame = Frame(("shadow", 3), 9, images, {"map_0": {"psnr": 27.39}})
+    frame = Frame(("shadow", 3), "View 3", images, {"map_0": {"psnr": 27.39}})
     figure = picture_strip([frame] * 2, heads, "landscape")
     shown = [axes for axes in figure.axes if axes.images]
     assert len(shown) == 2 * 3 * 9

@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from neural_shadows.evaluation.soft_answers import name_of, read_answer
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
+from neural_shadows.reports.frame_errors import FULL
 from neural_shadows.running.stage import run_stage
 
 NUMBER = 0  # of the part's frames, the one that is shown
-FULL = 0.5  # an error of so much visibility has the whole colour
 WIDTH = 12.0  # inches
 
 
@@ -25,30 +25,29 @@ def draw(
     *,
     title: str,
     labels: Mapping[str, str],
+    radii: Sequence[int],
     run: Section,
 ) -> None:
-    """Draw the first frame of a part: a line a method, two pictures for each of three radii.
+    """Draw the first frame of a part: a line a method, two pictures for each radius.
 
     Args:
         part: of a frame set, see `FrameSetPart`; answers: of each method, by file name.
-        labels: of the methods, in the order to draw them.
+        labels: of the methods, in the order to draw them; radii: which, counted from 0.
 
     Raises:
         InputError: a file is missing or not whole.
     """
     opened = FrameSetPart(part)
-    count = len(opened.radii)
-    shown = sorted({min(1, count - 1), count // 2, count - 1})
     targets = opened.targets[NUMBER].astype(np.float32)
     valid = np.asarray(opened.valid[NUMBER, 0])
     files = {path.stem: path for path in answers}
     pictures = {
-        label: [read_answer(files[method], name_of(part, k)) for k in shown]
+        label: [read_answer(files[method], name_of(part, k)) for k in radii]
         for method, label in labels.items()
     }
-    lengths = [opened.radii[k] for k in shown]
+    lengths = [opened.radii[k] for k in radii]
     heading = f"{title} ({part.parent.name}, {run['scale']} scale)"
-    figure = strips(pictures, [targets[k] for k in shown], valid, lengths, heading)
+    figure = strips(pictures, [targets[k] for k in radii], valid, lengths, heading)
     write_figure(figure, png, svg)
 
 

@@ -13,7 +13,7 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.intervals import two_way_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.reports import phrases
-from neural_shadows.reports.soft_looks import light_name
+from neural_shadows.reports.soft_looks import UNITS, light_name
 from neural_shadows.reports.tables.soft_costs import cost, describe_bytes, describe_times
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
@@ -28,7 +28,6 @@ FLICKER = (
     *("temporal_error", "temporal_error_reference", "temporal_error_taa"),
     *("mse_sequence", "mse_taa"),
 )
-UNITS = {"metres": "m", "scene_sizes": "S"}
 
 
 def write(

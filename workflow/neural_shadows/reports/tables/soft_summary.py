@@ -19,14 +19,13 @@ from neural_shadows.reports.published_kpnsm import (
     read_published_kpnsm,
     titled,
 )
-from neural_shadows.reports.soft_looks import light_name
+from neural_shadows.reports.soft_looks import UNITS, light_name
 from neural_shadows.reports.tables.screen_rows import describe_trainings
 from neural_shadows.reports.tables.soft_costs import cost, describe_times
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
-UNITS = {"metres": "m", "scene_sizes": "S"}
 HEADS = {
     "mse": ("MSE × 10⁻⁴ ↓", "{:.2f}", 1e4),
     "ssim": ("SSIM ↑", "{:.3f}", 1),
