@@ -11,6 +11,7 @@ from neural_shadows.evaluation.soft_answers import name_of, read_answer
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
 from neural_shadows.reports.frame_errors import FULL
+from neural_shadows.reports.soft_looks import light_names
 from neural_shadows.running.stage import run_stage
 
 NUMBER = 0  # of the part's frames, the one that is shown
@@ -45,9 +46,9 @@ def draw(
         label: [read_answer(files[method], name_of(part, k)) for k in radii]
         for method, label in labels.items()
     }
-    lengths = [opened.radii[k] for k in radii]
+    lights = [light_names(opened.about)[k] for k in radii]
     heading = f"{title} ({part.parent.name}, {run['scale']} scale)"
-    figure = strips(pictures, [targets[k] for k in radii], valid, lengths, heading)
+    figure = strips(pictures, [targets[k] for k in radii], valid, lights, heading)
     write_figure(figure, png, svg)
 
 
@@ -55,13 +56,13 @@ def strips(
     pictures: Mapping[str, Sequence[np.ndarray]],
     targets: Sequence[np.ndarray],
     valid: np.ndarray,
-    radii: Sequence[float],
+    lights: Sequence[str],
     title: str,
 ) -> Figure:
-    """The exact soft shadow of each radius, and below it each method's with its error.
+    """The exact soft shadow of each light, and below it each method's with its error.
 
     Args:
-        pictures: (H, W) in [0, 1] of each method, by radius; valid: (H, W) bool, what counts.
+        pictures: (H, W) in [0, 1] of each method, by light; valid: (H, W) bool, what counts.
     """
     rows, columns = 1 + len(pictures), 2 * len(targets)
     height, width = targets[0].shape
@@ -69,8 +70,8 @@ def strips(
     figure = new_figure(title, WIDTH, 1.1 + rows * inches)
     figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
     grid = figure.subplots(rows, columns, squeeze=False)
-    for k, (target, radius) in enumerate(zip(targets, radii)):
-        _show(grid[0, 2 * k], target, f"exact, light of {radius:.3g} m")
+    for k, (target, light) in enumerate(zip(targets, lights)):
+        _show(grid[0, 2 * k], target, f"exact, {light}")
         _show(grid[0, 2 * k + 1], None, "")
         for line, (label, found) in enumerate(pictures.items(), 1):
             error = np.where(valid, found[k] - target, 0)
