@@ -192,8 +192,6 @@ def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
     assert one["labels"]["nsm"] == "Neural Shadow Mapping"
     chosen = layout_of(figures={"figure_nsm_pictures": {"radii": [0, 3]}})
     assert figures.arguments(chosen, "figure_nsm_pictures")["radii"] == [0, 3]
-    # None of them is asked for where there are no such figures.
-    assert targets.page_files(layout_of("claims"))["soft_parts"] == []
 
 
 def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):

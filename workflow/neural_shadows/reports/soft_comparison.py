@@ -30,7 +30,7 @@ def soft_comparisons(
 ) -> list[dict[str, Any]]:
     """The frames and errors of each table that has some, as data for the page's script.
 
-    A method's picture under one light takes 50 to 80 KB of the page at 512 × 256.
+    A method's picture under one light takes 40 to 65 KB of the page at 512 × 256.
 
     Args:
         parts: of frame sets, see `FrameSetPart`; answers: of methods, in folders of frame sets.
