@@ -28,3 +28,30 @@ rule render_frames:
         "Rendering frames {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"
     script:
         "../neural_shadows/frames/render_frames.py"
+
+
+rule import_frame:
+    input:
+        files=of(frame_sets.engine_files),
+        code=code("frames/import_frame"),
+    output:
+        frames_json=PATHS.imported_frames("json"),
+        buffers_npy=PATHS.imported_frames("buffers.npy"),
+        targets_npy=PATHS.imported_frames("targets.npy"),
+        valid_npy=PATHS.imported_frames("valid.npy"),
+    log:
+        PATHS.log("import_frame", "scene", "frame_set", "part"),
+    benchmark:
+        PATHS.benchmark("import_frame", "scene", "frame_set", "part")
+    wildcard_constraints:
+        scene="[^/.]+",
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(2000, minutes=10),
+    params:
+        settings=of(frame_sets.import_settings),
+    message:
+        "Importing frame {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"
+    script:
+        "../neural_shadows/frames/import_frame.py"

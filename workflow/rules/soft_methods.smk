@@ -58,6 +58,35 @@ rule evaluate_soft:
         "../neural_shadows/evaluation/evaluate_soft.py"
 
 
+rule answer_frames:
+    input:
+        parts=of(soft_methods.tests),
+        beside=of(soft_methods.tested_arrays),
+        meshes=of(soft_methods.all_meshes),
+        constants_json=of(soft_methods.chosen),
+        weights=of(soft_methods.weights),
+        code=lambda wildcards: code(
+            "reports/answer_frames",
+            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+            methods=[wildcards.method],
+        ),
+    output:
+        errors_csv=PATHS.report("answers/{frame_set}/{method}.csv"),
+        answers=directory(PATHS.report("answers/{frame_set}/{method}")),
+    log:
+        PATHS.log("answer_frames", "frame_set", "method"),
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=120),
+    params:
+        label=of(soft_methods.label),
+    message:
+        "Answering the frames of {wildcards.frame_set} by {wildcards.method}"
+    script:
+        "../neural_shadows/reports/answer_frames.py"
+
+
 rule time_soft_methods:
     input:
         parts=of(soft_methods.timed_parts),

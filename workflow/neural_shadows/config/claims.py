@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from neural_shadows.config.base import Model, Name, by_kind, check_among, name_in
 from neural_shadows.config.experiments import network_of
-from neural_shadows.config.frame_sets import OwnFrames
+from neural_shadows.config.own_frames import OwnFrames
 from neural_shadows.config.ratios import Ratio
 from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
 from neural_shadows.evaluation.method_names import (

@@ -14,10 +14,12 @@ from neural_shadows.config.base import (
     section_or,
 )
 from neural_shadows.config.experiments import formatted, network_of
-from neural_shadows.config.frame_sets import OwnFrames, measured_scenes
+from neural_shadows.config.frame_sets import measured_scenes
+from neural_shadows.config.own_frames import OwnFrames
 from neural_shadows.config.scenes import ViewSet
 from neural_shadows.config.tables import Row, rows_of
 from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
+from neural_shadows.reports.soft_looks import shown_radii
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -242,7 +244,7 @@ def rows_of_figure(config: "Config", figure: AnyFigure) -> list[Row]:
 def radii_of(config: "Config", figure: SoftPicturesFigure) -> list[int]:
     """The radii of a figure's frame set that it shows, counted from 0."""
     count = len(config.frame_sets[config.tables[figure.table].frame_set].radii)
-    return figure.radii or sorted({min(1, count - 1), count // 2, count - 1})
+    return figure.radii or shown_radii(count)
 
 
 def check(config: "Config") -> None:

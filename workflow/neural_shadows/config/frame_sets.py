@@ -1,6 +1,5 @@
 """`frame_sets`: frames with buffers and exact soft shadows, to train on and to measure on."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import (
@@ -13,6 +12,7 @@ from pydantic import (
 )
 
 from neural_shadows.config.base import Model, Name, PowerOfTwo, by_kind, name_in
+from neural_shadows.config.own_frames import OwnFrames, own_parts, own_settings
 from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED
 
 if TYPE_CHECKING:
@@ -142,15 +142,6 @@ class RenderedFrames(Model):
         return self
 
 
-class OwnFrames(Model):
-    """Frames of the user's own, from an engine."""
-
-    path: str = Field(
-        min_length=1,
-        description="a folder of folders, one a scene, with the files that results/README.md tells",
-    )
-
-
 FrameSet = Annotated[
     Annotated[RenderedFrames, Tag("Rendered")] | Annotated[OwnFrames, Tag("Own")],
     Discriminator(
@@ -163,24 +154,10 @@ FrameSet = Annotated[
 ]
 
 
-def own_parts(path: str) -> dict[str, list[str]]:
-    """The parts of the scenes with test frames in a folder of a user's own, by scene: `test_000` of
-    `test_000.json`.
-    """
-    scenes: dict[str, list[str]] = {}
-    for file in sorted(Path(path).glob("*/*_[0-9]*.json")):
-        scenes.setdefault(file.parent.name, []).append(file.stem)
-    return {
-        scene: parts
-        for scene, parts in scenes.items()
-        if any(part.startswith("test_") for part in parts)
-    }
-
-
 def measured_scenes(frames: RenderedFrames | OwnFrames) -> list[Name]:
     """The scenes of a frame set that methods are measured on."""
     if isinstance(frames, OwnFrames):
-        return list(own_parts(frames.path))
+        return list(own_parts(frames))
     return [*frames.scenes, *frames.unseen]
 
 
@@ -212,6 +189,6 @@ def as_settings(config: "Config", name: str) -> dict[str, Any]:
     """A frame set as rules look it up."""
     frames = config.frame_sets[name]
     if isinstance(frames, OwnFrames):
-        return {"path": frames.path, "parts": own_parts(frames.path)}
+        return own_settings(frames)
     found = frames.model_dump()
     return found | {"of": found["of"] and [*found["of"].values()], "path": None}

@@ -8,8 +8,8 @@ import yaml
 from pydantic import ValidationError
 
 from neural_shadows.config.base import not_among
-from neural_shadows.config.frame_sets import own_parts
 from neural_shadows.config.messages import describe
+from neural_shadows.config.own_frames import OwnFrames, without_frames
 from neural_shadows.config.scenes import MeshFile
 from neural_shadows.config.screen_experiments import training_of
 from neural_shadows.config.whole import Config
@@ -111,10 +111,10 @@ def check_files(config: Config) -> None:
             except InputError as error:
                 raise InputError(f"config: {key}: {error}") from error
     for name, frames in config.frame_sets.items():
-        path = getattr(frames, "path", None)
-        if path is not None and not own_parts(path):
+        lacking = without_frames(frames) if isinstance(frames, OwnFrames) else None
+        if lacking is not None:
             raise InputError(
-                f"config: frame_sets.{name}.path = {path!r}: no SCENE/test_000.json in it; "
+                f"config: frame_sets.{name}.path = {frames.path!r}: {lacking}; "
                 "results/README.md tells the format"
             )
     for name in config.screen_experiments:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import Field
 
 from neural_shadows.config.base import Model, Seed, Text, check_among, name_in, text_or
-from neural_shadows.config.frame_sets import OwnFrames, own_parts
+from neural_shadows.config.own_frames import OwnFrames, own_parts
 from neural_shadows.config.screen_networks import ScreenNetwork
 from neural_shadows.config.screen_trainings import ScreenTraining
 from neural_shadows.networks.screen_space.kernel_widths import KERNEL_FORMS
@@ -106,7 +106,7 @@ def _check_frames(config: "Config", name: str) -> None:
                 f"{key}.scenes: {scene!r} is among `unseen` of {where}, which no network may train "
                 f"on; allowed: {', '.join(frames.scenes)}"
             )
-        check_among(f"{key}.scenes", scene, own_parts(frames.path) if own else frames.scenes)
+        check_among(f"{key}.scenes", scene, own_parts(frames) if own else frames.scenes)
     if not own:  # of a user's own, the stage looks at the files
         _check_rendered(key, where, frames, training_of(config, name))
 

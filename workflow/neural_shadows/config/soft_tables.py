@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from neural_shadows.config.any_table import AnyTable
 from neural_shadows.config.base import Model, Name, Text, check_among, name_in, section_or
-from neural_shadows.config.frame_sets import OwnFrames
+from neural_shadows.config.own_frames import OwnFrames
 from neural_shadows.evaluation.soft_method_names import BASE, LABELS, NULL
 
 if TYPE_CHECKING:

@@ -7,19 +7,18 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.evaluation.frame_answers import all_radii, constants_of, errors_of
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, name_of, write_answers
 from neural_shadows.evaluation.soft_methods.registry import soft_methods_by_scene
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
-from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.metrics.available_lpips import lpips_metric
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.instability import exponential_instability, root_instability
 from neural_shadows.metrics.psnr_ssim import ssim
-from neural_shadows.metrics.visibility_error import visibility_errors
 from neural_shadows.rendering.reprojection import looked_up, seen_before
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
@@ -57,7 +56,7 @@ def evaluate_soft(
         InputError: an input file cannot be read.
     """
     method_of = soft_methods_by_scene(method, weights)
-    constants = _constants(constants_json, len(FrameSetPart(parts[0]).radii))
+    constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
     quick = {"ssim": ssim}
     # 0.22 s of an image of 512 × 256, where the errors take 0.01: of each part's first frame alone.
     images = quick | {"flip": flip} | lpips_metric(lpips_json, threads)
@@ -81,43 +80,15 @@ def evaluate_soft(
                 continue
             for measured in frames:
                 metrics = quick if measured.number else images
-                for k, found in enumerate(_all_radii(measured, asked, constants)):
+                for k, found in enumerate(all_radii(measured, asked, constants)):
                     if measured.number == 0:
                         kept[name_of(path, k)] = found
-                    values = _values(measured, found, k, metrics)
+                    values = errors_of(measured, found, k, metrics)
                     key = _key(measured.part, measured.number, k)
                     rows += [{**key, "metric": name, "value": one} for name, one in values.items()]
                 bar.update()
     write_soft_metrics(metrics_csv, rows)
     write_answers(answers_npz, kept)
-
-
-def _constants(path: Path | None, radii: int) -> list[Constants]:
-    """By radius; none of a method that has none."""
-    return [one["constants"] for one in read_json(path)["radii"]] if path else [{}] * radii
-
-
-def _all_radii(
-    measured: MeasuredFrame, method: SoftMethod, constants: Sequence[Constants]
-) -> Iterator[np.ndarray]:
-    """The method's picture of each radius; it is asked once where they have the same."""
-    for k, radius in enumerate(measured.part.radii):
-        if method.asked_again(constants, k):
-            found = measured.answered(method, radius, constants[k])
-        yield found
-
-
-def _values(
-    measured: MeasuredFrame, found: np.ndarray, k: int, images: Mapping[str, Callable]
-) -> dict[str, float]:
-    """The metrics of one image; those of pictures see the target where a pixel does not count."""
-    target, valid = measured.target, measured.valid
-    picture = np.where(valid, found, target[k])
-    hard = target[0] if measured.part.radii[0] == 0 else None
-    return {
-        **visibility_errors(found, target[k], valid, hard),
-        **{name: metric(picture, target[k]) for name, metric in images.items()},
-    }
 
 
 def _flicker(

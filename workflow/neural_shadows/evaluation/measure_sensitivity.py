@@ -7,13 +7,11 @@ import numpy as np
 import torch
 
 from neural_shadows.files.whole_files import write_json
-from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import light_size
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
-from neural_shadows.rendering.gbuffer import lens_of
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -84,13 +82,12 @@ def _features(
     opened = [FrameSetPart(path) for path in parts]
     numbered = [(part, number) for part in opened for number in range(len(part))]
     for part, number in numbered[:: max(1, len(numbered) // count)][:count]:
-        planes = part.buffers[number, 0].astype(np.float32)
-        about = part.about
-        lens = lens_of(part.setting(number).camera, about["width"], about["height"])
+        about, lens = part.about, part.lens(number)
+        buffers = {name: part.image(number, name) for name in about["channels"]}
         for radius in part.radii:
             light = light_size(radius, max(part.radii), about["size"])
             yield (
-                named_features(names, dict(zip(CHANNELS, planes)), lens, light),
+                named_features(names, buffers, lens, light),
                 part.valid[number, 0],
             )
 

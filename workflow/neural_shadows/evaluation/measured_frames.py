@@ -9,12 +9,11 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
-from neural_shadows.frames.buffers import CHANNELS, LIT
+from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.draw_settings import light_map_of
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.rendering.gbuffer import lens_of
 from neural_shadows.rendering.surface import see_surface
 
 
@@ -40,8 +39,8 @@ class MeasuredFrame:
         """
         if self.opened is None:
             raise InputError(
-                f"{self.part.frames_json}: has no 'scene' to look at; of such frames only what "
-                f"their buffers hold can be measured: {', '.join(f'base_{name}' for name in LIT)}"
+                f"{self.part.source}: has no 'scene' to look at; of such frames only what their "
+                f"buffers hold can be asked: {', '.join(f'base_{name}' for name in LIT)}, networks"
             )
         return self.opened
 
@@ -56,7 +55,16 @@ class MeasuredFrame:
 
     @property
     def target(self) -> np.ndarray:
-        """The exact soft shadow of each radius, (radii, height, width) float32."""
+        """The exact soft shadow of each radius, (radii, height, width) float32.
+
+        Raises:
+            InputError: it is of an engine that did not write one.
+        """
+        if not self.part.has_targets:
+            raise InputError(
+                f"{self.part.source}: has no exact shadow to measure against; without one a frame can "
+                "be answered (reports/answers/) but stands in no table"
+            )
         return self.part.targets[self.number].astype(np.float32)
 
     @property
@@ -64,25 +72,32 @@ class MeasuredFrame:
         """Which pixels count, bool."""
         return self.part.valid[self.number, 0]
 
+    def picture(self, channel: str) -> np.ndarray:
+        """One of its buffers, (height, width) float32.
+
+        Raises:
+            InputError: a user's own part does not have it.
+        """
+        return self.part.image(self.number, channel)
+
     def answered(
         self, method: SoftMethod, radius: float, constants: Mapping[str, float]
     ) -> np.ndarray:
         """The method's visibility of a light of a radius, float32; 1 without a surface."""
         if method.of_buffers is not None:
-            about, camera = self.part.about, self.part.setting(self.number).camera
-            buffers = {name: self._buffer(name) for name in CHANNELS}
-            lens = lens_of(camera, about["width"], about["height"])
-            found = method.of_buffers(buffers, lens, radius, about["size"])
-            return np.where(self._buffer("z") > 0, found, np.float32(1))
+            part = self.part
+            if self.opened is None and method.check_own is not None:
+                method.check_own(part)
+            buffers = {name: self.picture(name) for name in part.about["channels"]}
+            lens = part.lens(self.number)
+            found = method.of_buffers(buffers, lens, radius, part.about["size"])
+            return np.where(self.picture("z") > 0, found, np.float32(1))
         if method.channel is not None:
-            return self._buffer(method.channel)
+            return self.picture(method.channel)
         if method.constant is not None:
-            seen, lit = self._buffer("z") > 0, self._buffer("c_e") > 0
+            seen, lit = self.picture("z") > 0, self.picture("c_e") > 0
             return np.where(seen, np.float32(method.constant) * lit, np.float32(1))
         return self.frame.surface.image(visibility(method, self.frame, radius, constants), 1.0)
-
-    def _buffer(self, channel: str) -> np.ndarray:
-        return self.part.buffers[self.number, 0, CHANNELS.index(channel)].astype(np.float32)
 
 
 def measured_frames(parts: Sequence[Path], meshes: Sequence[Path]) -> Iterator[MeasuredFrame]:

@@ -8,7 +8,8 @@ Of F frames with T twins each, C channels, K radii:
 - `NAME.targets.npy`: (F, K, H, W) float16, the exact soft shadow of the frame itself;
 - `NAME.valid.npy`: (F, 1 + T, H, W) bool, whether a pixel shows a surface inside the light's map.
 
-A frame set of a user's own has the same files.
+A frame set of a user's own has the same files; of `channels` it may have some, and of an engine's
+frames no targets (`targets` is false, K 0) and of their setting only the camera's lens.
 """
 
 from collections.abc import Mapping
@@ -24,6 +25,9 @@ from neural_shadows.files.arrays import open_array
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.setting import Setting, setting_of
+from neural_shadows.rendering.gbuffer import Lens, lens_of
+from neural_shadows.scenes.arrangement import UP
+from neural_shadows.scenes.cameras import Camera, Window
 
 UNITS = (
     "settings and radii in metres; z, gap and d of the buffers in shares of `size`; "
@@ -52,10 +56,11 @@ class FrameSetPart:
         for key in ("frames", "channels", "radii", "size", "width", "height"):
             if key not in found:
                 raise InputError(f"{self.frames_json}: has no {key!r}")
-        if tuple(found["channels"]) != CHANNELS:
+        channels = found["channels"]
+        if len(set(channels)) < len(channels) or not {"z"} <= {*channels} <= {*CHANNELS}:
             raise InputError(
-                f"{self.frames_json}: channels {', '.join(found['channels'])}; "
-                f"should be {', '.join(CHANNELS)}"
+                f"{self.frames_json}: channels {', '.join(channels)}; should be z and others of "
+                f"{', '.join(CHANNELS)}"
             )
         if any(radius < 0 for radius in found["radii"]) or found["size"] <= 0:
             raise InputError(f"{self.frames_json}: a radius below 0, or a size that is not above 0")
@@ -73,6 +78,15 @@ class FrameSetPart:
         """The setting of a frame."""
         return setting_of(self.about["frames"][number]["setting"])
 
+    def lens(self, number: int) -> Lens:
+        """Of a frame's camera and its twins', wherever they stand."""
+        about = self.about
+        setting = about["frames"][number]["setting"]
+        window = setting["window"] and Window(**setting["window"])
+        ahead = np.array([0.0, 0.0, -1.0])
+        camera = Camera(np.zeros(3), ahead, UP, setting["fov_deg"], window)
+        return lens_of(camera, about["width"], about["height"])
+
     def twin_setting(self, number: int, twin: int) -> Setting:
         """That of a frame's twin, counted from 0."""
         return setting_of(self.about["frames"][number]["twins"][twin])
@@ -81,12 +95,35 @@ class FrameSetPart:
     def buffers(self) -> np.ndarray:
         """(F, 1 + T, C, H, W) float16."""
         twins = len(self.about["frames"][0]["twins"]) if len(self) else 0
-        return self._open("buffers", np.float16, 1 + twins, len(CHANNELS))
+        return self._open("buffers", np.float16, 1 + twins, len(self.about["channels"]))
+
+    def image(self, number: int, channel: str, version: int = 0, window=(slice(None),) * 2):
+        """A channel of a frame (version 0) or a twin, (h, w) float32.
+
+        Raises:
+            InputError: the part does not have it.
+        """
+        channels = list(self.about["channels"])
+        if channel not in channels:
+            raise InputError(
+                f"{self.source}: has no {channel}, which is asked for; there is {', '.join(channels)}"
+            )
+        return np.float32(self.buffers[number, version, channels.index(channel)][window])
+
+    @property
+    def source(self) -> str:
+        """What the user knows it by: the folder of an engine's frame, or the part's JSON."""
+        return self.about.get("source", str(self.frames_json))
+
+    @property
+    def has_targets(self) -> bool:
+        """Whether there are exact soft shadows to measure against."""
+        return self.about.get("targets", True)
 
     @cached_property
     def targets(self) -> np.ndarray:
         """(F, K, H, W) float16."""
-        return self._open("targets", np.float16, len(self.radii))
+        return self._open("targets", np.float16, len(self.radii) * self.has_targets)
 
     @cached_property
     def valid(self) -> np.ndarray:
@@ -112,5 +149,6 @@ def check_values(part: FrameSetPart) -> None:
                 raise InputError(
                     f"{part.frames_json}: {stem} of frame {number} has NaN or infinity"
                 )
-        if arrays["targets"].min() < 0 or arrays["targets"].max() > 1:
+        exact = arrays["targets"]
+        if exact.size and (exact.min() < 0 or exact.max() > 1):
             raise InputError(f"{part.frames_json}: targets of frame {number} leave [0, 1]")

@@ -38,6 +38,18 @@ def _counts(settings: Mapping[str, Any], use: str) -> tuple[int, int]:
     return settings[use], settings["shard"]
 
 
+def engine_files(layout: Layout, scene: str, frame_set: str, part: str) -> list[str]:
+    """The files of an engine's frame."""
+    return layout.entry("frame_sets", frame_set)["engine"]["files"][scene][part]
+
+
+def import_settings(layout: Layout, scene: str, frame_set: str) -> dict[str, Any]:
+    """What `import_frame` is told of an engine's frames."""
+    engine = layout.entry("frame_sets", frame_set)["engine"]
+    kept = ("fov", "radii", "radius_unit", "channels", "targets")
+    return {"size": engine["sizes"][scene], **{key: engine[key] for key in kept}}
+
+
 def meshes(layout: Layout, scene: str) -> list[str]:
     """The meshes of the objects that stand in a scene; none in one of a user's own frames."""
     inserted = layout.settings["soft_scenes"].get(scene, {}).get("inserted", ())
@@ -55,6 +67,8 @@ def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
     settings = layout.entry("frame_sets", frame_set)
     if settings["path"] is not None:
         names = [one for one in settings["parts"][scene] if one.rsplit("_", 1)[0] == use]
+        if settings["engine"] is not None:
+            return [layout.paths.imported_frames("json", scene, frame_set, name) for name in names]
         return [f"{settings['path']}/{scene}/{name}.json" for name in names]
     total, shard = _counts(settings, use)
     names = [f"{use}_{number}" for number in part_names(-(-total // shard))]

@@ -70,6 +70,16 @@ class Paths:
         """`json`, `buffers.npy`, `targets.npy`, `valid.npy` of a part of a frame set."""
         return f"{self.results}/frames/{frame_set}/{scene}/{part}.{ending}"
 
+    def imported_frames(
+        self,
+        ending: str,
+        scene: str = "{scene}",
+        frame_set: str = "{frame_set}",
+        part: str = "{part}",
+    ) -> str:
+        """The same of an engine's frame."""
+        return f"{self.results}/imported_frames/{frame_set}/{scene}/{part}.{ending}"
+
     def soft_constants(self, frame_set: str = "{frame_set}", method: str = "{method}") -> str:
         """The constants of a method that are best on a frame set's validation frames."""
         return f"{self.results}/soft_constants/{frame_set}/{method}.json"

@@ -73,6 +73,11 @@ def measured_arrays(layout: Layout, frame_set: str) -> list[str]:
     return frame_sets.arrays([*tests(layout, frame_set), *sequences(layout, frame_set)])
 
 
+def tested_arrays(layout: Layout, frame_set: str) -> list[str]:
+    """The arrays of test frames."""
+    return frame_sets.arrays(tests(layout, frame_set))
+
+
 def tuned_arrays(layout: Layout, frame_set: str) -> list[str]:
     """The arrays of validation frames."""
     return frame_sets.arrays(validations(layout, frame_set))

@@ -11,7 +11,6 @@ from torch import Tensor
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.aligned_twins import ALIGNED_BY, twin_pixels
-from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.feature_names import BASES
 from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
@@ -121,10 +120,7 @@ class ScreenFrames:
     ) -> dict[str, np.ndarray]:
         """Buffers of a frame (version 0) or a twin by name, (h, w) float32."""
         part, number = self._frames[frame]
-        return {
-            name: np.float32(part.buffers[number, version, CHANNELS.index(name)][window])
-            for name in names
-        }
+        return {name: part.image(number, name, version, window) for name in names}
 
     def features(
         self, frame: int, radius: int, version: int = 0, window=(slice(None), slice(None))
@@ -157,7 +153,7 @@ class ScreenFrames:
     def base(self, name: str, frame: int) -> np.ndarray:
         """Visibility by one of `BASES`, (H, W) float32."""
         part, number = self._frames[frame]
-        return np.float32(part.buffers[number, 0, CHANNELS.index(name.removeprefix("base_"))])
+        return part.image(number, name.removeprefix("base_"))
 
     def valid(self, frame: int) -> np.ndarray:
         """Which pixels count, (H, W) bool."""

@@ -11,6 +11,7 @@ from neural_shadows.evaluation.soft_methods.base_shadows import base_by_map
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.features import buffers_of, named_features
+from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.networks.compute import choose_dtype
@@ -51,7 +52,10 @@ class _Answers:
     def method(self) -> SoftMethod:
         bytes_held = 2 * sum(one.numel() for one in self._network.parameters())  # 16 bits each
         return SoftMethod(
-            self._of_frame, of_buffers=self._of_buffers, held=lambda frame: bytes_held
+            self._of_frame,
+            of_buffers=self._of_buffers,
+            check_own=self._check_own,
+            held=lambda frame: bytes_held,
         )
 
     def _of_buffers(
@@ -63,6 +67,29 @@ class _Answers:
         with torch.inference_mode():
             found = self._network(planes)
         return found[0, 0].float().clamp(0, 1).numpy()
+
+    def _check_own(self, part: FrameSetPart) -> None:
+        """That a user's own frames have what it is told, in the unit that it knows."""
+        about, asked = part.about, buffers_of(self._network.features)
+        if lacking := [name for name in asked if name not in about["channels"]]:
+            bases = [name for name in lacking if name in LIT]
+            what = "base shadow" if bases == lacking else "channel"
+            raise InputError(
+                f"{part.source}: has no {what} {', '.join(lacking)}, which {self._weights} needs; "
+                f"it has {', '.join(about['channels'])}"
+            )
+        unit, own = self._header["radius_unit"], about.get("radius_unit")
+        if own not in (None, unit):
+            raise InputError(
+                f"{part.source}: its light's radii are in {own}, but {self._weights} was trained with "
+                f"radii in {unit}, up to {max(self._header['radii']):g}; give them in {unit}"
+            )
+        reach = getattr(self._network, "reach", 1)
+        if min(about["width"], about["height"]) < reach:
+            raise InputError(
+                f"{part.source}: is {about['width']} × {about['height']}, smaller than the kernels of "
+                f"{self._weights}, {reach} × {reach}"
+            )
 
     def _of_frame(self, frame: SoftFrame, radius: float) -> np.ndarray:
         """The same from points and the light's map, as it is timed: features are made, too."""
@@ -90,11 +117,13 @@ class _Answers:
 
     def _light(self, radius: float, size: float) -> LightSize:
         """The light's size as the network is told it: step 4 for the largest that it was trained on."""
-        unit = size if self._header["radius_unit"] == "scene_sizes" else 1.0
+        of_size = self._header["radius_unit"] == "scene_sizes"
+        unit, name = (size, "scene sizes") if of_size else (1.0, "m")
         largest = unit * max(self._header["radii"])
         if radius > largest * (1 + 1e-6):
             raise InputError(
-                f"{self._weights}: was trained on lights of up to {largest:g} m, and is asked about "
-                f"one of {radius:g} m; train it on a frame set that has such a light in `radii`"
+                f"{self._weights}: was trained on lights of up to {largest / unit:g} {name}, and is "
+                f"asked about one of {radius / unit:g} {name}; train it on a frame set that has such "
+                "a light in `radii`"
             )
         return light_size(radius, largest, size)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.soft_frame import SoftFrame
 
 Constants = Mapping[str, float]
@@ -29,6 +30,7 @@ class SoftMethod:
         of_buffers: of a frame's buffers by name (height, width), the camera's `Lens`, the radius and
             the scene's size, visibilities (height, width) float32, if buffers are all that it needs;
             `answer` then makes them, to be timed.
+        check_own: of a part of a user's own frames, raises an InputError where it cannot answer them.
         channel: of the frame's buffers, if its answer is there already.
         constant: the visibility of all that faces the light, of what knows nothing else.
     """
@@ -41,6 +43,7 @@ class SoftMethod:
     of_radius: bool = True
     by_rays: bool = False
     of_buffers: Callable[..., np.ndarray] | None = None
+    check_own: Callable[[FrameSetPart], None] | None = None
     channel: str | None = None
     constant: float | None = None
 

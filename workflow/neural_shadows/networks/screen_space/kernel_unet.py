@@ -50,7 +50,7 @@ class KernelUnet(nn.Module):
         seed: int = 0,
     ):
         super().__init__()
-        self.form, self.features = form, tuple(features)
+        self.form, self.features, self.filters = form, tuple(features), filters
         channels = [FEATURES[name] for name in self.features]
         layers = kernel_convolutions(form, widths, sum(channels), filters)
         if form == "kernels":
@@ -95,6 +95,11 @@ class KernelUnet(nn.Module):
         if self.form == "kernels":
             return self.exit(self.head(inner), x[:, self._base : self._base + 1].float())
         return self.head(self.exit(inner))[..., :height, :width].float()
+
+    @property
+    def reach(self) -> int:
+        """Pixels of a side that an answer hangs on by its kernels; 1 of the direct form."""
+        return 1 + 4 * (2**self.filters - 1) if self.form == "kernels" else 1
 
     def inner(self, x: Tensor) -> Tensor:
         """What the head is given: (B, C, h, w) at half the resolution, of padded planes."""

@@ -16,6 +16,7 @@ from neural_shadows.running.stage import run_stage
 
 NUMBER = 0  # of the part's frames, the one that is shown
 WIDTH = 12.0  # inches
+WIDEST = 4.0  # of a picture
 
 
 def draw(
@@ -63,13 +64,11 @@ def strips(
 
     Args:
         pictures: (H, W) in [0, 1] of each method, by light; valid: (H, W) bool, what counts.
+        lights: how large each is, in words.
     """
     rows, columns = 1 + len(pictures), 2 * len(targets)
-    height, width = targets[0].shape
-    inches = WIDTH / columns * height / width + 0.2
-    figure = new_figure(title, WIDTH, 1.1 + rows * inches)
-    figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
-    grid = figure.subplots(rows, columns, squeeze=False)
+    height, width = valid.shape
+    figure, grid = _grid(title, rows, columns, height / width, note=0.5)
     for k, (target, light) in enumerate(zip(targets, lights)):
         _show(grid[0, 2 * k], target, f"exact, {light}")
         _show(grid[0, 2 * k + 1], None, "")
@@ -84,6 +83,38 @@ def strips(
         "of the light and more has the whole colour.",
     )
     return figure
+
+
+def answers_alone(
+    pictures: Mapping[str, Sequence[np.ndarray]], lights: Sequence[str], title: str
+) -> Figure:
+    """What each method answered for each radius, where nothing is known to compare with.
+
+    Args:
+        pictures, lights: as of `strips`.
+    """
+    height, width = next(iter(pictures.values()))[0].shape
+    figure, grid = _grid(title, len(pictures), len(lights), height / width)
+    for number, (label, found) in enumerate(pictures.items()):
+        for axes, picture, light in zip(grid[number], found, lights):
+            _show(axes, picture, label if number else f"{light}: {label}")
+    return figure
+
+
+def _grid(
+    title: str, rows: int, columns: int, shape: float, note: float = 0.0
+) -> tuple[Figure, np.ndarray]:
+    """A figure of so many pictures, and its axes.
+
+    Args:
+        shape: a picture's height over its width. note: inches for a note below.
+    """
+    side = min(WIDTH / columns, WIDEST)
+    figure = new_figure(
+        title, max(columns * side, 2 * WIDEST), 0.6 + note + rows * (side * shape + 0.2)
+    )
+    figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
+    return figure, figure.subplots(rows, columns, squeeze=False)
 
 
 def coloured(error: np.ndarray) -> np.ndarray:

@@ -1,0 +1,309 @@
+"""Frames as an engine writes them: a trained network answers them as it answers the pipeline's own."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import OpenEXR
+import pandas as pd
+import pytest
+from engine_frames import NAMES, TARGETS, engine_images, write_exr, write_npz
+from PIL import Image
+from shipped import shipped
+
+from neural_shadows.config.reading import check_files, read_config
+from neural_shadows.config.resolved import resolved
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.measured_frames import measured_frames
+from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.files.frame_images import FrameImages
+from neural_shadows.frames.buffers import CHANNELS, LIT
+from neural_shadows.frames.engine_channels import CHANNEL_IMAGES
+from neural_shadows.frames.import_frame import import_frame
+from neural_shadows.frames.render_frames import render_frames
+from neural_shadows.layout import frame_sets, soft_methods
+from neural_shadows.layout.layout import Layout
+from neural_shadows.metrics.psnr_ssim import ssim
+from neural_shadows.networks.screen_space.screen_networks import (
+    make_screen_network,
+    save_screen_network,
+)
+from neural_shadows.reports.answer_frames import answer_frames
+from neural_shadows.running.stage import arguments_of
+
+RADII = [0, 0.00625]  # scene sizes
+WIDTH, HEIGHT = 101, 67  # no multiples of what networks halve
+KINDS = ("json", "buffers.npy", "targets.npy", "valid.npy")
+SCENE = {"generate": "garden", "seed": 3, "inserted": {}}  # under an open sky
+FRAMES = {
+    **{"width": WIDTH, "height": HEIGHT, "fov": 40, "of": None, "blur": 0.0},
+    "light_map": {"kind": "cube", "resolution": 64},
+    **{"radii": RADII, "radius_unit": "scene_sizes"},
+    "twins": {"count": 0, "light": 0.0, "eye": 0.0, "turn_deg": 0.0},
+}
+KERNELS = {"form": "kernels", "widths": [4, 8], "filters": 4, "features": None}
+KERNELS["features"] = [
+    "cosine",
+    "c_v_by_d",
+    "z_f",
+    "penumbra",
+    "behind",
+    "z_b_by_z",
+    "z_b",
+    "base_msm",
+]
+VALUES = {
+    "form": "shuffle",
+    "widths": [8, 8],
+    "features": ["c_e", "view", "ratio", "difference", "n"],
+}
+HALF = 2.0**-11  # the rounding of half floats, of 1
+
+
+@pytest.fixture(scope="module")
+def rendered(tmp_path_factory):
+    """The pipeline's own frame, but that bases are dark by the shading normal, as an engine's."""
+    part = tmp_path_factory.mktemp("own") / "garden/test_000.json"
+    part.parent.mkdir()
+    files = (part.with_suffix(f".{kind}") for kind in KINDS)
+    render_frames([], *files, scene=SCENE, frames=FRAMES, use="test", first=0, last=1, samples=1)
+    buffers = np.load(part.with_suffix(".buffers.npy"))
+    c_e, z = (buffers[:, :, CHANNELS.index(name)] for name in ("c_e", "z"))
+    for name in LIT:
+        buffers[:, :, CHANNELS.index(name)][(c_e <= 0) & (z > 0)] = 0
+    np.save(part.with_suffix(".buffers.npy"), buffers)
+    return next(measured_frames([part], []))
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def save_network(settings, radii=RADII, unit="scene_sizes"):
+    """An untrained one, where the workflow has the experiment `kpnsm`."""
+    network = make_screen_network(settings)
+    network.initialise(2)
+    if settings["form"] == "shuffle":  # answers about 0.5, where none is cut off
+        network.levels[0].decoder[-1].weight.data *= 0.02
+    path = Path("results/screen_networks/kpnsm/weights.safetensors")
+    path.parent.mkdir(parents=True)
+    save_screen_network(path, network, {"network": settings, "radii": radii, "radius_unit": unit})
+    return path
+
+
+def layout_of(**engine):
+    told = {"sizes": {"quay-2": 8.0}, "fov": 40, "radii": RADII, "targets": TARGETS}
+    values = shipped(frame_sets={"mine": {"path": "mine", "engine": told | engine}})
+    config = read_config(values)
+    check_files(config)
+    return Layout(resolved(config))
+
+
+def called(function, **job):
+    """A stage's function with what a job hands to it."""
+    parts = dict.fromkeys(("input", "output", "params", "wildcards"), {})
+    function(**arguments_of(SimpleNamespace(threads=1, **parts | job), function))
+
+
+def answer(layout):
+    """What the workflow does for `reports/answers/mine/kpnsm.csv`; its errors, and its folder."""
+    parts = soft_methods.tests(layout, "mine")
+    for part in parts:
+        *_, scene, name = Path(part).with_suffix("").parts
+        called(
+            import_frame,
+            input={"files": frame_sets.engine_files(layout, scene, "mine", name)},
+            output={
+                f"{kind.replace('.', '_').replace('json', 'frames_json')}": str(
+                    Path(part).with_suffix(f".{kind}")
+                )
+                for kind in KINDS
+            },
+            params={"settings": frame_sets.import_settings(layout, scene, "mine")},
+        )
+    called(
+        answer_frames,
+        input={
+            "parts": parts,
+            "meshes": soft_methods.all_meshes(layout, "mine"),
+            "constants_json": soft_methods.chosen(layout, "mine", "kpnsm"),
+            "weights": soft_methods.weights(layout, "kpnsm"),
+        },
+        output={"errors_csv": "kpnsm.csv", "answers": "kpnsm"},
+        params={"label": soft_methods.label(layout, "kpnsm")},
+        wildcards={"method": "kpnsm", "frame_set": "mine"},
+    )
+    return pd.read_csv("kpnsm.csv"), Path("kpnsm/quay-2")
+
+
+def read_answers(folder, name):
+    """(K, H, W) float16 of a frame, in the form that it came in."""
+    names = [f"visibility_{k}" for k in range(len(RADII))]
+    if (path := folder / f"{name}.npz").exists():
+        with np.load(path) as arrays:
+            return np.stack([arrays[one] for one in names])
+    path = folder / f"{name}.exr"
+    channels = OpenEXR.File(str(path), separate_channels=True).channels()
+    return np.stack([channels[one].pixels for one in names])
+
+
+@pytest.mark.parametrize(
+    ("network", "write", "most", "mean"),
+    # Of halves the distance behind the blocker is told to 5e-4; of float32 only the answer is rounded.
+    [(KERNELS, write_exr, 0.03, 1e-3), (VALUES, write_npz, HALF, HALF / 2)],
+    ids=["kernels-exr", "values-npz"],
+)
+def test_a_network_answers_as_it_does_frames_of_our_own(here, rendered, network, write, most, mean):
+    weights = save_network(network)
+    write(here / "mine/quay-2/f_0007", engine_images(rendered))
+    table, folder = answer(layout_of())
+    method = soft_method("kpnsm", weights)
+    own = np.stack([rendered.answered(method, radius, {}) for radius in rendered.part.radii])
+    assert own[:, rendered.valid].std() > 0.01 and not rendered.valid.all()
+    found = read_answers(folder, "f_0007")
+    assert found.dtype == np.float16 and found.shape == own.shape
+    off = np.abs(found.astype(np.float32) - own)
+    assert off.max() < most and off.mean() < mean
+    assert (found[:, ~rendered.valid] == 1).all()
+    assert table["radius"].tolist() == RADII and (table["radius_unit"] == "scene_sizes").all()
+    square = np.square(own - rendered.target)[:, rendered.valid].mean(axis=1)
+    assert table["mse"].to_numpy() == pytest.approx(square, rel=5e-3)
+    # Where nothing is seen all is lit.
+    masked = [np.where(rendered.valid, one, 1) for one in (own, rendered.target)]
+    own_ssim = [ssim(*np.float32(pair)) for pair in zip(*masked)]
+    assert table["ssim"].to_numpy() == pytest.approx(own_ssim, abs=2e-3)
+    with Image.open(folder / "f_0007.png") as picture:
+        assert picture.width > 500
+
+
+def imported(folder, images, **told):
+    """The part that a frame becomes."""
+    write_npz(folder / "quay/f_0007", images)
+    part = folder / "out/quay/test_000.json"
+    settings = {"size": 8.0, "fov": 40, "radii": RADII, "radius_unit": "scene_sizes"}
+    settings |= {"channels": CHANNEL_IMAGES, "targets": TARGETS} | told
+    outputs = (part.with_suffix(f".{kind}") for kind in KINDS)
+    import_frame([folder / "quay/f_0007/frame.npz"], *outputs, **settings)
+    return next(measured_frames([part], []))
+
+
+def test_a_frame_without_targets_is_answered_but_not_measured(here, rendered):
+    weights = save_network(VALUES)
+    images = {k: v for k, v in engine_images(rendered).items() if k not in TARGETS}
+    frame = imported(here, images)
+    told = [frame.part.frames_json], [], None, [weights]
+    answer_frames(*told, here / "a.csv", here / "a", method="kpnsm", label="Mine")
+    table = pd.read_csv("a.csv")
+    assert len(table) == len(RADII) and "mse" not in table
+    assert read_answers(here / "a/quay", "f_0007").shape == (len(RADII), HEIGHT, WIDTH)
+    with pytest.raises(InputError, match="quay/f_0007: has no exact shadow to measure against"):
+        _ = frame.target
+
+
+def with_value(channel, value):
+    """A spoilt frame: a value where something is seen."""
+
+    def spoil(images):
+        image = images[NAMES[channel]].copy()
+        image[np.unravel_index(images[NAMES["z"]].argmax(), image.shape)] = value
+        return images | {NAMES[channel]: image}
+
+    return spoil
+
+
+def without(*names):
+    return lambda images: {name: one for name, one in images.items() if name not in names}
+
+
+@pytest.mark.parametrize(
+    ("spoil", "told"),
+    [
+        (
+            with_value("c_e", np.nan),
+            r"MyGBuffer.ce.15:R: NaN or infinity in 1 pixels, the first in",
+        ),
+        (with_value("d", np.inf), r"distV.15:R: NaN or infinity in 1 pixels"),
+        (
+            with_value("msm", 255),
+            r"MyShadowMap.msm.15:G: msm is from 0 to 255; should be in \[0, 1\]",
+        ),
+        (with_value("d", -1), r"distV.15:R: d is from -1 to .*; should be 0 or more"),
+        (lambda images: images | {NAMES["z"]: 0 * images[NAMES["z"]]}, "nothing is seen"),
+        (without(NAMES["z"]), r"distE.15:R: missing; each frame needs z"),
+        (
+            without("Pass2:R"),
+            r"missing, where the frame has other targets",
+        ),
+        (
+            lambda images: images | {NAMES["msm"]: images[NAMES["msm"]][1:]},
+            rf"msm.15:G: is {WIDTH} × {HEIGHT - 1}, but the frame's z {WIDTH} × {HEIGHT}",
+        ),
+    ],
+)
+def test_nothing_is_imported_of_damaged_ones(here, rendered, spoil, told):
+    targets = ["Pass1:R", "Pass2:R"]
+    images = engine_images(rendered)
+    images |= dict(zip(targets, [images.pop(name) for name in TARGETS]))
+    with pytest.raises(InputError, match=told):
+        imported(here, spoil(images), targets=targets)
+    assert not (here / "out").exists()
+
+
+def test_a_file_without_the_channel_says_which_it_has(here, rendered):
+    write_exr(here / "f", engine_images(rendered))
+    images = FrameImages(here / "f")
+    with pytest.raises(InputError, match=r"ce.15.exr: G: no such channel; there is R"):
+        images.image("MyGBuffer.ce.15:G")
+    (here / "f/MyGBuffer.ce.15.exr").write_bytes(b"no picture")
+    with pytest.raises(InputError, match=r"ce.15.exr: damaged"):
+        FrameImages(here / "f").image("MyGBuffer.ce.15:R")
+
+
+@pytest.mark.parametrize(
+    ("spoil", "header", "told"),
+    [
+        (
+            without(NAMES["msm"]),
+            {},
+            "f_0007: has no base shadow msm, which .* needs; it has z, gap",
+        ),
+        (without(NAMES["c_v"]), {}, "f_0007: has no channel c_v, which"),
+        (
+            lambda images: {name: one[:60] for name, one in images.items()},
+            {},
+            f"f_0007: is {WIDTH} × 60, smaller than the kernels of .*, 61 × 61",
+        ),
+        (
+            lambda images: images,
+            {"unit": "metres", "radii": [0, 0.25]},
+            "radii are in scene_sizes, but .* was trained with radii in metres, up to 0.25",
+        ),
+        (
+            lambda images: images,
+            {"radii": [0, 0.001]},
+            "up to 0.001 scene sizes, and is asked about one of 0.00625 scene sizes",
+        ),
+    ],
+)
+def test_what_a_network_cannot_answer_is_refused(here, rendered, spoil, header, told):
+    weights = save_network(KERNELS, **header)
+    frame = imported(here, spoil(engine_images(rendered)))
+    with pytest.raises(InputError, match=told):
+        frame.answered(soft_method("kpnsm", weights), frame.part.radii[-1], {})
+
+
+@pytest.mark.parametrize(
+    ("engine", "told"),
+    [
+        ({"sizes": {"pier": 3.0}}, r"frame_sets.mine.path = 'mine': no frame in pier/"),
+        ({"radii": [0, 0.1, 0.2]}, r"targets: 2 images for 3 radii"),
+        ({"channels": {"depth": "z:R"}}, r"depth"),
+        ({"channels": {"z": "z"}}, r"frame_sets.mine.*channels.z"),
+    ],
+)
+def test_mistakes_in_its_section(here, rendered, engine, told):
+    write_npz(here / "mine/quay-2/f_0007", {"z:R": np.ones((2, 2))})
+    with pytest.raises(InputError, match=told):
+        layout_of(**engine)
