@@ -19,7 +19,7 @@ from neural_shadows.config.own_frames import OwnFrames
 from neural_shadows.config.scenes import ViewSet
 from neural_shadows.config.tables import Row, rows_of
 from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
-from neural_shadows.reports.soft_looks import shown_radii
+from neural_shadows.frames.light_size import shown_radii
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config

@@ -20,3 +20,8 @@ def light_size(radius: float, largest: float, scene_size: float) -> LightSize:
     Where the largest is a point, the step is 0.
     """
     return LightSize(LARGEST_STEP * radius / (largest or 1), radius / scene_size)
+
+
+def shown_radii(count: int) -> list[int]:
+    """Which of so many radii pictures are of, unless told: the least but a point, the middle, the largest."""
+    return sorted({min(1, count - 1), count // 2, count - 1})

@@ -14,9 +14,10 @@ from neural_shadows.evaluation.soft_methods.registry import soft_methods_by_scen
 from neural_shadows.files.frame_images import write_images
 from neural_shadows.files.whole_files import whole_file
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.frames.light_size import shown_radii
 from neural_shadows.metrics.psnr_ssim import ssim
 from neural_shadows.reports.figures.soft_pictures import answers_alone, strips
-from neural_shadows.reports.soft_looks import light_names, shown_radii
+from neural_shadows.reports.soft_looks import light_names
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 

@@ -74,11 +74,6 @@ def light_names(about: Mapping[str, Any]) -> list[str]:
     return [light_name(radius, unit) for radius in about.get("given_radii", about["radii"])]
 
 
-def shown_radii(count: int) -> list[int]:
-    """Which of so many radii pictures are of, unless told: the least but a point, the middle, the largest."""
-    return sorted({min(1, count - 1), count // 2, count - 1})
-
-
 def light_name(radius: float, unit: str) -> str:
     """What a light of a radius is called; `unit`: m, or S for sizes of the scene."""
     return f"light of {radius:.3g} {unit} radius" if radius else "point light"
