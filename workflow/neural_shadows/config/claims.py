@@ -199,6 +199,16 @@ class RatioClaim(AnyClaim):
     )
 
 
+class ProportionalClaim(AnyClaim):
+    """A table's column is proportional to one of its columns rather than to another."""
+
+    kind: Literal["proportional"] = Field(description="`proportional`")
+    table: Name = Field(description="a name in `tables`")
+    column: str = Field(min_length=1, description="of the table's CSV")
+    to: str = Field(min_length=1, description="the column that it is claimed to follow")
+    rather_than: str = Field(min_length=1, description="the column that it follows less")
+
+
 Claim = by_kind(
     "kind",
     BetterClaim,
@@ -209,6 +219,7 @@ Claim = by_kind(
     SoftBetterClaim,
     SoftEqualTimeClaim,
     RatioClaim,
+    ProportionalClaim,
 )
 
 
@@ -249,6 +260,8 @@ def check(config: "Config") -> None:
             _check_printed(f"claims.{name}", claim)
         if isinstance(claim, SoftClaim):
             _check_soft(config, f"claims.{name}", claim)
+        if isinstance(claim, ProportionalClaim):
+            check_among(f"claims.{name}.table", claim.table, config.tables)
         for ratio in getattr(claim, "ratios", ()):
             check_among(f"claims.{name}.ratios.table", ratio.table, config.tables)
         for table, others in claim.again.items() if isinstance(claim, RatioClaim) else ():

@@ -36,7 +36,7 @@ def files(layout: Layout) -> dict[str, Any]:
     found["soft_times"] = [
         path for table in tables_of for path in soft_methods.times(layout, table)
     ]
-    found["tables"] = [layout.paths.report(f"{table}.csv") for table in ratio_tables(layout)]
+    found["tables"] = [layout.paths.report(f"{table}.csv") for table in tables_of_numbers(layout)]
     claimed = layout.settings["claims"].values()
     networks = tables.unique(name for claim in claimed for name in networks_of_frames(claim))
     found["screen_trainings"] = [
@@ -79,10 +79,12 @@ def soft_tables(layout: Layout) -> list[str]:
     return tables.unique(one["table"] for one in claims if one["kind"].startswith("soft_"))
 
 
-def ratio_tables(layout: Layout) -> list[str]:
+def tables_of_numbers(layout: Layout) -> list[str]:
     """The tables whose numbers claims compare."""
-    claims = [one for one in layout.settings["claims"].values() if one["kind"] == "ratio"]
-    asked = [ratio["table"] for one in claims for ratio in one["ratios"]]
+    claims = layout.settings["claims"].values()
+    asked = [one["table"] for one in claims if one["kind"] == "proportional"]
+    claims = [one for one in claims if one["kind"] == "ratio"]
+    asked += [ratio["table"] for one in claims for ratio in one["ratios"]]
     again = [table for one in claims for others in one["again"].values() for table in others]
     return tables.unique([*asked, *again])
 

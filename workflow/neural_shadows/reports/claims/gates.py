@@ -12,6 +12,7 @@ from neural_shadows.reports.claims import (
     frame_time,
     lower_loss,
     printed,
+    proportional,
     ratio,
     soft,
     violations,
@@ -37,6 +38,7 @@ KINDS = {
     "soft_better": soft.better,
     "soft_equal_time": soft.equal_time,
     "ratio": ratio.comparisons,
+    "proportional": proportional.comparisons,
 }
 OF_TRAININGS = ("better", "lower_loss")
 # One training says nothing of how trainings differ. Two are enough for an interval, of Student's t

@@ -22,7 +22,7 @@ NO_SHADOW_ROW = {
 
 # Kinds of claims whose methods are not those of a scene's viewpoints: printed numbers, soft shadows,
 # numbers of tables.
-WITHOUT_ROWS = ("printed", "soft_better", "soft_equal_time", "ratio")
+WITHOUT_ROWS = ("printed", "soft_better", "soft_equal_time", "ratio", "proportional")
 
 Row = Mapping[str, Any]  # as `config.rows_of` gives it
 

@@ -30,10 +30,8 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
     values = np.array([_values(table, ratio) for table in tables])
     texts = [f"{name} {value:.4g}" for name, value in zip(names, values.mean(axis=0))]
     kept["text"] = f"{ratio['column']} of {' over '.join(texts)} ({ratio['table']})"
-    if ratio["column"] == "runtime" and not tables[0]["of_printed_size"].all():
-        return Comparison(
-            **kept, **unjudged(incomparable="times of frames that have not the paper's size")
-        )
+    if why := of_another_size(tables[0], ratio["column"]):
+        return Comparison(**kept, **unjudged(incomparable=why))
     if not np.isfinite(values).all():
         return Comparison(**kept, **unjudged(untested=f"no {ratio['column']} of one of them"))
     ratios = values[:, 0] / values[:, 1]
@@ -43,6 +41,13 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
         number = _number(ratios, _limits(ratio))
         return Comparison(**kept, **number, supports=False, against=1.0, untested=why)
     return Comparison(**kept, **_number(ratios, _limits(ratio)), **_judged(ratios, _limits(ratio)))
+
+
+def of_another_size(table: pd.DataFrame, column: str) -> str:
+    """Why a column's numbers are not what a claim is about; empty if they are."""
+    if column == "runtime" and not table["of_printed_size"].all():
+        return "times of frames that have not the paper's size"
+    return ""
 
 
 def _again(claim: Mapping[str, Any], ratio: Mapping[str, Any]) -> list[str]:
