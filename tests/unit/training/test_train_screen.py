@@ -88,6 +88,7 @@ def test_learns_a_frame_by_heart(tmp_path):
     found = run(tmp_path, part, network=network, training=training)
     assert found["null_mse"]["hard_map"][1] > 0.01
     assert max(found["validation_mse"]) < 1e-3  # 0.0001 each
+    assert found["train_mse"] == found["validation_mse"]  # of the same frame
     assert [one["step"] for one in found["validations"]] == list(range(20, 200, 20))
     assert found["samples"] == 200 * 4 * HEIGHT * WIDTH
     network, header = load_screen_network(tmp_path / "nsm" / "weights.safetensors")

@@ -74,6 +74,16 @@ class ScreenStepsTable(AnyTable):
     steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")
 
 
+class ScreenErrorsTable(AnyTable):
+    """A table of networks' errors by scene and light, beside those on what they learned from."""
+
+    kind: Literal["screen_errors"] = Field(description="`screen_errors`")
+    frame_set: name_in("frame_sets") = Field(description="whose test frames they are asked about")
+    networks: list[name_in("screen_experiments")] = Field(
+        min_length=1, description="names in `screen_experiments`, in the table's order"
+    )
+
+
 class ScreenTemporalTable(AnyTable):
     """A table of how much methods flicker on a frame set's sequences, with and without TAA."""
 

@@ -9,6 +9,7 @@ from neural_shadows.config.any_table import AnyTable
 from neural_shadows.config.base import Model, Text, by_kind, check_among, name_in, section_or
 from neural_shadows.config.experiments import formatted, network_of, training_of
 from neural_shadows.config.screen_tables import (
+    ScreenErrorsTable,
     ScreenNetworksTable,
     ScreenProfileTable,
     ScreenStepsTable,
@@ -100,6 +101,7 @@ Table = by_kind(
     ScreenProfileTable,
     ScreenNetworksTable,
     ScreenTrainedTable,
+    ScreenErrorsTable,
     ScreenStepsTable,
     ScreenTemporalTable,
     default="comparison",

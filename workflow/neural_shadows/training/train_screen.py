@@ -70,9 +70,10 @@ def train_screen(
         trunk: weights file of the perceptual distance's network; None for L1 alone.
         weights: in a folder of the experiment's, with `checkpoints` beside it.
         training_json: gets the settings and what came of them: `samples` (pixels), `seconds`,
-            `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them
-            `validation_mse`, `null_mse` of what knows nothing (`no_shadow`, `hard_map`, and the
-            network's own base); `validations` on the way; `perceptual` (`none` for L1 alone), `perceptual_factor`.
+            `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them `train_mse` of as
+            many training frames as validation has, `validation_mse`, `null_mse` of what knows nothing
+            (`no_shadow`, `hard_map`, and the network's own base); `validations` on the way;
+            `perceptual` (`none` for L1 alone), `perceptual_factor`.
         network: what `make_screen_network` makes it from.
         training: see the config's `screen_trainings`; `perceptual` as it is in this run.
         scenes: whose parts these are.
@@ -122,11 +123,14 @@ def train_screen(
         compute = pool.map if chosen.type == "cpu" else map
         found = mse_by_radius(held_out, network_answer(run, held_out), compute)
         known = null_answers(held_out).items()
+        every = -(-len(frames) // len(held_out))  # as many as these, spread over all
+        learned = mse_by_radius(frames, network_answer(run, frames), compute, every)
         nulls = {name: mse_by_radius(held_out, one, compute) for name, one in known}
 
     save_screen_network(weights, model, header)
     write_text(loss_csv, run.curve_csv())
-    result = _outcome(run) | {"validation_mse": found, "null_mse": nulls}
+    errors = {"train_mse": learned, "validation_mse": found, "null_mse": nulls}
+    result = _outcome(run) | errors
     about = {"parameters": sum(one.numel() for one in run.weights.values()), **result}
     about |= {"perceptual_factor": loss.factor if perceptual is not None else None}
     machine = {"machine": describe_machine(), "threads": threads}

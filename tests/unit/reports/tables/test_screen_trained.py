@@ -11,6 +11,7 @@ from neural_shadows.evaluation.soft_metrics import write_soft_metrics
 from neural_shadows.reports.figures import screen_flicker, screen_sensitivity
 from neural_shadows.reports.tables import (
     screen_depth,
+    screen_errors,
     screen_features,
     screen_steps,
     screen_temporal,
@@ -164,6 +165,47 @@ def test_flicker_by_what_moves(tmp_path, trained, about):
     assert table["e_light"].tolist() == [0.4, 0.2] and table["e_camera"].tolist() == [0.2, 0.1]
     assert table["mse_sequence"].tolist() == [0.02, 0.03] and table["mse_edge"][0] == 0.5
     assert "E, light" in text
+
+
+def test_what_was_learned_beside_what_was_not(tmp_path, trained, about):
+    """Errors of scene and light as they were made; sequences are of the middle light, 1 of two."""
+    scenes = {"room": 0.02, "room_dragon": 0.04}
+    rows = [
+        {"scene": scene, "frame": i, "radius": k, "metric": "mse", "value": value * (1 + k)}
+        for scene, value in scenes.items()
+        for i in range(4)
+        for k in (0, 1)
+    ]
+    paths = {"scene": "room", "radius": 1, "metric": "mse_sequence"}
+    rows += [paths | {"part": f"{kind}_000", "value": 0.09} for kind in ("camera", "light")]
+    files = [metrics(tmp_path / "five.csv", rows)]
+    learned = {"scenes": ["room"], "radii": [0, 0.25]}
+    learned |= {"train_mse": [0.01, 0.03], "validation_mse": [0.02, None]}
+    trained[1].write_text(json.dumps(json.loads(trained[1].read_text()) | learned))
+    told = {"soft_metrics": files, "trainings": trained[1:], "frames_json": about}
+    table, text = written(screen_errors.write, tmp_path, labels={"five": "Five"}, **told)
+    cells = table.set_index(["frames", "light"])
+    assert cells["mse"].dropna().to_dict() == {
+        **{("training", "0"): 0.01, ("training", "1"): 0.03, ("training", "all"): 0.02},
+        ("validation", "0"): 0.02,
+        **{("room", "0"): 0.02, ("room", "1"): 0.04, ("room", "all"): 0.03},
+        **{("room_dragon", "0"): 0.04, ("room_dragon", "1"): 0.08, ("room_dragon", "all"): 0.06},
+        ("sequences", "1"): 0.09,
+    }
+    assert cells.loc[("room_dragon", "all"), "ratio"] == 3
+    assert cells.loc[("sequences", "1"), "ratio"] == 3
+    assert "room_dragon (never seen)" in text and "room (never seen)" not in text
+
+
+def test_lights_that_a_network_did_not_learn_have_no_training_error(tmp_path, trained, about):
+    rows = [{"scene": "room", "radius": k, "metric": "mse", "value": 0.02} for k in (0, 1)]
+    learned = {"scenes": ["room"], "radii": [0, 0.5], "train_mse": [1, 1], "validation_mse": [1, 1]}
+    trained[1].write_text(json.dumps(json.loads(trained[1].read_text()) | learned))
+    told = {"soft_metrics": [metrics(tmp_path / "five.csv", rows)], "trainings": trained[1:]}
+    told |= {"frames_json": about, "labels": {"five": "Five"}}
+    table, text = written(screen_errors.write, tmp_path, **told)
+    assert set(table["frames"]) == {"room"} and table["ratio"].isna().all()
+    assert "× training" not in text.splitlines()[2]
 
 
 def test_maps_of_flicker_are_drawn(tmp_path):

@@ -1,0 +1,149 @@
+"""How far networks on frames carry: errors on what they learned from, and on what they never saw
+(Datta et al. 2022, 4, figure 11, supplement 6 to 8).
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports import phrases
+from neural_shadows.reports.tables.screen_rows import describe_trainings, mean_with_interval
+from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+TRAINING, VALIDATION, SEQUENCES = "training", "validation", "sequences"
+ALL = "all"  # lights of all radii
+
+
+def write(
+    *,
+    soft_metrics: list[Path],
+    trainings: list[Path],
+    frames_json: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    labels: Mapping[str, str],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a row for each network, kind of frames and light.
+
+    CSV: those of `errors_table`, and the scale.
+
+    Args:
+        soft_metrics: of each network on the frame set; trainings: training.json of each.
+        frames_json: a part of its test frames.
+        labels: by experiment, in the table's order.
+    """
+    about = read_json(frames_json)
+    records = {path.parent.name: read_json(path) for path in trainings}
+    found = read_soft_metrics(soft_metrics)
+    radii = about.get("given_radii", about["radii"])
+    table = errors_table(found, records, labels, radii, run["seed"]).assign(scale=run["scale"])
+    shown = table.pivot(index=["label", "frames", "learned"], columns="light", values="mse")
+    shown = shown.reindex(table.set_index(shown.index.names).index.unique())
+    times = table.groupby(shown.index.names)["ratio"].mean().reindex(shown.index)
+    columns = {
+        "network": shown.index.get_level_values("label"),
+        "frames": [_frames_name(*keys) for keys in shown.index.droplevel("label")],
+        **{
+            f"{radius:g}": number_cells(shown[str(number)], "{:.1f}", 1e4)
+            for number, radius in enumerate(radii)
+        },
+        "all lights": number_cells(shown[ALL], "{:.1f}", 1e4),
+        "× training": number_cells(times, "{:.2f}"),
+    }
+    columns = {name: cells for name, cells in columns.items() if any(cells)}
+    notes = [
+        f"MSE × 10⁻⁴ by the light's radius, in {about.get('radius_unit', 'metres').replace('_', ' ')}. "
+        "A scene's row is of its test frames; sequences are paths through the first scene, of cameras, "
+        "lights and an object.",
+        *_describe_training("× training" in columns),
+        *describe_trainings(records, labels),
+        phrases.describe_run(run),
+    ]
+    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
+
+
+def errors_table(
+    found: pd.DataFrame,
+    records: Mapping[str, Mapping[str, Any]],
+    labels: Mapping[str, str],
+    radii: Sequence[float],
+    seed: int,
+) -> pd.DataFrame:
+    """A row for each network, kind of frames and light.
+
+    Columns: `experiment`, `label`; `frames`: `training`, `validation`, a scene's name for its test
+    frames, `sequences`; `learned`, whether the network learned from the scene; `light`, the radius's
+    number from 0, or `all`; `radius`; `mse` with the ends of its interval over frames, NaN where only
+    the mean is known; `ratio` to that of training frames at the same light, NaN for lights that the
+    network did not learn.
+    """
+    rows = []
+    for experiment, label in labels.items():
+        mine, record = found[found["method"] == experiment], records[experiment]
+        same = list(record["radii"]) == list(radii)
+        rows += [
+            {"experiment": experiment, "label": label, **row}
+            for row in (*_learned(record, same), *_tested(mine, record, seed))
+        ]
+    table = pd.DataFrame(rows)
+    table["radius"] = [np.nan if one == ALL else radii[int(one)] for one in table["light"]]
+    base = table[table["frames"] == TRAINING].set_index(["experiment", "light"])["mse"]
+    keys = pd.MultiIndex.from_frame(table[["experiment", "light"]])
+    return table.assign(ratio=table["mse"].to_numpy() / base.reindex(keys).to_numpy())
+
+
+def _learned(record: Mapping[str, Any], same: bool) -> Iterator[dict[str, Any]]:
+    """What the training measured itself; nothing if that was of other lights."""
+    for frames, name in ((TRAINING, "train_mse"), (VALIDATION, "validation_mse")):
+        values = np.array(record[name], float) if same else np.array([])  # of None NaN
+        lights = [*map(str, range(len(values))), ALL]
+        for light, value in zip(lights, [*values, values.mean()] if same else []):
+            ends = {"mse": value, "mse_low": np.nan, "mse_high": np.nan}
+            yield {"frames": frames, "learned": frames == TRAINING, "light": light, **ends}
+
+
+def _tested(mine: pd.DataFrame, record: Mapping[str, Any], seed: int) -> Iterator[dict[str, Any]]:
+    """Of each scene's test frames, and of sequences."""
+    for scene, frames in mine[mine["metric"] == "mse"].groupby("scene", sort=False):
+        learned = scene in record["scenes"]
+        by_light = [*frames.groupby("radius")["value"], (ALL, _of_all_lights(frames))]
+        for light, values in by_light:
+            row = {"frames": scene, "learned": learned, "light": str(light)}
+            yield row | mean_with_interval(values, "mse", seed)
+    paths = mine[mine["metric"] == "mse_sequence"]
+    if len(paths):
+        row = {"frames": SEQUENCES, "learned": paths["scene"].iloc[0] in record["scenes"]}
+        row |= {"light": str(paths["radius"].iloc[0])}
+        yield row | mean_with_interval(paths["value"], "mse", seed)
+
+
+def _of_all_lights(frames: pd.DataFrame) -> pd.Series:
+    """Frames are what is drawn: all lights of one together."""
+    return frames.groupby(["part", "frame"])["value"].mean()
+
+
+def _describe_training(known: bool) -> list[str]:
+    if not known:
+        return []
+    return [
+        "Training: of some of the frames that a network learned from, as many as are held out for "
+        "validation. × training: the error over theirs, mean over the lights that a row has. Frames "
+        "are drawn by chance, and some are harder than others."
+    ]
+
+
+def _frames_name(frames: str, learned: bool) -> str:
+    known = learned or frames == VALIDATION
+    return frames if known else f"{frames} (never seen)"
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)
