@@ -63,6 +63,16 @@ def test_tables_of_other_seeds_decide_by_student_s_t(sizes, verdict, number):
     assert number in f"{found['number']} {found['reason']}"
 
 
+def test_a_number_over_the_mean_of_others():
+    steps = pd.DataFrame({"row": ["a", "b", "c"], "size": [3.0, 1.0, 5.0]})
+    ratio = {"column": "size", "of": {"row": "a"}, "to": [{"row": "b"}, {"row": "c"}]}
+    found = judged(ratio | {"at_least": 0.99}, steps=steps)
+    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 1"
+    assert "a 3 over the mean of b and c 3" in found["evidence"]
+    ratio["to"].append({"row": "d"})
+    assert judged(ratio | {"at_least": 0.99}, steps=steps)["verdict"] == verdicts.TOO_SMALL
+
+
 def test_times_are_of_frames_of_the_paper_s_size():
     ratio = {"column": "runtime", "at_least": 3.5}
     assert judged(ratio)["verdict"] == verdicts.SUPPORTED

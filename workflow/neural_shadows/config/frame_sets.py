@@ -110,7 +110,7 @@ class RenderedFrames(Model):
     )
     light_map: by_kind("kind", PerspectiveMap, CubeMap) = Field(description="the light's map")
     radii: list[Annotated[float, Field(ge=0, le=10)]] = Field(
-        min_length=1, max_length=8, description="of the light; 0 is a point"
+        min_length=1, max_length=16, description="of the light; 0 is a point"
     )
     radius_unit: Literal["metres", "scene_sizes"] = Field(
         "metres", description="a scene's size is the longest side of its box"

@@ -1,8 +1,12 @@
 """Ratios of numbers of tables, of which claims say how large they are."""
 
+from typing import Annotated
+
 from pydantic import Field, model_validator
 
 from neural_shadows.config.base import Model, Name
+
+Row = Annotated[dict[str, str | bool | int], Field(min_length=1)]
 
 
 class Ratio(Model):
@@ -10,11 +14,11 @@ class Ratio(Model):
 
     table: Name = Field(description="a name in `tables`")
     column: str = Field(min_length=1, description="of the table's CSV")
-    of: dict[str, str | bool | int] = Field(
-        min_length=1, description="what finds its row: value by column"
-    )
-    to: dict[str, str | bool | int] | None = Field(
-        None, description="likewise, of what it is divided by; without it the sum of all others"
+    of: Row = Field(description="what finds its row: value by column")
+    to: Row | Annotated[list[Row], Field(min_length=2)] | None = Field(
+        None,
+        description="likewise, of what it is divided by, of several rows their mean; without it the "
+        "sum of all others",
     )
     at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
     at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")

@@ -8,6 +8,7 @@ import numpy as np
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.metrics.penumbra_width import penumbra_width
 from neural_shadows.metrics.visibility_error import visibility_errors
 
 
@@ -35,5 +36,15 @@ def errors_of(
     hard = target[0] if measured.part.radii[0] == 0 else None
     return {
         **visibility_errors(found, target[k], valid, hard),
+        **_widths({"": found, "_reference": target[k]}, valid, hard),
         **{name: metric(picture, target[k]) for name, metric in images.items()},
     }
+
+
+def _widths(
+    images: Mapping[str, np.ndarray], valid: np.ndarray, hard: np.ndarray | None
+) -> dict[str, float]:
+    """Mean widths of penumbrae in pixels; none where the edges of hard shadows are not known."""
+    if hard is None:
+        return {}
+    return {f"width{name}": penumbra_width(one, valid, hard) for name, one in images.items()}

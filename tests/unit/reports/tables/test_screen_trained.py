@@ -177,6 +177,12 @@ def test_what_was_learned_beside_what_was_not(tmp_path, trained, about):
         for k in (0, 1)
     ]
     paths = {"scene": "room", "radius": 1, "metric": "mse_sequence"}
+    rows += [
+        {"scene": scene, "frame": 0, "radius": k, "metric": name, "value": width}
+        for scene in scenes
+        for k, width in enumerate((2, 12))
+        for name in ("width", "width_reference")
+    ]
     rows += [paths | {"part": f"{kind}_000", "value": 0.09} for kind in ("camera", "light")]
     files = [metrics(tmp_path / "five.csv", rows)]
     learned = {"scenes": ["room"], "radii": [0, 0.25]}
@@ -194,6 +200,7 @@ def test_what_was_learned_beside_what_was_not(tmp_path, trained, about):
     }
     assert cells.loc[("room_dragon", "all"), "ratio"] == 3
     assert cells.loc[("sequences", "1"), "ratio"] == 3
+    assert cells.loc[("room", "1"), "width"] == 12 and "exact width, px" in text
     assert "room_dragon (never seen)" in text and "room (never seen)" not in text
 
 

@@ -1,6 +1,6 @@
 """Numbers of tables against each other: one over another, within bounds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,8 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     """A comparison for each of a claim's ratios of two cells of one table.
 
     Each of a claim's `ratios` has a `table` and a `column`, which `of` and `to`, values by column,
-    find the rows of (without `to` it is over the sum of all other rows), and `at_least` or
-    `at_most`. What trained networks measure is not judged by fewer trainings than the claim needs:
+    find the rows of (with several `to` it is over their mean, without any over the sum of all other
+    rows), and `at_least` or `at_most`. What trained networks measure is not judged by fewer trainings than the claim needs:
     a seed is one of the table, and one each of those in `again`. Of more than one the ratios'
     logarithms decide, by Student's t.
     """
@@ -58,7 +58,8 @@ def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
     value = _cell(table, ratio["column"], ratio["of"])
     if ratio["to"] is None:
         return [value, table[ratio["column"]].sum() - value]
-    return [value, _cell(table, ratio["column"], ratio["to"])]
+    over = ratio["to"] if isinstance(ratio["to"], list) else [ratio["to"]]
+    return [value, float(np.mean([_cell(table, ratio["column"], one) for one in over]))]
 
 
 def _limits(ratio: Mapping[str, Any]) -> dict[str, float]:
@@ -88,7 +89,9 @@ def _judged(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:
     }
 
 
-def _name(where: Mapping[str, Any] | None) -> str:
+def _name(where: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None) -> str:
+    if isinstance(where, list):
+        return f"the mean of {' and '.join(map(_name, where))}"
     return "all others" if where is None else ", ".join(map(str, where.values()))
 
 

@@ -18,6 +18,8 @@ from neural_shadows.running.stage import run_stage
 
 TRAINING, VALIDATION, SEQUENCES = "training", "validation", "sequences"
 ALL = "all"  # lights of all radii
+WIDTHS = {"width": "width, px", "width_reference": "exact width, px"}
+SHOWN = {"mse": ("MSE × 10⁻⁴", 1e4)} | {name: (text, 1) for name, text in WIDTHS.items()}
 
 
 def write(
@@ -45,29 +47,18 @@ def write(
     found = read_soft_metrics(soft_metrics)
     radii = about.get("given_radii", about["radii"])
     table = errors_table(found, records, labels, radii, run["seed"]).assign(scale=run["scale"])
-    shown = table.pivot(index=["label", "frames", "learned"], columns="light", values="mse")
-    shown = shown.reindex(table.set_index(shown.index.names).index.unique())
-    times = table.groupby(shown.index.names)["ratio"].mean().reindex(shown.index)
-    columns = {
-        "network": shown.index.get_level_values("label"),
-        "frames": [_frames_name(*keys) for keys in shown.index.droplevel("label")],
-        **{
-            f"{radius:g}": number_cells(shown[str(number)], "{:.1f}", 1e4)
-            for number, radius in enumerate(radii)
-        },
-        "all lights": number_cells(shown[ALL], "{:.1f}", 1e4),
-        "× training": number_cells(times, "{:.2f}"),
-    }
-    columns = {name: cells for name, cells in columns.items() if any(cells)}
+    columns = _cells(table, radii)
     notes = [
-        f"MSE × 10⁻⁴ by the light's radius, in {about.get('radius_unit', 'metres').replace('_', ' ')}. "
+        f"By the light's radius, in {about.get('radius_unit', 'metres').replace('_', ' ')}. Width: the "
+        "area of penumbrae (visibility 10 to 90 %, × 1.25) over the length of the edges of the hard "
+        "shadow, which is the same for all lights. "
         "A scene's row is of its test frames; sequences are paths through the first scene, of cameras, "
         "lights and an object.",
         *_describe_training("× training" in columns),
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
+    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=3)
 
 
 def errors_table(
@@ -82,7 +73,8 @@ def errors_table(
     Columns: `experiment`, `label`; `frames`: `training`, `validation`, a scene's name for its test
     frames, `sequences`; `learned`, whether the network learned from the scene; `light`, the radius's
     number from 0, or `all`; `radius`; `mse` with the ends of its interval over frames, NaN where only
-    the mean is known; `ratio` to that of training frames at the same light, NaN for lights that the
+    the mean is known; `width` and `width_reference` of the answered and of the exact penumbrae of test
+    frames; `ratio` to that of training frames at the same light, NaN for lights that the
     network did not learn.
     """
     rows = []
@@ -117,7 +109,7 @@ def _tested(mine: pd.DataFrame, record: Mapping[str, Any], seed: int) -> Iterato
         by_light = [*frames.groupby("radius")["value"], (ALL, _of_all_lights(frames))]
         for light, values in by_light:
             row = {"frames": scene, "learned": learned, "light": str(light)}
-            yield row | mean_with_interval(values, "mse", seed)
+            yield row | mean_with_interval(values, "mse", seed) | _widths(mine, scene, light)
     paths = mine[mine["metric"] == "mse_sequence"]
     if len(paths):
         row = {"frames": SEQUENCES, "learned": paths["scene"].iloc[0] in record["scenes"]}
@@ -125,9 +117,31 @@ def _tested(mine: pd.DataFrame, record: Mapping[str, Any], seed: int) -> Iterato
         yield row | mean_with_interval(paths["value"], "mse", seed)
 
 
+def _widths(mine: pd.DataFrame, scene: str, light: Any) -> dict[str, float]:
+    here = mine[(mine["scene"] == scene) & (mine["radius"] == light)]
+    return {name: here[here["metric"] == name]["value"].mean() for name in WIDTHS}
+
+
 def _of_all_lights(frames: pd.DataFrame) -> pd.Series:
     """Frames are what is drawn: all lights of one together."""
     return frames.groupby(["part", "frame"])["value"].mean()
+
+
+def _cells(table: pd.DataFrame, radii: Sequence[float]) -> dict[str, list[str]]:
+    """The Markdown's: a row for each network, kind of frames and number of `SHOWN`."""
+    keys = ["label", "frames", "learned"]
+    rows = []
+    for (label, frames, learned), here in table.groupby(keys, sort=False):
+        times = number_cells([here["ratio"].mean()], "{:.2f}")
+        for name, (text, factor) in SHOWN.items():
+            cells = dict(zip(here["light"], number_cells(here[name], "{:.1f}", factor)))
+            found = [cells.get(light, "") for light in (*map(str, range(len(radii))), ALL)]
+            if any(found):
+                names = [label, _frames_name(frames, learned), text]
+                rows.append([*names, *found, *(times if name == "mse" else [""])])
+    headings = ["network", "frames", "", *(f"{radius:g}" for radius in radii), "all lights"]
+    columns = dict(zip([*headings, "× training"], map(list, zip(*rows))))
+    return {heading: cells for heading, cells in columns.items() if any(cells)}
 
 
 def _describe_training(known: bool) -> list[str]:
