@@ -27,9 +27,35 @@ rule tune_soft_method:
         "../neural_shadows/evaluation/tune_soft_method.py"
 
 
+rule measure_occluders:
+    input:
+        parts=PATHS.frames("json"),
+        beside=frame_sets.arrays([PATHS.frames("json")]),
+        meshes=of(frame_sets.meshes),
+        code=lambda wildcards: code(
+            "evaluation/measure_occluders",
+            generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
+        ),
+    output:
+        occluders_npy=PATHS.occluders(),
+    log:
+        PATHS.log("measure_occluders", "scene", "frame_set", "part"),
+    benchmark:
+        PATHS.benchmark("measure_occluders", "scene", "frame_set", "part")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=60),
+    message:
+        "Measuring what blocks the light in {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"
+    script:
+        "../neural_shadows/evaluation/measure_occluders.py"
+
+
 rule evaluate_soft:
     input:
         parts=of(soft_methods.tests),
+        occluders=of(soft_methods.occluders),
         beside=of(soft_methods.measured_arrays),
         sequences=of(soft_methods.sequences),
         meshes=of(soft_methods.all_meshes),

@@ -100,6 +100,7 @@ def evaluate(folder, method):
         target / f"{method}.csv",
         target / f"{method}.npz",
         method=method,
+        occluders=[],
     )
     return read_soft_metrics([target / f"{method}.csv"])
 

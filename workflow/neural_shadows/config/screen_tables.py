@@ -75,9 +75,12 @@ class ScreenStepsTable(AnyTable):
 
 
 class ScreenErrorsTable(AnyTable):
-    """A table of networks' errors by scene and light, beside those on what they learned from."""
+    """A table of networks' errors, on what they learned from and on what not, or behind what."""
 
-    kind: Literal["screen_errors"] = Field(description="`screen_errors`")
+    kind: Literal["screen_errors", "screen_solids"] = Field(
+        description="by scene and light, beside those on what they learned from, or by how many solids "
+        "lie before the light"
+    )
     frame_set: name_in("frame_sets") = Field(description="whose test frames they are asked about")
     networks: list[name_in("screen_experiments")] = Field(
         min_length=1, description="names in `screen_experiments`, in the table's order"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.evaluation.frame_answers import all_radii, constants_of, errors_of
+from neural_shadows.evaluation.measure_occluders import read_occluders
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, name_of, write_answers
 from neural_shadows.evaluation.soft_methods.registry import soft_methods_by_scene
@@ -18,6 +19,7 @@ from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.metrics.available_lpips import lpips_metric
 from neural_shadows.metrics.flip import flip
 from neural_shadows.metrics.instability import exponential_instability, root_instability
+from neural_shadows.metrics.occluder_error import errors_by_occluders
 from neural_shadows.metrics.psnr_ssim import ssim
 from neural_shadows.rendering.reprojection import looked_up, seen_before
 from neural_shadows.running.progress import progress_bar
@@ -36,6 +38,7 @@ def evaluate_soft(
     metrics_csv: Path,
     answers_npz: Path,
     *,
+    occluders: list[Path],
     method: str,
     threads: int = 1,
 ) -> None:
@@ -51,6 +54,8 @@ def evaluate_soft(
         weights: of a network, or of several, each of which answers the scenes that it learned, and
             nothing of others; none for any other method.
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
+        occluders: what `measure_occluders` wrote of each part; none for a method whose errors are
+            not told by what blocks the light.
 
     Raises:
         InputError: an input file cannot be read.
@@ -63,6 +68,7 @@ def evaluate_soft(
 
     rows: list[Row] = []
     kept: dict[str, np.ndarray] = {}  # to be drawn
+    blocking = dict(zip(parts, map(read_occluders, occluders)))
     paths = [*parts, *sequences]
     total = sum(len(FrameSetPart(path)) for path in paths)
     with progress_bar(total, "frames", f"evaluate {method}") as bar:
@@ -84,6 +90,10 @@ def evaluate_soft(
                     if measured.number == 0:
                         kept[name_of(path, k)] = found
                     values = errors_of(measured, found, k, metrics)
+                    if path in blocking:
+                        target, valid = measured.target[k], measured.valid
+                        blocks = blocking[path][measured.number].astype(np.float32)
+                        values |= errors_by_occluders(found, target, valid, *blocks)
                     key = _key(measured.part, measured.number, k)
                     rows += [{**key, "metric": name, "value": one} for name, one in values.items()]
                 bar.update()

@@ -90,6 +90,12 @@ class Paths:
         """`csv`, the errors of a method on a frame set's test frames; `npz`, what it answered."""
         return f"{self.results}/soft_evaluations/{frame_set}/{method}.{ending}"
 
+    def occluders(
+        self, scene: str = "{scene}", frame_set: str = "{frame_set}", part: str = "{part}"
+    ) -> str:
+        """What blocks the light in the frames of a part."""
+        return f"{self.results}/occluders/{frame_set}/{scene}/{part}.npy"
+
     def screen_sensitivity(
         self, frame_set: str = "{frame_set}", experiment: str = "{experiment}"
     ) -> str:

@@ -6,7 +6,10 @@ from neural_shadows.evaluation.soft_method_names import is_network
 from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
 
-KINDS = ("screen_depth", "screen_features", "screen_errors", "screen_steps", "screen_temporal")
+KINDS = (
+    *("screen_depth", "screen_features", "screen_errors", "screen_solids"),
+    *("screen_steps", "screen_temporal"),
+)
 
 
 def methods(layout: Layout, table: str) -> list[str]:
@@ -15,7 +18,7 @@ def methods(layout: Layout, table: str) -> list[str]:
     match settings["kind"]:
         case "screen_steps":
             named = [one["experiment"] for one in settings["steps"].values() if one["experiment"]]
-        case "screen_errors":
+        case "screen_errors" | "screen_solids":
             named = settings["networks"]
         case "screen_temporal":
             named = settings["methods"]

@@ -83,6 +83,19 @@ def tuned_arrays(layout: Layout, frame_set: str) -> list[str]:
     return frame_sets.arrays(validations(layout, frame_set))
 
 
+def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:
+    """What blocks the light in the test frames, which networks' errors are told by; none of another
+    method, or of frames of a user's own, where there is no scene to ask.
+    """
+    if not is_network(method) or layout.entry("frame_sets", frame_set)["path"] is not None:
+        return []
+    return [
+        layout.paths.occluders(scene, frame_set, part.rsplit("/", 1)[1].removesuffix(".json"))
+        for scene in frame_sets.measured_scenes(layout, frame_set)
+        for part in frame_sets.parts(layout, scene, frame_set, "test")
+    ]
+
+
 def all_meshes(layout: Layout, frame_set: str) -> list[str]:
     """The meshes of the objects that stand in a frame set's scenes, each once."""
     scenes = frame_sets.measured_scenes(layout, frame_set)

@@ -55,6 +55,7 @@ FILES = {
     "screen_depth": ("soft_metrics", "trainings", "frames_json", "published_nsm_csv"),
     "screen_features": ("soft_metrics", "trainings", "sensitivities", "published_nsm_csv"),
     "screen_errors": ("soft_metrics", "trainings", "frames_json"),
+    "screen_solids": ("soft_metrics", "trainings", "frames_json"),
     "screen_steps": ("profiles", "soft_metrics", "trainings", "published_nsm_csv"),
     "screen_temporal": ("soft_metrics", "trainings", "frames_json"),
 }
@@ -73,6 +74,7 @@ TOLD = {
     "screen_depth": ("published", "columns", "labels", "run"),
     "screen_features": ("published", "columns", "labels", "run"),
     "screen_errors": ("labels", "run"),
+    "screen_solids": ("labels", "run"),
     "screen_steps": ("steps", "labels", "run"),
     "screen_temporal": ("labels", "run"),
 }

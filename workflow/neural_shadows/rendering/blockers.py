@@ -34,3 +34,30 @@ def blockers(
     farthest = np.where(blocked, away, -np.inf).max(1)
     known = blocked.any(1)
     return np.where(known, nearest, np.nan), np.where(known, farthest, np.nan)
+
+
+def solids_before(scene: Scene, surface: Surface, centre: np.ndarray) -> np.ndarray:
+    """How many solids lie between each of a surface's points and the light's centre, (n,) int32.
+
+    A solid has two surfaces, a sheet one: it is half the number of surfaces, rounded up. Those within
+    1e-4 of the scene's size of each other count once. 0 where a point is turned from the light.
+
+    Args:
+        centre: (3,) of the light.
+    """
+    step = np.float32(OFFSET * scene.size)
+    at = surface.p + step * surface.n_g
+    way = centre.astype(np.float32) - at
+    surfaces = np.zeros(len(at), np.int32)
+    asked = np.flatnonzero(np.einsum("ij,ij->i", way, surface.n_g) > 0)
+    at, way = at[asked], way[asked]
+    while len(asked):
+        share, _ = scene.tracer.first_hit(at, way)
+        length = np.linalg.norm(way, axis=1)
+        beyond = share * length + step  # of the surface that is hit, or ∞
+        hit = beyond < length
+        asked, at, way = asked[hit], at[hit], way[hit]
+        surfaces[asked] += 1
+        moved = (beyond[hit] / length[hit])[:, None] * way
+        at, way = at + moved, way - moved
+    return (surfaces + 1) // 2

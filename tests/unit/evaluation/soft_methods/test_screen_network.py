@@ -7,6 +7,7 @@ import pytest
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
+from neural_shadows.evaluation.measure_occluders import measure_occluders, read_occluders
 from neural_shadows.evaluation.measure_sensitivity import measure_sensitivity
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
@@ -95,10 +96,16 @@ def test_it_is_measured_as_others_are(folder):
     parts = [folder / "blinds/test_000.json"], [folder / "blinds/light_000.json"]
     weights = folder / "tiny/weights.safetensors"
     files = None, [weights], folder / "lpips.json"
-    evaluate_soft(*parts, [], *files, *out, method="tiny")
+    measure_occluders(parts[0], [], folder / "occluders.npy")
+    blocking = [folder / "occluders.npy"]
+    evaluate_soft(*parts, [], *files, *out, occluders=blocking, method="tiny")
     table = read_soft_metrics(out[:1])
     assert len(table[table["metric"] == "mse"]) == 3 * len(RADII)
     means = table.groupby("metric")["value"].mean()
+    # What lies behind slats of which a way crosses one or more, but seldom many.
+    solids, widths = np.moveaxis(read_occluders(blocking[0]), 1, 0)
+    assert set(np.unique(solids)) >= {0, 1} and 0 < means["mse_behind"] and 0 < means["mse_widest"]
+    assert 0 < widths.max() < 48 and 1 <= means["solids_behind"] < 2
     # Averaged with the frame before, it changes less.
     assert means["instability_taa"] < means["instability"]
     maps = [read_answer(out[1], flicker_name(parts[1][0], exact)) for exact in (False, True)]

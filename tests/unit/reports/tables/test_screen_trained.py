@@ -13,6 +13,7 @@ from neural_shadows.reports.tables import (
     screen_depth,
     screen_errors,
     screen_features,
+    screen_solids,
     screen_steps,
     screen_temporal,
 )
@@ -69,7 +70,8 @@ def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
         metrics(
             tmp_path / f"{name}.csv",
             [
-                {"scene": scene, "frame": i, "radius": k, "metric": "mse", "value": value * (1 + k)}
+                {"scene": scene, "frame": i, "radius": k, "metric": name, "value": value * (1 + k)}
+                for name in ("mse", "mse_widest")
                 for scene, value in values.items()
                 for i in range(4)
                 for k in (0, 1)
@@ -89,6 +91,7 @@ def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
         **{("penumbra_21", "layers_3"): 0.02, ("penumbra_21", "layers_5"): 0.04},
         **{("penumbra_90", "layers_3"): 0.16, ("penumbra_90", "layers_5"): 0.02},
     }
+    assert cells["mse_widest"].to_dict() == cells["mse"].to_dict()
     assert cells.loc[("penumbra_90", "layers_3"), "printed_mse"] == 0.083
     assert cells.loc[("penumbra_90", "layers_3"), "mse_minus_printed"] == pytest.approx(0.077)
     assert cells.loc[("penumbra_90", "layers_3"), "ratio"] == 8
@@ -202,6 +205,28 @@ def test_what_was_learned_beside_what_was_not(tmp_path, trained, about):
     assert cells.loc[("sequences", "1"), "ratio"] == 3
     assert cells.loc[("room", "1"), "width"] == 12 and "exact width, px" in text
     assert "room_dragon (never seen)" in text and "room (never seen)" not in text
+
+
+def test_a_line_over_the_solids_before_the_light(tmp_path, trained, about):
+    """Errors of 0.01 a solid, of frames half of whose pixels behind something have two before them.
+
+    A point light, of which they are the ninefold, has no part.
+    """
+    values = {"mse_solids_1": 0.01, "mse_solids_2": 0.02, "mse_behind": 0.015, "solids_behind": 1.5}
+    values |= {"mse_per_solid": 0.01, "mse_solids_3": float("nan")}
+    rows = [
+        {"frame": i, "radius": k, "metric": name, "value": factor * value}
+        for name, value in values.items()
+        for i in range(4)
+        for k, factor in enumerate((9, 1))
+    ]
+    told = {"soft_metrics": [metrics(tmp_path / "five.csv", rows)], "trainings": trained[1:]}
+    told |= {"frames_json": about}
+    table, text = written(screen_solids.write, tmp_path, labels={"five": "Five"}, **told)
+    assert table["mse"].tolist()[:2] == [0.01, 0.02] and np.isnan(table["mse"][2])
+    assert table["line"].tolist() == pytest.approx([0.01, 0.02, 0.03])
+    assert table["slope_low"].tolist() == pytest.approx([0.01] * 3)
+    assert "3 and more" in text and "100.0 [100.0, 100.0]" in text
 
 
 def test_lights_that_a_network_did_not_learn_have_no_training_error(tmp_path, trained, about):

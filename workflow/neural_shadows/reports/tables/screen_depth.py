@@ -59,6 +59,10 @@ def write(
         here = table[table["column"] == column]
         parts[label] = number_cells(here["mse"], "{:.4f}")
         parts[f"{label}, printed"] = number_cells(here["printed_mse"], "{:.3f}")
+    parts["of the widest"] = [
+        " / ".join(number_cells(here["mse_widest"], "{:.4f}"))
+        for _, here in table.groupby("row", sort=False)
+    ]
     parts["× best"] = [
         " / ".join(number_cells(here["ratio"], "{:.1f}"))
         for _, here in table.groupby("row", sort=False)
@@ -67,7 +71,8 @@ def write(
         f"Squared error of visibility for a light of {about['radii'][-1]:g} m, mean over the test "
         f"frames of {about['width']} × {about['height']}. × best: of each network, times the least "
         f"of its row; a network whose receptive field (3 · 2^levels pixels) is narrower than the "
-        f"penumbra should have {SUFFICES:g} or more.",
+        f"penumbra should have {SUFFICES:g} or more. Of the widest: of the tenth of each frame's penumbra "
+        "pixels whose penumbra is widest by the paper's model (3.6).",
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
@@ -86,21 +91,21 @@ def depth_table(
     """A row for each scene and network.
 
     Columns: `row` (`penumbra_21` of the scene `plate_21`), `column`, `experiment`, `label`,
-    `receptive_field` in pixels, `mse` with the ends of its interval over frames, `ratio` to the
-    least of its row.
+    `receptive_field` in pixels, `mse` with the ends of its interval over frames, `mse_widest` of
+    the tenth of a frame's penumbra pixels whose penumbra is widest, `ratio` of `mse` to the least of
+    its row.
     """
     rows = []
-    for scene, frames in found[(found["metric"] == "mse") & (found["radius"] == radius)].groupby(
-        "scene", sort=False
-    ):
+    for scene, frames in found[found["radius"] == radius].groupby("scene", sort=False):
         for column, experiment in columns.items():
-            values = frames[frames["method"] == experiment]["value"]
+            mine = frames[frames["method"] == experiment].set_index("metric")["value"]
             levels = len(records[experiment]["network"]["widths"])
             rows.append(
                 {"row": scene.replace("plate_", "penumbra_"), "column": column}
                 | {"experiment": experiment, "label": labels[experiment]}
                 | {"receptive_field": 3 * 2**levels}
-                | mean_with_interval(values, "mse", seed)
+                | mean_with_interval(mine.loc[["mse"]], "mse", seed)
+                | {"mse_widest": mine.get("mse_widest", pd.Series(dtype=float)).mean()}
             )
     table = pd.DataFrame(rows)
     return table.assign(ratio=table["mse"] / table.groupby("row")["mse"].transform("min"))

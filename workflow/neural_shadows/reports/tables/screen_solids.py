@@ -1,0 +1,99 @@
+"""Errors of networks on frames by how many solids lie before the light (Datta et al. 2022, 5, fig. 12)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.metrics.occluder_error import MOST
+from neural_shadows.reports import phrases
+from neural_shadows.reports.tables.screen_rows import describe_trainings, mean_with_interval
+from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+
+def write(
+    *,
+    soft_metrics: list[Path],
+    trainings: list[Path],
+    frames_json: Path,
+    csv: Path,
+    md: Path,
+    title: str,
+    labels: Mapping[str, str],
+    run: Mapping[str, Any],
+) -> None:
+    """Write a row for each network and number of solids.
+
+    CSV: those of `solids_table`, and the scale.
+
+    Args:
+        soft_metrics: of each network on a frame set; trainings: training.json of each.
+        frames_json: a part of its test frames.
+        labels: by experiment, in the table's order.
+    """
+    records = {path.parent.name: read_json(path) for path in trainings}
+    found = read_soft_metrics(soft_metrics)
+    soft = [number for number, radius in enumerate(read_json(frames_json)["radii"]) if radius > 0]
+    table = solids_table(found[found["radius"].isin(soft)], labels, run["seed"])
+    table = table.assign(scale=run["scale"])
+    more = [" and more" * (number == MOST) for number in table["solids"]]
+    columns = {
+        "network": table["label"],
+        "solids": [f"{number}{end}" for number, end in zip(table["solids"], more)],
+        "MSE × 10⁻⁴": interval_cells(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
+        "the line": number_cells(table["line"], "{:.1f}", 1e4),
+        "each solid adds": interval_cells(table, ["slope", "slope_low", "slope_high"], 1, 1e4),
+    }
+    notes = [
+        "Of pixels of test frames with so many solids between them and the light's centre, mean over "
+        "all lights but a point, of which one solid hides as much as several [95 % bootstrap interval over frames]. A solid: two surfaces that the way to the "
+        "light crosses, or one of a sheet.",
+        "What each solid adds: the slope of a straight line through the squared errors of a frame's "
+        "pixels over their numbers of solids, mean over frames; the line: that through their means.",
+        *describe_trainings(records, labels),
+        phrases.describe_run(run),
+    ]
+    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
+
+
+def solids_table(found: pd.DataFrame, labels: Mapping[str, str], seed: int) -> pd.DataFrame:
+    """A row for each network and number of solids before the light.
+
+    Columns: `experiment`, `label`, `solids`, `mse` and `slope` (what each solid adds, the same in all
+    rows of a network) with the ends of their intervals over frames, `line`, the error at this number on
+    a line of this slope.
+    """
+    # Frames are what is drawn: all lights of one together.
+    keys = ["method", "metric", "scene", "part", "frame"]
+    frames = found.groupby(keys)["value"].mean().dropna()
+    rows = []
+    for experiment, label in labels.items():
+        mine = frames[experiment]
+        slope = _of_frames(mine, "mse_per_solid", "slope", seed)
+        behind, middle = (_values(mine, name).mean() for name in ("mse_behind", "solids_behind"))
+        for number in range(1, MOST + 1):
+            row = {"experiment": experiment, "label": label, "solids": number}
+            row |= _of_frames(mine, f"mse_solids_{number}", "mse", seed)
+            rows.append(row | {"line": behind + slope["slope"] * (number - middle)} | slope)
+    return pd.DataFrame(rows)
+
+
+def _of_frames(mine: pd.Series, metric: str, name: str, seed: int) -> dict[str, float]:
+    """The mean of a metric over frames with its interval; NaN where no frame has one."""
+    values = _values(mine, metric)
+    if values.empty:
+        return dict.fromkeys((name, f"{name}_low", f"{name}_high"), np.nan)
+    return mean_with_interval(values, name, seed)
+
+
+def _values(mine: pd.Series, metric: str) -> pd.Series:
+    return mine[mine.index.get_level_values("metric") == metric]
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)
