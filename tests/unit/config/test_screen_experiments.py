@@ -27,6 +27,7 @@ def read(frames=None, metrics=None, **changes):
     [
         ({"scenes": ["garden"]}, "'garden' is among `unseen` of frame_sets.few"),
         ({"scenes": ["atrim"]}, "did you mean 'atrium'"),
+        ({"lights": [1, 2]}, "frame_sets.few has 2 radii, counted from 0"),
         ({"frames": {"train": 0}}, "frame_sets.few has train = 0"),
         ({"frames": {"twins": {"count": 0}}}, "perturbation = 3 needs twins"),
         (

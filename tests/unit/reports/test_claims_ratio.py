@@ -88,3 +88,7 @@ def test_what_networks_measure_needs_seeds_and_that_they_learned():
     worse = LEARNED | {"validation_mse": [0.03, 0.05]}
     found = judged(ratio, {"nsm": worse}, **told)
     assert found["verdict"] == verdicts.NOT_LEARNED and "hard_map 350" in found["reason"]
+    # Of one that learned the second light alone, the first does not count.
+    alone = {"validation_mse": [9.0, 0.02], "training": {"lights": [1]}}
+    found = judged(ratio, {"nsm": LEARNED | alone}, **told)
+    assert found["verdict"] == verdicts.TOO_SMALL

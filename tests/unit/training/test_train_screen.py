@@ -170,6 +170,13 @@ def test_crops_depend_on_seed_and_step_alone(tmp_path):
         assert np.array_equal(crop.target[0, 0].numpy()[:: -1 if place.upside_down else 1], window)
 
 
+def test_of_some_lights_alone(tmp_path):
+    frames = ScreenFrames([write_frames(tmp_path)], FEATURES)
+    told = {"seed": 1, "crops": 20, "crop": 16, "flips": False, "twins": False, "lights": [1]}
+    for pairs in (False, True):
+        assert {one.radius for one in crop_places(frames, 3, pairs=pairs, **told)} == {1}
+
+
 def test_of_a_pair_each_has_another_radius(tmp_path):
     part = write_frames(tmp_path)
     told = {"seed": 1, "crops": 60, "crop": 16, "flips": False, "twins": False, "pairs": True}

@@ -1,6 +1,6 @@
 """`screen_experiments`: the networks of whole frames that are trained."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
@@ -28,6 +28,11 @@ class ScreenExperiment(Model):
     scenes: list[str] = Field(
         min_length=1, description="of the frame set's `scenes`: it learns from these alone"
     )
+    lights: list[Annotated[int, Field(ge=0)]] | None = Field(
+        None,
+        min_length=1,
+        description="numbers of the frame set's radii, from 0, that it learns; without it all",
+    )
     seed: Seed | None = Field(None, description="of this training; without it the configuration's")
     label: Text | None = Field(None, description="its name in tables")
 
@@ -45,12 +50,13 @@ def training_of(config: "Config", experiment: str) -> ScreenTraining:
 
 
 def as_settings(config: "Config", name: str) -> dict[str, Any]:
-    """An experiment as rules look it up: its sections, and the `trunk` of its perceptual distance.
+    """An experiment as rules look it up: its sections, and the `trunk` of its perceptual distance; in
+    its training the `lights` that it learns.
 
     Without a trunk the distance is `none`.
     """
     experiment = config.screen_experiments[name]
-    training = training_of(config, name).model_dump()
+    training = training_of(config, name).model_dump() | {"lights": experiment.lights}
     perceptual, lpips = training["perceptual"], config.metrics.lpips
     trunk = perceptual.pop("trunk", None)
     if perceptual["net"] == "squeeze":
@@ -107,6 +113,11 @@ def _check_frames(config: "Config", name: str) -> None:
                 f"on; allowed: {', '.join(frames.scenes)}"
             )
         check_among(f"{key}.scenes", scene, own_parts(frames) if own else frames.scenes)
+    radii = None if own else frames.radii
+    if radii is not None and max(experiment.lights or [0]) >= len(radii):
+        raise ValueError(
+            f"{key}.lights = {experiment.lights}: {where} has {len(radii)} radii, counted from 0"
+        )
     if not own:  # of a user's own, the stage looks at the files
         _check_rendered(key, where, frames, training_of(config, name))
 

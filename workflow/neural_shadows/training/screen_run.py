@@ -125,6 +125,7 @@ class ScreenRun(TrainingState):
         late = step >= settings["perturbation_from"] * settings["steps"]
         twins = settings["perturbation"] > 0 and late
         told = {key: settings[key] for key in ("seed", "crops", "crop", "flips")}
+        told["lights"] = settings.get("lights")
 
         def crop(place: Place) -> Crops:
             return self.frames.crop(place, settings["crop"], settings["aligned"])

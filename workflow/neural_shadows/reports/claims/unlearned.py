@@ -49,11 +49,15 @@ def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
 
 
 def _by_validation(name: str, data: Measured) -> str:
-    """Why a network is not better than the unfiltered map on validation frames, over all lights."""
+    """Why a network is not better than the unfiltered map on validation frames, over all lights that
+    it learned.
+    """
     record = data.screen_trainings[name]
-    nulls = {null: sum(errors) for null, errors in record["null_mse"].items()}
+    lights = record.get("training", {}).get("lights") or range(len(record["validation_mse"]))
+    errors, nulls = record["validation_mse"], record["null_mse"]
+    errors = [errors[light] for light in lights]
+    nulls = {null: sum(each[light] for light in lights) for null, each in nulls.items()}
     least = min(nulls, key=nulls.get)
-    errors = record["validation_mse"]
     if None in errors:
         return f"{name}: its answers are no numbers"
     if sum(errors) < nulls[least]:
