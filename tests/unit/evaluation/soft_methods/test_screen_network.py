@@ -127,7 +127,7 @@ def test_of_several_networks_each_answers_the_scene_that_it_learned(folder, tmp_
         out = tmp_path / "one.csv", tmp_path / "one.npz"
         lpips = folder / "lpips.json"
         parts = [folder / "blinds/test_000.json"]
-        evaluate_soft(parts, [], [], None, files, lpips, *out, method="of_scenes")
+        evaluate_soft(parts, [], [], None, files, lpips, *out, occluders=[], method="of_scenes")
         found.append(out[0].read_text())
     assert found[0] == found[1] and found[2].count("\n") == 1  # the headings alone
 
