@@ -24,6 +24,7 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
     figures += [f"beyond_{part}" for part in ("dragon", "fence", "landscape", "slice")]
     figures += ["learning_sampling", "beyond_pictures_dragon", "views_dragon"]
     figures += ["soft_equal_time", "soft_pictures", "soft_penumbrae"]
+    figures += ["kpnsm_pictures", "kpnsm_radii", "kpnsm_equal_time"]
     names += [f"figure_{name}.{ending}" for name in figures for ending in ("png", "svg")]
     names += [
         "claims.csv",
@@ -36,6 +37,8 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
     ]
     names += ["learning_sampling.csv", "learning_sampling.md"]
     soft = ("soft_methods", "soft_windows")
+    soft += tuple(f"kpnsm_table_{n}" for n in (1, 2, 3, 4))
+    soft += ("kpnsm_unseen", "kpnsm_radii", "kpnsm_equal_time")
     names += [f"{name}.{ending}" for name in soft for ending in ("csv", "md")]
     scenes = ("dragon", "fence", "landscape")
     names += [f"scenes/{name}.{ending}" for name in scenes for ending in ("png", "svg")]
@@ -99,9 +102,19 @@ def test_soft_methods_are_measured(smoke):
     assert np.isfinite(whole.xs(1, level=1)[["instability_camera", "instability_object"]]).all(
         axis=None
     )
-    # These have no sequences, and radii of the other unit.
-    assert windows["instability"].isna().all() and set(windows["unit"]) == {"S"}
+    assert set(windows["unit"]) == {"S"}
     assert np.isfinite(windows.loc["hard", ["mse", "ms"]]).all(axis=None)
+
+
+def test_networks_of_kernels_stand_beside_printed_numbers(smoke):
+    table = pd.read_csv(smoke.reports / "kpnsm_table_1.csv").set_index("method")
+    networks = ["kpnsm_basic", "kpnsm", "kpnsm_nsm_single"]
+    measured = ["mse", "ssim", "time", "printed_mse", "printed_ssim", "printed_time"]
+    assert np.isfinite(table.loc[networks, measured]).all(axis=None)
+    calm = pd.read_csv(smoke.reports / "kpnsm_table_3.csv")
+    assert np.isfinite(calm[["temporal_error", "printed_temporal_error"]]).all(axis=None)
+    unseen = pd.read_csv(smoke.reports / "kpnsm_unseen.csv")
+    assert set(unseen["scene"]) == {"blinds"} and np.isfinite(unseen["mse"]).all()
 
 
 def test_a_page_of_all_and_one_of_what_is_there(finished):

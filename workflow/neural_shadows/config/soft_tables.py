@@ -36,7 +36,10 @@ class SummaryRow(Model):
     method: Name = Field(description="as those of `soft_methods`")
     label: Text | None = Field(None, description="without it the method's own label")
     published: Name | None = Field(None, description="its row in published_kpnsm.csv")
-    column: Name | None = Field(None, description="its column there, if not called as the metric")
+    column: Name | None = Field(
+        None,
+        description="its column there, of the first metric; without it they are called as the metrics",
+    )
 
 
 class SoftSummaryTable(AnyTable):

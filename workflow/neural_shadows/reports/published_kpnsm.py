@@ -19,16 +19,12 @@ def read_published_kpnsm(path: Path) -> pd.Series:
 
 
 def printed_value(
-    published: pd.Series, table: str | None, row: str | None, column: str | None, metric: str
+    published: pd.Series, table: str | None, row: str | None, column: str, metric: str
 ) -> float:
-    """A metric of a row of a table (`kpnsm.1`), in our units; NaN if none is printed.
-
-    Args:
-        column: the file's, if it is not called as the metric.
-    """
+    """A metric in a cell of a table (`kpnsm.1`), in our units; NaN if none is printed."""
     if table is None or row is None:
         return np.nan
-    key = (f"T{table.removeprefix('kpnsm.')}", row, column or metric)
+    key = (f"T{table.removeprefix('kpnsm.')}", row, column)
     return UNITS[metric] * published.get(key, np.nan)
 
 

@@ -104,9 +104,10 @@ def test_parts_by_scene_and_by_light(tmp_path, files):
 
 def test_the_temporal_error_is_that_of_light_and_eye_together(tmp_path, files):
     rows = [ROWS[0] | {"published": "with_temporal_loss", "column": "ours_enhanced"}]
-    told = {"published": "kpnsm.3", "methods": rows, "metrics": ["temporal_error"]}
+    told = {"published": "kpnsm.3", "methods": rows, "metrics": ["temporal_error", "mse"]}
     table, text = summary(tmp_path, files, **told)
     row = table.loc["mine"]
     assert row["temporal_error"] == 0.03 and row["temporal_error_light"] == 0.02
     assert row["printed_temporal_error"] == pytest.approx(0.0368) and row["mse_sequence"] == 0.001
+    assert np.isnan(row["printed_mse"])  # the printed number is of the first metric alone
     assert row["temporal_error_reference"] == 0.015 and "a sequence of room" in text

@@ -1,6 +1,6 @@
 """Error over the light's radius, a line a method (Hu et al. 2025, figure 9)."""
 
-from itertools import cycle
+from itertools import product
 from pathlib import Path
 
 import pandas as pd
@@ -13,7 +13,7 @@ from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
 NUMBERS = ("radius", "mse", "mse_low", "mse_high")
-LINES = ("-", "--", ":", "-.")  # of methods of one family, in their order
+LINES = ("-", "--", ":")  # when all colours are taken once, twice
 
 
 def draw(table: Path, png: Path, svg: Path, *, title: str, run: style.Section) -> None:
@@ -35,12 +35,11 @@ def radii_figure(table: pd.DataFrame, *, title: str) -> Figure:
     figure = style.new_figure(title, 8, 5.4)
     axes = figure.subplots()
     known = table.dropna(subset="mse")
-    lines: dict[str, cycle] = {}
-    for method, rows in known.groupby("method", sort=False):
-        family = family_of(method)
-        look, label = SOFT_LOOKS[family], rows["label"].iloc[0]
-        drawn = {"color": look.colour, "marker": look.marker, "markersize": 5, "label": label}
-        drawn["linestyle"] = next(lines.setdefault(family, cycle(LINES)))
+    looks = product(LINES, style.COLOURS)
+    for (method, rows), (line, colour) in zip(known.groupby("method", sort=False), looks):
+        marker, label = SOFT_LOOKS[family_of(method)].marker, rows["label"].iloc[0]
+        drawn = {"color": colour, "linestyle": line, "marker": marker, "markersize": 5}
+        drawn["label"] = label
         spread = [rows["mse"] - rows["mse_low"], rows["mse_high"] - rows["mse"]]
         bars = axes.errorbar(rows["radius"], rows["mse"], spread, capsize=2, **drawn)
         values = ", ".join(f"{1e4 * one:.1f}" for one in rows["mse"])
@@ -48,7 +47,7 @@ def radii_figure(table: pd.DataFrame, *, title: str) -> Figure:
     axes.set(yscale="log", xlabel=f"radius of the light, {known['unit'].iloc[0]}")
     axes.set_ylabel("mean squared error of visibility, lower is better\n(bars: 95 % intervals)")
     axes.grid(**style.GRID)
-    style.legend_below(figure)
+    style.legend_below(figure, most=3)
     return figure
 
 

@@ -80,18 +80,17 @@ def write(
     ]
     table = pd.DataFrame(records)
     for metric in metrics:
-        table = _with_printed(table, metric, published, methods, numbers)
+        first = metric == metrics[0]  # a column of the paper's own is of this one
+        table = _with_printed(table, metric, first, published, methods, numbers)
     table = table.assign(unit=unit, scale=run["scale"])
     notes = [
         *_describe_frames(frames, metrics, about, radii, unit),
-        *([_describe_sequences(found, metrics)] if "temporal_error" in metrics else []),
-        f"Printed: {PAPER}, their scenes, whole frames of 2048 × 1024, milliseconds of an RTX 4090.",
+        *([_describe_sequences(found)] if "temporal_error" in metrics else []),
+        *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
         *describe_trainings(_records(trainings), {row["method"]: row["label"] for row in methods}),
         phrases.describe_run(run),
     ]
-    if published is None:
-        notes = [note for note in notes if not note.startswith("Printed: ")]
     heading, cells = titled(title, published), _cells(table, by, metrics, unit)
     write_twins(table, cells, csv, md, title=heading, notes=notes, text_columns=1 + bool(by))
 
@@ -162,13 +161,16 @@ def _in_sequences(mine: pd.DataFrame) -> dict[str, float]:
 def _with_printed(
     table: pd.DataFrame,
     metric: str,
+    first: bool,
     published: str | None,
     methods: Sequence[Row],
     numbers: pd.Series,
 ) -> pd.DataFrame:
     """The table with `printed_METRIC` and `METRIC_minus_printed`."""
     printed = [
-        printed_value(numbers, published, row["published"], row["column"], metric)
+        printed_value(numbers, published, row["published"], row["column"] or metric, metric)
+        if first or not row["column"]
+        else np.nan
         for row in methods
     ]
     table = table.assign(**{f"printed_{metric}": printed * (len(table) // len(methods))})
@@ -190,15 +192,12 @@ def _cells(
         cells[head] = number_cells(table[metric], form, factor)
         if metric == "mse":
             cells[head] = interval_cells(table, ["mse", "mse_low", "mse_high"], 2, factor)
-        cells[f"{head.split(' ')[0]}, printed"] = number_cells(
-            table[f"printed_{metric}"], form, factor
-        )
+        printed = table[f"printed_{metric}"]
+        cells[f"{head.split(' ×')[0].strip(' ↓↑')}, printed"] = number_cells(printed, form, factor)
         if metric == "temporal_error":
             for what in MOVES[1:]:
-                column = table[f"temporal_error_{what}"]
-                cells[f"{what} alone"] = number_cells(column, form, factor)
-            exact = table["temporal_error_reference"]
-            cells["exact shadow's"] = number_cells(exact, form, factor)
+                cells[f"{what} alone"] = number_cells(table[f"{metric}_{what}"], form, factor)
+            cells["exact shadow's"] = number_cells(table[f"{metric}_reference"], form, factor)
             cells["MSE × 10⁻⁴ in sequence"] = number_cells(table["mse_sequence"], "{:.1f}", 1e4)
     return {head: column for head, column in cells.items() if any(column)}
 
@@ -226,7 +225,12 @@ def _describe_frames(
     ]
 
 
-def _describe_sequences(found: pd.DataFrame, metrics: Sequence[str]) -> str:
+def _describe_printed(metrics: Sequence[str]) -> str:
+    timed = ", milliseconds of an RTX 4090" * ("time" in metrics)
+    return f"Printed: {PAPER}, of other scenes and whole frames of 2048 × 1024{timed}."
+
+
+def _describe_sequences(found: pd.DataFrame) -> str:
     where = found[found["metric"] == "temporal_error"]["scene"].unique()
     return (
         "Temporal error: root of the mean squared change along a point's way from frame to frame, "
