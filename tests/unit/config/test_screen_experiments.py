@@ -71,3 +71,37 @@ def test_what_cannot_be_trained_is_refused(changes, told):
 def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
     found = resolved(read(metrics=metrics))["screen_experiments"]["mine"]
     assert (found["training"]["perceptual"]["net"], found["trunk"]) == (net, trunk)
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        (
+            {"networks_by_scene": {"mine": {"experiments": ["nsm", "nsm_plain"], "label": "Mine"}}},
+            "networks_by_scene.mine.experiments: 'room' is learned by two of them",
+        ),
+        (
+            {"networks_by_scene": {"nsm": {"experiments": ["nsm"], "label": "Mine"}}},
+            "networks_by_scene.nsm: an entry of `screen_experiments` has this name",
+        ),
+        (
+            {"frame_sets": {"windows": {"unseen": []}}},
+            "tables.kpnsm_unseen.over: frame_sets.windows has no `unseen`",
+        ),
+        (
+            {"frame_sets": {"windows": {"sequence": 0}}},
+            "tables.kpnsm_table_3.metrics: frame_sets.windows has sequence = 0",
+        ),
+        (
+            {"tables": {"kpnsm_unseen": {"metrics": ["time"]}}},
+            "tables.kpnsm_unseen.*time is not to be had by scene",
+        ),
+        (
+            {"claims": {"kpnsm_leaks_less": {"again": {"pcss_post": ["kpnsm"]}}}},
+            "claims.kpnsm_leaks_less.*again: 'pcss_post'",
+        ),
+    ],
+)
+def test_what_tables_and_claims_cannot_have_is_refused(changes, told):
+    with pytest.raises(InputError, match=told):
+        read_config(shipped(**changes))
