@@ -12,6 +12,7 @@ from neural_shadows.networks.object_space.brick_layout import lay_out
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.occupancy_field_network import LIMIT, PUSHES
 from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
+from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
 
@@ -171,11 +172,34 @@ def test_signs_take_a_bit_each(tmp_path):
     assert (network.logits()[inside] > 0).all()
 
 
-@pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
-def test_a_query_on_a_cpu_holds_the_grid_and_the_bricks(tmp_path, settings):
-    network = made(trimesh.creation.icosphere(3, radius=0.5), tmp_path, settings)
+def test_a_query_on_a_cpu_holds_the_bricks(tmp_path):
+    """Of a solid also masks, only the grid's part that is not empty, and a light's tables."""
+    shape = trimesh.creation.icosphere(3, radius=0.5)
+    network = made(shape, tmp_path, SHEET_32)
     bricks = int((network.grid >= 0).sum())
     assert network.resident_bytes() == 4 * 8**3 + 125 * bricks
+    network = made(shape, tmp_path, SOLID_32)
+    side = 6 + 2 * 2  # the ball is 4 bricks wide and touches those beside it; 2 around them
+    held = 2 * side**3 + 16 * (bricks + 2) + 125 * bricks
+    tiles = 2 * (side + side) + 3
+    tables = (8 + 2) * tiles**2 + 8 * (16**2 * 4 + 4)
+    assert network.resident_bytes() == held + tables
+
+
+@pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
+def test_a_point_is_lit_up_to_where_its_ray_crosses(tmp_path, settings):
+    """Whether anything is met, for any depth bias, against where it is met first."""
+    network = made(bumpy_sphere(4), tmp_path, settings)
+    set_logits(network, lambda p: 6 * torch.sin(20 * p).prod(1) + 20 * (0.85 - p.norm(dim=1)))
+    light = torch.nn.functional.normalize(torch.tensor([0.3, -0.5, 0.8]), dim=0)
+    rays = sphere_rays(1.5 * torch.from_numpy(ball_rays(5000)[0]) * torch.rand(5000, 1), light)
+    t_pred = network.depths(rays.origins, -light, torch.float32)
+    lit = network.lit(rays, -light, torch.float32)
+    for bias in (-0.02, 0.0, 0.05):
+        expected = torch.minimum(rays.s, rays.chord) <= t_pred + bias
+        found = lit(bias)
+        assert (found == expected).float().mean() > 0.99
+        assert 0.03 < found.float().mean() < 0.97
 
 
 def test_training_from_distances_goes_on_where_they_end(tmp_path):

@@ -23,11 +23,8 @@ def skips(surface: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _value(values, x, y, z):
-    """A brick's value at x, y, z in [0, 4]."""
-    i, j, k = min(int(x), BRICK - 1), min(int(y), BRICK - 1), min(int(z), BRICK - 1)
-    u, v, w = x - i, y - j, z - k
-    at = (i * (BRICK + 1) + j) * (BRICK + 1) + k
+def trilinear(values, at, u, v, w):
+    """What bricks' flat values are in the cell whose first corner is `at`; u, v, w in [0, 1]."""
     a = np.float32(values[at])
     a += (values[at + 1] - a) * w
     b = np.float32(values[at + 5])
@@ -39,6 +36,13 @@ def _value(values, x, y, z):
     a += (b - a) * v
     c += (e - c) * v
     return a + (c - a) * u
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _value(values, x, y, z):
+    """A brick's value at x, y, z in [0, 4]."""
+    i, j, k = min(int(x), BRICK - 1), min(int(y), BRICK - 1), min(int(z), BRICK - 1)
+    return trilinear(values, (i * (BRICK + 1) + j) * (BRICK + 1) + k, x - i, y - j, z - k)
 
 
 _FAR = np.float32(1e9)  # beyond any way
