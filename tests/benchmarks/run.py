@@ -1,6 +1,6 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
-    python tests/benchmarks/run.py [--quick] [--only labels training queries viewpoint soft screen kernels default]
+    python tests/benchmarks/run.py [--quick] [--only labels training queries field viewpoint soft screen kernels default]
         [--mesh results/scenes/dragon/mesh.ply] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import bench_default
+import bench_field
 import bench_kernels
 import bench_labels
 import bench_queries
@@ -30,7 +31,17 @@ from neural_shadows.meshes.generate_mesh import generate_mesh
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.running.hardware import describe_machine
 
-STAGES = ("labels", "training", "queries", "viewpoint", "soft", "screen", "kernels", "default")
+STAGES = (
+    "labels",
+    "training",
+    "queries",
+    "field",
+    "viewpoint",
+    "soft",
+    "screen",
+    "kernels",
+    "default",
+)
 TABLE = Path("reports/benchmarks.csv")
 
 
@@ -41,6 +52,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "labels": lambda: bench_labels.rows(mesh_ply, quick),
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
+        "field": lambda: bench_field.rows(mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
         "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),

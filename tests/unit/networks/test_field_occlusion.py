@@ -77,7 +77,7 @@ def test_it_is_what_looking_at_every_sample_finds(size, radii, level):
     rng = np.random.default_rng(1)
     for d in (*rng.normal(size=(4, 3)), *AXES):
         d = (np.array(d) / np.linalg.norm(d)).astype(np.float32)
-        o, ends = rays_along(d, 300)
+        o, ends = rays_along(d, 120)
         # Half of them into the box.
         o[::2] = o[::2] * radii
         o[::2] -= (
@@ -87,7 +87,7 @@ def test_it_is_what_looking_at_every_sample_finds(size, radii, level):
         expected = every_sample(o, d, ends, grid, values, level, steps)
         # Of a sample on a cell's border rounding decides.
         assert (found != expected).mean() < 0.01
-        assert 0.1 < expected.mean() < 0.95
+        assert 0.05 < expected.mean() < 0.95
 
 
 def test_rays_on_the_borders_of_bricks():
@@ -95,7 +95,7 @@ def test_rays_on_the_borders_of_bricks():
     grid, values = shell(8, np.array([0.9, 0.9, 0.9]))
     bricks = field_bricks(grid, values, 0.0)
     for axis in range(3):
-        across = np.stack(np.meshgrid(*[np.arange(-15, 16) / 16] * 2), -1).reshape(-1, 2)
+        across = np.stack(np.meshgrid(*[np.arange(-7, 8) / 8] * 2), -1).reshape(-1, 2)
         across = across[(across**2).sum(1) < 1]
         for sign in (-1, 1):
             along = -sign * np.sqrt(1 - (across**2).sum(1))
@@ -119,7 +119,7 @@ def test_shadows_of_a_mesh(shape):
     """Points around it, lit or not as by rays through the mesh, but close to its surface."""
     mesh, tracer = prepared(shape)
     layout = lay_out(surface_cells(mesh.vertices, mesh.faces, 32), solid=True)
-    values = signed_distances(mesh, layout, 2.0)[layout.table]
+    values = np.round(60 * signed_distances(mesh, layout, 2.0)).astype(np.int8)[layout.table]
     bricks = field_bricks(layout.grid, values, 0.0)
     rng = np.random.default_rng(0)
     p = torch.from_numpy(rng.uniform(-1.5, 1.5, (20_000, 3)).astype(np.float32))
@@ -131,7 +131,7 @@ def test_shadows_of_a_mesh(shape):
         at = p[rays.index].numpy()
         expected = tracer.occluded(at, np.tile(light.numpy(), (len(at), 1)))
         inside = np.abs(np.linalg.norm(at, axis=1) - 0.7) < 0.3
-        assert (found != expected)[~inside].mean() < 2e-3
+        assert (found != expected)[~inside].mean() < 5e-3
         assert 0.1 < expected.mean() < 0.9
 
 
