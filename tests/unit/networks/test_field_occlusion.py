@@ -75,6 +75,7 @@ def test_it_is_what_looking_at_every_sample_finds(size, radii, level):
     grid, values = shell(size, np.array(radii))
     bricks, steps = field_bricks(grid, values, level), 8 * size
     rng = np.random.default_rng(1)
+    differ = []
     for d in (*rng.normal(size=(4, 3)), *AXES):
         d = (np.array(d) / np.linalg.norm(d)).astype(np.float32)
         o, ends = rays_along(d, 120)
@@ -85,9 +86,10 @@ def test_it_is_what_looking_at_every_sample_finds(size, radii, level):
         )
         found = occluded(o, d, ends, bricks, steps)
         expected = every_sample(o, d, ends, grid, values, level, steps)
-        # Of a sample on a cell's border rounding decides.
-        assert (found != expected).mean() < 0.01
+        differ.append(found != expected)
         assert 0.05 < expected.mean() < 0.95
+    # Of a sample on a brick's border, where these values jump, rounding decides.
+    assert np.concatenate(differ).mean() < 0.005
 
 
 def test_rays_on_the_borders_of_bricks():
