@@ -129,19 +129,22 @@ def _triangle_rows(network, mesh_ply: Path, frames: list[Asked]) -> list[Row]:
     for vertices, faces in _meshes(mesh_ply):
         tracer = Tracer(vertices, faces)
         rates = [_rates(network, tracer, frame, 3) for frame in frames]
-        rate = {name: float(np.median([rate[name] for rate in rates])) for name in rates[0]}
+        sizes = np.array([len(frame.points) for frame in frames])
+        rate = {
+            name: sizes.sum() / (sizes / [rate[name] for rate in rates]).sum() for name in rates[0]
+        }
         counts.append(len(faces))
-        ratios.append(float(np.median([rate["field"] / rate[EMBREE] for rate in rates])))
+        ratios.append(rate["field"] / rate[EMBREE])
         differ = [(frame.field(network) != frame.embree(tracer)).sum() for frame in frames]
         share = 100 * np.mean(differ) / (WIDTH * HEIGHT)
         stage = f"field, mesh of {len(faces):,} triangles, {share:.3f} % of pixels differ"
         found.append(
             Row(stage, "cpu x1", rate["field"], "rays/s", peer=EMBREE, peer_rate=rate[EMBREE])
         )
-    return [*found, Row(_crossing(np.array(counts), np.array(ratios)), "cpu x1", ratios[-1], "×")]
+    return [*found, Row(crossing(np.array(counts), np.array(ratios)), "cpu x1", ratios[-1], "×")]
 
 
-def _crossing(counts: np.ndarray, ratios: np.ndarray) -> str:
+def crossing(counts: np.ndarray, ratios: np.ndarray) -> str:
     """In words, the number of triangles from which on the field is faster."""
     slower = np.flatnonzero(ratios < 1)
     if len(slower) == 0:

@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import bench_field
 import numpy as np
 import precision_of_queries
 import pytest
@@ -52,3 +53,16 @@ def test_what_a_coarser_format_costs_is_counted():
     for column in ("median", "share_90", "rms"):
         assert found[column].tolist() == pytest.approx([0.01, 0.02], abs=1e-6)
     assert found["flipped"].tolist() == [2 / 11, 2 / 11]
+
+
+@pytest.mark.parametrize(
+    ("ratios", "said"),
+    [
+        ([0.5, 2.0, 3.0], "field as fast from 10,000 triangles on; ratio at 1,000,000"),
+        ([1.5, 2.0, 3.0], "field as fast from fewer than 1,000 triangles on; ratio at 1,000,000"),
+        ([1.5, 0.5, 0.9], "field not as fast at 1,000,000 triangles; ratio there"),
+    ],
+)
+def test_from_how_many_triangles_on_a_field_is_faster(ratios, said):
+    counts = np.array([1_000, 100_000, 1_000_000])
+    assert bench_field.crossing(counts, np.array(ratios)) == said
