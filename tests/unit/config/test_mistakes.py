@@ -65,6 +65,7 @@ tables.table_4_6.against | {dragon: dragon} | tables.table_4_6.against: a table 
 experiments.landscape_heights.network.up | z | network: unknown key: 'up'
 experiments.tiny | {scene: dragon, sampling: uniform, network: {encoding: ray_grid, hidden_layers: 1}, training: muon} | this network of the kind 'ray_grid' has none; use adam
 networks.sheet_256.start | distances | start: distances needs an inside
+networks.sheet_256.start | fitted | start: fitted needs an inside
 experiments.dragon_field.training | null | experiments.dragon_field.training: this key is missing
 experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tables has a name like
 experiments.dragon.training | null | experiments.dragon.training: this key is missing; a network

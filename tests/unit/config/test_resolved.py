@@ -174,8 +174,10 @@ def test_a_network_that_is_built_and_not_trained(changed, message):
     field = {"encoding": "occupancy_field", "start": "distances", "resolution": 32}
     values = changed("experiments.built", built)
     values["experiments"]["distances"] = built | {"network": field, "label": "Distances"}
+    fitted = field | {"start": "fitted", "stored": "coded"}
+    values["experiments"]["fitted"] = built | {"network": fitted, "label": "Fitted"}
     experiments = resolved(read_config(values))["experiments"]
-    for name, label in (("built", "9 bits"), ("distances", "Distances")):
+    for name, label in (("built", "9 bits"), ("distances", "Distances"), ("fitted", "Fitted")):
         section = experiments[name]
         assert section["sampling"] is section["training"] is None and section["label"] == label
     curves = {"experiments": ["built"], "steps": [1, 2, 3], "seeds": 1}

@@ -63,7 +63,9 @@ def test_rays_cross_a_ball_where_it_is(tmp_path, settings):
 
 
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
-@pytest.mark.parametrize(("stored", "push"), [("int8", 0), ("float32", 0.1), ("sign", -0.1)])
+@pytest.mark.parametrize(
+    ("stored", "push"), [("int8", 0), ("float32", 0.1), ("coded", 0), ("sign", -0.1)]
+)
 def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored, push):
     """The CPU's march against the form that looks at every sample, on random logits."""
     settings = settings | {"stored": stored}

@@ -110,7 +110,7 @@ def _check_training(config: "Config", name: str) -> None:
                 f"{key}.training: optimiser = 'muon': is for matrices between two layers of "
                 f"neurons, and this network of the kind {network.encoding!r} has none; use adam"
             )
-    elif missing and (len(missing) == 1 or getattr(network, "start", None) != "distances"):
+    elif missing and (len(missing) == 1 or getattr(network, "start", "undecided") == "undecided"):
         raise ValueError(
             f"{key}.{missing[0]}: this key is missing; a network that is trained needs a sampling "
             "and a training"

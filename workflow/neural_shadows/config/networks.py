@@ -83,20 +83,22 @@ class OccupancyField(NetworkModel):
     surface: Literal["solid", "sheet"] = Field(
         "solid", description="`solid`: the object has an inside; `sheet`: one open surface"
     )
-    start: Literal["undecided", "distances"] = Field(
+    start: Literal["undecided", "distances", "fitted"] = Field(
         "undecided",
-        description="the first logits: next to zero, or signed distances to the mesh, which "
-        "answer without a training too",
+        description="the first logits: next to zero, or signed distances to the mesh, as they are or "
+        "`fitted` to where its shadows end; both answer without a training too",
     )
-    stored: Stored | Literal["sign"] = Field(
-        "int8", description="how the weight file holds the logits; `sign`: a bit each"
+    stored: Stored | Literal["coded", "sign"] = Field(
+        "int8",
+        description="how the weight file holds the logits; `coded`: of cells that the surface "
+        "crosses, compressed; `sign`: a bit each",
     )
 
     @model_validator(mode="after")
     def _check_inside(self):
-        if self.start == "distances" and self.surface == "sheet":
+        if self.start != "undecided" and self.surface == "sheet":
             raise ValueError(
-                "start: distances needs an inside, which surface: sheet has not; "
+                f"start: {self.start} needs an inside, which surface: sheet has not; "
                 "set start: undecided or surface: solid"
             )
         return self

@@ -9,7 +9,8 @@ where the signs of both sides meet.) The field is trained on points of the label
 cross-entropy: points before the first hit are outside, those between the two hits inside.
 
 It may start from signed distances to the mesh; not trained at all it is then a sparse grid of
-them, and with one bit a value, of which vertices are inside.
+them, and with one bit a value, of which vertices are inside. Or it starts from distances fitted to
+the mesh's convex edges, where shadows end: these are better than what training makes of it.
 """
 
 from collections.abc import Callable
@@ -22,6 +23,12 @@ from torch import Tensor, nn
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.object_space.brick_distances import signed_distances
 from neural_shadows.networks.object_space.brick_layout import BrickLayout, lay_out
+from neural_shadows.networks.object_space.coded_field import (
+    LEVELS_PER_CELL,
+    coded,
+    decoded,
+    levels_of,
+)
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.field_bricks import FieldBricks, field_bricks
 from neural_shadows.networks.object_space.field_marching import (
@@ -41,6 +48,7 @@ from neural_shadows.networks.object_space.shadow_network import (
     hits,
 )
 from neural_shadows.networks.object_space.sphere_rays import SphereRays
+from neural_shadows.networks.object_space.surface_fit import fitted_distances
 from neural_shadows.networks.quantisation import pack_bits, quantise, restore_values, unpack_bits
 from neural_shadows.scenes.tracing import Tracer
 
@@ -63,6 +71,7 @@ SAMPLES_PER_CELL = 2
 # crosses, 1.7; at 1 a logit could not be trained. Ending at 4 cells gave the same (37.6 dB).
 REACH = 2.0
 START_SHARE = 0.9
+CELL_SHARE = START_SHARE / REACH  # the share of LIMIT of a distance of one cell
 # By how many cells the surface of distances may be moved out, see `ShadowNetwork.pushes`:
 # interpolation cuts off what is convex. On the Stanford dragon 0.05 is best at 256³ (39.5 dB for
 # 37.7), 0.075 at 128³ (34.8 for 30.2), and of signs −0.1 at 256³.
@@ -76,8 +85,10 @@ class OccupancyFieldNetwork(ShadowNetwork):
         resolution: cells along an axis, a multiple of 4.
         surface: `solid`, an object with an inside; or `sheet`, an open surface, on which the
             sign says which side its faces turn to.
-        start: the values before training: `undecided`, or `distances` to a solid's surface.
-        stored: how values are written: `float32`, `float16`, `int8`, or `sign`, one bit each.
+        start: the values before training: `undecided`, `distances` to a solid's surface, or these
+            `fitted` to where its shadows end.
+        stored: how values are written: `float32`, `float16`, `int8`, `coded`, see `coded_field`, or
+            `sign`, one bit each.
     """
 
     # Gradients of all values are added for each chunk: few, large ones.
@@ -101,6 +112,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
     def _use(self, layout: BrickLayout) -> None:
         self.register_buffer("grid", torch.from_numpy(layout.grid.reshape(-1)), persistent=False)
         self.register_buffer("table", torch.from_numpy(layout.table.reshape(-1)), persistent=False)
+        self._layout = layout
         self.values = nn.Parameter(torch.zeros(layout.count))
         self._bricks: tuple[int, np.ndarray, float] | None = None
         self._field: tuple[tuple[int, float], FieldBricks] | None = None
@@ -111,9 +123,11 @@ class OccupancyFieldNetwork(ShadowNetwork):
         surface = surface_cells(mesh.vertices, mesh.faces, self.resolution // BRICK)
         layout = lay_out(surface, self.surface == "solid")
         self._use(layout)
-        if self.start == "distances":
+        if self.start != "undecided":
             distances = signed_distances(mesh, layout, REACH)
-            self._start_shares = torch.from_numpy(distances) * (START_SHARE / REACH)
+            if self.start == "fitted":
+                distances = fitted_distances(mesh, layout, distances).clip(-REACH, REACH)
+            self._start_shares = torch.from_numpy(distances) * CELL_SHARE
         if self.surface == "sheet":
             self._tracer = Tracer(mesh.vertices, mesh.faces)
             self._face_normals = mesh.face_normals
@@ -122,7 +136,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         """Undecided everywhere, logits of next to zero; or the distances."""
         generator = torch.Generator().manual_seed(seed)
         with torch.no_grad():
-            if self.start == "distances":
+            if self.start != "undecided":
                 self.values.copy_(LIMIT * self._start_shares.atanh())
             else:
                 self.values.uniform_(-0.01, 0.01, generator=generator)
@@ -138,7 +152,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
     def level(self) -> float:
         """The share at which the surface lies: below zero if it is pushed out."""
         # Of signs the surface is halfway between two vertices, ±1 is half a cell away.
-        return -self.push * (2 if self.storage == "sign" else START_SHARE / REACH)
+        return -self.push * (2 if self.storage == "sign" else CELL_SHARE)
 
     def bricks_at(self, p: Tensor) -> Tensor:
         """The `grid` entry (n,) int64 of the brick that each point (n, 3) is in."""
@@ -308,12 +322,20 @@ class OccupancyFieldNetwork(ShadowNetwork):
                 shares = (shares > 0).to(torch.int8) * 2 - 1
             elif self.storage == "int8":
                 shares, scale = quantise({"": shares}, "int8").values()
+            elif self.storage == "coded":  # halfway between two levels, in half levels
+                shares = torch.from_numpy(2 * self._levels() + 1)
+                scale = CELL_SHARE / LEVELS_PER_CELL / 2
             bricks = shares[self.table.long()].view(-1, BRICK_VERTICES)
             self._bricks = self.values._version, bricks.numpy(), float(scale)
         return self._bricks[1:]
 
+    def _levels(self) -> np.ndarray:
+        return levels_of(self.shares().detach().cpu().numpy() / CELL_SHARE)
+
     def stored(self) -> dict[str, Tensor]:
         """See `ShadowNetwork.stored`; a bit for each brick that has values."""
+        if self.storage == "coded":
+            return coded(self._layout, self._levels())
         shares = self.shares().detach()
         if self.storage == "sign":
             values = {"values": pack_bits(shares > 0)}
@@ -324,6 +346,12 @@ class OccupancyFieldNetwork(ShadowNetwork):
     def restore(self, tensors: dict[str, Tensor]) -> None:
         tensors = dict(tensors)
         size = self.resolution // BRICK
+        if self.storage == "coded":
+            layout, levels = decoded(tensors, size, self.surface == "solid")
+            self._use(layout)
+            shares = torch.from_numpy(levels + np.float32(0.5)) * (CELL_SHARE / LEVELS_PER_CELL)
+            self.load_state_dict({"values": LIMIT * shares.atanh()})
+            return
         surface = unpack_bits(tensors.pop("bricks"), size**3).view(size, size, size).numpy()
         layout = lay_out(surface, self.surface == "solid")
         self._use(layout)
