@@ -23,7 +23,7 @@ from neural_shadows.networks.quantisation import pack_bits, unpack_bits
 LEVELS_PER_CELL = 16
 MOST = 28  # levels on each side: 1.75 cells, past the vertices of a cell that the surface crosses
 
-# A difference depends neither on the byte before it nor on its place.
+# Without contexts of earlier bytes and places: 0.8 % fewer bytes of the dragon than with LZMA's own.
 FILTERS = [{"id": lzma.FILTER_LZMA2, "preset": 9 | lzma.PRESET_EXTREME, "lc": 0, "lp": 0, "pb": 0}]
 # Of a vertex to those before it: across a face, then across an edge of their cell.
 EARLIER = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1), (0, 1, 1))
