@@ -10,7 +10,8 @@ cross-entropy: points before the first hit are outside, those between the two hi
 
 It may start from signed distances to the mesh; not trained at all it is then a sparse grid of
 them, and with one bit a value, of which vertices are inside. Or it starts from distances fitted to
-the mesh's convex edges, where shadows end: these are better than what training makes of it.
+the mesh's convex edges, where shadows end: of the Stanford dragon at 256³ these have 42.0 dB pooled
+without a training, and the field that is trained from nothing 40.9.
 """
 
 from collections.abc import Callable
