@@ -10,13 +10,20 @@ BOXES = (3, 5, 9, 15)  # texels of a side
 RAYS = (1, 2, 4, 8, 16, 32, 40, 64)  # of a pixel
 DENOISED_RAYS = (1, 4, 16, 30)
 FIELD_RAYS = (1, 4, 16)  # through occupancy fields
+CONE_WALKS = (1, 4, 8)  # through them, of what neither sees all of the light nor none
 # By channel of a frame's buffers.
 BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
 BASE = "base_"
 OIDN = "_oidn"
 # A filter behind a method leaves that its constants, and how far a field's rays start from what
 # they leave does not depend on their number: to choose them anew took 155 and 98 s of a core.
-_TUNED_AS = {"pcss_post": "pcss", "field_4": "field_1", "field_16": "field_1"}
+_TUNED_AS = {
+    "pcss_post": "pcss",
+    "field_4": "field_1",
+    "field_16": "field_1",
+    "cone_4": "cone_1",
+    "cone_8": "cone_1",
+}
 
 
 def _rays(count: int) -> str:
@@ -41,6 +48,8 @@ LABELS = {
     **{f"rt_{count}_svgf": f"{_rays(count)}, SVGF-like" for count in DENOISED_RAYS},
     **{f"rt_{count}{OIDN}": f"{_rays(count)}, OIDN" for count in DENOISED_RAYS},
     **{f"field_{count}": f"{_rays(count)}, fields" for count in FIELD_RAYS},
+    "cone_1": "One walk, fields",
+    **{f"cone_{walks}": f"One walk split in {walks}, fields" for walks in CONE_WALKS[1:]},
     **{f"{BASE}{name}": label for name, label in BASES.items()},
 }
 

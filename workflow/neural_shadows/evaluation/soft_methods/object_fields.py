@@ -4,7 +4,7 @@ A field is a sparse grid of signed distances, not trained, round each closed obj
 what is open has no inside and is traced as it is.
 """
 
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from hashlib import sha256
 
 import numpy as np
@@ -16,6 +16,8 @@ from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes, with_normals
 from neural_shadows.networks.object_space.brick_distances import signed_distances
 from neural_shadows.networks.object_space.brick_layout import lay_out
+from neural_shadows.networks.object_space.distances_around import distances_around
+from neural_shadows.networks.object_space.field_cones import ConeField
 from neural_shadows.networks.object_space.field_marching import BRICK, blocked_ways
 from neural_shadows.networks.object_space.occupancy import surface_cells
 from neural_shadows.networks.object_space.occupancy_field_network import REACH, SAMPLES_PER_CELL
@@ -51,9 +53,16 @@ class ObjectField:
         told = self.grid, self.bricks, steps, np.float32(0)
         blocked_ways(points, ways, self.centre, self.radius, *told, blocked)
 
+    @cached_property
+    def cone_field(self) -> ConeField:
+        """What cones walk through: its values, and distances where they end."""
+        unit = np.float32(REACH / 127 * 2 / self.resolution)
+        around = distances_around(self.grid, self.bricks).ravel()
+        return ConeField(self.grid, self.bricks, unit, around)
+
     @property
     def bytes(self) -> int:
-        """In memory while it answers."""
+        """In memory while it answers rays."""
         return self.grid.nbytes + self.bricks.nbytes
 
 

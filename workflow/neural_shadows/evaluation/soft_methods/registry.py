@@ -22,6 +22,7 @@ _MODULES = {
     "hard": "hard_map",
     "rt": "ray_traced",
     "field": "object_fields",
+    "cone": "object_cones",
     "base": "base_shadows",
 }
 
