@@ -1,6 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
-    python tests/benchmarks/run.py [--quick] [--only labels training queries field viewpoint soft screen kernels default]
+    python tests/benchmarks/run.py [--quick]
+        [--only labels training queries field viewpoint soft area screen kernels default]
         [--mesh results/scenes/dragon/mesh.ply] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -14,6 +15,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+import bench_area_light
 import bench_default
 import bench_field
 import bench_kernels
@@ -38,6 +40,7 @@ STAGES = (
     "field",
     "viewpoint",
     "soft",
+    "area",
     "screen",
     "kernels",
     "default",
@@ -55,6 +58,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "field": lambda: bench_field.rows(mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
+        "area": lambda: bench_area_light.rows(mesh_ply, quick),
         "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),
         "kernels": lambda: bench_kernels.rows(quick),
         "default": bench_default.rows,

@@ -1,0 +1,151 @@
+"""Suns of three sizes: one walk of a cone through an object's field, beside rays by Embree.
+
+Frames of an object over the ground, on one thread. Of each method the mean squared error against
+many rays, and its time of a pixel; and how many rays have the same error or take the same time.
+How far the field is pushed out is chosen on other frames.
+"""
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from measurement import Row, median_seconds
+
+from neural_shadows.evaluation.soft_method_names import CONE_WALKS
+from neural_shadows.evaluation.soft_methods.object_fields import ObjectField
+from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
+from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared, with_normals
+from neural_shadows.networks.object_space.field_cones import above_plane, dim_by_field, split_disc
+from neural_shadows.rendering.surface import see_surface
+from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.scenes.cameras import VIEW_SETS, Camera
+from neural_shadows.scenes.scene import make_scene
+from neural_shadows.scenes.tracing import Tracer
+
+DEGREES = (1.0, 2.5, 5.0)  # the sun's angular radius
+RAYS = (1, 2, 4, 8, 16, 32)
+FAR, GROUND = 100.0, 20.0  # in radii of the object's sphere: the light's distance, half a side
+SEED, OTHER = 2026, 77
+LIGHT = {"domain": "sphere", "min_elevation_deg": 20}
+CELL = 2 / 256
+
+
+def rows(mesh_ply: Path, quick: bool) -> list[Row]:
+    """Prints the whole table; a row has the rays of the same error over those of the same time."""
+    table = errors_and_times(read_prepared(mesh_ply), quick)
+    print(table.to_string(index=False, float_format="{:,.4g}".format))
+    cones = table[table.method.str.startswith("cone")]
+    return [
+        Row(
+            f"sun of {one.degrees:g} degrees: {one.method}, squared error {one.mse:.2g}",
+            "cpu x1",
+            1e9 / one.ns,
+            "pixels/s",
+            peer=f"Embree's rays of the same error, {one.rays_of_error:.3g} a pixel",
+            peer_rate=1e9 / one.ns_of_error,
+        )
+        for one in cones.itertuples()
+    ]
+
+
+def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
+    """By degrees and method: `mse`, `ns` of a pixel, `rays_of_error` and `rays_of_time`."""
+    size, count, rounds = ((120, 80), 1, 1) if quick else ((600, 400), 2, 3)
+    field = ObjectField(mesh, CELL)
+    tracer = Tracer(mesh.vertices, mesh.faces)
+    frames, others = (_frames(mesh, seed, count, size) for seed in (SEED, OTHER))
+    found = []
+    for degrees in DEGREES:
+        radius = FAR * np.tan(np.radians(degrees))
+        exact, exact_of_others = (
+            [_many_rays(one, radius, tracer) for one in of] for of in (frames, others)
+        )
+        push = min(
+            soft_method("cone_1").constants["push"],
+            key=lambda push: _error(
+                [cone(one, radius, field, 1, push) for one in others], exact_of_others
+            ),
+        )
+        works = {"hard": partial(_all, _rays, frames, 0.0, tracer, 1)}
+        works |= {f"rt_{n}": partial(_all, _rays, frames, radius, tracer, n) for n in RAYS}
+        works |= {
+            f"cone_{n}": partial(_all, cone, frames, radius, field, n, push) for n in CONE_WALKS
+        }
+        seconds = median_seconds(works, rounds)
+        pixels = sum(len(one.starts) for one in frames)
+        found.append(
+            pd.DataFrame(
+                {
+                    "degrees": degrees,
+                    "method": list(works),
+                    "mse": [_error(work(), exact) for work in works.values()],
+                    "ns": [1e9 * seconds[name] / pixels for name in works],
+                    "push": push,
+                }
+            ).pipe(_beside_rays)
+        )
+    return pd.concat(found, ignore_index=True)
+
+
+def cone(
+    frame: SoftFrame, radius: float, field: ObjectField, walks: int, push: float
+) -> np.ndarray:
+    """How much of the light each point sees past one object, (n,) float32; see `cone_traced`."""
+    ways, size = frame.centre.astype(np.float32) - frame.starts, np.float32(radius)
+    visible = above_plane(frame.surface.n_g, ways, size)
+    around = field.centre, field.radius, field.cone_field
+    told = split_disc(walks), np.float32(push)
+    dim_by_field(frame.starts, frame.surface.n_g, ways, size, *around, *told, visible)
+    return visible
+
+
+def _rays(frame: SoftFrame, radius: float, tracer: Tracer, samples: int) -> np.ndarray:
+    return ray_traced(frame, radius, samples=samples, blocked=tracer.blocked)
+
+
+def _all(answer, frames: Sequence[SoftFrame], *told) -> list[np.ndarray]:
+    return [answer(frame, *told) for frame in frames]
+
+
+def _many_rays(frame: SoftFrame, radius: float, tracer: Tracer) -> np.ndarray:
+    """Other rays than those that are measured: what a sequence's fourth frame would send."""
+    later = SoftFrame(frame.scene, frame.surface, frame.centre, frame.light_map, number=3)
+    return _rays(later, radius, tracer, 256)
+
+
+def _error(found: Sequence[np.ndarray], exact: Sequence[np.ndarray]) -> float:
+    return float(np.mean(np.square(np.concatenate(found) - np.concatenate(exact))))
+
+
+def _beside_rays(table: pd.DataFrame) -> pd.DataFrame:
+    """How many rays have each row's error, and its time, and the time of the former: on logarithms,
+    between the numbers that were measured and beyond them.
+    """
+    rays = table[table.method.str.startswith("rt_")]
+    count, error, ns = (np.log(np.array(one, float)) for one in (RAYS, rays.mse, rays.ns))
+    same = np.interp(-np.log(table.mse), -error, count)
+    return table.assign(
+        rays_of_error=np.exp(same),
+        rays_of_time=np.exp(np.interp(np.log(table.ns), ns, count)),
+        ns_of_error=np.exp(np.interp(same, count, ns)),
+    )
+
+
+def _frames(mesh: PreparedMesh, seed: int, count: int, size: tuple[int, int]) -> list[SoftFrame]:
+    """Of each kind of viewpoint as many; the object stands on a square of ground."""
+    up = np.array([0.0, 1.0, 0.0])
+    alone = make_scene(mesh, up=up, ground=True, light=LIGHT)
+    corners = GROUND * np.array([[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]])
+    corners[:, 1] = alone.ground
+    ground = with_normals(corners.astype(np.float32), np.array([[0, 1, 2], [0, 2, 3]], np.int32))
+    scene = make_scene(mesh, ground, up=up, ground=False, light=None)
+    found = []
+    for view in draw_viewpoints(alone, VIEW_SETS, range(count), size[0] / size[1], seed):
+        camera = Camera(view.eye, view.target, view.up, view.fov)
+        surface = see_surface(scene, camera, *size)
+        found.append(SoftFrame(alone, surface, FAR * view.light, None))
+    return found
