@@ -18,7 +18,7 @@ LEARNED = {"validation_mse": [0.01, 0.02], "null_mse": {"hard_map": [0.02, 0.05]
 
 def judged(ratio, trainings=None, steps=STEPS, again=(), **told):
     ratio = {"table": "steps", "of": {"row": "original"}, "to": {"row": "trimmed"}, **ratio}
-    ratio = {"at_least": None, "at_most": None} | ratio
+    ratio = {"at_least": None, "at_most": None, "per": None} | ratio
     others = {f"steps_{number}": table for number, table in enumerate(again)}
     claim = {"kind": "ratio", "ratios": [ratio], "networks": [], "needs": {}, **told}
     claim["again"] = {"steps": [*others]}
@@ -71,6 +71,34 @@ def test_a_number_over_the_mean_of_others():
     assert "a 3 over the mean of b and c 3" in found["evidence"]
     ratio["to"].append({"row": "d"})
     assert judged(ratio | {"at_least": 0.99}, steps=steps)["verdict"] == verdicts.TOO_SMALL
+
+
+def test_a_number_over_a_given_one():
+    size = {"column": "size", "of": {"row": "trimmed"}}
+    found = judged(size | {"to": 5.0, "at_most": 1})
+    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 0.5"
+    assert "size of trimmed 2.5 over 5 (steps)" in found["evidence"]
+    assert judged(size | {"to": 2.4, "at_most": 1})["verdict"] == verdicts.CONTRADICTED
+
+
+def test_numbers_are_first_divided_by_another_column():
+    """A fourfold fall beside a twofold one."""
+    flicker = {"row": ["original", "trimmed"], "light": [0.8, 0.2], "camera": [0.2, 0.1]}
+    ratio = {"column": "light", "per": "camera", "at_least": 1}
+    found = judged(ratio, steps=pd.DataFrame(flicker))
+    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 2"
+    assert "light per camera of original 4 over trimmed 2" in found["evidence"]
+    flicker["camera"] = [0.8, 0.1]
+    assert judged(ratio, steps=pd.DataFrame(flicker))["verdict"] == verdicts.CONTRADICTED
+
+
+def test_times_may_have_to_be_of_a_gpu():
+    ratio = {"column": "runtime", "of": {"row": "trimmed"}, "to": 30.0, "at_most": 1}
+    needs = {"needs": {"device": "cuda"}}
+    found = judged(ratio, steps=STEPS.assign(device="cpu"), **needs)
+    assert found["verdict"] == verdicts.NOT_COMPARABLE and "cuda" in found["reason"]
+    found = judged(ratio, steps=STEPS.assign(device="cuda"), **needs)
+    assert found["verdict"] == verdicts.SUPPORTED
 
 
 def test_times_are_of_frames_of_the_paper_s_size():

@@ -16,9 +16,10 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
 
     Each of a claim's `ratios` has a `table` and a `column`, which `of` and `to`, values by column,
     find the rows of (with several `to` it is over their mean, without any over the sum of all other
-    rows), and `at_least` or `at_most`. What trained networks measure is not judged by fewer trainings than the claim needs:
-    a seed is one of the table, and one each of those in `again`. Of more than one the ratios'
-    logarithms decide, by Student's t.
+    rows, with a number over that), and `at_least` or `at_most`; with `per` each row's number is
+    divided first by that column's. What trained networks measure is not judged by fewer trainings
+    than the claim needs: a seed is one of the table, and one each of those in `again`. Of more than
+    one the ratios' logarithms decide, by Student's t.
     """
     return [_compared(claim, ratio, data) for ratio in claim["ratios"]]
 
@@ -26,16 +27,21 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
 def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured) -> Comparison:
     tables = [data.tables[name] for name in (ratio["table"], *_again(claim, ratio))]
     names = [_name(ratio[key]) for key in ("of", "to")]
-    kept = {"metric": ratio["column"], "methods": f"{names[0]} over {names[1]}"}
+    column = f"{ratio['column']} per {ratio['per']}" if ratio["per"] else ratio["column"]
+    kept = {"metric": column, "methods": f"{names[0]} over {names[1]}"}
     values = np.array([_values(table, ratio) for table in tables])
-    texts = [f"{name} {value:.4g}" for name, value in zip(names, values.mean(axis=0))]
-    kept["text"] = f"{ratio['column']} of {' over '.join(texts)} ({ratio['table']})"
-    if why := of_another_size(tables[0], ratio["column"]):
+    means = [f" {value:.4g}" for value in values.mean(axis=0)]
+    if isinstance(ratio["to"], float):
+        means[1] = ""  # is its own name
+    texts = [f"{name}{mean}" for name, mean in zip(names, means)]
+    kept["text"] = f"{column} of {' over '.join(texts)} ({ratio['table']})"
+    needs = claim.get("needs") or {}
+    if why := of_another_size(tables[0], ratio["column"], needs.get("device")):
         return Comparison(**kept, **unjudged(incomparable=why))
     if not np.isfinite(values).all():
-        return Comparison(**kept, **unjudged(untested=f"no {ratio['column']} of one of them"))
+        return Comparison(**kept, **unjudged(untested=f"no {column} of one of them"))
     ratios = values[:, 0] / values[:, 1]
-    needed = (claim.get("needs") or {}).get("seeds") or 1
+    needed = needs.get("seeds") or 1
     if claim["networks"] and len(tables) < needed:
         why = f"{len(tables)} seed{'s' * (len(tables) > 1)} of {needed}"
         number = _number(ratios, _limits(ratio))
@@ -43,10 +49,14 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
     return Comparison(**kept, **_number(ratios, _limits(ratio)), **_judged(ratios, _limits(ratio)))
 
 
-def of_another_size(table: pd.DataFrame, column: str) -> str:
+def of_another_size(table: pd.DataFrame, column: str, device: str | None = None) -> str:
     """Why a column's numbers are not what a claim is about; empty if they are."""
-    if column == "runtime" and not table["of_printed_size"].all():
+    if column != "runtime":
+        return ""
+    if not table["of_printed_size"].all():
         return "times of frames that have not the paper's size"
+    if device and not (table["device"] == device).all():
+        return f"times on {device} are needed"
     return ""
 
 
@@ -55,11 +65,19 @@ def _again(claim: Mapping[str, Any], ratio: Mapping[str, Any]) -> list[str]:
 
 
 def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
-    value = _cell(table, ratio["column"], ratio["of"])
-    if ratio["to"] is None:
+    value, over = _number_in(table, ratio, ratio["of"]), ratio["to"]
+    if over is None:
         return [value, table[ratio["column"]].sum() - value]
-    over = ratio["to"] if isinstance(ratio["to"], list) else [ratio["to"]]
-    return [value, float(np.mean([_cell(table, ratio["column"], one) for one in over]))]
+    if isinstance(over, float):
+        return [value, over]
+    over = over if isinstance(over, list) else [over]
+    return [value, float(np.mean([_number_in(table, ratio, one) for one in over]))]
+
+
+def _number_in(table: pd.DataFrame, ratio: Mapping[str, Any], where: Mapping[str, Any]) -> float:
+    """A row's number, with `per` over its other."""
+    value = _cell(table, ratio["column"], where)
+    return value / _cell(table, ratio["per"], where) if ratio["per"] else value
 
 
 def _limits(ratio: Mapping[str, Any]) -> dict[str, float]:
@@ -89,7 +107,9 @@ def _judged(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:
     }
 
 
-def _name(where: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None) -> str:
+def _name(where: Mapping[str, Any] | Sequence[Mapping[str, Any]] | float | None) -> str:
+    if isinstance(where, float):
+        return f"{where:g}"
     if isinstance(where, list):
         return f"the mean of {' and '.join(map(_name, where))}"
     return "all others" if where is None else ", ".join(map(str, where.values()))

@@ -94,7 +94,7 @@ def steps_table(
     """A row for each step.
 
     Columns: `row`, `network`, `precision`, `runtime` (ms of a frame on all of the machine's threads, or
-    its GPU, see `run`), `share` of a matrix product's rate, `size` (MiB of weights and biases not
+    its GPU, see `run` and `device`), `share` of a matrix product's rate, `size` (MiB of weights and biases not
     counted), `error` (mean squared) with the ends of its interval, NaN of what is not trained.
     """
     rows = []
@@ -103,7 +103,7 @@ def steps_table(
         timed = [one for one in profile["runs"] if one["precision"] == step["precision"]][-1]
         weights = sum(level["weights"] for level in profile["levels"])
         row = {"row": name, "network": step["network"], "precision": step["precision"]}
-        row |= {"run": run_name(timed), "runtime": timed["whole_ms"]}
+        row |= {"run": run_name(timed), "device": timed["device"], "runtime": timed["whole_ms"]}
         row |= {"share": product_share(profile, timed)}
         row |= {"size": weights * BYTES[step["precision"]] / 2**20}
         row |= dict.fromkeys(("error", "error_low", "error_high"), np.nan)
