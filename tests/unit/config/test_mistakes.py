@@ -87,6 +87,7 @@ frame_sets.frames.light_map.resolution | 100 | light_map.resolution: 100 is not 
 soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each only once
 tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'
+claims.pcss_better_than_msm.radii | [-1] | radii.0 = -1: Input should be greater than or equal to 0
 claims.nsm_first_level.ratios.0.per | compute | a ratio to the sum of all others has no `per`
 screen_networks.nsm.form | whole | screen_networks.nsm.form = 'whole': should be one of 'full', 'shuffle', 'half', 'original'
 screen_networks.nsm.widths | [32] | screen_networks.nsm.widths = [32]: List should have at least 2 items

@@ -64,7 +64,7 @@ class AnyClaim(Model):
 
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
 Pairs = Annotated[list[Pair], Field(min_length=1)]
-SoftRadii = list[Annotated[int, Field(ge=1)]]
+SoftRadii = list[Annotated[int, Field(ge=0)]]
 
 
 class BetterClaim(AnyClaim):
