@@ -145,7 +145,7 @@ def test_claims_on_methods_without_a_network_and_on_what_is_printed(changed):
         ("fence", "no_shadow", None),
         ("fence", "fence", 0.0),
     ]
-    needs = {"device": None, "seeds": 3, "budget": 1.0, "mesh": "thesis"}
+    needs = {"device": None, "seeds": 3, "budget": 1.0, "mesh": "thesis", "trunk": None}
     assert claims["dragon_better_than_256"]["needs"] == needs
     assert claims["dragon_better_than_256"]["metrics"] == ["lpips"]
     (pair,) = claims["printed_fence_better_than_128"]["pairs"]

@@ -92,6 +92,17 @@ def test_numbers_are_first_divided_by_another_column():
     assert judged(ratio, steps=pd.DataFrame(flicker))["verdict"] == verdicts.CONTRADICTED
 
 
+@pytest.mark.parametrize(
+    ("net", "verdict"), [("squeeze", verdicts.SUPPORTED), ("none", verdicts.TOO_SMALL)]
+)
+def test_what_a_perceptual_loss_does_needs_one(net, verdict):
+    trainings = {"plain": LEARNED | {"perceptual": net}, "l1": LEARNED | {"perceptual": "none"}}
+    told = {"networks": ["plain", "l1"], "needs": {"trunk": True}}
+    found = judged({"column": "size", "at_least": 1}, trainings, **told)
+    assert found["verdict"] == verdict
+    assert ("pretrained trunk" in found["reason"]) == (net == "none")
+
+
 def test_times_may_have_to_be_of_a_gpu():
     ratio = {"column": "runtime", "of": {"row": "trimmed"}, "to": 30.0, "at_most": 1}
     needs = {"needs": {"device": "cuda"}}

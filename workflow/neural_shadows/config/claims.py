@@ -47,6 +47,9 @@ class Needs(Model):
     mesh: Literal["thesis"] | None = Field(
         None, description="`thesis`: the thesis's meshes, and no others in their place"
     )
+    trunk: Literal[True] | None = Field(
+        None, description="a pretrained one, so that one of its networks has a perceptual loss"
+    )
 
 
 class AnyClaim(Model):

@@ -10,6 +10,8 @@ from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.reports.claims.comparison import Comparison, unjudged
 from neural_shadows.reports.claims.measured import Measured
 
+WITHOUT_TRUNK = "no network with a perceptual loss: it needs a pretrained trunk"
+
 
 def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     """A comparison for each of a claim's ratios of two cells of one table.
@@ -40,6 +42,8 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
         return Comparison(**kept, **unjudged(incomparable=why))
     if not np.isfinite(values).all():
         return Comparison(**kept, **unjudged(untested=f"no {column} of one of them"))
+    if needs.get("trunk") and not _perceptual(claim, data):
+        return Comparison(**kept, **unjudged(untested=WITHOUT_TRUNK))
     ratios = values[:, 0] / values[:, 1]
     needed = needs.get("seeds") or 1
     if claim["networks"] and len(tables) < needed:
@@ -47,6 +51,12 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
         number = _number(ratios, _limits(ratio))
         return Comparison(**kept, **number, supports=False, against=1.0, untested=why)
     return Comparison(**kept, **_number(ratios, _limits(ratio)), **_judged(ratios, _limits(ratio)))
+
+
+def _perceptual(claim: Mapping[str, Any], data: Measured) -> bool:
+    """Whether one of a claim's networks learned by a perceptual distance."""
+    records = [data.screen_trainings[name] for name in claim["networks"]]
+    return any(record["perceptual"] != "none" for record in records)
 
 
 def of_another_size(table: pd.DataFrame, column: str, device: str | None = None) -> str:
