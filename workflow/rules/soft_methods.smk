@@ -78,6 +78,8 @@ rule evaluate_soft:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=120),
+    params:
+        precision=of(soft_methods.precision),
     message:
         "Evaluating {wildcards.method} on {wildcards.frame_set}"
     script:

@@ -6,7 +6,7 @@ from shipped import shipped
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.layout import claims, figures, tables, targets
+from neural_shadows.layout import claims, figures, soft_methods, tables, targets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
 
@@ -101,6 +101,17 @@ def test_files_that_methods_are_evaluated_from(desk):
         assert files["answers"] == [] and files["mesh_ply"] == "results/scenes/dragon/mesh.ply"
         found = [f"results/depth_biases/dragon/{bias}.json"] if bias else []
         assert files["depth_bias_json"] == found
+
+
+def test_steps_are_measured_in_their_number_formats(desk):
+    made = tables.files(desk, "nsm_steps")
+    assert [path.rsplit("/", 1)[1] for path in made["soft_metrics"]] == [
+        *("nsm_trimmed_float32.csv", "nsm_trimmed_bfloat16.csv", "nsm_bfloat16.csv")
+    ]
+    method = "nsm_trimmed_float32"
+    assert soft_methods.precision(desk, method) == "float32"
+    assert soft_methods.weights(desk, method) == soft_methods.weights(desk, "nsm_trimmed")
+    assert soft_methods.precision(desk, "nsm_trimmed") == "auto"
 
 
 def test_tables_and_claims_are_made_of_their_rows(desk):

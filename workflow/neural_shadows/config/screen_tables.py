@@ -60,9 +60,11 @@ class Step(Model):
     """A step on the way to a fast network."""
 
     network: name_in("screen_networks") = Field(description="a name in `screen_networks`: timed")
-    precision: Literal["float32", "bfloat16"] = Field(description="of its weights and its time")
+    precision: Literal["float32", "bfloat16"] = Field(
+        description="of its weights, its time and its error"
+    )
     experiment: name_in("screen_experiments") | None = Field(
-        None, description="a name in `screen_experiments`: its error, in 16-bit floats"
+        None, description="a name in `screen_experiments`: its error, in this precision"
     )
 
 

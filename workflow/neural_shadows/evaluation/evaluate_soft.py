@@ -40,6 +40,7 @@ def evaluate_soft(
     *,
     occluders: list[Path],
     method: str,
+    precision: str = "auto",
     threads: int = 1,
 ) -> None:
     """Measure a method on all radii of each test frame, and how much it flickers in sequences.
@@ -56,11 +57,12 @@ def evaluate_soft(
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
         occluders: what `measure_occluders` wrote of each part; none for a method whose errors are
             not told by what blocks the light.
+        precision: that a network computes in, see `choose_dtype`.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    method_of = soft_methods_by_scene(method, weights)
+    method_of = soft_methods_by_scene(method, weights, precision)
     constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
     quick = {"ssim": ssim}
     # 0.22 s of an image of 512 × 256, where the errors take 0.01: of each part's first frame alone.

@@ -15,6 +15,7 @@ CONE_WALKS = (1, 4, 8)  # through them, of what neither sees all of the light no
 BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
 BASE = "base_"
 OIDN = "_oidn"
+FORMATS = ("float32", "bfloat16")
 # A filter behind a method leaves that its constants, and how far a field's rays start from what
 # they leave does not depend on their number: to choose them anew took 155 and 98 s of a core.
 _TUNED_AS = {
@@ -63,6 +64,13 @@ def rays_of(method: str) -> int | None:
 def is_network(method: str) -> bool:
     """Whether a method is a trained network: an experiment of `screen_experiments`."""
     return method not in LABELS
+
+
+def in_format(experiment: str, precision: str) -> str:
+    """The method that a trained network is in one of `FORMATS`; its name alone is it in the one that
+    the machine multiplies fastest.
+    """
+    return f"{experiment}_{precision}"
 
 
 def is_tuned(method: str) -> bool:

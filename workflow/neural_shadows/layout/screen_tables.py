@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from neural_shadows.evaluation.soft_method_names import is_network
+from neural_shadows.evaluation.soft_method_names import in_format, is_network
 from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
 
@@ -32,13 +32,20 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
     paths, frame_set = layout.paths, soft_methods.frame_set(layout, table)
     named = methods(layout, table)
     networks = [*filter(is_network, named)]
+    asked = _in_formats(layout, table) or named
     return {
-        "soft_metrics": [paths.soft_evaluation("csv", frame_set, method) for method in named],
+        "soft_metrics": [paths.soft_evaluation("csv", frame_set, method) for method in asked],
         "trainings": [paths.screen_network("training.json", name) for name in networks],
         "sensitivities": [paths.screen_sensitivity(frame_set, name) for name in networks],
         "profiles": _profiles(layout, table),
         "frames_json": soft_methods.tests(layout, frame_set)[0],
     }
+
+
+def _in_formats(layout: Layout, table: str) -> list[str]:
+    """The methods that steps are: networks in number formats; none of another table."""
+    steps = layout.entry("tables", table).get("steps", {}).values()
+    return [in_format(one["experiment"], one["precision"]) for one in steps if one["experiment"]]
 
 
 def _profiles(layout: Layout, table: str) -> list[str]:

@@ -1,9 +1,11 @@
 """What tables and figures of methods for soft shadows are made of."""
 
 from neural_shadows.evaluation.soft_method_names import (
+    FORMATS,
     LABELS,
     NULL,
     available,
+    in_format,
     is_network,
     is_tuned,
     tuned_as,
@@ -162,7 +164,21 @@ def experiments(layout: Layout, method: str) -> list[str]:
     if not is_network(method):
         return []
     by_scene = layout.settings["networks_by_scene"]
-    return by_scene[method]["experiments"] if method in by_scene else [method]
+    if method in by_scene:
+        return by_scene[method]["experiments"]
+    return [_of_formats(layout).get(method, (method, "auto"))[0]]
+
+
+def precision(layout: Layout, method: str) -> str:
+    """The number format that a network is asked in."""
+    return _of_formats(layout).get(method, (method, "auto"))[1]
+
+
+def _of_formats(layout: Layout) -> dict[str, tuple[str, str]]:
+    """By method the experiment and the number format that it is, of those that name one."""
+    known = layout.settings["screen_experiments"]
+    found = {in_format(name, one): (name, one) for name in known for one in FORMATS}
+    return {method: meant for method, meant in found.items() if method not in known}
 
 
 def timed_methods(layout: Layout, table: str) -> dict[str, str | None]:

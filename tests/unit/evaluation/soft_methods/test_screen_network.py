@@ -70,6 +70,19 @@ def test_it_answers_by_buffers_what_it_answers_by_the_map(folder):
     assert asked[0].min() >= 0 and asked[0].max() <= 1
 
 
+def test_it_answers_in_the_number_format_that_is_asked_for(folder):
+    """Which of bfloat16 is seen in its answers: eight bits of a number near 1."""
+    weights = folder / "tiny/weights.safetensors"
+    frame = next(measured_frames([folder / "blinds/test_000.json"], []))
+    exact, rounded = (
+        frame.answered(soft_method("tiny", weights, precision), 0.25, {})
+        for precision in ("float32", "bfloat16")
+    )
+    inside = (exact > 0) & (exact < 1) & frame.valid
+    assert 0 < np.median(np.abs(exact - rounded)[inside]) < 0.02
+    assert len(np.unique(rounded[inside])) < len(np.unique(exact[inside]))
+
+
 @pytest.mark.parametrize("base", ["hard", "pcf", "msm"])
 def test_networks_of_kernels_answer_as_well(folder, base):
     """Its norms are folded; the base is made from the map, too, where it is timed."""

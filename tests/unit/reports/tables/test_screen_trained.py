@@ -137,16 +137,19 @@ def test_steps(tmp_path, trained):
     profile |= {"levels": [{"weights": 2**18, "macs": 1e4}]}
     path = tmp_path / "trimmed.json"
     path.write_text(json.dumps(profile))
-    values = metrics(tmp_path / "five.csv", [{"metric": "mse", "value": 0.007, "frame": 0}])
+    values = [
+        metrics(tmp_path / f"five_{name}.csv", [{"metric": "mse", "value": value, "frame": 0}])
+        for name, value in {"float32": 0.006, "bfloat16": 0.007}.items()
+    ]
     steps = {
-        "trimmed": {"network": "trimmed", "precision": "float32", "experiment": None},
+        "trimmed": {"network": "trimmed", "precision": "float32", "experiment": "five"},
         "trimmed_half": {"network": "trimmed", "precision": "bfloat16", "experiment": "five"},
     }
-    told = {"profiles": [path], "soft_metrics": [values], "trainings": trained[1:]}
+    told = {"profiles": [path], "soft_metrics": values, "trainings": trained[1:]}
     told |= {"published_nsm_csv": PUBLISHED, "steps": steps, "labels": LABELS}
     table, text = written(screen_steps.write, tmp_path, **told)
     assert table["runtime"].tolist() == [400, 100] and table["printed_runtime"].tolist() == [28, 17]
-    assert table["size"].tolist() == [1, 0.5] and table["error"].tolist()[1] == 0.007
+    assert table["size"].tolist() == [1, 0.5] and table["error"].tolist() == [0.006, 0.007]
     assert table["share"].tolist() == pytest.approx([2**21 * 1e4 / 0.4e12, 2**21 * 1e4 / 0.1e12])
     assert table["of_printed_size"].all() and " 6.67 |" in text
 

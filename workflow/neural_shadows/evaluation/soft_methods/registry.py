@@ -37,22 +37,22 @@ def method_module(key: str) -> Path:
     return Path(__file__).with_name(f"{name}.py")
 
 
-def soft_method(key: str, weights: Path | None = None) -> "SoftMethod":
-    """The method of a key, if it is a network, with its weights."""
+def soft_method(key: str, weights: Path | None = None, precision: str = "auto") -> "SoftMethod":
+    """The method of a key, if it is a network, with its weights, in a number format."""
     module = import_module(f"neural_shadows.evaluation.soft_methods.{method_module(key).stem}")
-    return module.screen_method(weights) if is_network(key) else module.METHODS[key]
+    return module.screen_method(weights, precision) if is_network(key) else module.METHODS[key]
 
 
 def soft_methods_by_scene(
-    key: str, weights: Sequence[Path] = ()
+    key: str, weights: Sequence[Path] = (), precision: str = "auto"
 ) -> "Callable[[str], SoftMethod | None]":
     """The method of a key, by scene: of several networks the one that learned it, or None."""
     if len(weights) < 2:
-        method = soft_method(key, *weights)
+        method = soft_method(key, *weights, precision=precision)
         return lambda scene: method
     module = import_module("neural_shadows.evaluation.soft_methods.screen_network")
     return {
-        scene: module.screen_method(path)
+        scene: module.screen_method(path, precision)
         for path in weights
         for scene in module.learned_scenes(path)
     }.get

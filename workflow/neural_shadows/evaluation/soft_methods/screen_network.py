@@ -21,13 +21,13 @@ from neural_shadows.networks.weight_file import load_tensors
 from neural_shadows.rendering.gbuffer import Lens, lens_of
 
 
-def screen_method(weights: Path) -> SoftMethod:
-    """The method that a file of weights is.
+def screen_method(weights: Path, precision: str = "auto") -> SoftMethod:
+    """The method that a file of weights is, in a number format (see `choose_dtype`).
 
     Raises:
         InputError: the file is damaged, or its weights are of another table of widths.
     """
-    return _Answers(weights).method()
+    return _Answers(weights, precision).method()
 
 
 def learned_scenes(weights: Path) -> list[str]:
@@ -42,12 +42,12 @@ def learned_scenes(weights: Path) -> list[str]:
 class _Answers:
     """A network, and what is kept of it from frame to frame."""
 
-    def __init__(self, weights: Path):
+    def __init__(self, weights: Path, precision: str):
         self._weights = weights
         network, self._header = load_screen_network(weights)
         if isinstance(network, KernelUnet):
             network = network.folded()
-        self._network = network.in_format(choose_dtype("auto", torch.device("cpu")))
+        self._network = network.in_format(choose_dtype(precision, torch.device("cpu")))
 
     def method(self) -> SoftMethod:
         bytes_held = 2 * sum(one.numel() for one in self._network.parameters())  # 16 bits each

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from neural_shadows.evaluation.soft_method_names import in_format
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
@@ -44,7 +45,7 @@ def write(
 
     Args:
         profiles: what `profile_screen_network` wrote of the steps' networks.
-        soft_metrics, trainings: of the steps' experiments.
+        soft_metrics: of the steps' experiments in their number formats; trainings: theirs.
         steps: of each, by its name in the paper, `network`, `precision` and `experiment`, which may
             be None.
         labels: by experiment.
@@ -76,8 +77,8 @@ def write(
     notes = [
         f"Printed: {PAPER}, on an RTX 2080 Ti; another machine's milliseconds. `original`: its width "
         "is not printed and taken such that its size is as said, above 25 MB.",
-        "Errors: mean over test frames and all lights, in 16-bit floats [95 % bootstrap interval over "
-        "frames].",
+        "Errors: mean over test frames and all lights, in the step's format [95 % bootstrap interval "
+        "over frames].",
         *(describe(profile) for profile in list(profiled.values())[:1]),
         *describe_trainings(records, labels),
         phrases.describe_run(run),
@@ -108,7 +109,8 @@ def steps_table(
         row |= {"size": weights * BYTES[step["precision"]] / 2**20}
         row |= dict.fromkeys(("error", "error_low", "error_high"), np.nan)
         if step["experiment"]:
-            mine = found[(found["metric"] == "mse") & (found["method"] == step["experiment"])]
+            method = in_format(step["experiment"], step["precision"])
+            mine = found[(found["metric"] == "mse") & (found["method"] == method)]
             values = mine.groupby(["scene", "part", "frame"])["value"].mean()
             row |= mean_with_interval(values, "error", seed)
         rows.append(row)
