@@ -29,6 +29,7 @@ TRAINING = {
     "optimiser": "adam",
 }
 TRAINING |= {"perturbation": 3.0, "perturbation_from": 0.5}
+VALIDATIONS = [{"step": step, "mse": [0.9 / step, 1.1 / step]} for step in (1, 4, 7)]
 LABELS = {"three": "3 levels", "five": "5 levels"}
 
 
@@ -41,8 +42,9 @@ def metrics(path, rows):
 def training(folder, name, levels):
     path = folder / name / "training.json"
     path.parent.mkdir()
-    network = {"widths": [8] * levels}
-    path.write_text(json.dumps({"network": network, "training": TRAINING, "perceptual": "squeeze"}))
+    record = {"network": {"widths": [8] * levels}, "training": TRAINING, "perceptual": "squeeze"}
+    record |= {"validations": VALIDATIONS, "validation_mse": [0.01, 0.03]}
+    path.write_text(json.dumps(record))
     return path
 
 
@@ -98,6 +100,7 @@ def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
     assert cells["receptive_field"].tolist() == [24, 96, 24, 96]
     assert "| 90 px" in text and "8.0 / 1.0" in text and "table 1 of Datta" in text
     assert "perceptual term: squeeze" in text and "3 levels, 5 levels." in text
+    assert "3 levels 1e+04 after 1, 2.5e+03 after 4, 1.43e+03 after 7, 200 after 10; 5" in text
 
 
 def test_features_with_their_worth(tmp_path, trained):

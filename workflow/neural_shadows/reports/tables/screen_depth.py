@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
@@ -73,6 +74,7 @@ def write(
         f"of its row; a network whose receptive field (3 · 2^levels pixels) is narrower than the "
         f"penumbra should have {SUFFICES:g} or more. Of the widest: of the tenth of each frame's penumbra "
         "pixels whose penumbra is widest by the paper's model (3.6).",
+        _describe_learning(records, labels),
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
@@ -109,6 +111,23 @@ def depth_table(
             )
     table = pd.DataFrame(rows)
     return table.assign(ratio=table["mse"] / table.groupby("row")["mse"].transform("min"))
+
+
+def _describe_learning(records: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]) -> str:
+    """Errors over the steps: a deeper network may be behind only because it has learned too little."""
+    told = []
+    for name, record in records.items():
+        end = {"step": record["training"]["steps"], "mse": record["validation_mse"]}
+        found = [*record["validations"], end]
+        quarters = np.linspace(0, len(found) - 1, 4).round().astype(int)
+        shown = [found[number] for number in dict.fromkeys(quarters)]
+        errors = number_cells([np.mean(one["mse"], dtype=float) for one in shown], "{:.3g}", 1e4)
+        after = [f"{error} after {one['step']:,}" for error, one in zip(errors, shown)]
+        told.append(f"{labels.get(name, name)} {', '.join(after)}")
+    return (
+        "What falls until the end has not learned all that it can; squared error × 10⁻⁴ on validation "
+        f"frames, mean over all lights, by steps: {'; '.join(told)}."
+    )
 
 
 if "snakemake" in globals():
