@@ -7,6 +7,7 @@ rule table:
         code=lambda wildcards: code(
             f"reports/tables/{SETTINGS['tables'][wildcards.table]['kind']}",
             tables.encodings(LAYOUT, wildcards.table),
+            tables.generators(LAYOUT, wildcards.table),
         ),
     output:
         csv=report(

@@ -77,6 +77,13 @@ class SoftSummaryTable(AnyTable):
         return [row.method for row in self.methods]
 
 
+class PenumbraTable(AnyTable):
+    """Measured widths of penumbrae beside those of Neural Shadow Mapping's model (3.6)."""
+
+    kind: Literal["penumbra_widths"] = Field(description="`penumbra_widths`")
+    frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
+
+
 def check_soft(config: "Config", key: str, table: SoftMethodsTable | SoftSummaryTable) -> None:
     """Check that a table's methods are known, and can be asked about its frames.
 

@@ -16,7 +16,12 @@ from neural_shadows.config.screen_tables import (
     ScreenTemporalTable,
     ScreenTrainedTable,
 )
-from neural_shadows.config.soft_tables import SoftMethodsTable, SoftSummaryTable, check_soft
+from neural_shadows.config.soft_tables import (
+    PenumbraTable,
+    SoftMethodsTable,
+    SoftSummaryTable,
+    check_soft,
+)
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.evaluation.method_names import (
     CLASSIC,
@@ -98,6 +103,7 @@ Table = by_kind(
     CostTable,
     SoftMethodsTable,
     SoftSummaryTable,
+    PenumbraTable,
     ScreenProfileTable,
     ScreenNetworksTable,
     ScreenTrainedTable,

@@ -49,6 +49,7 @@ FILES = {
         "trainings",
         "published_kpnsm_csv",
     ),
+    "penumbra_widths": ("parts", "meshes"),
     "screen_levels": ("profile_json", "published_nsm_csv"),
     "screen_parts": ("profile_json", "published_nsm_csv"),
     "screen_networks": ("published_nsm_csv",),
@@ -68,6 +69,7 @@ TOLD = {
     "cost": ("run",),
     "soft_methods": ("labels", "left_out", "unseen", "run"),
     "soft_summary": ("published", "methods", "by", "metrics", "measured", "run"),
+    "penumbra_widths": ("run",),
     "screen_levels": ("published", "run"),
     "screen_parts": ("published", "run"),
     "screen_networks": ("published", "networks", "run"),
@@ -111,6 +113,9 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         values["soft_constants"] = soft_methods.constants(layout, table)
     if kind == "soft_summary":
         values["trainings"] = soft_methods.trainings(layout, table)
+    if kind == "penumbra_widths":
+        values["parts"] = soft_methods.first_tests(layout, settings["frame_set"])
+        values["meshes"] = soft_methods.all_meshes(layout, settings["frame_set"])
     if kind in screen_tables.KINDS:
         values |= screen_tables.files(layout, table)
     found = {name: values[name] for name in FILES[kind]}
@@ -169,6 +174,14 @@ def encodings(layout: Layout, table: str) -> set[str]:
     settings = layout.entry("tables", table)
     reads = "weights" in FILES[settings["kind"]]
     return layout.encodings(experiments_of(settings["rows"]) if reads else [])
+
+
+def generators(layout: Layout, table: str) -> list[str]:
+    """The generators of the scenes that a table looks into."""
+    settings = layout.entry("tables", table)
+    if settings["kind"] != "penumbra_widths":
+        return []
+    return soft_methods.all_generators(layout, settings["frame_set"])
 
 
 def timed_rows(layout: Layout, table: str, scene: str) -> list[Row]:

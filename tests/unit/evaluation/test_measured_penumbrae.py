@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neural_shadows.reports.figures.penumbra_model import measured_widths
+from neural_shadows.evaluation.measured_penumbrae import measured_widths
 
 ROWS, COLUMNS = np.mgrid[0:80, 0:120].astype(float)
 PLACE = np.array([[40], [60]])

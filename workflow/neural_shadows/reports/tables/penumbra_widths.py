@@ -1,0 +1,90 @@
+"""Widths of penumbrae, and what Neural Shadow Mapping's model makes of them (Datta et al. 2022, 3.6)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.measured_frames import measured_frames
+from neural_shadows.evaluation.measured_penumbrae import NARROWEST, widths
+from neural_shadows.reports import phrases
+from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.running.stage import run_stage
+
+WIDE = 95  # percentile of the widths by which the paper chooses the network's levels
+
+
+def write(
+    *,
+    parts: list[Path],
+    meshes: list[Path],
+    csv: Path,
+    md: Path,
+    title: str,
+    run: Mapping[str, Any],
+) -> None:
+    """Write a row for each scene and light: widths as measured and as modelled.
+
+    CSV: those of `widths_table`, and the scale.
+
+    Args:
+        parts: of test frames. meshes: see `measured_frames`.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    found = {}
+    for one in measured_frames(parts, meshes):
+        for light, radius in enumerate(one.part.radii):
+            if radius > 0:
+                key = one.scene_name, light, radius
+                found.setdefault(key, []).append(widths(one, light))
+    table = widths_table({key: np.hstack(some) for key, some in found.items()})
+    table = table.assign(scale=run["scale"])
+    columns = {
+        "scene": table["scene"],
+        "light, m": number_cells(table["radius"], "{:g}"),
+        "pixels": number_cells(table["pixels"], "{:,.0f}"),
+        "measured, px": number_cells(table["measured"], "{:.1f}"),
+        f"{WIDE} % of them": number_cells(table["measured_wide"], "≤ {:.1f}"),
+        "by the model, px": number_cells(table["modelled"], "{:.1f}"),
+        f"{WIDE} % of these": number_cells(table["modelled_wide"], "≤ {:.1f}"),
+        "measured within, %": number_cells(table["within"], "{:.1f}", 100),
+    }
+    notes = [
+        "Measured: the way from 10 to 90 % of the light, times 1.25, through pixels in the middle of a "
+        f"penumbra that has both ends on one surface and {NARROWEST:g} pixels and more; medians. Others, "
+        "among them the widest of a light that nothing hides wholly, have no such width. By the model: "
+        "seen head-on at the same pixels. Whole steps to both ends may add 2.5 pixels to what is measured.",
+        f"Within: what is not wider than the width that {WIDE} % of the model's do not exceed, by which "
+        "the paper chooses the network's levels.",
+        phrases.describe_run(run),
+    ]
+    write_twins(table, columns, csv, md, title=title, notes=notes)
+
+
+def widths_table(pairs: Mapping[tuple[str, int, float], np.ndarray]) -> pd.DataFrame:
+    """A row for each scene and light.
+
+    Columns: `scene`, `light`, the radius's number from 0, `radius`, `pixels`; of these `measured` and
+    `modelled`, medians in pixels, `measured_wide` and `modelled_wide`, which `WIDE` percent do not
+    exceed; `within`, the share of measured widths up to `modelled_wide`. NaN without pixels.
+
+    Args:
+        pairs: measured widths and the model's, (2, n) pixels, by scene, light and radius.
+    """
+    rows = []
+    for (scene, light, radius), both in pairs.items():
+        row = {"scene": scene, "light": light, "radius": radius, "pixels": both.shape[1]}
+        for name, one in zip(("measured", "modelled"), both):
+            ends = np.percentile(one, [50, WIDE]) if one.size else [np.nan] * 2
+            row |= dict(zip((name, f"{name}_wide"), ends))
+        within = both[0] <= row["modelled_wide"]
+        rows.append(row | {"within": within.mean() if within.size else np.nan})
+    return pd.DataFrame(rows)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write)
