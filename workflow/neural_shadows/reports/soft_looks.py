@@ -39,6 +39,13 @@ SOFT_LOOKS = {
         "⬟",
         "Rays through a sparse grid of signed distances of each object.",
     ),
+    "cone": Look(
+        "cones through occupancy fields",
+        "#777777",
+        "h",
+        "⬢",
+        "Walks once from a point to the light, and keeps how near it comes to each object's surface.",
+    ),
     "svgf": Look("rays, SVGF-like filter", PINK, "v", "▼", "Rays, smoothed within surfaces."),
     "oidn": Look("rays, Open Image Denoise", RED, "X", "✕", "Rays, denoised by a network."),
     "network": Look(
