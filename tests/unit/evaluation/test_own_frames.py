@@ -75,6 +75,7 @@ def evaluate(layout, method):
             "meshes": soft_methods.all_meshes(layout, "mine"),
             "constants_json": soft_methods.chosen(layout, "mine", method),
             "weights": soft_methods.weights(layout, method),
+            "occluders": soft_methods.occluders(layout, "mine", method),
             "lpips_json": layout.paths.lpips,
         },
         output={"metrics_csv": files["csv"], "answers_npz": files["npz"]},
