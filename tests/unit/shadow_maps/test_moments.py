@@ -64,6 +64,13 @@ def test_published_vectors_of_four_moments():
     assert 1 - hamburger_visibility(three, np.array([0.899])) == pytest.approx(0.812, abs=2e-3)
 
 
+@pytest.mark.parametrize(("depths", "receiver"), [([0.3], 0.305), ([0.2, 0.3], 0.31)])
+def test_a_receiver_close_behind_is_dark(depths, receiver):
+    """With the moments' bias of maps of 16 bits a tenth and 0.38 of the light would leak."""
+    moments = mixed(lambda depth: powers(depth, 4), depths, np.ones(len(depths)))
+    assert hamburger_visibility(moments, np.array([receiver])) < 0.05
+
+
 def test_bound_of_variance_is_kept_by_any_distribution():
     """At least as much is lit as the distribution has behind the receiver, for all of them."""
     rng = np.random.default_rng(0)
