@@ -17,6 +17,7 @@ from neural_shadows.reports.tables import (
     screen_steps,
     screen_temporal,
 )
+from neural_shadows.reports.tables.screen_rows import describe_trainings
 
 PUBLISHED = THESIS_CSV.with_name("published_nsm.csv")
 RUN = {"scale": "test", "seed": 1}
@@ -39,11 +40,11 @@ def metrics(path, rows):
     return path
 
 
-def training(folder, name, levels):
+def training(folder, name, levels, died=None):
     path = folder / name / "training.json"
     path.parent.mkdir()
     record = {"network": {"widths": [8] * levels}, "training": TRAINING, "perceptual": "squeeze"}
-    record |= {"validations": VALIDATIONS, "validation_mse": [0.01, 0.03]}
+    record |= {"validations": VALIDATIONS, "validation_mse": [0.01, 0.03], "died_at_step": died}
     path.write_text(json.dumps(record))
     return path
 
@@ -155,6 +156,17 @@ def test_steps(tmp_path, trained):
     assert table["size"].tolist() == [1, 0.5] and table["error"].tolist() == [0.006, 0.007]
     assert table["share"].tolist() == pytest.approx([2**21 * 1e4 / 0.4e12, 2**21 * 1e4 / 0.1e12])
     assert table["of_printed_size"].all() and " 6.67 |" in text
+
+
+def test_what_died_is_named(tmp_path):
+    """Its numbers are those of a constant answer, and would be read as those of its form."""
+    records = {
+        name: json.loads(training(tmp_path, name, 3, died).read_text())
+        for name, died in {"three": None, "five": 146}.items()
+    }
+    alike, dead = describe_trainings(records, LABELS)
+    assert "3 levels, 5 levels." in alike and "Died" in dead
+    assert "5 levels at step 146" in dead and "3 levels" not in dead
 
 
 def test_flicker_by_what_moves(tmp_path, trained, about):

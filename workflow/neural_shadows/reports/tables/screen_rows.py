@@ -34,8 +34,13 @@ def with_printed(
 def describe_trainings(
     records: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]
 ) -> list[str]:
-    """How networks were trained, those that were trained alike in one sentence."""
+    """How networks were trained, those that were trained alike in one sentence; and which died."""
     alike: dict[str, list[str]] = {}
+    died = [
+        f"{labels.get(name, name)} at step {record['died_at_step']}"
+        for name, record in records.items()
+        if record["died_at_step"] is not None
+    ]
     for name, record in records.items():
         training = record["training"]
         begins = f" from {training['perturbation_from']:.0%} of them on"
@@ -46,4 +51,10 @@ def describe_trainings(
             f"{training['perturbation']:g}{begins if training['perturbation'] else ''}"
         )
         alike.setdefault(text, []).append(labels.get(name, name))
-    return [f"Trained for {text}: {', '.join(names)}." for text, names in alike.items()]
+    notes = [f"Trained for {text}: {', '.join(names)}." for text, names in alike.items()]
+    if died:
+        notes.append(
+            f"**Died**, and says the same of every pixel since: {', '.join(died)}. Its numbers say "
+            "nothing of its form; a lower `learning_rate` or another `seed` may keep it alive."
+        )
+    return notes
