@@ -78,9 +78,12 @@ class SoftSummaryTable(AnyTable):
 
 
 class PenumbraTable(AnyTable):
-    """Measured widths of penumbrae beside those of Neural Shadow Mapping's model (3.6)."""
+    """Widths of penumbrae: what is measured beside models, or what networks are told, and where."""
 
-    kind: Literal["penumbra_widths"] = Field(description="`penumbra_widths`")
+    kind: Literal["penumbra_widths", "penumbra_feature"] = Field(
+        description="measured widths beside those of Neural Shadow Mapping's model (3.6); or in which "
+        "pixels networks of kernels are told of one (Hu et al. 2025, 4.1)"
+    )
     frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
 
 

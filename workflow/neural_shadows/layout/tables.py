@@ -50,6 +50,7 @@ FILES = {
         "published_kpnsm_csv",
     ),
     "penumbra_widths": ("parts", "meshes"),
+    "penumbra_feature": ("parts",),
     "screen_levels": ("profile_json", "published_nsm_csv"),
     "screen_parts": ("profile_json", "published_nsm_csv"),
     "screen_networks": ("published_nsm_csv",),
@@ -70,6 +71,7 @@ TOLD = {
     "soft_methods": ("labels", "left_out", "unseen", "run"),
     "soft_summary": ("published", "methods", "by", "metrics", "measured", "run"),
     "penumbra_widths": ("run",),
+    "penumbra_feature": ("run",),
     "screen_levels": ("published", "run"),
     "screen_parts": ("published", "run"),
     "screen_networks": ("published", "networks", "run"),
@@ -116,6 +118,8 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
     if kind == "penumbra_widths":
         values["parts"] = soft_methods.first_tests(layout, settings["frame_set"])
         values["meshes"] = soft_methods.all_meshes(layout, settings["frame_set"])
+    if kind == "penumbra_feature":
+        values["parts"] = soft_methods.tests(layout, settings["frame_set"])
     if kind in screen_tables.KINDS:
         values |= screen_tables.files(layout, table)
     found = {name: values[name] for name in FILES[kind]}

@@ -187,7 +187,7 @@ def beyond(layout: Layout) -> list[str]:
 def soft(layout: Layout) -> list[str]:
     """Names of the tables and figures of soft shadows."""
     kinds = ("soft_methods", "soft_summary", "soft_equal_time", "soft_pictures", "soft_radii")
-    kinds += ("penumbra_model", "penumbra_widths")
+    kinds += ("penumbra_model", "penumbra_widths", "penumbra_feature")
     entries = [*layout.settings["tables"].items(), *layout.settings["figures"].items()]
     return [
         name
