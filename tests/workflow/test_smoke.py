@@ -38,7 +38,7 @@ def test_everything_is_made_and_nothing_else_is_left(smoke):
     names += ["learning_sampling.csv", "learning_sampling.md"]
     soft = ("soft_methods", "soft_windows")
     soft += tuple(f"kpnsm_table_{n}" for n in (1, 2, 3, 4))
-    soft += ("kpnsm_unseen", "kpnsm_radii", "kpnsm_equal_time", "kpnsm_penumbrae")
+    soft += ("kpnsm_unseen", "kpnsm_radii", "kpnsm_equal_time", "kpnsm_penumbrae", "kpnsm_steps")
     names += [f"{name}.{ending}" for name in soft for ending in ("csv", "md")]
     scenes = ("dragon", "fence", "landscape")
     names += [f"scenes/{name}.{ending}" for name in scenes for ending in ("png", "svg")]

@@ -7,21 +7,24 @@ import pytest
 from neural_shadows.evaluation import profile_screen_network as stage
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 
+KERNELS = {"form": "kernels", "widths": [4, 8], "features": ["cosine", "base_msm"], "filters": 2}
 FORMS = [
     {"form": "full", "widths": [4, 8, 8], "extraction": 6},
     {"form": "shuffle", "widths": [4, 8]},
     {"form": "half", "widths": [4, 8]},
     {"form": "original", "widths": [4, 8]},
+    KERNELS,
+    KERNELS | {"ends": "full"},
 ]
 
 
-@pytest.mark.parametrize("settings", FORMS, ids=lambda one: one["form"])
+@pytest.mark.parametrize("settings", FORMS, ids=lambda one: one["form"] + one.get("ends", ""))
 def test_each_part_of_each_level_is_timed(tmp_path, monkeypatch, settings):
     """A clock that goes on by 1 ms at each look: a part takes 1, a whole frame too, untimed inside."""
     ticks = iter(range(10**6))
     monkeypatch.setattr(stage.time, "perf_counter", lambda: next(ticks) / 1000)
     monkeypatch.setattr(stage, "PRODUCT", 10)
-    network = settings | {"features": ["ratio", "n"]}
+    network = {"features": ["ratio", "n"]} | settings
     path, profile = tmp_path / "profile.json", {"width": 16, "height": 8, "repeats": 3}
     stage.profile_screen_network(path, network=network, profile=profile, device="cpu", threads=1)
     found = json.loads(path.read_text())

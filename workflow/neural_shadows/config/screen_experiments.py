@@ -8,8 +8,7 @@ from neural_shadows.config.base import Model, Seed, Text, check_among, name_in, 
 from neural_shadows.config.own_frames import OwnFrames, own_parts
 from neural_shadows.config.screen_networks import ScreenNetwork
 from neural_shadows.config.screen_trainings import ScreenTraining
-from neural_shadows.networks.screen_space.kernel_widths import KERNEL_FORMS
-from neural_shadows.networks.screen_space.widths import deepest_level
+from neural_shadows.networks.screen_space.kernel_widths import KERNEL_FORMS, layers_of
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -87,7 +86,7 @@ def check(config: "Config") -> None:
             )
         _check_frames(config, name)
         network = network_of(config, name)
-        least = 2 ** deepest_level(network.form, network.widths)
+        least = 2 ** max(layer.level for layer in layers_of(network.model_dump()))
         if training_of(config, name).crop < least:
             raise ValueError(
                 f"{key}.training: crop = {training_of(config, name).crop}: the network's deepest level "

@@ -79,7 +79,9 @@ class UnetOfSums(AnyScreenNetwork):
     """2 × 2 pixels as channels, two 3 × 3 convolutions with batch norms a level, sums for skips."""
 
     widths: list[Channels] = Field(
-        min_length=2, max_length=8, description="channels of each level, from half the frame's size"
+        min_length=2,
+        max_length=8,
+        description="channels of each level, from half the frame's size (with `ends: full` its own)",
     )
 
 
@@ -91,6 +93,11 @@ class KernelNetwork(UnetOfSums):
     )
     filters: int = Field(
         4, ge=1, le=6, description="5 × 5 kernels of a pixel, each twice as wide as the one before"
+    )
+    ends: Literal["half", "full"] = Field(
+        "half",
+        description="the first level: `half` the frame's size, 2 × 2 pixels as channels and kernels "
+        "enlarged bilinearly; `full`, the frame's own",
     )
 
     @field_validator("features")

@@ -71,6 +71,9 @@ class Step(Model):
 class ScreenStepsTable(AnyTable):
     """A table from a large network of whole frames to a fast one (Datta et al. 2022, 3.5)."""
 
+    published: Literal["nsm.steps"] | None = Field(
+        None, description="`nsm.steps`, the numbers that this paper prints of its steps"
+    )
     kind: Literal["screen_steps"] = Field(description="`screen_steps`")
     frame_set: name_in("frame_sets") = Field(description="whose test frames they are asked about")
     steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")

@@ -13,9 +13,9 @@ import torch
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.networks.compute import choose_device
+from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.kernel_widths import layers_of
-from neural_shadows.networks.screen_space.screen_networks import make_screen_network
-from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
+from neural_shadows.networks.screen_space.screen_networks import ScreenNetwork, make_screen_network
 from neural_shadows.networks.screen_space.widths import by_level
 from neural_shadows.running.hardware import describe_machine
 from neural_shadows.running.progress import progress_bar
@@ -27,7 +27,7 @@ MOST_SECONDS, LEAST = 60, WARM_UP + 3
 PRODUCT = 2048  # rows and columns of the matrices whose product is the rate to reach
 PRECISIONS = (torch.float32, torch.bfloat16)
 
-Place = tuple[int, str]  # a level and a part of `ShadowUnet.parts`
+Place = tuple[int, str]  # a level and a part of `ScreenNetwork.parts`
 
 
 def profile_screen_network(
@@ -60,8 +60,11 @@ def profile_screen_network(
         for place, count in places:
             for precision in PRECISIONS:
                 torch.set_num_threads(count)
-                made = make_screen_network(network).to(place, precision)
-                found = _timed(made.to(memory_format=torch.channels_last), profile)
+                made = make_screen_network(network)
+                if isinstance(made, KernelUnet):
+                    made = made.folded()  # as it answers
+                made = made.to(place, precision, memory_format=torch.channels_last)
+                found = _timed(made, profile)
                 name = str(precision).removeprefix("torch.")
                 runs.append({"device": place.type, "threads": count, "precision": name} | found)
                 bar.update()
@@ -86,7 +89,7 @@ def _counts(network: Mapping[str, Any]) -> list[dict[str, float]]:
     return [{"level": k} | {name: each[k] for name, each in found.items()} for k in levels]
 
 
-def _timed(network: ShadowUnet, profile: Mapping[str, int]) -> dict[str, Any]:
+def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]:
     weight = next(network.parameters())
     like = {"device": weight.device, "dtype": weight.dtype}
     channels = sum(FEATURES[name] for name in network.features)
@@ -124,7 +127,7 @@ def _timed(network: ShadowUnet, profile: Mapping[str, int]) -> dict[str, Any]:
 
 @contextmanager
 def _parts_timed(
-    network: ShadowUnet, found: dict[Place, list[float]], clock: Callable[[], float]
+    network: ScreenNetwork, found: dict[Place, list[float]], clock: Callable[[], float]
 ) -> Iterator[None]:
     """While it lasts, seconds of each part are added to `found`."""
     started: dict[Place, float] = {}

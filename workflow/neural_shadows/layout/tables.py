@@ -79,7 +79,7 @@ TOLD = {
     "screen_features": ("published", "columns", "labels", "run"),
     "screen_errors": ("labels", "run"),
     "screen_solids": ("labels", "run"),
-    "screen_steps": ("steps", "labels", "run"),
+    "screen_steps": ("published", "steps", "labels", "run"),
     "screen_temporal": ("labels", "run"),
 }
 

@@ -30,9 +30,16 @@ def parameters(network):
     return sum(one.numel() for one in network.parameters())
 
 
-def tiny(form="kernels", seed=0):
+# A form and its ends, by one word.
+FORMS = {"kernels": ("kernels", "half"), "direct": ("direct", "half"), "full": ("kernels", "full")}
+each_form = pytest.mark.parametrize("form", FORMS)
+
+
+def tiny(name="kernels", seed=0):
     """A network whose norms have statistics and weights of their own."""
-    network = KernelUnet(form, TINY, EIGHT if form == "kernels" else FOUR, filters=2, seed=seed)
+    form, ends = FORMS[name]
+    features = FOUR if form == "direct" else EIGHT
+    network = KernelUnet(form, TINY, features, filters=2, seed=seed, ends=ends)
     generator = torch.Generator().manual_seed(1)
     for norm in network.norms():
         for one in (norm.weight.data, norm.running_var):
@@ -73,11 +80,13 @@ def test_multiply_adds_are_those_of_the_table_with_the_head_at_half_resolution(l
     assert total(kernel_convolutions("kernels", WIDTHS[layers], 8, 4), "macs") == expected
 
 
-@pytest.mark.parametrize("form", ["kernels", "direct"])
+@each_form
 def test_modules_of_a_level_have_its_weights(form):
-    network = KernelUnet(form, SLIM, EIGHT, filters=3)
-    layers = kernel_convolutions(form, SLIM, 8, 3)
-    expected, found = {0: 0} | by_level(layers, "weights"), dict.fromkeys(range(5), 0)
+    name, ends = FORMS[form]
+    network = KernelUnet(name, SLIM, EIGHT, filters=3, ends=ends)
+    layers = kernel_convolutions(name, SLIM, 8, 3, ends)
+    levels = range(5 if ends == "half" else 4)
+    expected, found = {0: 0} | by_level(layers, "weights"), dict.fromkeys(levels, 0)
     for (level, _), part in network.parts().items():
         found[level] += sum(one.numel() for one in part.parameters() if one.ndim == 4)
     assert found == expected
@@ -95,6 +104,22 @@ def test_the_head_before_the_enlargement_is_the_head_behind_it():
     assert torch.allclose(answer(network, x), expected, atol=1e-6)
 
 
+def test_full_ends_have_a_level_more_and_kernels_of_each_pixel():
+    """Two 3 × 3 convolutions on the way down, a transposed one and two on the way up, and the head."""
+    widths = [32, 32, 64, 128, 256]
+    layers = kernel_convolutions("kernels", widths, 8, 4, "full")
+    network = KernelUnet("kernels", widths, EIGHT, ends="full")
+    assert counted(network, 8) == (total(layers, "weights"), total(layers, "macs"))
+    own = 9 * 8 * 32 + 3 * 9 * 32 * 32 + 4 * 32 * 32 + 32 * 100
+    assert by_level(layers, "weights")[0] == own and max(one.level for one in layers) == 4
+    network, size = tiny("full"), (13, 21)
+    x = planes(network, *size)
+    with torch.inference_mode():
+        logits = network.head(network.inner(x))
+        expected = by_unfold(logits[..., : size[0], : size[1]], x[:, -1:])
+    assert torch.allclose(answer(network, x), expected, atol=1e-6)
+
+
 @pytest.mark.parametrize("images", [1, 3])
 def test_logits_lie_plane_by_plane_and_are_the_convolution_s(images):
     head = tiny().head
@@ -104,13 +129,15 @@ def test_logits_lie_plane_by_plane_and_are_the_convolution_s(images):
     assert torch.allclose(found, functional.conv2d(x, head.weight, head.bias), atol=1e-6)
 
 
-@pytest.mark.parametrize("form", ["kernels", "direct"])
+@each_form
 @pytest.mark.parametrize("size", [(1, 1), (5, 7), (8, 16)])
 def test_any_size_is_padded_by_its_border_and_cropped(form, size):
     network = tiny(form)
     x = planes(network, *size)
     found = answer(network, x)
-    padded = functional.pad(x, (0, -size[1] % 8, 0, -size[0] % 8), mode="replicate")
+    multiple = 4 if form == "full" else 8
+    border = (0, -size[1] % multiple, 0, -size[0] % multiple)
+    padded = functional.pad(x, border, mode="replicate")
     assert found.shape == (1, 1, *size) and found.dtype == torch.float32
     with torch.inference_mode():
         assert torch.equal(network.inner(x), network.inner(padded))
@@ -118,15 +145,16 @@ def test_any_size_is_padded_by_its_border_and_cropped(form, size):
         assert torch.equal(found, answer(network, padded)[..., : size[0], : size[1]])
 
 
-@pytest.mark.parametrize("form", ["kernels", "direct"])
+@each_form
 def test_norms_that_are_folded_into_convolutions_answer_the_same(form):
     network = tiny(form)
     x, folded = planes(network, 24, 16), network.folded()
-    assert not folded.norms() and len(network.norms()) == (5 if form == "kernels" else 6) + 4
+    more = {"kernels": 0, "direct": 1, "full": 1}  # of the head, and of the first level's second
+    assert not folded.norms() and len(network.norms()) == 9 + more[form]
     assert torch.allclose(answer(folded, x), answer(network, x), atol=1e-5)
 
 
-@pytest.mark.parametrize("form", ["kernels", "direct"])
+@each_form
 def test_norms_are_told_of_statistics_in_the_order_in_which_they_compute(form):
     network, order = tiny(form), []
     before = [norm.running_mean.clone() for norm in network.norms()]
@@ -143,7 +171,7 @@ def test_norms_are_told_of_statistics_in_the_order_in_which_they_compute(form):
         assert torch.allclose(norm.running_mean, 0.9 * old + 0.1 * one.mean, atol=1e-6)
 
 
-@pytest.mark.parametrize("form", ["kernels", "direct"])
+@each_form
 def test_every_weight_learns_in_bfloat16_too(form):
     network = tiny(form).in_format(torch.bfloat16)
     x = planes(network, 16, 16).contiguous(memory_format=torch.channels_last)
@@ -153,7 +181,7 @@ def test_every_weight_learns_in_bfloat16_too(form):
     assert {one.weight.dtype for one in network.norms()} == {torch.float32}
 
 
-@pytest.mark.parametrize("form", ["kernels", "direct"])
+@each_form
 def test_bfloat16_answers_nearly_the_same(form):
     network = tiny(form)
     x = planes(network, 32, 32)
@@ -172,14 +200,14 @@ def test_weights_are_of_the_seed_alone():
     assert not torch.equal(tiny(seed=4).head.weight, second.head.weight)
 
 
-@pytest.mark.parametrize("form", ["kernels", "direct"])
+@each_form
 def test_all_convolutions_but_the_first_and_the_last_are_hidden(form):
     network = tiny(form)
     weights = {name: one for name, one in network.named_parameters() if one.ndim == 4}
     ends = {*weights} - {*network.hidden()}
     assert ends == {
         "levels.0.encoder.0.weight",
-        "head.weight" if form == "kernels" else "head.3.weight",
+        "head.3.weight" if form == "direct" else "head.weight",
     }
 
 

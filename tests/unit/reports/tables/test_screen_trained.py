@@ -151,11 +151,13 @@ def test_steps(tmp_path, trained):
     }
     told = {"profiles": [path], "soft_metrics": values, "trainings": trained[1:]}
     told |= {"published_nsm_csv": PUBLISHED, "steps": steps, "labels": LABELS}
-    table, text = written(screen_steps.write, tmp_path, **told)
+    table, text = written(screen_steps.write, tmp_path, published="nsm.steps", **told)
     assert table["runtime"].tolist() == [400, 100] and table["printed_runtime"].tolist() == [28, 17]
     assert table["size"].tolist() == [1, 0.5] and table["error"].tolist() == [0.006, 0.007]
     assert table["share"].tolist() == pytest.approx([2**21 * 1e4 / 0.4e12, 2**21 * 1e4 / 0.1e12])
     assert table["of_printed_size"].all() and " 6.67 |" in text
+    table, text = written(screen_steps.write, tmp_path, published=None, **told)
+    assert table["printed_runtime"].isna().all() and "Printed" not in text and "400.0" in text
 
 
 def test_what_died_is_named(tmp_path):

@@ -52,11 +52,15 @@ class PlanesOfLogits(nn.Conv2d):
 
 
 class PixelKernels(nn.Module):
-    """The filter as a part of a network: of a frame's kernels at half its resolution, and its base."""
+    """The filter as a part of a network: of a frame's kernels, and its base; see `filtered`."""
+
+    def __init__(self, factor: int):
+        super().__init__()
+        self.factor = factor
 
     def forward(self, logits: Tensor, base: Tensor) -> Tensor:
         """See `filtered`."""
-        return filtered(logits, base, factor=2)
+        return filtered(logits, base, self.factor)
 
 
 def normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:

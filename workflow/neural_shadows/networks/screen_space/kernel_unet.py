@@ -15,7 +15,7 @@ from neural_shadows.networks.screen_space.kernel_parts import (
     fold,
     normed,
 )
-from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
+from neural_shadows.networks.screen_space.kernel_widths import FIRST_LEVELS, kernel_convolutions
 from neural_shadows.networks.screen_space.layers import doubled, down_and_up, initialise, padded
 
 _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
@@ -24,21 +24,23 @@ _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
 class KernelUnet(nn.Module):
     """A U-Net with batch norms and sums for skips (Hu et al. 2025, 4.2.1, and its code).
 
-    The last 1 × 1 convolution of the kernels computes at half the resolution, before the bilinear
-    enlargement: both orders are equal, and this one is a quarter of the work.
+    The last 1 × 1 convolution of the kernels computes before the bilinear enlargement, at half the
+    resolution: both orders are equal, and this one is a quarter of the work.
 
     Args:
         form: `kernels`, which filter the one of its features in BASES; `direct`, which answers
             visibility itself: the paper's form of Neural Shadow Mapping.
-        widths: channels of each level, from that of half the frame's resolution.
+        widths: channels of each level, from that of half the frame's resolution, or with full ends
+            from that of the frame's own.
         features: names in FEATURES; their planes are the input, in this order, without any scaling.
         filters: 5 × 5 kernels of a pixel, of dilation 1, 2, 4 …
         seed: of the first weights.
+        ends: of the kernels, `half` (2 × 2 pixels as channels, and a bilinear enlargement) or `full`.
 
     Its norms take running statistics, but for inside `chunk_statistics`, where a training computes.
 
     Raises:
-        KeyError, ValueError: there is no such form or feature, or not one base to be filtered.
+        KeyError, ValueError: there is no such form, feature or end, or not one base to be filtered.
     """
 
     def __init__(
@@ -48,23 +50,27 @@ class KernelUnet(nn.Module):
         features: Sequence[str],
         filters: int = 4,
         seed: int = 0,
+        ends: str = "half",
     ):
         super().__init__()
         self.form, self.features, self.filters = form, tuple(features), filters
         channels = [FEATURES[name] for name in self.features]
-        layers = kernel_convolutions(form, widths, sum(channels), filters)
+        layers = kernel_convolutions(form, widths, sum(channels), filters, ends)
         if form == "kernels":
             base = self.features.index(base_of(self.features))
             self._base = sum(channels[:base])  # its plane
-        self.multiple = 2 ** len(widths)
-        self.entrance = nn.PixelUnshuffle(2)
-        of_level = [[one for one in layers if one.level == k] for k in range(len(widths) + 1)]
-        self.levels = nn.ModuleList(KernelLevel(one) for one in of_level[1:-1])
+        self._first = FIRST_LEVELS[ends]
+        last_level = self._first + len(widths) - 1
+        self.multiple = 2**last_level
+        self.entrance = nn.PixelUnshuffle(2) if self._first else nn.Identity()
+        numbers = range(self._first, last_level + 1)
+        of_level = [[one for one in layers if one.level == k] for k in numbers]
+        self.levels = nn.ModuleList(KernelLevel(one) for one in of_level[:-1])
         self.deepest = normed(of_level[-1], "encoder")
         last = [one for one in layers if one.part == "head"]
         if form == "kernels":
             self.head = PlanesOfLogits(last[0].inputs, last[0].outputs, 1)
-            self.exit = PixelKernels()
+            self.exit = PixelKernels(2**self._first)
         else:
             before, answer = (
                 nn.Conv2d(x.inputs, x.outputs, x.size, padding=x.size // 2) for x in last
@@ -102,7 +108,7 @@ class KernelUnet(nn.Module):
         return 1 + 4 * (2**self.filters - 1) if self.form == "kernels" else 1
 
     def inner(self, x: Tensor) -> Tensor:
-        """What the head is given: (B, C, h, w) at half the resolution, of padded planes."""
+        """What the head is given, of padded planes: (B, C, h, w) at the resolution of its ends."""
         x = padded(x.to(next(self.parameters()).dtype), self.multiple)
         return down_and_up(self.levels, self.deepest, self.entrance(x))
 
@@ -146,10 +152,10 @@ class KernelUnet(nn.Module):
         """The modules that do the work of each level, by level and part.
 
         Parts: `entrance`, `exit` (level 0), `encoder`, `downsample`, `upsample`, `skip`, `decoder`,
-        `head` (level 1 of kernels, level 0 of the direct form).
+        `head` (the first level of kernels, level 0 of the direct form).
         """
         found = {(0, "entrance"): self.entrance, (0, "exit"): self.exit}
-        for number, level in enumerate(self.levels, 1):
+        for number, level in enumerate(self.levels, self._first):
             found |= {(number, name): part for name, part in level.named_children()}
-        found[(1 + len(self.levels), "encoder")] = self.deepest
-        return found | {(int(self.form == "kernels"), "head"): self.head}
+        found[(self._first + len(self.levels), "encoder")] = self.deepest
+        return found | {(self._first * (self.form == "kernels"), "head"): self.head}

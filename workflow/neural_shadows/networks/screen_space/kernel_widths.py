@@ -1,6 +1,7 @@
 """The convolutions of networks that predict kernels (Hu et al. 2025, 4.2.1, and its code).
 
-Level 1 is the first: 2 × 2 pixels are channels. Counts are those of `widths.py`.
+Level 1 is the first, where 2 × 2 pixels are channels; with full ends, which the paper replaced by
+these, level 0. Counts are those of `widths.py`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -10,12 +11,13 @@ from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.networks.screen_space.widths import Convolution, convolutions
 
 KERNEL_FORMS = ("kernels", "direct")
+FIRST_LEVELS = {"half": 1, "full": 0}  # by the resolution of a network's ends
 KERNEL_TAPS = 25  # of each of a pixel's kernels
 _BEFORE_LAST = 16  # channels in front of the direct form's answer
 
 
 def kernel_convolutions(
-    form: str, widths: Sequence[int], channels: int, filters: int
+    form: str, widths: Sequence[int], channels: int, filters: int, ends: str = "half"
 ) -> list[Convolution]:
     """All convolutions of a network, in the order in which they compute.
 
@@ -23,19 +25,23 @@ def kernel_convolutions(
         form: `kernels`, or `direct`, which answers visibility itself.
         widths: channels of each level, from the first. channels: that the network is given.
         filters: how many kernels a pixel has; of no account in the direct form.
+        ends: one of `FIRST_LEVELS`; of the direct form `half`.
 
     Raises:
-        ValueError: there is no such form.
+        KeyError, ValueError: there are no such ends, or there is no such form.
     """
     if form not in KERNEL_FORMS:
         raise ValueError(f"form {form!r} is not among {', '.join(KERNEL_FORMS)}")
+    first = FIRST_LEVELS[ends]
     down, up = [Convolution(1, "encoder", 1, 4 * channels, widths[0])], []
-    for level, (above, width) in enumerate(zip(widths, widths[1:]), 2):
+    if ends == "full":  # a level as all others are
+        down = _pair(0, "encoder", channels, widths[0])
+    for level, (above, width) in enumerate(zip(widths, widths[1:]), first + 1):
         down += _pair(level, "encoder", above, width)
         raised = Convolution(level - 1, "upsample", 2, width, above, transposed=True)
         up = [raised, *_pair(level - 1, "decoder", above, above)] + up
     if form == "kernels":
-        return down + up + [Convolution(1, "head", 1, widths[0], filters * KERNEL_TAPS)]
+        return down + up + [Convolution(first, "head", 1, widths[0], filters * KERNEL_TAPS)]
     return (
         down
         + up
@@ -51,7 +57,8 @@ def layers_of(settings: Mapping[str, Any]) -> list[Convolution]:
     form, widths = settings["form"], settings["widths"]
     channels = sum(FEATURES[name] for name in settings["features"])
     if form in KERNEL_FORMS:
-        return kernel_convolutions(form, widths, channels, settings.get("filters", 0))
+        told = settings.get("filters", 0), settings.get("ends", "half")
+        return kernel_convolutions(form, widths, channels, *told)
     return convolutions(form, widths, channels, settings.get("extraction"))
 
 

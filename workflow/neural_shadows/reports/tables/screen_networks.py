@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from neural_shadows.networks.screen_space.kernel_widths import layers_of
-from neural_shadows.networks.screen_space.widths import deepest_level, total
+from neural_shadows.networks.screen_space.widths import total
 from neural_shadows.reports import phrases
 from neural_shadows.reports.published_nsm import printed, read_published_nsm, titled
 from neural_shadows.reports.tables.writing import number_cells, write_twins
@@ -61,13 +61,12 @@ def network_table(
     records = []
     for one in networks:
         settings = one["settings"]
-        widths, form = settings["widths"], settings["form"]
-        layers = layers_of(settings)
+        widths, layers = settings["widths"], layers_of(settings)
         records.append(
             {
                 "network": one["name"],
                 "widths": " ".join(str(width).replace(", ", "-").strip("[]") for width in widths),
-                "levels": deepest_level(form, widths) + 1,
+                "levels": max(layer.level for layer in layers) + 1,
                 "mac_per_pixel": total(layers, "macs"),
                 "parameters": total(layers, "weights") / 1e3,
                 "mib": 2 * total(layers, "weights") / 2**20,

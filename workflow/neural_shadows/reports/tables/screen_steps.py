@@ -1,4 +1,6 @@
-"""From a large network of whole frames to a fast one, step by step (Datta et al. 2022, 3.5, figure 8)."""
+"""From a large network of whole frames to a fast one, step by step (Datta et al. 2022, 3.5, figure 8;
+Hu et al. 2025, 4.2.1).
+"""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -21,7 +23,6 @@ from neural_shadows.reports.tables.screen_rows import (
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
-NUMBER = "nsm.steps"
 BYTES = {"float32": 4, "bfloat16": 2}
 
 
@@ -34,6 +35,7 @@ def write(
     csv: Path,
     md: Path,
     title: str,
+    published: str | None,
     steps: Mapping[str, Mapping[str, Any]],
     labels: Mapping[str, str],
     run: Mapping[str, Any],
@@ -46,6 +48,7 @@ def write(
     Args:
         profiles: what `profile_screen_network` wrote of the steps' networks.
         soft_metrics: of the steps' experiments in their number formats; trainings: theirs.
+        published: `nsm.steps`; None for steps that the paper does not print.
         steps: of each, by its name in the paper, `network`, `precision` and `experiment`, which may
             be None.
         labels: by experiment.
@@ -56,10 +59,11 @@ def write(
     table = steps_table(steps, profiled, found, run["seed"])
     numbers = read_published_nsm(published_nsm_csv)
     sizes = [(one["width"], one["height"]) for one in profiled.values()]
+    # The other paper's frames have this size, too.
     table["of_printed_size"] = all(size == printed_size(numbers) for size in sizes)
     for name in ("runtime", "size", "error"):
-        table = with_printed(table, NUMBER, name, name, numbers)
-        bounds = [numbers.get((NUMBER, row, f"{name}_above"), np.nan) for row in table["row"]]
+        table = with_printed(table, published, name, name, numbers)
+        bounds = [numbers.get((published, row, f"{name}_above"), np.nan) for row in table["row"]]
         table[f"printed_{name}_above"] = bounds
     table = table.assign(scale=run["scale"])
     cells = {
@@ -74,16 +78,20 @@ def write(
         "printed × 10⁻³": number_cells(table["printed_error"], "{:.2f}", 1e3),
     }
     cells = {name: column for name, column in cells.items() if any(column)}
-    notes = [
+    printed = (
         f"Printed: {PAPER}, on an RTX 2080 Ti; another machine's milliseconds. `original`: its width "
-        "is not printed and taken such that its size is as said, above 25 MB.",
+        "is not printed and taken such that its size is as said, above 25 MB."
+    )
+    notes = [
+        *([printed] if published else []),
         "Errors: mean over test frames and all lights, in the step's format [95 % bootstrap interval "
         "over frames].",
         *(describe(profile) for profile in list(profiled.values())[:1]),
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
-    write_twins(table, cells, csv, md, title=f"{title} ({PAPER}, 3.5)", notes=notes, text_columns=2)
+    heading = f"{title} ({PAPER}, 3.5)" if published else title
+    write_twins(table, cells, csv, md, title=heading, notes=notes, text_columns=2)
 
 
 def steps_table(
