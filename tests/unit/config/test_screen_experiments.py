@@ -11,6 +11,7 @@ FRAMES = {
     **{"scenes": ["atrium"], "unseen": ["garden"], "width": 64, "height": 32, "radii": [0, 0.25]},
     **{"light_map": {"kind": "perspective", "resolution": 64}, "train": 2, "twins": {"count": 1}},
 }
+BRIEF = {"steps": 10, "crops": 2, "crop": 32, "learning_rate": 0.1}
 EXPERIMENT = {"network": "nsm", "training": "nsm", "frame_set": "few", "scenes": ["atrium"]}
 
 
@@ -52,6 +53,15 @@ def read(frames=None, metrics=None, **changes):
                 "training": {"steps": 1, "crops": 3, "crop": 64, "learning_rate": 1.0},
             },
             "crops = 3: .* give an even number",
+        ),
+        (
+            {"training": BRIEF | {"schedule": "steps"}},
+            r"tenth_from = \[\]: goes with `schedule: st",
+        ),
+        ({"training": BRIEF | {"tenth_from": [2]}}, r"= \[2\]: .*the schedule is 'cosine'"),
+        (
+            {"training": BRIEF | {"schedule": "steps", "tenth_from": [4, 10]}},
+            r"= \[4, 10\]: must grow .* end below steps = 10",
         ),
     ],
 )

@@ -48,6 +48,7 @@ SETTINGS = {
 }
 KERNELS = {"form": "kernels", "widths": [4, 8], "filters": 2}
 KERNELS |= {"features": ["cosine", "penumbra", "z_b", "base_hard"]}
+COSINE = {"schedule": "cosine"}
 TRAIN_STEP = ScreenRun.train_step
 
 
@@ -97,17 +98,17 @@ def test_learns_a_frame_by_heart(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("network", "optimiser", "precision"),
+    ("network", "optimiser", "precision", "schedule"),
     [
-        (SETTINGS["network"], "adam", "float32"),
-        (SETTINGS["network"], "muon", "bfloat16"),
-        (KERNELS, "muon", "float32"),
-        (KERNELS, "adam", "bfloat16"),
+        (SETTINGS["network"], "adam", "float32", COSINE),
+        (SETTINGS["network"], "muon", "bfloat16", COSINE),
+        (KERNELS, "muon", "float32", COSINE),
+        (KERNELS, "adam", "bfloat16", {"schedule": "steps", "tenth_from": [2, 5]}),
     ],
 )
-def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, precision):
+def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, precision, schedule):
     part = write_frames(tmp_path, count=3)
-    training = TRAINING | {"optimiser": optimiser, "adam_rate": 1e-3, "crops": 4}
+    training = TRAINING | {"optimiser": optimiser, "adam_rate": 1e-3, "crops": 4, **schedule}
     training |= {"aligned": network == KERNELS}
     told = {"network": network, "training": training, "precision": precision}
     run(tmp_path / "whole", part, **told)

@@ -10,7 +10,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.training.training_run import TrainingRun
-from neural_shadows.training.training_state import gradient_pool
+from neural_shadows.training.training_state import gradient_pool, learning_rate_at
 
 RAYS = [torch.from_numpy(part) for part in ball_rays(1000)]
 SETTINGS = {
@@ -74,6 +74,22 @@ def test_gradient_against_differences():
         differences.append((losses[0] - losses[1]) / (2 * step))
     assert gradient[0].tolist() == pytest.approx(differences, abs=0.02)
     assert max(map(abs, differences)) > 0.2
+
+
+def test_rates_of_schedules():
+    """Those of Hu et al. 2025 (5): 0.001, a tenth from step 20,000 on, a hundredth from 40,000."""
+    settings = {"learning_rate": 1e-3, "steps": 50_000}
+    places = torch.tensor([0, 19_999, 20_000, 39_999, 40_000, 49_999])
+
+    def rates(schedule, **more):
+        told = settings | {"schedule": schedule, **more}
+        return [learning_rate_at(step, told).item() for step in places]
+
+    assert rates("constant") == [1e-3] * 6
+    falling = [1e-3, 1e-3, 1e-4, 1e-4, 1e-5, 1e-5]
+    assert rates("steps", tenth_from=[20_000, 40_000]) == pytest.approx(falling, rel=1e-12)
+    cosine = [5e-4 * (1 + math.cos(math.pi * int(step) / 50_000)) for step in places]
+    assert rates("cosine") == pytest.approx(cosine, rel=1e-9)
 
 
 def test_steps_are_those_of_torch_s_adam():

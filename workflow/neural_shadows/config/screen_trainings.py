@@ -1,8 +1,8 @@
 """`screen_trainings`: how networks that answer whole frames learn (Datta et al. 2022, 3.3)."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from neural_shadows.config.base import Model, Text, by_kind
 
@@ -42,8 +42,11 @@ class ScreenTraining(Model):
     )
     learning_rate: float = Field(gt=0, le=1, description="the optimiser's rate (at its start)")
     adam_rate: float = Field(0.003, gt=0, le=1, description="with muon, Adam's rate, of all else")
-    schedule: Literal["constant", "cosine"] = Field(
-        "cosine", description="of the rate: constant or cosine to zero"
+    schedule: Literal["constant", "cosine", "steps"] = Field(
+        "cosine", description="of the rate: constant, cosine to zero, or a tenth from some steps on"
+    )
+    tenth_from: list[Annotated[int, Field(ge=1)]] = Field(
+        [], description="with `steps`, from each of which the rate is a tenth of that before"
     )
     alpha: float = Field(0.9, ge=0, le=1, description="weight of L1; the rest is perceptual's")
     perceptual: by_kind("net", Squeeze, Vgg19, NoPerceptual, default="squeeze") = Field(
@@ -61,3 +64,18 @@ class ScreenTraining(Model):
         "pixels are compared as they lie",
     )
     flips: bool = Field(True, description="whether crops are mirrored and turned over at random")
+
+    @model_validator(mode="after")
+    def _check_schedule(self):
+        places = self.tenth_from
+        if (self.schedule == "steps") != bool(places):
+            raise ValueError(
+                f"tenth_from = {places}: goes with `schedule: steps`, and that needs a step or more; "
+                f"the schedule is {self.schedule!r}"
+            )
+        if places != sorted(set(places)) or places[-1:] >= [self.steps]:
+            raise ValueError(
+                f"tenth_from = {places}: must grow from each to the next, and end below steps = "
+                f"{self.steps}"
+            )
+        return self

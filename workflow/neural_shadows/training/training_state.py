@@ -21,13 +21,18 @@ LOSS_SCALE = {torch.float16: 128.0}
 def learning_rate_at(
     step: Tensor, settings: Mapping[str, Any], key: str = "learning_rate"
 ) -> Tensor:
-    """A rate of a step: `constant`, or `cosine` from the setting's down to zero.
+    """A rate of a step: `constant`, `cosine` from the setting's down to zero, or by `steps` a tenth of
+    that before from each of `tenth_from` on.
 
     Without dimensions, in float64, on the step's device: a recorded step needs it there.
     """
     rate = torch.full_like(step, settings[key], dtype=torch.float64)
-    if settings["schedule"] == "cosine":
-        rate = rate * 0.5 * (1 + torch.cos(math.pi * step.double() / settings["steps"]))
+    match settings["schedule"]:
+        case "cosine":
+            rate = rate * 0.5 * (1 + torch.cos(math.pi * step.double() / settings["steps"]))
+        case "steps":
+            for place in settings["tenth_from"]:
+                rate = torch.where(step >= place, rate / 10, rate)
     return rate
 
 
