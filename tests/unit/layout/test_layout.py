@@ -6,7 +6,7 @@ from shipped import shipped
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.layout import claims, figures, soft_methods, tables, targets
+from neural_shadows.layout import claims, figures, frame_sets, soft_methods, tables, targets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
 
@@ -101,6 +101,26 @@ def test_files_that_methods_are_evaluated_from(desk):
         assert files["answers"] == [] and files["mesh_ply"] == "results/scenes/dragon/mesh.ply"
         found = [f"results/depth_biases/dragon/{bias}.json"] if bias else []
         assert files["depth_bias_json"] == found
+
+
+def test_unseen_scenes_may_have_more_test_frames():
+    layout = layout_of(frame_sets={"windows": {"unseen_test": 20}})
+    parts = {
+        (scene, use): [
+            path.rsplit("/", 1)[1].removesuffix(".json")
+            for path in frame_sets.parts(layout, scene, "windows", use)
+        ]
+        for scene in ("hall", "tree")
+        for use in ("validation", "test")
+    }
+    assert parts["hall", "test"] == ["test_000"]
+    assert parts["tree", "test"] == ["test_000", "test_001"]
+    assert parts["tree", "validation"] == ["validation_000"]
+    last = [
+        frame_sets.frame_settings(layout, scene, "windows", part)["last"]
+        for scene, part in (("hall", "test_000"), ("tree", "test_000"), ("tree", "test_001"))
+    ]
+    assert last == [2, 16, 20]
 
 
 def test_steps_are_measured_in_their_number_formats(desk):

@@ -118,6 +118,9 @@ class RenderedFrames(Model):
     train: int = Field(0, ge=0, le=100_000, description="frames of each scene")
     validation: int = Field(2, ge=1, le=10_000, description="frames of each scene")
     test: int = Field(2, ge=1, le=10_000, description="frames of each scene")
+    unseen_test: int | None = Field(
+        None, ge=1, le=10_000, description="of each of `unseen`, if not as many as `test`"
+    )
     sequence: int = Field(
         0, ge=0, le=1000, description="frames of each sequence of the first scene; 0 for none"
     )

@@ -15,7 +15,7 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
     """What `render_frames` is told of a part: what all have in common, and which frames it is."""
     settings = layout.entry("frame_sets", frame_set)
     use, number = part.rsplit("_", 1)
-    total, shard = _counts(settings, use)
+    total, shard = _counts(settings, scene, use)
     first, train = int(number) * shard, use == "train"
     frames = {key: settings[key] for key in FRAME_KEYS}
     frames["width"] = (settings["train_width"] if train else None) or settings["width"]
@@ -31,11 +31,14 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
     }
 
 
-def _counts(settings: Mapping[str, Any], use: str) -> tuple[int, int]:
-    """How many frames of a use there are, and how many a part has; a sequence is one part."""
+def _counts(settings: Mapping[str, Any], scene: str, use: str) -> tuple[int, int]:
+    """How many frames of a use a scene has, and how many a part; a sequence is one part."""
     if use in SEQUENCES:
         return settings["sequence"], max(settings["sequence"], 1)
-    return settings[use], settings["shard"]
+    total = settings[use]
+    if use == "test" and scene in settings["unseen"]:
+        total = settings["unseen_test"] or total
+    return total, settings["shard"]
 
 
 def engine_files(layout: Layout, scene: str, frame_set: str, part: str) -> list[str]:
@@ -70,7 +73,7 @@ def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
         if settings["engine"] is not None:
             return [layout.paths.imported_frames("json", scene, frame_set, name) for name in names]
         return [f"{settings['path']}/{scene}/{name}.json" for name in names]
-    total, shard = _counts(settings, use)
+    total, shard = _counts(settings, scene, use)
     names = [f"{use}_{number}" for number in part_names(-(-total // shard))]
     return [layout.paths.frames("json", scene, frame_set, name) for name in names]
 
