@@ -2,38 +2,29 @@
 tables 1 to 4, figures 7 and 9).
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.metrics.intervals import two_way_interval
 from neural_shadows.reports import phrases
-from neural_shadows.reports.published_kpnsm import (
-    PAPER,
-    printed_value,
-    read_published_kpnsm,
-    titled,
-)
+from neural_shadows.reports.published_kpnsm import PAPER, read_published_kpnsm, titled
 from neural_shadows.reports.soft_looks import UNITS, light_name
 from neural_shadows.reports.tables.screen_rows import describe_trainings
-from neural_shadows.reports.tables.soft_costs import cost, describe_times
+from neural_shadows.reports.tables.soft_costs import describe_times
+from neural_shadows.reports.tables.soft_summary_rows import MOVES, Row, summary_table, with_printed
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
-MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
 HEADS = {
     "mse": ("MSE × 10⁻⁴ ↓", "{:.2f}", 1e4),
     "ssim": ("SSIM ↑", "{:.3f}", 1),
     "time": ("ms", "{:.1f}", 1),
     "temporal_error": ("temporal error × 10⁻² ↓", "{:.2f}", 100),
 }
-
-Row = Mapping[str, Any]
 
 
 def write(
@@ -55,7 +46,7 @@ def write(
 ) -> None:
     """Write a row for each method, or for each scene or radius and method.
 
-    CSV: those of `summary_table`, and the scale.
+    CSV: those of `summary_table` and `with_printed`, the radii's unit, and the scale.
 
     Args:
         frames_json: a part of the frame set's test frames.
@@ -72,19 +63,14 @@ def write(
     unit = UNITS[about.get("radius_unit", "metres")]
     radii = about.get("given_radii", about["radii"])
     numbers = read_published_kpnsm(published_kpnsm_csv)
-    frames = found[found["scene"].isin(measured)]
-    records = [
-        group | _row(some, found, times, row, metrics, len(radii), run["seed"])
-        for group, some in _groups(frames, by, measured, radii)
-        for row in methods
-    ]
-    table = pd.DataFrame(records)
+    asked = {"methods": methods, "by": by, "metrics": metrics, "measured": measured}
+    table = summary_table(found, times, radii, **asked, seed=run["seed"])
     for metric in metrics:
         first = metric == metrics[0]  # a column of the paper's own is of this one
-        table = _with_printed(table, metric, first, published, methods, numbers)
+        table = with_printed(table, metric, first, published, methods, numbers)
     table = table.assign(unit=unit, scale=run["scale"])
     notes = [
-        *_describe_frames(frames, metrics, about, radii, unit),
+        *_describe_frames(found[found["scene"].isin(measured)], metrics, about, radii, unit),
         *([_describe_sequences(found)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
@@ -93,88 +79,6 @@ def write(
     ]
     heading, cells = titled(title, published), _cells(table, by, metrics, unit)
     write_twins(table, cells, csv, md, title=heading, notes=notes, text_columns=1 + bool(by))
-
-
-def _groups(
-    frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Sequence[float]
-) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
-    """The frames of each part of the table, and the columns that tell it."""
-    match by:
-        case "scene":
-            for scene in scenes:
-                yield {"scene": scene}, frames[frames["scene"] == scene]
-        case "radius":
-            for number, radius in enumerate(radii):
-                yield {"number": number, "radius": radius}, frames[frames["radius"] == number]
-        case _:
-            yield {}, frames
-
-
-def _row(
-    frames: pd.DataFrame,
-    found: pd.DataFrame,
-    times: Mapping[str, Any],
-    row: Row,
-    metrics: Sequence[str],
-    radii: int,
-    seed: int,
-) -> dict[str, Any]:
-    """A method's row: `method`, `label`, and what `metrics` name."""
-    mine = frames[frames["method"] == row["method"]]
-    values: dict[str, Any] = {"method": row["method"], "label": row["label"]}
-    if "mse" in metrics:
-        values |= _mean(mine, "mse", seed)
-    if "ssim" in metrics:
-        values |= _mean(mine, "ssim", seed)
-    if "time" in metrics:
-        values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
-    if "temporal_error" in metrics:
-        values |= _in_sequences(found[found["method"] == row["method"]])
-    return values
-
-
-def _mean(frames: pd.DataFrame, metric: str, seed: int) -> dict[str, float]:
-    """The mean over frames, of each over its radii, and the ends of its interval; NaN of no frame."""
-    each = frames[frames["metric"] == metric].groupby(["scene", "part", "frame"])["value"].mean()
-    if each.empty:
-        return dict.fromkeys((metric, f"{metric}_low", f"{metric}_high"), np.nan)
-    scenes = each.index.get_level_values("scene").to_numpy()
-    mean, low, high, _ = two_way_interval(each.to_numpy()[None], seed, groups=scenes)
-    return {metric: mean, f"{metric}_low": low, f"{metric}_high": high}
-
-
-def _in_sequences(mine: pd.DataFrame) -> dict[str, float]:
-    """The temporal error by what moves, the exact shadow's own, and the squared error there."""
-    moves = mine["part"].str.rsplit("_", n=1).str[0]
-
-    def mean(metric: str, what: str) -> float:
-        return float(mine[(mine["metric"] == metric) & (moves == what)]["value"].mean())
-
-    return {
-        "temporal_error": mean("temporal_error", MOVES[0]),
-        **{f"temporal_error_{what}": mean("temporal_error", what) for what in MOVES[1:]},
-        "temporal_error_reference": mean("temporal_error_reference", MOVES[0]),
-        "mse_sequence": mean("mse_sequence", MOVES[0]),
-    }
-
-
-def _with_printed(
-    table: pd.DataFrame,
-    metric: str,
-    first: bool,
-    published: str | None,
-    methods: Sequence[Row],
-    numbers: pd.Series,
-) -> pd.DataFrame:
-    """The table with `printed_METRIC` and `METRIC_minus_printed`."""
-    printed = [
-        printed_value(numbers, published, row["published"], row["column"] or metric, metric)
-        if first or not row["column"]
-        else np.nan
-        for row in methods
-    ]
-    table = table.assign(**{f"printed_{metric}": printed * (len(table) // len(methods))})
-    return table.assign(**{f"{metric}_minus_printed": table[metric] - table[f"printed_{metric}"]})
 
 
 def _cells(

@@ -1,0 +1,128 @@
+"""The numbers of summaries of methods for soft shadows: means over frames and lights, and what is printed."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.metrics.intervals import two_way_interval
+from neural_shadows.reports.published_kpnsm import printed_value
+from neural_shadows.reports.tables.soft_costs import cost
+
+MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
+
+Row = Mapping[str, Any]
+
+
+def summary_table(
+    found: pd.DataFrame,
+    times: Mapping[str, Any],
+    radii: Sequence[float],
+    *,
+    methods: Sequence[Row],
+    by: str | None,
+    metrics: Sequence[str],
+    measured: Sequence[str],
+    seed: int,
+) -> pd.DataFrame:
+    """A row for each method, or for each scene or radius and method.
+
+    Columns: `scene`, or `number` and `radius` of the light, where rows are by these; `method`, `label`;
+    of `metrics` those that are named: `mse` and `ssim` with the ends of their intervals, `time` (ms),
+    those of `_in_sequences`.
+
+    Args:
+        found: of `read_soft_metrics`; times: what `time_soft_methods` wrote; radii: of the lights.
+        methods, by, metrics, measured: as the table's `write` is told them.
+    """
+    frames = found[found["scene"].isin(measured)]
+    return pd.DataFrame(
+        [
+            group | _row(some, found, times, row, metrics, len(radii), seed)
+            for group, some in _groups(frames, by, measured, radii)
+            for row in methods
+        ]
+    )
+
+
+def _groups(
+    frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Sequence[float]
+) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
+    """The frames of each part of the table, and the columns that tell it."""
+    match by:
+        case "scene":
+            for scene in scenes:
+                yield {"scene": scene}, frames[frames["scene"] == scene]
+        case "radius":
+            for number, radius in enumerate(radii):
+                yield {"number": number, "radius": radius}, frames[frames["radius"] == number]
+        case _:
+            yield {}, frames
+
+
+def _row(
+    frames: pd.DataFrame,
+    found: pd.DataFrame,
+    times: Mapping[str, Any],
+    row: Row,
+    metrics: Sequence[str],
+    radii: int,
+    seed: int,
+) -> dict[str, Any]:
+    """A method's row: `method`, `label`, and what `metrics` name."""
+    mine = frames[frames["method"] == row["method"]]
+    values: dict[str, Any] = {"method": row["method"], "label": row["label"]}
+    if "mse" in metrics:
+        values |= _mean(mine, "mse", seed)
+    if "ssim" in metrics:
+        values |= _mean(mine, "ssim", seed)
+    if "time" in metrics:
+        values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
+    if "temporal_error" in metrics:
+        values |= _in_sequences(found[found["method"] == row["method"]])
+    return values
+
+
+def _mean(frames: pd.DataFrame, metric: str, seed: int) -> dict[str, float]:
+    """The mean over frames, of each over its radii, and the ends of its interval; NaN of no frame."""
+    each = frames[frames["metric"] == metric].groupby(["scene", "part", "frame"])["value"].mean()
+    if each.empty:
+        return dict.fromkeys((metric, f"{metric}_low", f"{metric}_high"), np.nan)
+    scenes = each.index.get_level_values("scene").to_numpy()
+    mean, low, high, _ = two_way_interval(each.to_numpy()[None], seed, groups=scenes)
+    return {metric: mean, f"{metric}_low": low, f"{metric}_high": high}
+
+
+def _in_sequences(mine: pd.DataFrame) -> dict[str, float]:
+    """The temporal error by what moves, the exact shadow's own, and the squared error there."""
+    moves = mine["part"].str.rsplit("_", n=1).str[0]
+
+    def mean(metric: str, what: str) -> float:
+        return float(mine[(mine["metric"] == metric) & (moves == what)]["value"].mean())
+
+    return {
+        "temporal_error": mean("temporal_error", MOVES[0]),
+        **{f"temporal_error_{what}": mean("temporal_error", what) for what in MOVES[1:]},
+        "temporal_error_reference": mean("temporal_error_reference", MOVES[0]),
+        "mse_sequence": mean("mse_sequence", MOVES[0]),
+    }
+
+
+def with_printed(
+    table: pd.DataFrame,
+    metric: str,
+    first: bool,
+    published: str | None,
+    methods: Sequence[Row],
+    numbers: pd.Series,
+) -> pd.DataFrame:
+    """The table with `printed_METRIC` and `METRIC_minus_printed`."""
+    printed = [
+        printed_value(numbers, published, row["published"], row["column"] or metric, metric)
+        if first or not row["column"]
+        else np.nan
+        for row in methods
+    ]
+    table = table.assign(**{f"printed_{metric}": printed * (len(table) // len(methods))})
+    return table.assign(**{f"{metric}_minus_printed": table[metric] - table[f"printed_{metric}"]})
