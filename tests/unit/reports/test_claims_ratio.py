@@ -81,6 +81,12 @@ def test_a_number_over_a_given_one():
     assert judged(size | {"to": 2.4, "at_most": 1})["verdict"] == verdicts.CONTRADICTED
 
 
+def test_nothing_at_all_is_within_an_upper_bound():
+    steps = pd.DataFrame({"row": ["original"], "size": [0.0]})
+    found = judged({"column": "size", "to": 0.02, "at_most": 1}, steps=steps)
+    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 0"
+
+
 def test_numbers_are_first_divided_by_another_column():
     """A fourfold fall beside a twofold one."""
     flicker = {"row": ["original", "trimmed"], "light": [0.8, 0.2], "camera": [0.2, 0.1]}

@@ -46,6 +46,8 @@ SETTINGS = {
     **{"scenes": ["wall"], "seed": 1, "experiment": "nsm", "trunk": None},
     **{"device": "cpu", "precision": "float32", "threads": 1},
 }
+EXPONENT = {"form": "shuffle", "widths": [4, 8], "features": [*FEATURES, "behind"]}
+EXPONENT |= {"answer": "exponent"}
 KERNELS = {"form": "kernels", "widths": [4, 8], "filters": 2}
 KERNELS |= {"features": ["cosine", "penumbra", "z_b", "base_hard"]}
 COSINE = {"schedule": "cosine"}
@@ -102,6 +104,7 @@ def test_learns_a_frame_by_heart(tmp_path):
     [
         (SETTINGS["network"], "adam", "float32", COSINE),
         (SETTINGS["network"], "muon", "bfloat16", COSINE),
+        (EXPONENT, "muon", "bfloat16", COSINE),
         (KERNELS, "muon", "float32", COSINE),
         (KERNELS, "adam", "bfloat16", {"schedule": "steps", "tenth_from": [2, 5]}),
     ],
@@ -124,6 +127,17 @@ def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, pr
     assert [one["step"] for one in killed["validations"]] == [1, 2, 3, 4, 5]
     bases = ["base_hard"] if network == KERNELS else []  # what it is given is no merit of its own
     assert [*killed["null_mse"]] == ["no_shadow", "hard_map", *bases]
+
+
+def test_an_exponent_learns_by_logarithms_and_answers_visibility(tmp_path):
+    """It leaves what the map shows lit as it is, whatever its light, and darkens what lies behind."""
+    part = write_frames(tmp_path)
+    training = TRAINING | {"steps": 60, "crop": 64, "perturbation": 0, "optimiser": "adam"}
+    found = run(tmp_path, part, network=EXPONENT, training=training)
+    assert found["null_mse"]["no_shadow"][0] > 0.3 and found["validation_mse"][0] < 1e-3
+    # Of a soft shadow the half beyond the map's edge is beyond it: 8 columns of 62, of 0 to a half.
+    beyond = np.mean((np.arange(0.5, 4) / 8 - 0.5) ** 2) * 4 / 62
+    assert beyond < found["validation_mse"][1] < found["null_mse"]["hard_map"][1] * 1.05
 
 
 def test_an_identical_twin_changes_nothing(tmp_path):

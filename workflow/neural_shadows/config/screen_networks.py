@@ -4,11 +4,12 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag, field_validator
+from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 
 from neural_shadows.config.base import Model, by_kind, not_among
 from neural_shadows.frames.feature_names import FEATURES, base_of
 
+BEHIND = "behind"
 Channels = Annotated[int, Field(ge=1, le=4096)]
 # Mid and out: what the 3 × 3 convolution leaves, and the 1 × 1 behind it.
 Pair = Annotated[list[Channels], Field(min_length=2, max_length=2)]
@@ -45,6 +46,19 @@ class Trimmed(AnyScreenNetwork):
         description="channels of each level, from the finest; [mid, out] where its two "
         "convolutions differ",
     )
+    answer: Literal["visibility", "exponent"] = Field(
+        "visibility",
+        description="`exponent`: visibility is exp(−α `behind`) and it learns α, in logarithms",
+    )
+
+    @model_validator(mode="after")
+    def _check_answer(self):
+        if self.answer == "exponent" and BEHIND not in self.features:
+            raise ValueError(
+                f"features: an exponent is multiplied by {BEHIND!r}, which is not there; there is "
+                f"{', '.join(self.features)}"
+            )
+        return self
 
 
 class FullNetwork(Trimmed):

@@ -54,8 +54,13 @@ class ScreenRun(TrainingState):
         return super()._places() | dict(self.network.named_buffers())
 
     def answer(self, features: Tensor) -> Tensor:
-        """What the network says of (B, C, H, W) float32: (B, 1, H, W) float32."""
+        """Visibility by the network of (B, C, H, W) float32: (B, 1, H, W) float32."""
         return self._computing(features.contiguous(memory_format=torch.channels_last)).float()
+
+    def _learned(self, features: Tensor) -> Tensor:
+        """What the loss compares of the same: visibility, or its logarithm."""
+        features = features.contiguous(memory_format=torch.channels_last)
+        return self._computing.learned(features).float()
 
     def _round_weights(self) -> None:
         """Bring the computing copy to the weights, and to the norms' running statistics."""
@@ -80,9 +85,10 @@ class ScreenRun(TrainingState):
 
         def gradients(crops: Crops):
             with chunk_statistics() as seen:
-                output = self.answer(crops.features)
+                output = self._learned(crops.features)
             twin = None if crops.twin is None else self._twin(crops)
-            loss = self.loss(output, crops.target, crops.valid, count, twin, crops.twin_valid)
+            aim = self._computing.aim(crops.target)
+            loss = self.loss(output, aim, crops.valid, count, twin, crops.twin_valid)
             parts = torch.autograd.grad(self.loss_scale * loss, weights)
             return (loss.detach(), output.detach().flatten(), parts), seen
 
@@ -94,9 +100,9 @@ class ScreenRun(TrainingState):
         self._round_weights()
 
     def _twin(self, crops: Crops) -> Tensor:
-        """What the network says of twins, by the norms' running statistics, where they are compared."""
+        """`_learned` of twins, by the norms' running statistics, where they are compared."""
         with torch.no_grad():
-            answer = self.answer(crops.twin)
+            answer = self._learned(crops.twin)
         if crops.twin_at is None:
             return answer
         return answer.flatten(1).gather(1, crops.twin_at.flatten(1)).view_as(answer)
@@ -107,10 +113,9 @@ class ScreenRun(TrainingState):
 
         def terms(crops: Crops) -> Terms:
             with torch.no_grad(), chunk_statistics():
-                output = self.answer(crops.features)
-                (found,) = self.loss.terms(
-                    output, crops.valid, [(crops.target, crops.valid)], count
-                )
+                output = self._learned(crops.features)
+                others = [(self._computing.aim(crops.target), crops.valid)]
+                (found,) = self.loss.terms(output, crops.valid, others, count)
             return found
 
         found = zip(*self._compute(pool)(terms, chunks))

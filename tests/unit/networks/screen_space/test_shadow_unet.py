@@ -1,5 +1,7 @@
 """What a network of a whole frame does, by answers that are known."""
 
+import math
+
 import pytest
 import torch
 from torch.nn import functional
@@ -119,3 +121,27 @@ def test_all_convolutions_but_the_first_and_the_last_are_hidden():
     assert ends == {"extraction.0.weight", "levels.0.decoder.4.weight"}
     shapes = {tuple(weights[name].shape[:2]) for name in ends}
     assert shapes == {(6, 4), (1, 8)}  # from four features, to one visibility
+
+
+def test_an_exponent_s_visibility_falls_with_the_distance_behind():
+    """Of one α everywhere: exp(−α b), and what it is trained by is linear in b."""
+    network = made("shuffle", features=[*FOUR, "behind"], answer="exponent")
+    with torch.no_grad():
+        for one in network.parameters():
+            one.zero_()
+        network.levels[0].decoder[-1].bias[0] = 3.0
+    x = torch.rand(1, 5, 8, 12)
+    x[:, 4, 0] = 0  # nothing hides the light
+    alpha = 3.0 * math.log(256)
+    found = answer(network, x)
+    assert torch.allclose(found, torch.exp(-alpha * x[:, 4:]), rtol=1e-4)
+    assert (found[..., 0, :] == 1).all()
+    compared = 1 - alpha * x[:, 4:] / math.log(256)
+    assert torch.allclose(network.learned(x), compared, atol=1e-5)
+    seen = torch.tensor([1.0, 1 / 16, 1 / 256, 0.0]).view(1, 1, 1, 4)
+    assert network.aim(seen).flatten().tolist() == pytest.approx([1, 0.5, 0, 0], abs=1e-6)
+
+
+def test_an_exponent_needs_the_distance_behind():
+    with pytest.raises(ValueError, match="needs the feature 'behind'; there is .'c_e', 'view'"):
+        made("shuffle", answer="exponent")

@@ -102,6 +102,14 @@ class KernelUnet(nn.Module):
             return self.exit(self.head(inner), x[:, self._base : self._base + 1].float())
         return self.head(self.exit(inner))[..., :height, :width].float()
 
+    def learned(self, x: Tensor) -> Tensor:
+        """What a training compares: visibility."""
+        return self(x)
+
+    def aim(self, target: Tensor) -> Tensor:
+        """What `learned` is to be, of visibility: that itself."""
+        return target
+
     @property
     def reach(self) -> int:
         """Pixels of a side that an answer hangs on by its kernels; 1 of the direct form."""

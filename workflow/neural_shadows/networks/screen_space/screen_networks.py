@@ -7,6 +7,7 @@ from typing import Any
 import torch
 
 from neural_shadows.errors import InputError
+from neural_shadows.networks.screen_space.exponent_unet import ExponentUnet
 from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.kernel_widths import KERNEL_FORMS
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
@@ -19,13 +20,15 @@ ScreenNetwork = ShadowUnet | KernelUnet
 
 def make_screen_network(settings: Mapping[str, Any]) -> ScreenNetwork:
     """A network from an entry of the config's `screen_networks`: the arguments of `KernelUnet` for its
-    forms, of `ShadowUnet` for all others.
+    forms, of `ShadowUnet` for all others, or by their `answer` of `ExponentUnet`.
 
     Raises:
         KeyError, TypeError, ValueError: an argument is missing, unknown or wrong.
     """
-    made = KernelUnet if settings["form"] in KERNEL_FORMS else ShadowUnet
-    return made(**settings)
+    told = dict(settings)
+    answers = {"visibility": ShadowUnet, "exponent": ExponentUnet}[told.pop("answer", "visibility")]
+    made = KernelUnet if told["form"] in KERNEL_FORMS else answers
+    return made(**told)
 
 
 def save_screen_network(path: Path, network: ScreenNetwork, header: Mapping[str, Any]) -> None:

@@ -118,6 +118,14 @@ class ShadowUnet(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         """Visibility, not cut off at 0 and 1: (B, 1, H, W) of features (B, C, H, W), any H and W."""
+        return self.learned(x)
+
+    def aim(self, target: Tensor) -> Tensor:
+        """What `learned` is to be, of visibility: that itself."""
+        return target
+
+    def learned(self, x: Tensor) -> Tensor:
+        """What a training compares: visibility."""
         x = (x - self.centres[:, None, None]) / self.spreads[:, None, None]
         x = x.to(next(self.parameters()).dtype)
         height, width = x.shape[-2:]

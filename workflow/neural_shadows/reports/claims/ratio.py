@@ -97,7 +97,7 @@ def _limits(ratio: Mapping[str, Any]) -> dict[str, float]:
 def _number(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, str]:
     """The ratio, of several their geometric mean, and its bounds, in words."""
     bounds = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in limits.items())
-    mean, low, high, _ = np.exp(t_interval(np.log(ratios)))
+    mean, low, high, _ = np.exp(t_interval(_log(ratios)))
     interval = f" [{low:.3g}, {high:.3g}] over {len(ratios)} seeds" if len(ratios) > 1 else ""
     return {"number": f"ratio {mean:.3g}{interval}", "remark": f" ({bounds})"}
 
@@ -105,7 +105,7 @@ def _number(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, str]:
 def _judged(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:
     """Whether ratios are within bounds: the only one as it is, several by Student's t."""
     sides = {"at_least": 1, "at_most": -1}
-    inside = {key: sides[key] * np.log(ratios / limit) for key, limit in limits.items()}
+    inside = {key: sides[key] * _log(ratios / limit) for key, limit in limits.items()}
     if len(ratios) == 1:
         holds = all(one >= 0 for one in inside.values())
         return {"supports": holds, "against": float(holds)}
@@ -115,6 +115,12 @@ def _judged(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:
         "supports": all(low > 0 for _, low, _, _ in found),
         "against": min(against, default=1.0),
     }
+
+
+def _log(ratios: np.ndarray) -> np.ndarray:
+    """Natural logarithms; of 0, which is within any upper bound, −∞."""
+    with np.errstate(divide="ignore"):
+        return np.log(ratios)
 
 
 def _name(where: Mapping[str, Any] | Sequence[Mapping[str, Any]] | float | None) -> str:
