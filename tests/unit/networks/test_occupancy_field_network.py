@@ -175,17 +175,28 @@ def test_signs_take_a_bit_each(tmp_path):
 
 
 def test_a_query_on_a_cpu_holds_the_bricks(tmp_path):
-    """Of a solid also masks, only the grid's part that is not empty, and a light's tables."""
+    """Of a solid masks, words of the cells that are crossed, their places and a light's tables."""
     shape = trimesh.creation.icosphere(3, radius=0.5)
     network = made(shape, tmp_path, SHEET_32)
     bricks = int((network.grid >= 0).sum())
     assert network.resident_bytes() == 4 * 8**3 + 125 * bricks
-    network = made(shape, tmp_path, SOLID_32)
-    side = 6 + 2 * 2  # the ball is 4 bricks wide and touches those beside it; 2 around them
-    held = 2 * side**3 + 16 * (bricks + 2) + 125 * bricks
-    tiles = 2 * (side + side) + 3
-    tables = (8 + 2) * tiles**2 + 8 * (16**2 * 4 + 4)
-    assert network.resident_bytes() == held + tables
+    resident = {}
+    for bits in (4, 8):
+        network = made(shape, tmp_path, SOLID_32 | {"start": "distances", "corner_bits": bits})
+        resident[bits] = network.resident_bytes()
+    inside = (network.logits() > 0)[network.table.long()].view(-1, 5, 5, 5)
+    cells = inside.unfold(1, 2, 1).unfold(2, 2, 1).unfold(3, 2, 1).flatten(4)
+    crossed = cells.any(4) & ~cells.all(4)
+    assert resident[8] - resident[4] == 4 * crossed.sum()
+    # Bricks that the mesh touches and the field does not cross are not held.
+    rows = int(crossed.flatten(1).any(1).sum()) + 2
+    assert 0.7 * bricks < rows <= bricks + 2
+    # The box of 8 bricks and 2 around them is 3 nodes a side; two bits of a tile's corner are empty.
+    placed = 24 + 4 * 3**3 + 2 * 64 * (3**3 + 1)
+    side = 2 * (6 + 6 + 2 * 2 * 2)
+    tables = 8 * (16**2 * 4 + 4) + 9 * side**2 + 8 * (side + 4)
+    held = 4 * crossed.sum() + 20 * rows
+    assert held + 8 * (16**2 * 4 + 4) < resident[4] < held + placed + tables
 
 
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])

@@ -9,13 +9,15 @@ import numpy as np
 from numba import njit
 from numba.cpython.unsafe.numbers import trailing_zeros
 
-from neural_shadows.networks.object_space.field_bricks import FIRST, PAD, FieldBricks
-from neural_shadows.networks.object_space.field_marching import BRICK, BRICK_VERTICES, trilinear
-from neural_shadows.networks.object_space.light_tables import PARTS, TILES, light_tables
+from neural_shadows.networks.object_space.cell_words import PART, positive_at
+from neural_shadows.networks.object_space.field_bricks import NODE, PAD, FieldBricks
+from neural_shadows.networks.object_space.field_marching import BRICK
+from neural_shadows.networks.object_space.light_tables import NEVER, PARTS, TILES, light_tables
 
 # Places on a ray are integers of 2^20 steps a cell: 1024 samples lose 0.0005 cells by rounding.
 _CELL = 20
 _BRICK = _CELL + 2  # bits in which a brick's BRICK cells are counted
+_NODE = _BRICK + 2  # and a node's NODE bricks
 _PART = _BRICK - 4  # and the PARTS of a brick's side
 _ONE = np.uint64(1)
 
@@ -32,7 +34,7 @@ def occluded(
         steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
     """
     found = np.zeros(len(origins), bool)
-    light = light_tables(bricks.grid, d, bricks.size / steps)
+    light = light_tables(bricks, d, bricks.size / steps)
     _mark(origins, np.asarray(d, np.float64), ends, bricks, light, steps, found)
     return found
 
@@ -43,11 +45,17 @@ def _mark(origins, d, ends, bricks, light, steps, found):
     m, a, b = light.axes
     slope_a, slope_b = light.slopes
     low_u, low_v = light.low
-    layers, enclosed, passed, slabs = light.layers, light.enclosed, light.cells, light.slabs
-    shape, back, half = bricks.grid.shape, d[m] < 0, bricks.size / 2  # bricks a radius
-    grid, masks, values = bricks.grid.ravel(), bricks.masks, bricks.values.ravel()
-    told = grid, shape[1], shape[2], masks, values, bricks.level
-    starts, beside_a, beside_b = _layer_starts(shape, light.axes, light.slopes, back)
+    offsets, ends_of, layers, enclosed = light.offsets, light.ends, light.layers, light.enclosed
+    passed, slabs = light.cells, light.slabs
+    shape, back, half = bricks.shape, d[m] < 0, bricks.size / 2  # bricks a radius
+    nodes, rows, masks = bricks.nodes.ravel(), bricks.rows, bricks.masks
+    told = nodes, bricks.nodes.shape, rows, masks, bricks.first, bricks.words
+    places_m, places_a, places_b = (
+        _places_along(bricks, m),
+        _places_along(bricks, a),
+        _places_along(bricks, b),
+    )
+    starts = _layer_starts(shape[m], places_m, light.slopes, back)
     # Samples in a radius, in a layer, and in a quarter of one, a cell.
     per_radius = steps / 2
     per_layer = np.float32(steps / (bricks.size * abs(d[m])))
@@ -65,20 +73,24 @@ def _mark(origins, d, ends, bricks, light, steps, found):
         u = o[a] * half + ma - slope_a * place_m
         v = o[b] * half + mb - slope_b * place_m
         i, j = np.int64((u - low_u) * TILES), np.int64((v - low_v) * TILES)
-        if end <= 0 or u < low_u or v < low_v or i >= layers.shape[0] or j >= layers.shape[1]:
+        if end <= 0 or u < low_u or v < low_v or i >= len(offsets):
+            continue
+        tile = offsets[i] + j
+        if tile < ends_of[i] or tile >= ends_of[i + 1]:
             continue
         # The ray enters layer k at sample `begin` + k per_layer, counted in parts of one.
         begin = np.float32((front - place_m) * ahead - 0.5)
         last = np.float32(end * per_radius - 0.5)
-        if begin + np.float32(enclosed[i, j] + 1) * per_layer < last:
+        sure = enclosed[tile]
+        if sure != NEVER and begin + np.float32(sure + 1) * per_layer < last:
             found[ray] = True
             continue
         samples = np.int64(np.ceil(last))
         x, y, z = _fixed(o[0] * half + mx), _fixed(o[1] * half + my), _fixed(o[2] * half + mz)
         in_a, in_b = _fixed(u), _fixed(v)
         met = near = False
-        for word in range(layers.shape[2]):
-            left = layers[i, j, word]
+        for word in range(layers.shape[1]):
+            left = layers[tile, word]
             near |= left != 0
             while left and not met:
                 layer = np.int64(trailing_zeros(left)) + 64 * word
@@ -88,12 +100,14 @@ def _mark(origins, d, ends, bricks, light, steps, found):
                     break
                 # The cells of four bricks that the ray may pass and that are not all outside.
                 at_a, at_b = in_a + starts[layer, 0], in_b + starts[layer, 1]
-                n = starts[layer, 2] + (at_a >> _BRICK) * beside_a + (at_b >> _BRICK) * beside_b
+                in_m, k_a, k_b = starts[layer, 2], at_a >> _BRICK, at_b >> _BRICK
                 part = (at_a >> _PART & PARTS - 1) * PARTS + (at_b >> _PART & PARTS - 1)
-                cells = masks[grid[n], 0] & passed[part, 0]
-                cells |= masks[grid[n + beside_b], 0] & passed[part, 1]
-                cells |= masks[grid[n + beside_a], 0] & passed[part, 2]
-                cells |= masks[grid[n + beside_a + beside_b], 0] & passed[part, 3]
+                low_a, high_a = in_m + places_a[k_a], in_m + places_a[k_a + 1]
+                low_b, high_b = places_b[k_b], places_b[k_b + 1]
+                cells = masks[_row(low_a + low_b, nodes, rows), 0] & passed[part, 0]
+                cells |= masks[_row(low_a + high_b, nodes, rows), 0] & passed[part, 1]
+                cells |= masks[_row(high_a + low_b, nodes, rows), 0] & passed[part, 2]
+                cells |= masks[_row(high_a + high_b, nodes, rows), 0] & passed[part, 3]
                 if cells == 0:
                     continue
                 for slab in range(BRICK):
@@ -125,35 +139,61 @@ def _fixed(bricks):
 
 
 @njit(cache=True, nogil=True)
-def _layer_starts(shape, axes, slopes, back):
-    """Of each layer: the least of slope_a m and of slope_b m in it, and its place in the flat grid.
+def _places_along(bricks, axis):
+    """What a brick's coordinate along an axis adds to its place: its node's, in 64, and within it."""
+    _, columns, depth = bricks.nodes.shape
+    stride = (columns * depth, depth, 1)[axis] * NODE**3
+    step = (NODE**2, NODE, 1)[axis]
+    places = np.empty(bricks.nodes.shape[axis] * NODE, np.int64)
+    for k in range(len(places)):
+        places[k] = k // NODE * stride + k % NODE * step
+    return places
 
-    Also how far apart neighbours along a and b are there.
-    """
-    m, a, b = axes
-    strides = shape[1] * shape[2], shape[2], 1
-    starts = np.empty((shape[m], 3), np.int64)
-    for layer in range(shape[m] - 2 * PAD):
-        at = shape[m] - PAD - 1 - layer if back else layer + PAD
+
+@njit(cache=True, nogil=True, inline="always")
+def _row(place, nodes, rows):
+    """Of the brick at a place, the sum of what `_places_along` says of its coordinates."""
+    return rows[nodes[place >> 6] + (place & 63)]
+
+
+@njit(cache=True, nogil=True)
+def _layer_starts(count, places, slopes, back):
+    """Of each layer: the least of slope_a m and of slope_b m in it, and what m adds to a place."""
+    starts = np.empty((count, 3), np.int64)
+    for layer in range(count - 2 * PAD):
+        at = count - PAD - 1 - layer if back else layer + PAD
         for k in range(2):
             least = min(slopes[k] * at, slopes[k] * (at + 1))
             starts[layer, k] = np.int64(np.floor(least * (1 << _BRICK)))
-        starts[layer, 2] = at * strides[m]
-    return starts, strides[a], strides[b]
+        starts[layer, 2] = places[at]
+    return starts
 
 
 @njit(cache=True, nogil=True, inline="always")
 def _positive(x, y, z, told):
     """Whether the field is positive at a place in the box, in 2^−20 cells."""
-    grid, rows, columns, masks, values, level = told
-    row = grid[((x >> _BRICK) * rows + (y >> _BRICK)) * columns + (z >> _BRICK)]
+    nodes, shape, rows, masks, first, words = told
+    node = ((x >> _NODE) * shape[1] + (y >> _NODE)) * shape[2] + (z >> _NODE)
+    within = (x >> _BRICK & 3) << 4 | (y >> _BRICK & 3) << 2 | z >> _BRICK & 3
+    row = rows[nodes[node] + within]
     i, j, k = x >> _CELL & BRICK - 1, y >> _CELL & BRICK - 1, z >> _CELL & BRICK - 1
-    cell = np.uint64(BRICK**2 * i + BRICK * j + k)
-    if masks[row, 0] >> cell & _ONE == 0:
+    bit = _ONE << np.uint64(BRICK**2 * i + BRICK * j + k)
+    some, every = masks[row, 0], masks[row, 1]
+    if some & bit == 0:
         return False
-    if masks[row, 1] >> cell & _ONE:
+    if every & bit:
         return True
-    at = (np.int64(row) - FIRST) * BRICK_VERTICES + (i * (BRICK + 1) + j) * (BRICK + 1) + k
-    part, within = np.float32(1 / (1 << _CELL)), (1 << _CELL) - 1
-    u, v, w = (x & within) * part, (y & within) * part, (z & within) * part
-    return trilinear(values, at, np.float32(u), np.float32(v), np.float32(w)) > level
+    word = words[first[row] + _count(some & ~every & bit - _ONE)]
+    part, whole = _CELL - PART, (1 << PART) - 1
+    wide = words.itemsize == 8
+    return positive_at(word, wide, x >> part & whole, y >> part & whole, z >> part & whole)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _count(bits):
+    """How many of 64 bits are set; compiled, this is one instruction."""
+    bits -= bits >> _ONE & np.uint64(0x5555555555555555)
+    pairs = np.uint64(0x3333333333333333)
+    bits = (bits & pairs) + (bits >> np.uint64(2) & pairs)
+    bits = bits + (bits >> np.uint64(4)) & np.uint64(0x0F0F0F0F0F0F0F0F)
+    return bits * np.uint64(0x0101010101010101) >> np.uint64(56)
