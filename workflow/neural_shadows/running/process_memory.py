@@ -1,12 +1,16 @@
-"""How much memory this process holds, in bytes, as Linux tells."""
+"""How much memory this process holds and may take, in bytes, as Linux tells."""
 
 import re
 from pathlib import Path
 
+CONTAINER = Path(
+    "/sys/fs/cgroup/memory.max"
+)  # the most that a container may take, if it is limited
+
 
 def held_bytes() -> int:
     """What it holds now."""
-    return _status("VmRSS")
+    return _kilobytes("/proc/self/status", "VmRSS")
 
 
 def peak_bytes() -> int:
@@ -14,9 +18,16 @@ def peak_bytes() -> int:
 
     `getrusage` would count what the process that started it held: 1,510 MiB for one of 32 MiB.
     """
-    return _status("VmHWM")
+    return _kilobytes("/proc/self/status", "VmHWM")
 
 
-def _status(key: str) -> int:
-    text = Path("/proc/self/status").read_text()
+def available_bytes() -> int:
+    """What it may still take without swapping, and no more than its container may in all."""
+    machine = _kilobytes("/proc/meminfo", "MemAvailable")
+    most = CONTAINER.read_text().strip() if CONTAINER.is_file() else "max"
+    return machine if most == "max" else min(machine, int(most))
+
+
+def _kilobytes(file: str, key: str) -> int:
+    text = Path(file).read_text()
     return 1024 * int(re.search(rf"^{key}:\s*(\d+) kB", text, re.MULTILINE)[1])

@@ -38,6 +38,7 @@ from neural_shadows.networks.object_space.field_marching import (
     SOLID,
     first_crossings,
 )
+from neural_shadows.networks.object_space.field_memory import check_memory
 from neural_shadows.networks.object_space.field_occlusion import occluded
 from neural_shadows.networks.object_space.light_tables import most_bytes
 from neural_shadows.networks.object_space.occupancy import surface_cells
@@ -128,9 +129,14 @@ class OccupancyFieldNetwork(ShadowNetwork):
         self._field: tuple[tuple[int, float], FieldBricks] | None = None
 
     def prepare(self, mesh_ply: Path) -> None:
-        """Lay out the bricks that the surface touches."""
+        """Lay out the bricks that the surface touches.
+
+        Raises:
+            InputError: they would take more memory than there is.
+        """
         mesh = read_prepared(mesh_ply)
         surface = surface_cells(mesh.vertices, mesh.faces, self.resolution // BRICK)
+        check_memory(self.resolution, int(surface.sum()))
         layout = lay_out(surface, self.surface == "solid")
         self._use(layout)
         if self.start != "undecided":
