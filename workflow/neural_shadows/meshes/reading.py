@@ -11,6 +11,7 @@ import numpy as np
 import trimesh
 
 from neural_shadows.errors import InputError
+from neural_shadows.meshes.ascii_ply import parse_ascii_ply
 from neural_shadows.meshes.formats import format_of
 from neural_shadows.meshes.obj_file import parse_obj
 
@@ -37,7 +38,7 @@ def read_mesh(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
     kind = format_of(path)
     data = mesh_bytes(path)
     try:
-        vertices, faces = parse_obj(data) if kind == "obj" else _parse_with_trimesh(data, kind)
+        vertices, faces = _parse(data, kind)
         _check_indices(faces, len(vertices))
     except Exception as error:  # whatever a damaged file makes trimesh raise
         reason = " ".join(str(error).split())[:200] or type(error).__name__
@@ -70,6 +71,14 @@ def mesh_bytes(path: str | Path) -> bytes:
     if not data:
         raise InputError(f"mesh {path}: is empty; copy or export it again")
     return data
+
+
+def _parse(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
+    if kind == "obj":
+        return parse_obj(data)
+    if kind == "ply" and (found := parse_ascii_ply(data)) is not None:
+        return found
+    return _parse_with_trimesh(data, kind)
 
 
 def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
