@@ -89,4 +89,5 @@ def test_every_key_is_described_and_bounded():
         for key, field in schema["properties"].items():
             assert field.get("description"), f"{model}: {key} has no description"
             if field.get("type") in ("integer", "number"):
-                assert field.keys() & {"minimum", "exclusiveMinimum"}, f"{model}: {key}: no range"
+                bounds = {"minimum", "exclusiveMinimum", "enum"}
+                assert field.keys() & bounds, f"{model}: {key}: no range"
