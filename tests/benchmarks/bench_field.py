@@ -1,9 +1,11 @@
 """Shadow rays through an occupancy field beside Embree's any-hit rays: same rays, one thread.
 
 And against triangles: the field's rate does not depend on them, Embree's falls. Coarser meshes are
-decimated, finer ones are subdivided and displaced by less than a tenth of a field's cell.
+decimated, finer ones are subdivided and displaced by less than a tenth of a field's cell. And how
+long it takes from a mesh's file to a frame's first answers.
 """
 
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,10 +13,10 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import torch
-import trimesh
 from measurement import Row, median_seconds
 from torch import Tensor
 
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.occupancy_field_network import OccupancyFieldNetwork
@@ -31,9 +33,10 @@ SCENE = {"up": "y", "ground": True, "light": {"domain": "sphere", "min_elevation
 WIDTH, HEIGHT, SEED = 1200, 800, 2026
 VIEW_SETS = ("shadow", "surface", "centre")
 UNTRAINED = {"encoding": "occupancy_field", "resolution": 256, "surface": "solid"}
-UNTRAINED |= {"stored": "int8", "start": "distances"}
+UNTRAINED |= {"stored": "coded", "start": "fitted"}
 COARSE = (5_000, 20_000, 80_000)  # triangles
-SUBDIVIDED = 2  # times, of four triangles for each
+SUBDIVIDED = 2  # times, of four triangles for each; once more, and to MOST, where time is not short
+MOST = 20_000_000
 SHIFT, WAVES = 3e-4, 300.0  # of displaced meshes, in radii and in radians a radius
 EMBREE = "Embree's occlusion rays"
 
@@ -56,8 +59,12 @@ class Asked:
         return ~network.lit(self.rays, self.d, torch.float32)(0.0).numpy()
 
 
-def rows(mesh_ply: Path, weights: list[Path], quick: bool) -> list[Row]:
-    """Rates of each trained field of a solid, or of untrained distances if there is none."""
+def rows(source: Path, mesh_ply: Path, weights: list[Path], quick: bool) -> list[Row]:
+    """Rates of each field of a solid that is given, or of a fitted one if there is none.
+
+    Args:
+        source: the file that the prepared mesh was made of.
+    """
     torch.set_num_threads(1)
     scene = open_scene(mesh_ply, **SCENE)
     number = range(1 if quick else 3)
@@ -67,7 +74,8 @@ def rows(mesh_ply: Path, weights: list[Path], quick: bool) -> list[Row]:
     for name, network in _fields(mesh_ply, weights):
         found += _frame_rows(name, network, scene.tracer, frames, 3 if quick else 7)
     _, network = next(iter(_fields(mesh_ply, weights)))
-    return found + _triangle_rows(network, mesh_ply, frames[:3])
+    found += _first_answer_rows(source, frames[0], 3)
+    return found + _triangle_rows(network, _meshes(mesh_ply, quick), frames[:3])
 
 
 def _asked(frame) -> Asked:
@@ -90,7 +98,7 @@ def _fields(mesh_ply: Path, weights: list[Path]) -> Iterator[tuple[str, Occupanc
         network.initialise(0)
         with TemporaryDirectory() as folder:  # values as a file has them
             save_network(Path(folder) / "field", network, {"network": UNTRAINED})
-            fields["untrained 256³ distances"], _ = load_network(Path(folder) / "field")
+            fields["fitted 256³ field"], _ = load_network(Path(folder) / "field")
     yield from fields.items()
 
 
@@ -123,10 +131,44 @@ def _rates(network, tracer, frame: Asked, rounds: int) -> dict[str, float]:
     return {name: len(frame.points) / value for name, value in seconds.items()}
 
 
-def _triangle_rows(network, mesh_ply: Path, frames: list[Asked]) -> list[Row]:
+def _first_answer_rows(source: Path, frame: Asked, rounds: int) -> list[Row]:
+    """Seconds from a mesh's file to a fitted field's answers to a frame, and how they divide.
+
+    The quickest of some rounds after one that compiles the kernels; the process's own time, on
+    all its cores, stands beside it.
+    """
+    with TemporaryDirectory() as folder:
+        times = [_first_answer(source, Path(folder), frame) for _ in range(rounds + 1)]
+    best = min(times[1:], key=lambda parts: sum(wall for wall, _ in parts.values()))
+    best["mesh to first answer"] = tuple(map(sum, zip(*best.values())))
+    return [
+        Row(f"{part}, {used:.2f} s of processors", "cpu", wall, "s")
+        for part, (wall, used) in best.items()
+    ]
+
+
+def _first_answer(source: Path, folder: Path, frame: Asked) -> dict[str, tuple[float, float]]:
+    """Of each part of the way, its seconds on the clock and of processors."""
+    network = make_network(UNTRAINED)
+    mesh_ply = folder / "mesh.ply"
+    parts = {
+        "preparing the mesh": lambda: prepare_mesh(source, mesh_ply, folder / "json", {}, "mesh"),
+        "fitting the field": lambda: network.prepare(mesh_ply),
+        "its values": lambda: network.initialise(0),
+        "bricks, light's tables and a frame": lambda: frame.field(network),
+    }
+    found = {}
+    for name, work in parts.items():
+        started, used = time.perf_counter(), time.process_time()
+        work()
+        found[name] = time.perf_counter() - started, time.process_time() - used
+    return found
+
+
+def _triangle_rows(network, meshes, frames: list[Asked]) -> list[Row]:
     """The field against Embree on meshes of growing numbers of triangles, and where they are even."""
     found, counts, ratios = [], [], []
-    for vertices, faces in _meshes(mesh_ply):
+    for vertices, faces in meshes:
         tracer = Tracer(vertices, faces)
         rates = [_rates(network, tracer, frame, 3) for frame in frames]
         sizes = np.array([len(frame.points) for frame in frames])
@@ -157,14 +199,32 @@ def crossing(counts: np.ndarray, ratios: np.ndarray) -> str:
     return f"field as fast from {even:,.0f} triangles on; ratio at {counts[-1]:,}"
 
 
-def _meshes(mesh_ply: Path) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+def _meshes(mesh_ply: Path, quick: bool) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Vertices and faces of ever more triangles."""
     mesh = read_prepared(mesh_ply)
     for count in COARSE:
         if count < len(mesh.faces):
             yield decimated(mesh.vertices, mesh.faces, count)
-    vertices, faces = mesh.vertices, mesh.faces
-    yield vertices, faces
-    for _ in range(SUBDIVIDED):
-        vertices, faces = trimesh.remesh.subdivide(vertices, faces)
-        yield vertices + SHIFT * np.sin(WAVES * np.roll(vertices, 1, axis=1)), faces
+    yield mesh.vertices, mesh.faces
+    corners = mesh.vertices[mesh.faces]
+    for _ in range(SUBDIVIDED if quick else SUBDIVIDED + 1):
+        corners = _subdivided(corners)
+        yield _displaced(corners)
+    more = (MOST - len(corners)) // 3
+    if not quick and more > 0:
+        yield _displaced(np.concatenate([corners[more:], _subdivided(corners[:more])]))
+
+
+def _subdivided(corners: np.ndarray) -> np.ndarray:
+    """Four triangles (4 n, 3, 3) for each of (n, 3, 3)."""
+    a, b, c = corners.swapaxes(0, 1)
+    ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+    parts = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    return np.concatenate([np.stack(part, axis=1) for part in parts])
+
+
+def _displaced(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices and faces, each face with vertices of its own; equal ones move alike."""
+    vertices = corners.reshape(-1, 3)
+    faces = np.arange(len(vertices), dtype=np.int32).reshape(-1, 3)
+    return vertices + np.float32(SHIFT) * np.sin(WAVES * np.roll(vertices, 1, axis=1)), faces

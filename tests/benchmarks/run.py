@@ -2,7 +2,7 @@
 
     python tests/benchmarks/run.py [--quick]
         [--only labels training queries field viewpoint soft area screen kernels default]
-        [--mesh results/scenes/dragon/mesh.ply] [--trunk squeeze.backbone.pth]
+        [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
 Prints the table and writes it to reports/benchmarks.csv. Peers of the ray stages beyond trimesh
@@ -48,14 +48,14 @@ STAGES = (
 TABLE = Path("reports/benchmarks.csv")
 
 
-def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]]:
-    """The rows of each stage that is asked for."""
+def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iterator[list[Row]]:
+    """The rows of each stage that is asked for, of a mesh's file and what it was prepared to."""
     quick = arguments.quick
     measured = {
         "labels": lambda: bench_labels.rows(mesh_ply, quick),
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
-        "field": lambda: bench_field.rows(mesh_ply, arguments.weights, quick),
+        "field": lambda: bench_field.rows(source, mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
         "area": lambda: bench_area_light.rows(mesh_ply, quick),
@@ -72,7 +72,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", nargs="+", choices=STAGES)
-    parser.add_argument("--mesh", type=Path, help="prepared; the default config's dragon if none")
+    parser.add_argument(
+        "--mesh", type=Path, help="of any format; the default config's dragon if none"
+    )
     parser.add_argument("--trunk", type=Path, help="of LPIPS; without it LPIPS is left out")
     parser.add_argument("--weights", type=Path, nargs="+", default=[], help="trained networks")
     arguments = parser.parse_args()
@@ -80,13 +82,14 @@ def main() -> None:
         arguments.only = [stage for stage in STAGES if stage != "default" or not arguments.quick]
     print(", ".join(f"{key}: {value}" for key, value in describe_machine().items()))
     with tempfile.TemporaryDirectory() as folder:
-        mesh_ply = arguments.mesh
-        if mesh_ply is None:
-            made, mesh_ply = Path(folder) / "made.ply", Path(folder) / "mesh.ply"
-            mesh = {"generate": "wyrm", "cells": 256}
-            generate_mesh(made, mesh)
-            prepare_mesh(made, mesh_ply, Path(folder) / "mesh.json", mesh, "wyrm")
-        found = table([row for rows in measure(arguments, mesh_ply) for row in rows])
+        source, mesh_ply = arguments.mesh, Path(folder) / "mesh.ply"
+        mesh = {"generate": "wyrm", "cells": 256}
+        if source is None:
+            source = Path(folder) / "made.ply"
+            generate_mesh(source, mesh)
+        prepare_mesh(source, mesh_ply, Path(folder) / "mesh.json", mesh, "mesh")
+        stages = measure(arguments, source, mesh_ply)
+        found = table([row for rows in stages for row in rows])
     print(found.to_string(index=False, float_format="{:,.4g}".format, na_rep=""))
     write_text(TABLE, found.to_csv(index=False, lineterminator="\n", float_format="%.6g"))
 
