@@ -17,13 +17,14 @@ from neural_shadows.networks.object_space.field_marching import BRICK
 # say its value and 2^(b − 1) − 0.5.
 WORDS = {4: np.uint32, 8: np.uint64}
 CORNERS = np.stack(np.unravel_index(np.arange(8), (2, 2, 2)), axis=1)
+# Places are integers of 2^20 steps a cell: 1024 samples of a ray lose 0.0005 cells by rounding.
+CELL = 20
 PART = 12  # bits of a place in a cell: with the four of a value no more than a lane of 16
 # In four bits a cell's largest value is put on one of these levels: beyond 7.5 it is cut off.
 _LARGEST = np.array([4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 11.5, 13.5], np.float32)
 _ROUNDS = 12  # corners that are rounded the other way, at most
-_NEAR = np.float32(
-    0.01
-)  # squared cells from the surface, within which a place has its whole weight
+# Squared cells from the surface, within which a place has its whole weight.
+_NEAR = np.float32(0.01)
 
 
 def _shares() -> np.ndarray:
@@ -58,6 +59,38 @@ def positive_at(word, wide, x, y, z):
     ends = (ends & halves) * (whole - x) + (ends >> np.uint64(16) & halves) * x
     value = (ends & np.uint64(0xFFFFFFFF)) * (whole - z) + (ends >> np.uint64(32)) * z
     return value > np.uint64(15 << 3 * PART - 1)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def positive_in_brick(some, every, first, words, x, y, z):
+    """Whether a brick's field is positive at a place, in 2^−CELL cells from any brick's corner.
+
+    Args:
+        some, every: of which cells any, and every corner is positive, see `FieldBricks.masks`.
+        first: the number of the brick's first word.
+    """
+    one = np.uint64(1)
+    i, j, k = x >> CELL & BRICK - 1, y >> CELL & BRICK - 1, z >> CELL & BRICK - 1
+    bit = one << np.uint64(BRICK**2 * i + BRICK * j + k)
+    if some & bit == 0:
+        return False
+    if every & bit:
+        return True
+    word = words[first + _count(some & ~every & bit - one)]
+    part, whole = CELL - PART, (1 << PART) - 1
+    wide = words.itemsize == 8
+    return positive_at(word, wide, x >> part & whole, y >> part & whole, z >> part & whole)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _count(bits):
+    """How many of 64 bits are set; compiled, this is one instruction."""
+    one = np.uint64(1)
+    bits -= bits >> one & np.uint64(0x5555555555555555)
+    pairs = np.uint64(0x3333333333333333)
+    bits = (bits & pairs) + (bits >> np.uint64(2) & pairs)
+    bits = bits + (bits >> np.uint64(4)) & np.uint64(0x0F0F0F0F0F0F0F0F)
+    return bits * np.uint64(0x0101010101010101) >> np.uint64(56)
 
 
 @njit(cache=True, nogil=True)

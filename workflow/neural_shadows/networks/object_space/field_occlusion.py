@@ -9,14 +9,12 @@ import numpy as np
 from numba import njit
 from numba.cpython.unsafe.numbers import trailing_zeros
 
-from neural_shadows.networks.object_space.cell_words import PART, positive_at
+from neural_shadows.networks.object_space.cell_words import CELL, positive_in_brick
 from neural_shadows.networks.object_space.field_bricks import NODE, PAD, FieldBricks
 from neural_shadows.networks.object_space.field_marching import BRICK
 from neural_shadows.networks.object_space.light_tables import NEVER, PARTS, TILES, light_tables
 
-# Places on a ray are integers of 2^20 steps a cell: 1024 samples lose 0.0005 cells by rounding.
-_CELL = 20
-_BRICK = _CELL + 2  # bits in which a brick's BRICK cells are counted
+_BRICK = CELL + 2  # bits in which a brick's BRICK cells are counted
 _NODE = _BRICK + 2  # and a node's NODE bricks
 _PART = _BRICK - 4  # and the PARTS of a brick's side
 _ONE = np.uint64(1)
@@ -176,24 +174,4 @@ def _positive(x, y, z, told):
     node = ((x >> _NODE) * shape[1] + (y >> _NODE)) * shape[2] + (z >> _NODE)
     within = (x >> _BRICK & 3) << 4 | (y >> _BRICK & 3) << 2 | z >> _BRICK & 3
     row = rows[nodes[node] + within]
-    i, j, k = x >> _CELL & BRICK - 1, y >> _CELL & BRICK - 1, z >> _CELL & BRICK - 1
-    bit = _ONE << np.uint64(BRICK**2 * i + BRICK * j + k)
-    some, every = masks[row, 0], masks[row, 1]
-    if some & bit == 0:
-        return False
-    if every & bit:
-        return True
-    word = words[first[row] + _count(some & ~every & bit - _ONE)]
-    part, whole = _CELL - PART, (1 << PART) - 1
-    wide = words.itemsize == 8
-    return positive_at(word, wide, x >> part & whole, y >> part & whole, z >> part & whole)
-
-
-@njit(cache=True, nogil=True, inline="always")
-def _count(bits):
-    """How many of 64 bits are set; compiled, this is one instruction."""
-    bits -= bits >> _ONE & np.uint64(0x5555555555555555)
-    pairs = np.uint64(0x3333333333333333)
-    bits = (bits & pairs) + (bits >> np.uint64(2) & pairs)
-    bits = bits + (bits >> np.uint64(4)) & np.uint64(0x0F0F0F0F0F0F0F0F)
-    return bits * np.uint64(0x0101010101010101) >> np.uint64(56)
+    return positive_in_brick(masks[row, 0], masks[row, 1], first[row], words, x, y, z)
