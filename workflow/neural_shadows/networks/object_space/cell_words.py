@@ -5,7 +5,7 @@ their own. In four bits each they are rounded together: where the surface is, wh
 rounded corners is closest to what lies between the given ones. A plane through a cell is moved by
 0.009 cells then, root mean square; each rounded for itself by 0.017, in eight bits by 0.001. Of the
 Stanford dragon at 256³, pooled PSNR: eight bits 42.3 dB, four 41.7; trying 40 scales for the eight
-of `_LARGEST`, and pairs of corners, 41.8 in eleven times as long.
+of `_LARGEST`, and pairs of corners, 41.8 in about ten times as long.
 """
 
 import numpy as np
