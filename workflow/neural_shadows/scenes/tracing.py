@@ -4,7 +4,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-_NEARLY_ALL = 1 - 1e-4  # of a way that ends at a goal
+NEARLY_ALL = 1 - 1e-4  # of a way that ends at a goal
 
 
 class Tracer:
@@ -68,4 +68,4 @@ class Tracer:
             points, ways: (n, 3) float32; the whole way from a point to its goal, not of unit
                 length. Its last ten thousandth is left out, so that a goal may lie on a surface.
         """
-        return self._scene.run(points, ways, query="OCCLUDED", dists=_NEARLY_ALL) >= 0
+        return self._scene.run(points, ways, query="OCCLUDED", dists=NEARLY_ALL) >= 0

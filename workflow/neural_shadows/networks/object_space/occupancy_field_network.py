@@ -295,7 +295,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         """
         if self.device.type != "cpu" or self.surface == "sheet":
             return super().lit(rays, d, dtype, t_pred)
-        bricks, steps = self._field_bricks(), SAMPLES_PER_CELL * self.resolution
+        bricks, steps = self.held_bricks(), SAMPLES_PER_CELL * self.resolution
         s = torch.minimum(rays.s, rays.chord)
 
         def lit(depth_bias: float) -> Tensor:
@@ -314,10 +314,10 @@ class OccupancyFieldNetwork(ShadowNetwork):
             return super().resident_bytes()
         if self.surface == "sheet":
             return self.grid.numel() * self.grid.element_size() + self._brick_values()[0].nbytes
-        bricks = self._field_bricks()
+        bricks = self.held_bricks()
         return bricks.bytes + most_bytes(bricks)
 
-    def _field_bricks(self) -> FieldBricks:
+    def held_bricks(self) -> FieldBricks:
         """What `occluded` reads, kept until the weights or the push change."""
         known = self.values._version, self.push
         if self._field is None or self._field[0] != known:
