@@ -33,6 +33,13 @@ class Landscape(Model):
     cells: int = Field(256, ge=16, le=2048, description="grid cells along a side")
 
 
+class Oak(Model):
+    """A tree of forking limbs with thick leaves, one closed mesh."""
+
+    generate: Literal["oak"] = Field(description="`oak`: a tree whose leaves have a thickness")
+    cells: int = Field(256, ge=48, le=1024, description="marching-cubes cells of the longest axis")
+
+
 class DownloadedMesh(Model):
     """A mesh that the pipeline downloads from the Stanford 3D Scanning Repository."""
 
@@ -58,10 +65,10 @@ def _tag(mesh: Any) -> str | None:
 
 
 WHERE_FROM = (
-    "one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, {path: FILE}"
+    "one of {generate: wyrm, fence, landscape or oak}, {download: stanford_dragon}, {path: FILE}"
 )
 Mesh = Annotated[
-    Annotated[by_kind("generate", Wyrm, Fence, Landscape), Tag("Generated")]
+    Annotated[by_kind("generate", Wyrm, Fence, Landscape, Oak), Tag("Generated")]
     | Annotated[DownloadedMesh, Tag("Downloaded")]
     | Annotated[MeshFile, Tag("File")],
     Discriminator(

@@ -9,10 +9,16 @@ import trimesh
 from neural_shadows.files.whole_files import whole_file
 from neural_shadows.meshes.fence import make_fence
 from neural_shadows.meshes.landscape import make_landscape
+from neural_shadows.meshes.oak import make_oak
 from neural_shadows.meshes.wyrm import make_wyrm
 from neural_shadows.running.stage import run_stage
 
-MAKERS = {"wyrm": make_wyrm, "fence": make_fence, "landscape": make_landscape}
+MAKERS = {
+    "wyrm": make_wyrm,
+    "fence": make_fence,
+    "landscape": make_landscape,
+    "oak": make_oak,
+}
 
 
 def generate_mesh(generated_ply: Path, mesh: Mapping[str, Any]) -> None:

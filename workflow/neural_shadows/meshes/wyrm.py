@@ -10,14 +10,9 @@ from itertools import pairwise
 import numpy as np
 from scipy.interpolate import CubicSpline, PchipInterpolator
 from scipy.spatial.transform import Rotation
-from skimage.measure import marching_cubes
-from trimesh.graph import connected_component_labels
 
-from neural_shadows.meshes.signed_distances import Part, distance_grid
-
-# Samples nearer to the surface than this (in cells) count as just outside: no vertex falls on a
-# grid point, where marching cubes would emit triangles without area.
-MIN_VALUE_CELLS = 0.01
+from neural_shadows.meshes.meshed_parts import meshed
+from neural_shadows.meshes.signed_distances import Part
 
 # Rows (x, y, z, radius) from the nape over neck, withers, back and hips to the tail's tip.
 SPINE = [
@@ -278,13 +273,4 @@ def make_wyrm(cells: int = 220) -> tuple[np.ndarray, np.ndarray]:
     Returns:
         Vertices (V, 3) float64 and faces (F, 3) int64. The same bytes each time.
     """
-    grid, origin, cell = distance_grid(creature(), cells)
-    grid[np.abs(grid) < MIN_VALUE_CELLS * cell] = MIN_VALUE_CELLS * cell
-    vertices, faces, _, _ = marching_cubes(grid, 0.0)
-    # Crumbs: bubbles where parts meet, and tips that a coarse grid cuts off.
-    labels = connected_component_labels(faces[:, [[0, 1], [1, 2]]].reshape(-1, 2), len(vertices))
-    keep = labels == np.bincount(labels).argmax()
-    faces = (np.cumsum(keep) - 1)[faces[keep[faces[:, 0]]]]
-    vertices = origin + cell * vertices[keep].astype(np.float64)
-    vertices[:, 1] -= vertices[:, 1].min()
-    return vertices, faces.astype(np.int64)
+    return meshed(creature(), cells)
