@@ -1,6 +1,6 @@
 """`figures`: the figures of a run, by kind."""
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
@@ -182,6 +182,19 @@ class NetworkFigure(AnyFigure):
     )
 
 
+class ForestFigure(AnyFigure):
+    """Many copies of few objects, in the shadows of their fields and of their triangles."""
+
+    kind: Literal["forest"] = Field(description="`forest`")
+    scenes: list[name_in("scenes")] = Field(
+        min_length=1, description="names in `scenes`, whose meshes are closed"
+    )
+    instances: int = Field(1000, ge=1, le=100_000, description="copies, as many of each")
+    resolution: Annotated[int, Field(ge=16, le=1024, multiple_of=4)] = Field(
+        256, description="cells of each object's field along an axis, a multiple of 4"
+    )
+
+
 Figure = by_kind(
     "kind",
     PicturesFigure,
@@ -200,6 +213,7 @@ Figure = by_kind(
     PenumbraFigure,
     ScreenTableFigure,
     ScreenFlickerFigure,
+    ForestFigure,
 )
 KINDS_OF_TABLE = {
     "pictures": ("comparison", "networks"),

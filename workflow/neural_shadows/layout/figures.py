@@ -27,6 +27,7 @@ TOLD = {
     "screen_level_time": ("run",),
     "screen_sensitivity": ("run",),
     "screen_flicker": ("labels", "run"),
+    "forest": ("ups", "instances", "resolution", "seed", "run"),
 }
 
 
@@ -95,6 +96,11 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
             return {"costs": tables.costs(layout, settings["table"])}
         case "view_directions":
             return {}
+        case "forest":
+            return {
+                name: [paths.scene(file, one) for one in settings["scenes"]]
+                for name, file in (("meshes", "mesh.ply"), ("reports", "mesh.json"))
+            }
         case "scene_3d":
             names = scene, settings["sampling"]
             directions = {"directions_npy": paths.rays("directions.npy", *names)}
@@ -115,6 +121,8 @@ def arguments(layout: Layout, figure: str) -> dict[str, Any]:
     if settings["kind"] in ("soft_pictures", "screen_flicker"):
         some = filter(available, settings["methods"])
         values["labels"] = {one: soft_methods.label(layout, one) for one in some}
+    if settings["kind"] == "forest":
+        values["ups"] = [layout.entry("scenes", one)["scene"]["up"] for one in settings["scenes"]]
     if "sampling" in settings:
         values["sampling"] = layout.entry("samplings", settings["sampling"])
     return {key: values[key] for key in ("title", *TOLD.get(settings["kind"], ("scene",)))}
