@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only labels training queries field viewpoint soft area screen kernels default]
+        [--only labels training queries field forest viewpoint soft area screen kernels default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -18,6 +18,7 @@ from pathlib import Path
 import bench_area_light
 import bench_default
 import bench_field
+import bench_forest
 import bench_kernels
 import bench_labels
 import bench_queries
@@ -38,6 +39,7 @@ STAGES = (
     "training",
     "queries",
     "field",
+    "forest",
     "viewpoint",
     "soft",
     "area",
@@ -56,6 +58,7 @@ def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iter
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
         "field": lambda: bench_field.rows(source, mesh_ply, arguments.weights, quick),
+        "forest": lambda: bench_forest.rows(mesh_ply, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
         "area": lambda: bench_area_light.rows(mesh_ply, quick),

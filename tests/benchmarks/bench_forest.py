@@ -1,0 +1,163 @@
+"""A forest of copies of three objects: shadow rays through their fields, beside Embree's instances.
+
+On one thread, of the points that two cameras see. Also beside one tree over all triangles of as many
+copies as fit into memory; what a frame costs in which all copies move; and an object that deforms.
+"""
+
+import time
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import torch
+from embree_instances import EmbreeInstances
+from measurement import Row, median_seconds
+
+from neural_shadows.meshes.generate_mesh import generate_mesh
+from neural_shadows.meshes.prepare_mesh import prepare_mesh
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
+from neural_shadows.networks.object_space.field_bricks import FieldBricks
+from neural_shadows.networks.object_space.field_instances import FieldInstances
+from neural_shadows.networks.object_space.untrained_field import untrained_field
+from neural_shadows.reports.figures.forest import LAMP, SUN, cameras, see
+from neural_shadows.scenes.forest import scattered
+from neural_shadows.scenes.mesh_instances import MeshInstances
+
+RESOLUTION = 256
+INSTANCES = 1000
+JOINED = (10, 100)  # copies whose triangles are one mesh; 100 take 4 GiB
+SEED = 2026
+OTHERS = {
+    "fence": {"generate": "fence", "wires": 16, "wire_radius": 0.006},
+    "oak": {"generate": "oak", "cells": 256},
+}
+PEER = "Embree's instances"
+MIB = 1 << 20
+
+
+def rows(mesh_ply: Path, quick: bool) -> list[Row]:
+    """Of the mesh, a fence and an oak."""
+    torch.set_num_threads(1)
+    with TemporaryDirectory() as folder:
+        paths = [mesh_ply, *_others(Path(folder))]
+        objects = [read_prepared(path) for path in paths]
+        fields, seconds = zip(
+            *(_timed(partial(untrained_field, path, RESOLUTION)) for path in paths)
+        )
+    rounds = 3 if quick else 7
+    found = _forest_rows(objects, fields, rounds)
+    for count in JOINED[: 1 if quick else None]:
+        found += _joined_rows(objects, fields, count, rounds)
+    return found + _deformed_rows(objects, seconds)
+
+
+def _others(folder: Path) -> Iterator[Path]:
+    for name, mesh in OTHERS.items():
+        made, mesh_ply = folder / f"{name}_made.ply", folder / f"{name}.ply"
+        generate_mesh(made, mesh)
+        prepare_mesh(made, mesh_ply, folder / f"{name}.json", mesh, name)
+        yield mesh_ply
+
+
+def _timed(work) -> tuple:
+    started = time.perf_counter()
+    found = work()
+    return found, time.perf_counter() - started
+
+
+def _placed(objects: Sequence[PreparedMesh], count: int) -> tuple[np.ndarray, np.ndarray]:
+    vertices = [mesh.vertices for mesh in objects]
+    return scattered(vertices, ["y"] * len(objects), count, np.random.default_rng(SEED))
+
+
+def _forest_rows(objects, fields: Sequence[FieldBricks], rounds: int) -> list[Row]:
+    """Rates, errors and bytes of the whole forest, and what it costs to move all of it."""
+    kinds, placements = _placed(objects, INSTANCES)
+    forest = FieldInstances(fields, kinds, placements)
+    peer = EmbreeInstances([(mesh.vertices, mesh.faces) for mesh in objects], kinds, placements)
+    shares = forest.bytes / MIB, peer.bytes / MIB
+    triangles = sum(len(objects[kind].faces) for kind in kinds)
+    name = f"forest, {INSTANCES:,} copies, {triangles / 1e6:.0f} M triangles"
+    exact = MeshInstances(objects, kinds, placements)
+    found = []
+    for number, camera in enumerate(cameras(placements)):
+        points = see(exact, camera).p
+        for light, asked, ways in (
+            (
+                "sun",
+                "occluded",
+                np.tile((SUN / np.linalg.norm(SUN)).astype(np.float32), (len(points), 1)),
+            ),
+            ("lamp", "blocked", np.float32([0, LAMP, 0]) - points),
+        ):
+            ask, ask_peer = getattr(forest, asked), getattr(peer, asked)
+            wrong = 100 * np.mean(ask(points, ways) != ask_peer(points, ways))
+            stage = f"{name}, frame {number}, {light}, {wrong:.2f} % of points differ"
+            works = {"field": partial(ask, points, ways), PEER: partial(ask_peer, points, ways)}
+            found.append(_rate(stage, works, rounds, len(points), "rays/s"))
+    moved = placements.copy()
+    moved[:, 0, 3] += 0.1
+    works = {"field": partial(forest.place, moved), PEER: partial(peer.place, moved)}
+    found.append(
+        Row(f"{name}, in memory", "cpu x1", shares[0], "MiB", peer=PEER, peer_rate=shares[1])
+    )
+    found.append(_rate(f"{name}, all of them moved", works, 3 * rounds, 1, "frames/s"))
+    peer.close()
+    return found
+
+
+def _joined_rows(objects, fields: Sequence[FieldBricks], count: int, rounds: int) -> list[Row]:
+    """The same of fewer copies, whose triangles are one mesh for Embree."""
+    kinds, placements = _placed(objects, count)
+    forest = FieldInstances(fields, kinds, placements)
+    joined = _joined(objects, kinds, placements)
+    peer, built = _timed(lambda: EmbreeInstances([joined], [0], np.eye(4)[None]))
+    points = see(MeshInstances(objects, kinds, placements), next(cameras(placements))).p
+    ways = np.tile((SUN / np.linalg.norm(SUN)).astype(np.float32), (len(points), 1))
+    works = {"field": partial(forest.occluded, points, ways)}
+    name, one_tree = f"forest, {count} copies, {len(joined[1]) / 1e6:.1f} M triangles", "one tree"
+    works[one_tree] = partial(peer.occluded, points, ways)
+    wrong = 100 * np.mean(works["field"]() != works[one_tree]())
+    stage = f"{name}, sun, {wrong:.2f} % of points differ"
+    found = [_rate(stage, works, rounds, len(points), "rays/s")]
+    told = {"peer": one_tree, "peer_rate": peer.bytes / MIB}
+    found.append(Row(f"{name}, in memory", "cpu x1", forest.bytes / MIB, "MiB", **told))
+    place = median_seconds({"field": partial(forest.place, placements)}, rounds)["field"]
+    told = {"peer": "one tree, built anew", "peer_rate": 1 / built}
+    found.append(Row(f"{name}, some moved", "cpu x1", 1 / place, "frames/s", **told))
+    peer.close()
+    return found
+
+
+def _joined(objects, kinds, placements) -> tuple[np.ndarray, np.ndarray]:
+    vertices, faces, first = [], [], 0
+    for kind, one in zip(kinds, placements):
+        at = objects[kind].vertices @ one[:3, :3].T.astype(np.float32)
+        vertices.append(at + one[:3, 3].astype(np.float32))
+        faces.append(objects[kind].faces + first)
+        first += len(at)
+    return np.concatenate(vertices), np.concatenate(faces)
+
+
+def _deformed_rows(objects, seconds: Sequence[float]) -> list[Row]:
+    """Of an object whose shape changes its field is built anew, as Embree's tree over its triangles."""
+    found = []
+    for mesh, field in zip(objects, seconds):
+        peer, tree = _timed(
+            lambda mesh=mesh: EmbreeInstances([(mesh.vertices, mesh.faces)], [0], np.eye(4)[None])
+        )
+        peer.close()
+        stage = f"object of {len(mesh.faces):,} triangles, deformed: {RESOLUTION}³ field built anew"
+        told = {"peer": "Embree's tree", "peer_rate": 1 / tree}
+        found.append(Row(stage, "cpu x1", 1 / field, "shapes/s", **told))
+    return found
+
+
+def _rate(stage: str, works, rounds: int, count: int, unit: str) -> Row:
+    """How many of what are done in a second, by fields and by the other of two works."""
+    seconds = median_seconds(works, rounds)
+    (peer,) = works.keys() - {"field"}
+    rates = {name: count / value for name, value in seconds.items()}
+    return Row(stage, "cpu x1", rates["field"], unit, peer=peer, peer_rate=rates[peer])
