@@ -8,7 +8,7 @@ from numba import njit
 WIDTH = (
     8  # children of a node, whose boxes are looked at together; with 2 it took three times as long
 )
-MOST_WAITING = 8 * 16  # nodes, of 8^16 instances
+MOST_WAITING = 8 * 16  # on a way down: a node and seven beside it on each of so many levels
 
 
 class InstanceTree(NamedTuple):
