@@ -39,7 +39,7 @@ from neural_shadows.layout import claims, figures, frame_sets, parts, tables, ta
 from neural_shadows.layout import screen_networks, soft_methods, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import kind_module
-from neural_shadows.running.module_graph import modules_of
+from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.scenes.generators.registry import generator_module
 from neural_shadows.training.checkpoints import remove_finished
 
@@ -106,16 +106,18 @@ def of(function):
 
 
 def code(stage, encodings=(), generators=(), methods=()):
-    """The package's modules that the result of a stage depends on.
+    """A param: what the package's modules hold that the result of a stage depends on, as a digest.
 
     A network's module is imported by its kind's name, that of a scene by its generator's, that of
     a method for soft shadows by its key, so that they are among them only for the jobs that use
     such a network, such a scene, or such a method.
+
+    As inputs the modules would be compared by their content as well, and looked at by the scheduler
+    before each job: a hundred of them and more for each that is ready.
     """
     sources = [STAGES / f"{stage}.py", *map(kind_module, sorted(encodings))]
     sources += [*map(generator_module, generators), *map(method_module, methods)]
-    modules = {module for source in sources for module in modules_of(source)}
-    return sorted(os.path.relpath(path) for path in modules)
+    return digest({module for source in sources for module in modules_of(source)})
 
 
 def usual(mem_mb, minutes):

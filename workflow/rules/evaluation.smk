@@ -4,7 +4,6 @@
 rule find_lpips:
     input:
         trunk=SETTINGS["metrics"]["lpips"]["trunk"] or [],
-        code=code("metrics/find_lpips"),
     output:
         lpips_json=PATHS.lpips,
     log:
@@ -16,6 +15,7 @@ rule find_lpips:
     resources:
         **usual(2000, minutes=30),
     params:
+        code=code("metrics/find_lpips"),
         net=setting("metrics/lpips/net"),
     message:
         "Looking for LPIPS's pretrained trunk"
@@ -26,7 +26,6 @@ rule find_lpips:
 rule render_references:
     input:
         mesh_ply=PATHS.scene("mesh.ply"),
-        code=code("evaluation/render_references"),
     output:
         references=PATHS.reference(),
     log:
@@ -38,6 +37,7 @@ rule render_references:
     resources:
         **usual(4000, minutes=120),
     params:
+        code=code("evaluation/render_references"),
         scene=setting("scenes/{scene}/scene"),
         frames=setting("scenes/{scene}/frames"),
         settings=of(LAYOUT.view_range),
@@ -53,9 +53,6 @@ rule find_depth_bias:
         references=of(LAYOUT.held_out_views),
         mesh_ply=PATHS.scene("mesh.ply"),
         weights=of(LAYOUT.weights),
-        code=lambda wildcards: code(
-            "evaluation/find_depth_bias", LAYOUT.method_encodings(wildcards.method)
-        ),
     output:
         depth_bias_json=PATHS.depth_bias(),
     log:
@@ -68,6 +65,9 @@ rule find_depth_bias:
         **usual(4000, minutes=60),
         gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
     params:
+        code=lambda wildcards: code(
+            "evaluation/find_depth_bias", LAYOUT.method_encodings(wildcards.method)
+        ),
         scene=setting("scenes/{scene}/scene"),
         device=COMPUTE["device"],
         precision=COMPUTE["precision"],
@@ -83,9 +83,6 @@ rule query_network:
         weights=of(LAYOUT.weights),
         depth_bias_json=of(LAYOUT.bias_file),
         mesh_ply=PATHS.scene("mesh.ply"),
-        code=lambda wildcards: code(
-            "evaluation/query_network", LAYOUT.method_encodings(wildcards.method)
-        ),
     output:
         answers=PATHS.answers(),
     log:
@@ -98,6 +95,9 @@ rule query_network:
         **usual(4000, minutes=60),
         gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
     params:
+        code=lambda wildcards: code(
+            "evaluation/query_network", LAYOUT.method_encodings(wildcards.method)
+        ),
         bias=of(LAYOUT.bias),
         violations=of(claims.counts_violations),
         device=COMPUTE["device"],
@@ -113,7 +113,6 @@ rule evaluate:
         unpack(of(LAYOUT.evaluated_files)),
         references=PATHS.reference(),
         lpips_json=PATHS.lpips,
-        code=code("evaluation/evaluate"),
     output:
         metrics_csv=PATHS.evaluation("csv"),
         visibilities_npz=PATHS.evaluation("npz"),
@@ -126,6 +125,7 @@ rule evaluate:
     resources:
         **usual(4000, minutes=120),
     params:
+        code=code("evaluation/evaluate"),
         scene=setting("scenes/{scene}/scene"),
     message:
         "Evaluating {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
@@ -137,10 +137,6 @@ rule measure_frame_times:
     input:
         mesh_ply=PATHS.scene("mesh.ply"),
         weights=of(tables.timed_weights),
-        code=lambda wildcards: code(
-            "evaluation/measure_frame_times",
-            tables.timed_encodings(LAYOUT, wildcards.table, wildcards.scene),
-        ),
     output:
         times_json=PATHS.frame_times(),
     log:
@@ -155,6 +151,10 @@ rule measure_frame_times:
         **usual(4000, minutes=120),
         gpu=GPUS,
     params:
+        code=lambda wildcards: code(
+            "evaluation/measure_frame_times",
+            tables.timed_encodings(LAYOUT, wildcards.table, wildcards.scene),
+        ),
         methods=of(tables.timed_methods),
         scene=setting("scenes/{scene}/scene"),
         frames=setting("scenes/{scene}/frames"),
@@ -168,8 +168,6 @@ rule measure_frame_times:
 
 
 rule measure_cost:
-    input:
-        code=code("evaluation/measure_cost", ["frequency"]),
     output:
         cost_json=PATHS.cost(),
     log:
@@ -184,6 +182,7 @@ rule measure_cost:
         **usual(8000, minutes=120),
         gpu=GPUS,
     params:
+        code=code("evaluation/measure_cost", ["frequency"]),
         seed=SETTINGS["seed"],
         device=COMPUTE["device"],
     message:

@@ -4,10 +4,6 @@
 rule render_frames:
     input:
         meshes=of(frame_sets.meshes),
-        code=lambda wildcards: code(
-            "frames/render_frames",
-            generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
-        ),
     output:
         frames_json=PATHS.frames("json"),
         buffers_npy=PATHS.frames("buffers.npy"),
@@ -23,6 +19,10 @@ rule render_frames:
     resources:
         **usual(4000, minutes=120),
     params:
+        code=lambda wildcards: code(
+            "frames/render_frames",
+            generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
+        ),
         settings=of(frame_sets.frame_settings),
     message:
         "Rendering frames {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"
@@ -33,7 +33,6 @@ rule render_frames:
 rule import_frame:
     input:
         files=of(frame_sets.engine_files),
-        code=code("frames/import_frame"),
     output:
         frames_json=PATHS.imported_frames("json"),
         buffers_npy=PATHS.imported_frames("buffers.npy"),
@@ -50,6 +49,7 @@ rule import_frame:
     resources:
         **usual(2000, minutes=10),
     params:
+        code=code("frames/import_frame"),
         settings=of(frame_sets.import_settings),
     message:
         "Importing frame {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"

@@ -2,8 +2,6 @@
 
 
 rule generate_mesh:
-    input:
-        code=code("meshes/generate_mesh"),
     output:
         generated_ply=PATHS.scene("generated.ply"),
     log:
@@ -15,6 +13,7 @@ rule generate_mesh:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=code("meshes/generate_mesh"),
         mesh=setting("scenes/{scene}/mesh"),
     message:
         "Making the mesh of scene {wildcards.scene}"
@@ -23,8 +22,6 @@ rule generate_mesh:
 
 
 rule download_mesh:
-    input:
-        code=code("meshes/download_mesh"),
     output:
         downloaded_ply=PATHS.scene("downloaded.ply"),
     log:
@@ -36,6 +33,8 @@ rule download_mesh:
         ENVIRONMENT
     resources:
         **usual(1000, minutes=30),
+    params:
+        code=code("meshes/download_mesh"),
     message:
         "Downloading the mesh of scene {wildcards.scene}"
     script:
@@ -45,7 +44,6 @@ rule download_mesh:
 rule prepare_mesh:
     input:
         source=of(LAYOUT.mesh_source),
-        code=code("meshes/prepare_mesh"),
     output:
         mesh_ply=PATHS.scene("mesh.ply"),
         mesh_json=PATHS.scene("mesh.json"),
@@ -58,6 +56,7 @@ rule prepare_mesh:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=code("meshes/prepare_mesh"),
         mesh=setting("scenes/{scene}/mesh"),
         name=setting("scenes/{scene}/mesh_name"),
     message:

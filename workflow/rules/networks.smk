@@ -4,9 +4,6 @@
 rule train:
     input:
         unpack(of(LAYOUT.training_files)),
-        code=lambda wildcards: code(
-            "training/train", LAYOUT.encodings([wildcards.experiment])
-        ),
     output:
         weights=PATHS.network("weights.safetensors"),
         loss_csv=PATHS.network("loss.csv"),
@@ -23,6 +20,9 @@ rule train:
         **usual(8000, minutes=600) | {"runtime": 600},
         gpu=lambda wildcards: GPUS * LAYOUT.is_trained(wildcards.experiment),
     params:
+        code=lambda wildcards: code(
+            "training/train", LAYOUT.encodings([wildcards.experiment])
+        ),
         network=setting("experiments/{experiment}/network"),
         training=setting("experiments/{experiment}/training"),
         seed=setting("experiments/{experiment}/seed"),

@@ -2,8 +2,6 @@
 
 
 rule draw_directions:
-    input:
-        code=code("rays/draw_directions"),
     output:
         directions_npy=PATHS.rays("directions.npy"),
     log:
@@ -15,6 +13,7 @@ rule draw_directions:
     resources:
         **usual(1000, minutes=10),
     params:
+        code=code("rays/draw_directions"),
         sampling=setting("samplings/{sampling}"),
         seed=setting("scenes/{scene}/seed"),
         light=of(LAYOUT.direction_light),
@@ -29,7 +28,6 @@ rule sample_rays:
     input:
         mesh_ply=PATHS.scene("mesh.ply"),
         directions_npy=PATHS.rays("directions.npy"),
-        code=code("rays/sample_rays"),
     output:
         origins_npy=PATHS.rays("origins.{shard}.npy"),
     log:
@@ -42,6 +40,7 @@ rule sample_rays:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=code("rays/sample_rays"),
         sampling=setting("samplings/{sampling}"),
         seed=setting("scenes/{scene}/seed"),
         settings=of(LAYOUT.shard_range),
@@ -56,7 +55,6 @@ rule label_rays:
         mesh_ply=PATHS.scene("mesh.ply"),
         directions_npy=PATHS.rays("directions.npy"),
         origins_npy=PATHS.rays("origins.{shard}.npy"),
-        code=code("rays/label_rays"),
     output:
         bounds_npy=PATHS.rays("bounds.{shard}.npy"),
     log:
@@ -69,6 +67,7 @@ rule label_rays:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=code("rays/label_rays"),
         seed=setting("scenes/{scene}/seed"),
         settings=of(LAYOUT.shard_range),
     message:
@@ -82,7 +81,6 @@ rule describe_rays:
         unpack(of(LAYOUT.shards)),
         mesh_ply=PATHS.scene("mesh.ply"),
         directions_npy=PATHS.rays("directions.npy"),
-        code=code("rays/describe_rays"),
     output:
         rays_json=PATHS.rays("rays.json"),
     log:
@@ -92,6 +90,7 @@ rule describe_rays:
     resources:
         **usual(2000, minutes=30),
     params:
+        code=code("rays/describe_rays"),
         sampling=setting("samplings/{sampling}"),
         seed=setting("scenes/{scene}/seed"),
     message:

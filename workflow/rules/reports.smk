@@ -4,11 +4,6 @@
 rule table:
     input:
         unpack(of(tables.files)),
-        code=lambda wildcards: code(
-            f"reports/tables/{SETTINGS['tables'][wildcards.table]['kind']}",
-            tables.encodings(LAYOUT, wildcards.table),
-            tables.generators(LAYOUT, wildcards.table),
-        ),
     output:
         csv=report(
             PATHS.report("{table}.csv"),
@@ -24,6 +19,11 @@ rule table:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=lambda wildcards: code(
+            f"reports/tables/{SETTINGS['tables'][wildcards.table]['kind']}",
+            tables.encodings(LAYOUT, wildcards.table),
+            tables.generators(LAYOUT, wildcards.table),
+        ),
         kind=setting("tables/{table}/kind"),
         settings=of(tables.arguments),
     message:
@@ -35,11 +35,6 @@ rule table:
 rule figure:
     input:
         unpack(of(figures.files)),
-        code=lambda wildcards: code(
-            f"reports/figures/{SETTINGS['figures'][wildcards.figure]['kind']}",
-            figures.encodings(LAYOUT, wildcards.figure),
-            figures.generators(LAYOUT, wildcards.figure),
-        ),
     output:
         png=report(
             PATHS.report("{figure}.png"),
@@ -56,6 +51,11 @@ rule figure:
         **usual(4000, minutes=10),
         gpu=lambda wildcards: GPUS * figures.asks_networks(LAYOUT, wildcards.figure),
     params:
+        code=lambda wildcards: code(
+            f"reports/figures/{SETTINGS['figures'][wildcards.figure]['kind']}",
+            figures.encodings(LAYOUT, wildcards.figure),
+            figures.generators(LAYOUT, wildcards.figure),
+        ),
         kind=setting("figures/{figure}/kind"),
         settings=of(figures.arguments),
     message:
@@ -68,7 +68,6 @@ rule preview_scene:
     input:
         mesh_ply=PATHS.scene("mesh.ply"),
         mesh_json=PATHS.scene("mesh.json"),
-        code=code("reports/figures/preview"),
     output:
         png=report(
             PATHS.report("scenes/{scene}.png"),
@@ -84,6 +83,7 @@ rule preview_scene:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=code("reports/figures/preview"),
         scene=setting("scenes/{scene}/scene"),
     message:
         "Drawing scene {wildcards.scene}, its sphere and its quadtree"
@@ -94,7 +94,6 @@ rule preview_scene:
 rule claims:
     input:
         **claims.files(LAYOUT),
-        code=code("reports/claims/write_claims"),
     output:
         csv=report(
             PATHS.report("claims.csv"),
@@ -110,6 +109,7 @@ rule claims:
     resources:
         **usual(2000, minutes=10),
     params:
+        code=code("reports/claims/write_claims"),
         settings=claims.arguments(LAYOUT),
     message:
         "Testing the thesis's claims"
@@ -121,7 +121,6 @@ rule page:
     input:
         **targets.page_files(LAYOUT),
         template=TEMPLATE,
-        code=code("reports/page"),
     output:
         html=report(
             PATHS.report("index.html"),
@@ -136,6 +135,7 @@ rule page:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=code("reports/page"),
         settings=targets.page_arguments(LAYOUT),
     message:
         "Writing the page of the run"

@@ -2,8 +2,6 @@
 
 
 rule profile_screen_network:
-    input:
-        code=code("evaluation/profile_screen_network"),
     output:
         profile_json=PATHS.screen_profile(),
     log:
@@ -18,6 +16,7 @@ rule profile_screen_network:
         **usual(8000, minutes=60),
         gpu=GPUS,
     params:
+        code=code("evaluation/profile_screen_network"),
         network=setting("screen_networks/{network}"),
         profile=SETTINGS["screen_profiles"],
         device=COMPUTE["device"],
@@ -30,7 +29,6 @@ rule profile_screen_network:
 rule train_screen:
     input:
         unpack(of(screen_networks.training_files)),
-        code=code("training/train_screen"),
     output:
         weights=PATHS.screen_network("weights.safetensors"),
         loss_csv=PATHS.screen_network("loss.csv"),
@@ -47,6 +45,7 @@ rule train_screen:
         **usual(8000, minutes=600) | {"runtime": 600},
         gpu=GPUS,
     params:
+        code=code("training/train_screen"),
         settings=of(screen_networks.training_settings),
         device=COMPUTE["device"],
         precision=COMPUTE["precision"],
@@ -61,7 +60,6 @@ rule measure_sensitivity:
         parts=of(soft_methods.validations),
         beside=of(soft_methods.tuned_arrays),
         weights=PATHS.screen_network("weights.safetensors"),
-        code=code("evaluation/measure_sensitivity"),
     output:
         sensitivity_json=PATHS.screen_sensitivity(),
     log:
@@ -73,6 +71,7 @@ rule measure_sensitivity:
     resources:
         **usual(4000, minutes=60),
     params:
+        code=code("evaluation/measure_sensitivity"),
         seed=SETTINGS["seed"],
     message:
         "Measuring what each feature is worth to {wildcards.experiment}"

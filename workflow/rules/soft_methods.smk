@@ -6,11 +6,6 @@ rule tune_soft_method:
         parts=of(soft_methods.validations),
         beside=of(soft_methods.tuned_arrays),
         meshes=of(soft_methods.all_meshes),
-        code=lambda wildcards: code(
-            "evaluation/tune_soft_method",
-            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
-            methods=[wildcards.method],
-        ),
     output:
         constants_json=PATHS.soft_constants(),
     log:
@@ -21,6 +16,12 @@ rule tune_soft_method:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=120),
+    params:
+        code=lambda wildcards: code(
+            "evaluation/tune_soft_method",
+            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+            methods=[wildcards.method],
+        ),
     message:
         "Choosing the constants of {wildcards.method} on {wildcards.frame_set}"
     script:
@@ -32,10 +33,6 @@ rule measure_occluders:
         parts=PATHS.frames("json"),
         beside=frame_sets.arrays([PATHS.frames("json")]),
         meshes=of(frame_sets.meshes),
-        code=lambda wildcards: code(
-            "evaluation/measure_occluders",
-            generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
-        ),
     output:
         occluders_npy=PATHS.occluders(),
     log:
@@ -46,6 +43,11 @@ rule measure_occluders:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=60),
+    params:
+        code=lambda wildcards: code(
+            "evaluation/measure_occluders",
+            generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
+        ),
     message:
         "Measuring what blocks the light in {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"
     script:
@@ -62,11 +64,6 @@ rule evaluate_soft:
         constants_json=of(soft_methods.chosen),
         weights=of(soft_methods.weights),
         lpips_json=PATHS.lpips,
-        code=lambda wildcards: code(
-            "evaluation/evaluate_soft",
-            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
-            methods=[wildcards.method],
-        ),
     output:
         metrics_csv=PATHS.soft_evaluation("csv"),
         answers_npz=PATHS.soft_evaluation("npz"),
@@ -79,6 +76,11 @@ rule evaluate_soft:
     resources:
         **usual(4000, minutes=120),
     params:
+        code=lambda wildcards: code(
+            "evaluation/evaluate_soft",
+            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+            methods=[wildcards.method],
+        ),
         precision=of(soft_methods.precision),
     message:
         "Evaluating {wildcards.method} on {wildcards.frame_set}"
@@ -93,11 +95,6 @@ rule answer_frames:
         meshes=of(soft_methods.all_meshes),
         constants_json=of(soft_methods.chosen),
         weights=of(soft_methods.weights),
-        code=lambda wildcards: code(
-            "reports/answer_frames",
-            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
-            methods=[wildcards.method],
-        ),
     output:
         errors_csv=PATHS.report("answers/{frame_set}/{method}.csv"),
         answers=directory(PATHS.report("answers/{frame_set}/{method}")),
@@ -108,6 +105,11 @@ rule answer_frames:
     resources:
         **usual(4000, minutes=120),
     params:
+        code=lambda wildcards: code(
+            "reports/answer_frames",
+            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+            methods=[wildcards.method],
+        ),
         label=of(soft_methods.label),
     message:
         "Answering the frames of {wildcards.frame_set} by {wildcards.method}"
@@ -121,11 +123,6 @@ rule time_soft_methods:
         constants=of(soft_methods.constants),
         weights=of(soft_methods.timed_weights),
         meshes=of(soft_methods.timed_meshes),
-        code=lambda wildcards: code(
-            "evaluation/time_soft_methods",
-            generators=soft_methods.timed_generators(LAYOUT, wildcards.table),
-            methods=soft_methods.methods(LAYOUT, wildcards.table),
-        ),
     output:
         times_json=PATHS.soft_times(),
     log:
@@ -139,6 +136,11 @@ rule time_soft_methods:
     resources:
         **usual(4000, minutes=120),
     params:
+        code=lambda wildcards: code(
+            "evaluation/time_soft_methods",
+            generators=soft_methods.timed_generators(LAYOUT, wildcards.table),
+            methods=soft_methods.methods(LAYOUT, wildcards.table),
+        ),
         methods=of(soft_methods.timed_methods),
     message:
         "Timing the methods of {wildcards.table}"

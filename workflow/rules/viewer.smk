@@ -5,9 +5,6 @@ rule export_network:
     input:
         unpack(of(LAYOUT.export_files)),
         weights=PATHS.network("weights.safetensors"),
-        code=lambda wildcards: code(
-            "viewer/export_network", LAYOUT.encodings([wildcards.experiment])
-        ),
     output:
         network_onnx=PATHS.network("network.onnx"),
         network_json=PATHS.network("network.json"),
@@ -18,6 +15,9 @@ rule export_network:
     resources:
         **usual(4000, minutes=30),
     params:
+        code=lambda wildcards: code(
+            "viewer/export_network", LAYOUT.encodings([wildcards.experiment])
+        ),
         bias=setting("experiments/{experiment}/bias"),
     message:
         "Exporting {wildcards.experiment} as ONNX"
@@ -29,9 +29,6 @@ rule viewer:
     input:
         unpack(of(viewers.files)),
         template=VIEWER,
-        code=lambda wildcards: code(
-            "viewer/write_viewer", viewers.encodings(LAYOUT, wildcards.viewer)
-        ),
     output:
         html=report(
             PATHS.report("{viewer}.html"),
@@ -47,6 +44,9 @@ rule viewer:
     resources:
         **usual(4000, minutes=10),
     params:
+        code=lambda wildcards: code(
+            "viewer/write_viewer", viewers.encodings(LAYOUT, wildcards.viewer)
+        ),
         settings=of(viewers.arguments),
     message:
         "Writing {wildcards.viewer}: a scene in which the light can be dragged"

@@ -2,7 +2,8 @@
 
 import pytest
 
-from neural_shadows.running.module_graph import PACKAGE, modules_of
+from neural_shadows.running import module_graph
+from neural_shadows.running.module_graph import PACKAGE, digest, modules_of
 
 STAGES = [
     path for path in PACKAGE.rglob("*.py") if "run_stage(snakemake" in path.read_text("utf-8")
@@ -58,3 +59,17 @@ def test_all_forms_of_import_are_followed(tmp_path):
     )
     names = {path.stem for path in modules_of(script)}
     assert names == {"script", "progress", "errors", "hardware"}
+
+
+def test_a_digest_is_of_names_and_content_and_not_of_where_they_lie(tmp_path, monkeypatch):
+    def of(folder, **modules):
+        monkeypatch.setattr(module_graph, "PACKAGE", tmp_path / folder)
+        paths = [tmp_path / folder / f"{name}.py" for name in modules]
+        paths[0].parent.mkdir()
+        for path, text in zip(paths, modules.values()):
+            path.write_text(text)
+        return digest(reversed(paths))
+
+    first = of("first", a="1", b="2")
+    assert first == of("again", a="1", b="2")
+    assert len({first, of("content", a="1", b="3"), of("name", a="1", c="2")}) == 3

@@ -17,9 +17,9 @@ def test_arguments():
         pass
 
     job = SimpleNamespace(
-        input={"ply": "a.ply", "weights": [], "origins": "1.npy", "code": ["stage.py"]},
+        input={"ply": "a.ply", "weights": [], "origins": "1.npy"},
         output={},
-        params={"settings": {"rows": [1, 2]}, "kind": "comparison", "scene": {}},
+        params={"settings": {"rows": [1, 2]}, "kind": "comparison", "scene": {}, "code": "0f"},
         # A param stands before a wildcard of its name.
         wildcards={"n": "64", "table": "table_4_3", "scene": "dragon"},
         threads=2,

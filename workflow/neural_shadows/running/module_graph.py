@@ -1,6 +1,8 @@
 """Which modules of the package a stage's result depends on."""
 
 import ast
+import hashlib
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
@@ -28,8 +30,8 @@ def _imported(source: Path) -> frozenset[Path]:
 def modules_of(stage: Path) -> list[Path]:
     """A stage's file and the package's modules that it imports, directly or through others.
 
-    Snakemake tracks a script by its age and not what it imports. With these files as a rule's
-    input an edited module reruns the rules whose results depend on it, and no others.
+    Snakemake tracks a script by its age and not what it imports. With their digest as a rule's
+    param an edited module reruns the rules whose results depend on it, and no others.
 
     Returns:
         Sorted paths, without `stage.py` and what it alone imports.
@@ -40,3 +42,16 @@ def modules_of(stage: Path) -> list[Path]:
         found |= new
         queue += new
     return sorted(found)
+
+
+def digest(modules: Iterable[Path]) -> str:
+    """Of modules' names and content, 16 hexadecimal digits."""
+    found = hashlib.sha256()
+    for module in sorted(modules):
+        found.update(f"{module.relative_to(PACKAGE)} {_content(module)} ".encode())
+    return found.hexdigest()[:16]
+
+
+@cache
+def _content(module: Path) -> str:
+    return hashlib.sha256(module.read_bytes()).hexdigest()

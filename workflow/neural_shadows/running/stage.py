@@ -13,9 +13,9 @@ from typing import Any, get_type_hints
 from neural_shadows.errors import InputError
 from neural_shadows.running import progress
 
-# What a rule names for Snakemake alone: the modules that a result depends on, what else is to be
-# made when a table is asked for or lies beside an input, and the kind of a table or figure, which
-# names its script.
+# What a rule names for Snakemake alone: a digest of the code that a result depends on, what else is
+# to be made when a table is asked for or lies beside an input, and the kind of a table or figure,
+# which names its script.
 _RULE_ONLY = {"code", "beside", "kind"}
 
 
@@ -27,9 +27,9 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
 
     Args:
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
-        function: takes keyword arguments named as in the rule: each named input (but `code`
-            and `beside`), output and param (but `kind`; those in `settings` one by one), and, if
-            it has arguments of these names, `threads` and wildcards.
+        function: takes keyword arguments named as in the rule: each named input (but `beside`),
+            output and param (but `code` and `kind`; those in `settings` one by one), and, if it has
+            arguments of these names, `threads` and wildcards.
     """
     # A name of a file that is no text must not make an error of its own.
     terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
