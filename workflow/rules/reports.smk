@@ -147,12 +147,12 @@ rule page:
 use rule page as available with:
     input:
         template=TEMPLATE,
-        code=code("reports/page"),
     output:
         html=PATHS.report("available.html"),
     log:
         PATHS.log("available"),
     params:
+        code=code("reports/page"),
         settings=of(targets.available_arguments),
         beside=of(targets.newest),
     message:
