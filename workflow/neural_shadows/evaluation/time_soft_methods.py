@@ -74,12 +74,12 @@ def time_soft_methods(
                     if method.asked_again(chosen[name], k)
                 }
                 # What is compiled, and what a method makes of a scene: a point light's may be another
-                # path than that of all others.
-                for work in works.values() if k <= (number == 0) else ():
+                # path than that of all others. Cones through fields took five times as long at first.
+                for work in works.values() if k <= 1 else ():
                     work()
-                found = medians(works, repeats)
+                answered = medians(works, repeats)
                 for name, each in taken.items():
-                    each[number, k] = found[name] if name in found else each[number, k - 1]
+                    each[number, k] = answered[name] if name in answered else each[number, k - 1]
                 bar.update()
     write_json(
         times_json,

@@ -44,6 +44,16 @@ def test_convex_edges_are_not_cut_off():
     assert np.mean(blocked != tracer.blocked(points, ways)) < 0.0025
 
 
+def test_a_vertex_of_each_face_makes_no_edges():
+    """As generated objects have them: their faces' diagonals are no edges, nor are the edges open."""
+    box = trimesh.creation.box((1.2, 0.3, 0.8))
+    apart = trimesh.Trimesh(
+        box.triangles.reshape(-1, 3), np.arange(36).reshape(-1, 3), process=False
+    )
+    fields = [ObjectField(prepared(shape)[0], 0.05) for shape in (box, apart)]
+    assert np.array_equal(fields[0].bricks, fields[1].bricks)
+
+
 def test_what_is_blocked_stays_blocked():
     mesh, _ = prepared(trimesh.creation.icosphere(2))
     points, ways = some_ways(500, 3.0)

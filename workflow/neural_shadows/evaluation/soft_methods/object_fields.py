@@ -25,8 +25,8 @@ from neural_shadows.networks.object_space.surface_fit import fitted_distances
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.scenes.tracing import Tracer
 
-CELL = 0.0005  # of the scene's size: what a field's cells are no smaller than …
-MOST = 256  # … nor are there more along an axis
+CELL = 0.0005  # of the scene's size: how wide a field's cells are wanted …
+MOST = 256  # … but there are no more along an axis
 _MOST_KEPT = 64  # objects, of some 5 MiB each
 _kept: dict[tuple[bytes, float], "ObjectField | None"] = {}
 _MARGIN = 1.02  # of an object's sphere, so that its surface is inside the grid
@@ -41,7 +41,8 @@ class ObjectField:
         self.radius = np.float32(_MARGIN * away)
         wanted = int(np.ceil(2 * self.radius / cell / BRICK)) * BRICK
         self.resolution = int(np.clip(wanted, 8 * BRICK, MOST))
-        unit = with_normals((mesh.vertices - self.centre) / self.radius, mesh.faces)
+        merged = _merged(mesh)
+        unit = with_normals((merged.vertices - self.centre) / self.radius, merged.faces)
         surface = surface_cells(unit.vertices, unit.faces, self.resolution // BRICK)
         layout = lay_out(surface, solid=True)
         distances = signed_distances(unit, layout, REACH)  # in cells, positive inside
@@ -104,17 +105,21 @@ def _field_of(mesh: PreparedMesh, cell: float) -> ObjectField | None:
     return _kept[key]
 
 
+def _merged(mesh: PreparedMesh) -> trimesh.Trimesh:
+    """With each vertex once: generated objects have one for each face, and edges are of vertices."""
+    return trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
+
+
 def _is_closed(mesh: PreparedMesh) -> bool:
     """Whether each edge has an even number of faces: 4 where two parts of an object touch."""
-    shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
-    return bool(np.all(np.bincount(shape.edges_unique_inverse) % 2 == 0))
+    return bool(np.all(np.bincount(_merged(mesh).edges_unique_inverse) % 2 == 0))
 
 
 def field_traced(frame: SoftFrame, radius: float, *, samples: int, cells: float) -> np.ndarray:
     """The share of a pixel's rays that no object's field blocks, (n,) float32, on one thread.
 
     Args:
-        radius, samples: see `ray_traced`. cells: by how many of the largest cells rays start off the
+        radius, samples: see `ray_traced`. cells: by how many times `CELL` rays start off the
             surface, which a field has not quite where the triangles have it.
     """
     off = np.float32(cells * CELL * frame.scene.size)

@@ -68,7 +68,25 @@ def _crossings(grid: np.ndarray, bricks: np.ndarray) -> np.ndarray:
         place = np.stack(place, axis=1).astype(np.float32)
         place[:, axis] += a / (a - b)
         found.append(corner[brick] + place / BRICK)
+        found += [_ends(grid, corner, values, axis, far) for far in (False, True)]
     return np.concatenate(found).astype(np.float32)
+
+
+def _ends(
+    grid: np.ndarray, corner: np.ndarray, values: np.ndarray, axis: int, far: bool
+) -> np.ndarray:
+    """Vertices (n, 3) on one side of the bricks that are inside, and what follows is empty, or the
+    other way round: a wall on the border of bricks crosses 0 nowhere within them.
+    """
+    follows = corner.copy()
+    follows[:, axis] += 1 if far else -1
+    beyond = np.pad(grid, 1, constant_values=-1)[tuple(follows.T + 1)]
+    side = np.take(values, BRICK if far else 0, axis + 1) > 0
+    brick, *place = np.nonzero(
+        (beyond < 0)[:, None, None] & (side != (beyond == SOLID)[:, None, None])
+    )
+    place.insert(axis, np.full(len(brick), BRICK if far else 0))
+    return corner[brick] + np.stack(place, axis=1) / BRICK
 
 
 def _corners_inside(grid: np.ndarray, bricks: np.ndarray) -> np.ndarray:
