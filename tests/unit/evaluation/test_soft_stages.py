@@ -16,6 +16,7 @@ from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.evaluation.time_soft_methods import medians, time_soft_methods
 from neural_shadows.evaluation.tune_soft_method import tune_soft_method
 from neural_shadows.frames.render_frames import render_frames
+from neural_shadows.reports.tables.soft_costs import describe_times
 
 RADII = [0, 0.1, 0.25]
 FRAMES = {
@@ -161,6 +162,22 @@ def test_times(folder):
     floats = {name: found["methods"][name]["texel_floats"] for name in names}
     assert floats == {"hard": 1, "msm_3": 4, "rt_1": 0}
     assert all(ms > 0 for name in names for ms in found["methods"][name]["ms"])
+
+
+def test_a_window_bears_its_share_of_the_map(tmp_path):
+    """A quarter of the frame's width and half of its height."""
+    stem = tmp_path / "blinds" / "test_000"
+    stem.parent.mkdir()
+    parts = [stem.with_name(f"{stem.name}.{n}") for n in ("json", "buffers.npy", "targets.npy")]
+    told = FRAMES | {"of": [192, 48], "light_map": {"kind": "cube", "resolution": 64}}
+    valid = stem.with_name(f"{stem.name}.valid.npy")
+    few = {"scene": SCENE, "frames": told, "first": 0, "last": 1, "samples": 1}
+    render_frames([], *parts, valid, use="test", **few)
+    out = tmp_path / "times.json"
+    time_soft_methods(parts[:1], [], [], [], out, methods={"hard": None}, repeats=1)
+    times = json.loads(out.read_text())
+    assert times["map_share"] == 1 / 8 and times["map_ms"] > 0
+    assert "12.5% of a whole frame's" in describe_times(times)[0]
 
 
 def test_what_takes_long_is_timed_once():

@@ -45,7 +45,8 @@ def time_soft_methods(
         methods: of each the experiment whose weights it has; None of what has none.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, or one of what takes long, of its answer alone; `map_ms` of rasterising the
-            light's map, which those that look at one need before; the numbers in a texel, the map's `texels`, and what else is held.
+            light's map, which those that look at one need before, and of which a window bears its
+            `map_share`; the numbers in a texel, the map's `texels`, and what else is held.
 
     Raises:
         InputError: an input file cannot be read.
@@ -62,10 +63,12 @@ def time_soft_methods(
     timed = {name: method for name, method in asked.items() if method.answer}
     taken = {name: np.zeros((len(frames), len(radii))) for name in timed}
     maps: list[float] = []
+    shares: list[float] = []
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
             frame = _prepared(measured)
-            maps.append(medians({"map": partial(_rasterised, frame)}, repeats)["map"])
+            shares.append(_share(frame))
+            maps.append(shares[-1] * medians({"map": partial(_rasterised, frame)}, repeats)["map"])
             for k in radii:
                 radius = measured.part.radii[k]
                 works = {
@@ -88,6 +91,7 @@ def time_soft_methods(
             "repeats": repeats,
             "once_above_ms": _LONG,
             "map_ms": float(np.median(maps)),
+            "map_share": float(np.median(shares)),
             "texels": frames[0].frame.light_map.count,
             "methods": {
                 name: {
@@ -100,6 +104,14 @@ def time_soft_methods(
             "machine": describe_machine(),
         },
     )
+
+
+def _share(frame: SoftFrame) -> float:
+    """Of the whole frame's pixels, those that an image has: 1 unless it is a window of it."""
+    surface, window = frame.surface, frame.surface.camera.window
+    if window is None:
+        return 1.0
+    return surface.width * surface.height / (window.full_width * window.full_height)
 
 
 def _held(method: SoftMethod, frames: Sequence[MeasuredFrame]) -> float:

@@ -21,10 +21,12 @@ def describe_times(times: Mapping[str, Any]) -> list[str]:
     """A note on how times were measured; none if nothing was timed."""
     if not times["methods"]:
         return []
+    share = times["map_share"]
+    part = f": {share:.1%} of a whole frame's, of which it is a window" if share < 1 else ""
     return [
         f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
         f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; methods that look at a "
-        f"map have {times['map_ms']:.1f} ms of rasterising it in theirs."
+        f"map have {times['map_ms']:.1f} ms of rasterising it in theirs{part}."
     ]
 
 
