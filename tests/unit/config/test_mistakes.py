@@ -3,6 +3,8 @@
 import pytest
 import yaml
 
+from neural_shadows.config.reading import read_config
+
 # Key, value in YAML, and what the message has among others.
 MISTAKES = """
 sceens | {} | unknown key: 'sceens' (did you mean 'scenes'?) is not among scale, seed
@@ -97,6 +99,8 @@ screen_networks.original.widths | [32, [64, 32]] | screen_networks.original.widt
 screen_networks.nsm.pool | max | screen_networks.nsm: unknown key: 'pool' is not among
 screen_networks.nsm.features | [ratoi] | screen_networks.nsm.features: 'ratoi' (did you mean 'ratio'?) is not among c_e, view
 screen_networks.nsm.features | [z, z] | screen_networks.nsm.features: 'z' is there twice
+tables.nsm_temporal.frame_set | nsm_between | tables.nsm_temporal.frame_set: frame_sets.nsm_between has sequence = 0
+tables.nsm_temporal.methods | [pcs] | tables.nsm_temporal.methods: 'pcs' (did you mean 'pcss'?)
 tables.nsm_table_s2.network | nms | tables.nsm_table_s2.network: 'nms' (did you mean 'nsm'?) is not among
 figures.figure_nsm_level_time.table | cost | 'cost' is not among nsm_table_s3
 figures.figure_soft_equal_time.radii | [9] | radii: 9 is not among 0 to 4, the radii of 'frames'
@@ -118,3 +122,10 @@ def test_maps_need_a_scene(message, values):
     values["tables"]["soft_windows"]["frame_set"] = "mine"
     told = "soft_windows.methods: 'hard' needs a scene to look at, and frames of"
     assert told in message(values)
+
+
+def test_networks_need_none(values):
+    table = {"kind": "soft_methods", "title": "Mine", "frame_set": "mine"}
+    values["frame_sets"]["mine"] = {"path": "mine"}
+    values["tables"]["mine"] = table | {"methods": ["base_msm", "kpnsm", "kpnsm_nsm_single"]}
+    assert read_config(values).tables["mine"].asked == values["tables"]["mine"]["methods"]

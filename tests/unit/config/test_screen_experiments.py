@@ -100,7 +100,7 @@ def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
         ),
         (
             {"frame_sets": {"windows": {"sequence": 0}}},
-            "tables.kpnsm_table_3.metrics: frame_sets.windows has sequence = 0",
+            "tables.kpnsm_table_3.frame_set: frame_sets.windows has sequence = 0",
         ),
         (
             {"tables": {"kpnsm_unseen": {"metrics": ["time"]}}},

@@ -82,6 +82,16 @@ def contents(folder: Path) -> list[bytes]:
     return [(folder / "nsm" / name).read_bytes() for name in ("weights.safetensors", "loss.csv")]
 
 
+def test_learns_frames_without_the_hard_map(tmp_path):
+    """As a user's own may be; then nothing is said of it."""
+    part = write_frames(tmp_path)
+    about, file = json.loads(part.read_text()), part.with_suffix(".buffers.npy")
+    kept = [number for number, name in enumerate(about["channels"]) if name != "hard"]
+    part.write_text(json.dumps(about | {"channels": [about["channels"][k] for k in kept]}))
+    np.save(file, np.load(file)[:, :, kept])
+    assert [*run(tmp_path, part)["null_mse"]] == ["no_shadow"]
+
+
 def test_learns_a_frame_by_heart(tmp_path):
     """A hard shadow and the softest at once: the size is told apart, and no sign is wrong."""
     part = write_frames(tmp_path)

@@ -100,3 +100,8 @@ class ScreenTemporalTable(AnyTable):
     methods: list[Name] = Field(
         min_length=1, description="as those of `soft_methods`, in the table's order"
     )
+
+    @property
+    def asked(self) -> list[str]:
+        """Its methods."""
+        return self.methods

@@ -7,7 +7,8 @@ from pydantic import Field, model_validator
 from neural_shadows.config.any_table import AnyTable
 from neural_shadows.config.base import Model, Name, Text, check_among, name_in, section_or
 from neural_shadows.config.own_frames import OwnFrames
-from neural_shadows.evaluation.soft_method_names import BASE, LABELS, NULL
+from neural_shadows.config.screen_tables import ScreenTemporalTable
+from neural_shadows.evaluation.soft_method_names import BASE, LABELS, NULL, is_network
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -87,8 +88,10 @@ class PenumbraTable(AnyTable):
     frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
 
 
-def check_soft(config: "Config", key: str, table: SoftMethodsTable | SoftSummaryTable) -> None:
-    """Check that a table's methods are known, and can be asked about its frames.
+def check_soft(
+    config: "Config", key: str, table: SoftMethodsTable | SoftSummaryTable | ScreenTemporalTable
+) -> None:
+    """Check that a table's methods are known, and can be asked about its frames, which it needs.
 
     Raises:
         ValueError: one is not, or cannot.
@@ -98,13 +101,17 @@ def check_soft(config: "Config", key: str, table: SoftMethodsTable | SoftSummary
     known = [*LABELS, *config.screen_experiments, *config.networks_by_scene]
     for method in table.asked:
         check_among(f"{key}.methods", method, known)
-        if own and not method.startswith(BASE) and method not in NULL:
+        if own and not (method.startswith(BASE) or method in NULL or is_network(method)):
             raise ValueError(
                 f"{key}.methods: {method!r} needs a scene to look at, and frames of a user's own have "
-                f"none; allowed: {', '.join(name for name in LABELS if name.startswith(BASE))}"
+                f"none; allowed: {', '.join(name for name in LABELS if name.startswith(BASE))}, and "
+                "networks"
             )
     if isinstance(table, SoftSummaryTable):
         if table.over == "unseen" and not getattr(frames, "unseen", ()):
             raise ValueError(f"{key}.over: frame_sets.{table.frame_set} has no `unseen`")
-        if "temporal_error" in table.metrics and not getattr(frames, "sequence", 0):
-            raise ValueError(f"{key}.metrics: frame_sets.{table.frame_set} has sequence = 0")
+    temporal = isinstance(table, ScreenTemporalTable) or "temporal_error" in getattr(
+        table, "metrics", ()
+    )
+    if temporal and not getattr(frames, "sequence", 0):
+        raise ValueError(f"{key}.frame_set: frame_sets.{table.frame_set} has sequence = 0")

@@ -195,7 +195,7 @@ def check(config: "Config") -> None:
             for size in STAGES:
                 if (values := getattr(table, size)) != sorted(set(values)):
                     raise ValueError(f"{key}.{size} = {values}: must grow from each to the next")
-        if isinstance(table, SoftMethodsTable | SoftSummaryTable):
+        if isinstance(table, SoftMethodsTable | SoftSummaryTable | ScreenTemporalTable):
             check_soft(config, key, table)
         if table.kind == "learning_curves" and config.learning_curves is None:
             raise ValueError(f"{key}.kind: {table.kind!r} needs the section `learning_curves`")

@@ -49,7 +49,7 @@ from neural_shadows.config.viewers import Viewer
 RESERVED_SCALES = {
     *("scenes", "rays", "networks", "references", "answers", "evaluations", "depth_biases"),
     *("frame_times", "cost", "logs", "benchmarks", "reference"),
-    *("frames", "imported_frames", "soft_constants", "soft_evaluations", "soft_times"),
+    *("frames", "imported_frames", "occluders", "soft_constants", "soft_evaluations", "soft_times"),
     *("screen_networks", "screen_profiles", "screen_sensitivities"),
 }
 

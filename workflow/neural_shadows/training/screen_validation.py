@@ -25,20 +25,18 @@ def network_answer(run: ScreenRun, frames: ScreenFrames) -> Answer:
 
 
 def null_answers(frames: ScreenFrames) -> dict[str, Answer]:
-    """What answers without learning: that all is lit, the light's map, unfiltered, and what the
-    network is given as its base.
+    """What answers without learning: that all is lit, the light's map, unfiltered, if the frames hold
+    it, as a user's own need not, and what the network is given as its base.
     """
     lit = np.ones((frames.height, frames.width), np.float32)
 
     def shadow(name: str, frame: int, radius: int) -> np.ndarray:
         return frames.base(name, frame)
 
-    bases = {name: partial(shadow, name) for name in frames.bases}
-    return {
-        "no_shadow": lambda frame, radius: lit,
-        "hard_map": partial(shadow, "base_hard"),
-        **bases,
-    }
+    answers: dict[str, Answer] = {"no_shadow": lambda frame, radius: lit}
+    if "hard" in frames.about["channels"]:
+        answers["hard_map"] = partial(shadow, "base_hard")
+    return answers | {name: partial(shadow, name) for name in frames.bases}
 
 
 def mse_by_radius(
