@@ -77,6 +77,8 @@ def test_nothing_is_left_where_a_frame_fails_after_others(tmp_path, monkeypatch)
         ({"radii": [0, -0.1, 0.2]}, "radius below 0"),
         ({"channels": ["z", "depth"]}, "channels z, depth; should be z and others of z, gap"),
         ({"size": None}, "'size'"),
+        ({"frames": [{"setting": {"fov_deg": 55, "window": None}}]}, "frame 0 has no 'twins'"),
+        ({"frames": [{"setting": {"fov_deg": 55}, "twins": []}]}, "frame 0 has no 'window'"),
     ],
 )
 def test_a_json_that_does_not_fit(part, tmp_path, change, told):
@@ -99,13 +101,22 @@ def test_a_truncated_shard(part, tmp_path):
         _ = FrameSetPart(copy).buffers
 
 
-def test_not_a_number(part, tmp_path):
+@pytest.mark.parametrize(
+    "stem, place, value, told",
+    [
+        ("buffers", (1, 0, 0, 3, 4), np.nan, "buffers of frame 1 has NaN"),
+        ("buffers", (1, 0, CHANNELS.index("hard"), 3, 4), 2, "hard of frame 1 leaves"),
+        ("targets", (0, 1, 3, 4), 1.2, "targets of frame 0 leaves"),
+        ("valid", (1,), False, "no pixel of frame 1 is valid"),
+    ],
+)
+def test_values_that_cannot_be(part, tmp_path, stem, place, value, told):
     copy = tmp_path / part.frames_json.name
     copy.write_bytes(part.frames_json.read_bytes())
-    for stem in ("buffers", "targets"):
-        array = np.array(getattr(part, stem))
-        if stem == "buffers":
-            array[1, 0, 0, 3, 4] = np.nan
-        np.save(copy.with_suffix(f".{stem}.npy"), array)
-    with pytest.raises(InputError, match="buffers of frame 1 has NaN"):
+    for name in ("buffers", "targets", "valid"):
+        array = np.array(getattr(part, name))
+        if name == stem:
+            array[place] = value
+        np.save(copy.with_suffix(f".{name}.npy"), array)
+    with pytest.raises(InputError, match=told):
         check_values(FrameSetPart(copy))

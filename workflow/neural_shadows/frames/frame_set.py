@@ -23,7 +23,7 @@ import numpy as np
 from neural_shadows.errors import InputError
 from neural_shadows.files.arrays import open_array
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.frames.buffers import CHANNELS
+from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.setting import Setting, setting_of
 from neural_shadows.rendering.gbuffer import Lens, lens_of
 from neural_shadows.scenes.arrangement import UP
@@ -56,6 +56,13 @@ class FrameSetPart:
         for key in ("frames", "channels", "radii", "size", "width", "height"):
             if key not in found:
                 raise InputError(f"{self.frames_json}: has no {key!r}")
+        for number, frame in enumerate(found["frames"]):
+            setting = frame.get("setting", {})
+            if lacking := [
+                *({"setting", "twins"} - {*frame}),
+                *({"fov_deg", "window"} - {*setting}),
+            ]:
+                raise InputError(f"{self.frames_json}: frame {number} has no {lacking[0]!r}")
         channels = found["channels"]
         if len(set(channels)) < len(channels) or not {"z"} <= {*channels} <= {*CHANNELS}:
             raise InputError(
@@ -140,8 +147,9 @@ def check_values(part: FrameSetPart) -> None:
     """Check the arrays of a part that a user brings.
 
     Raises:
-        InputError: a value is no number, or a visibility is not from 0 to 1.
+        InputError: a value is no number, a visibility is not from 0 to 1, or no pixel counts.
     """
+    bases = [number for number, name in enumerate(part.about["channels"]) if name in LIT]
     for number in range(len(part)):
         arrays = {"buffers": part.buffers[number], "targets": part.targets[number]}
         for stem, array in arrays.items():
@@ -149,6 +157,10 @@ def check_values(part: FrameSetPart) -> None:
                 raise InputError(
                     f"{part.frames_json}: {stem} of frame {number} has NaN or infinity"
                 )
-        exact = arrays["targets"]
-        if exact.size and (exact.min() < 0 or exact.max() > 1):
-            raise InputError(f"{part.frames_json}: targets of frame {number} leave [0, 1]")
+        seen = {"targets": arrays["targets"]}
+        seen |= {part.about["channels"][base]: arrays["buffers"][:, base] for base in bases}
+        for name, values in seen.items():
+            if values.size and (values.min() < 0 or values.max() > 1):
+                raise InputError(f"{part.frames_json}: {name} of frame {number} leaves [0, 1]")
+        if not part.valid[number, 0].any():
+            raise InputError(f"{part.frames_json}: no pixel of frame {number} is valid")
