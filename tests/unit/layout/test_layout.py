@@ -158,6 +158,17 @@ def test_tables_and_claims_are_made_of_their_rows(desk):
         tables.files(desk, "table_4_33")
 
 
+@pytest.mark.parametrize("name", ["kpnsm_forty_rays_are_better", "kpnsm_rays_at_equal_time"])
+def test_claims_on_networks_of_frames_read_all_their_trainings(name):
+    layout = layout_of("kpnsm_seeds")
+    layout.settings["claims"] = {name: layout.settings["claims"][name]}
+    judged = claims.files(layout)
+    for network in ("kpnsm", "kpnsm_seed_1", "kpnsm_basic_seed_2"):
+        record = f"results/screen_networks/{network}/training.json"
+        assert record in judged["screen_trainings"]
+        assert layout.paths.soft_evaluation("csv", "windows", network) in judged["soft_metrics"]
+
+
 def test_files_of_learning_curves():
     layout = layout_of("claims")
     names = [point["experiment"] for point in layout.settings["learning_curves"]["dragon_uniform"]]

@@ -90,23 +90,30 @@ def test_a_metric_that_is_missing_is_said():
     assert found["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in found["reason"]
 
 
-def of_networks(seeds, gains, metric="mse"):
-    """A network that is better than PCSS by a gain of its own, each seed by another."""
+def of_networks(seeds, gains, metric="mse", kind="soft_better"):
+    """A network that is better than PCSS by a gain of its own, each seed by another; one ray is as
+    PCSS, in the time of the network.
+    """
     runs = ["mine", *(f"mine_{seed}" for seed in range(1, seeds))]
+    errors = {"pcss": 0.01, "rt_1": 0.01, **{run: 0.01 - gain for run, gain in zip(runs, gains)}}
     rng = np.random.default_rng(4)
     rows = [
         {"scene": ("room", "tree")[i % 2], "part": "test_000", "frame": i, "radius": k}
         | {"metric": metric, "method": method, "value": value + rng.normal(0, 1e-4)}
         for i in range(20)
         for k in range(3)
-        for method, value in {"pcss": 0.01, **{a: 0.01 - b for a, b in zip(runs, gains)}}.items()
+        for method, value in errors.items()
     ]
-    labels = {"pcss": "PCSS", "mine": "Mine"}
-    table = SoftTable(soft_values(pd.DataFrame(rows)), labels, None, RADII)
+    labels = {"pcss": "PCSS", "rt_1": "1 ray", "mine": "Mine"}
+    timed = {method: {"ms": [9.0] * 3, "texel_floats": 0} for method in ("mine", "rt_1")}
+    times = {"map_ms": 5.0, "methods": timed} if kind == "soft_equal_time" else None
+    table = SoftTable(soft_values(pd.DataFrame(rows)), labels, times, RADII)
     record = {"validation_mse": [0.01], "null_mse": {"hard_map": [0.02]}}
     known = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))
     told = {"again": {"mine": runs[1:]}, "networks": runs, "needs": {"seeds": 3}, "radii": None}
-    return claim("soft_better", pairs=[["mine", "pcss"]], metrics=[metric], **told), known
+    if kind == "soft_equal_time":
+        return claim(kind, methods=["mine"], **told | {"radii": [1]}), known
+    return claim(kind, pairs=[["mine", "pcss"]], metrics=[metric], **told), known
 
 
 @pytest.mark.parametrize(
@@ -126,6 +133,32 @@ def test_three_trainings_decide_over_all_lights(gains, verdict):
         "MSE × 10⁻⁴ at all lights of Mine" in found["evidence"] and "nan" not in found["evidence"]
     )
     assert verdict != verdicts.TOO_SMALL or "2 seeds of 3" in found["reason"]
+
+
+@pytest.mark.parametrize(
+    ("gains", "verdict"),
+    [
+        ([-0.002, -0.0021, -0.0019], verdicts.SUPPORTED),
+        ([0.002, 0.0021, 0.0019], verdicts.CONTRADICTED),
+        ([-0.004, 0.003, -0.002], verdicts.UNDECIDED),
+        ([-0.002], verdicts.TOO_SMALL),
+    ],
+)
+def test_rays_of_a_network_s_time_are_judged_by_its_trainings(gains, verdict):
+    found = judge(*of_networks(len(gains), gains, kind="soft_equal_time"))
+    assert found["verdict"] == verdict and "1 ray 100 (9 ms) against Mine" in found["evidence"]
+    assert verdict != verdicts.TOO_SMALL or "1 seed of 3" in found["reason"]
+
+
+def test_of_a_network_two_trainings_are_needed_where_nothing_is_said():
+    told, known = of_networks(1, [-0.002], kind="soft_equal_time")
+    assert "1 seed of 2" in judge({**told, "needs": {}}, known)["reason"]
+
+
+def test_rays_that_beat_what_has_not_learned_say_nothing():
+    told, known = of_networks(3, [-0.002, -0.0021, -0.0019], kind="soft_equal_time")
+    known.screen_trainings["mine_1"] = {"validation_mse": [0.03], "null_mse": {"hard_map": [0.02]}}
+    assert judge(told, known)["verdict"] == verdicts.NOT_LEARNED
 
 
 def test_of_ssim_more_is_better():

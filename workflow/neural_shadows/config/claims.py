@@ -154,6 +154,9 @@ class SoftClaim(AnyClaim):
     """Methods for soft shadows, compared on the same frames."""
 
     table: Name = Field(description="a table of `soft_methods` or `soft_summary` in `tables`")
+    again: dict[Name, list[name_in("screen_experiments")]] = Field(
+        {}, description="by network, those that are the same, trained from other seeds"
+    )
 
 
 class SoftBetterClaim(SoftClaim):
@@ -170,9 +173,6 @@ class SoftBetterClaim(SoftClaim):
         list[Literal["mse", "ssim", "l1", "light_leak", "false_shadow", "flip", "lpips"]],
         AfterValidator(_no_twins),
     ] = Field(["mse"], min_length=1, description="in all of which it is to hold")
-    again: dict[Name, list[name_in("screen_experiments")]] = Field(
-        {}, description="by network, those that are the same, trained from other seeds"
-    )
 
 
 class SoftEqualTimeClaim(SoftClaim):
@@ -233,9 +233,14 @@ def compared(claim: AnyClaim) -> list[list[str]]:
     return getattr(claim, "pairs", None) or [[method] for method in claim.methods]
 
 
-def networks_of_claim(config: "Config", claim: SoftBetterClaim) -> list[str]:
+def methods_of(claim: SoftBetterClaim | SoftEqualTimeClaim) -> list[str]:
+    """The methods of its table that a claim on soft shadows names."""
+    return getattr(claim, "methods", None) or [m for pair in claim.pairs for m in pair]
+
+
+def networks_of_claim(config: "Config", claim: SoftBetterClaim | SoftEqualTimeClaim) -> list[str]:
     """The trained networks that a claim on soft shadows is about, those of other seeds among them."""
-    named = [method for pair in claim.pairs for method in pair if is_network(method)]
+    named = [*filter(is_network, methods_of(claim))]
     named += [name for others in claim.again.values() for name in others]
     known = config.networks_by_scene
     return [x for name in named for x in (known[name].experiments if name in known else [name])]
@@ -323,11 +328,11 @@ def _check_soft(config: "Config", key: str, claim: SoftBetterClaim | SoftEqualTi
     table = config.tables[claim.table]
     if isinstance(config.frame_sets[table.frame_set], OwnFrames):
         raise ValueError(f"{key}.table: {claim.table!r} is of frames of a user's own")
-    given = getattr(claim, "methods", None) or [m for pair in claim.pairs for m in pair]
+    given = methods_of(claim)
     for method in given:
         check_among(f"{key}: {claim.table}.methods", method, table.asked)
     radii = config.frame_sets[table.frame_set].radii
-    for method in getattr(claim, "again", ()):
+    for method in claim.again:
         check_among(f"{key}.again", method, given)
     for k in claim.radii or ():
         if k >= len(radii):

@@ -66,7 +66,7 @@ def methods(claim: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
 
 def _other_seeds(layout: Layout, claim: Mapping[str, Any]) -> list[str]:
     """What was measured of the networks that are those of a claim, trained from other seeds."""
-    if claim["kind"] != "soft_better":
+    if not claim["kind"].startswith("soft_"):
         return []
     frame_set = soft_methods.frame_set(layout, claim["table"])
     names = [name for others in claim["again"].values() for name in others]

@@ -66,27 +66,18 @@ def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
 
 
 def better(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
-    """A comparison for each pair, metric and radius, by paired differences over frames and seeds.
-
-    Frames say nothing of how trainings differ: of fewer seeds of a network than the claim needs (two,
-    if it does not say) nothing is judged. Other seeds of a network are `again` of its name.
-    """
-    table, again = data.soft[claim["table"]], claim.get("again") or {}
-    needed = (claim.get("needs") or {}).get("seeds") or 2
-    found = []
-    for pair, metric, radius in product(claim["pairs"], claim["metrics"], claim["radii"] or [None]):
-        runs = [[method, *again.get(method, ())] for method in pair]
-        seeds = min((len(one) for one in runs if is_network(one[0])), default=None)
-        one = _compared(table, metric, radius, [some[:seeds] for some in runs], data.seed)
-        if seeds is not None and seeds < needed and not one.untested:
-            why = f"{seeds} seed{'s' * (seeds > 1)} of {needed}"
-            one = replace(one, supports=False, against=1.0, untested=why)
-        found.append(one)
-    return found
+    """A comparison for each pair, metric and radius, see `_of_seeds`."""
+    radii = claim["radii"] or [None]
+    return [
+        _of_seeds(claim, data, metric, radius, pair)
+        for pair, metric, radius in product(claim["pairs"], claim["metrics"], radii)
+    ]
 
 
 def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
-    """The same of each method and the most rays that take no longer than it."""
+    """The same of each method and the most rays that take no longer than it, of a network than its
+    first seed.
+    """
     table = data.soft[claim["table"]]
     found = []
     for method in claim["methods"]:
@@ -103,9 +94,27 @@ def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
                 why = unjudged(untested=f"no number of rays fits into {limit:.1f} ms")
                 found.append(Comparison("mse", table.labels[method], text, **why))
                 continue
-            one = _compared(table, "mse", radius, ([rays], [method]), data.seed)
-            found.append(one)
+            found.append(_of_seeds(claim, data, "mse", radius, (rays, method)))
     return found
+
+
+def _of_seeds(
+    claim: Mapping[str, Any], data: Measured, metric: str, radius: int | None, pair: Sequence[str]
+) -> Comparison:
+    """Two methods by paired differences over frames and seeds.
+
+    Frames say nothing of how trainings differ: of fewer seeds of a network than the claim needs (two,
+    if it does not say) nothing is judged. Other seeds of a network are `again` of its name.
+    """
+    again, needed = claim.get("again") or {}, (claim.get("needs") or {}).get("seeds") or 2
+    runs = [[method, *again.get(method, ())] for method in pair]
+    seeds = min((len(one) for one in runs if is_network(one[0])), default=None)
+    table = data.soft[claim["table"]]
+    one = _compared(table, metric, radius, [some[:seeds] for some in runs], data.seed)
+    if seeds is None or seeds >= needed or one.untested:
+        return one
+    why = f"{seeds} seed{'s' * (seeds > 1)} of {needed}"
+    return replace(one, supports=False, against=1.0, untested=why)
 
 
 def _compared(
