@@ -110,8 +110,78 @@ def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
             {"claims": {"kpnsm_leaks_less": {"again": {"pcss_post": ["kpnsm"]}}}},
             "claims.kpnsm_leaks_less.*again: 'pcss_post'",
         ),
+        (
+            {"claims": {"kpnsm_leaks_less": {"again": {"msm_15": ["kpnsm_basic"]}}}},
+            "claims.kpnsm_leaks_less.again: 'msm_15' is not among kpnsm",
+        ),
+        (
+            {"claims": {"kpnsm_leaks_less": {"again": {"kpnsm": ["kpnsm_basic"]}}}},
+            "kpnsm_leaks_less.again.kpnsm: 'kpnsm_basic' has another network than 'kpnsm'; .*seed",
+        ),
+        (
+            {"claims": {"kpnsm_leaks_less": {"again": {"kpnsm": ["kpnsm"]}}}},
+            "claims.kpnsm_leaks_less.again: 'kpnsm' is there twice",
+        ),
+        (
+            {"claims": {"nsm_wider_with_the_light": {"again": {"nsm_between": ["nsm_between"]}}}},
+            "claims.nsm_wider_with_the_light.again: 'nsm_between' is there twice",
+        ),
+        (
+            {"tables": {"kpnsm_unseen": {"methods": ["kpnsm", {"method": "kpnsm", "label": "K"}]}}},
+            "tables.kpnsm_unseen.methods: 'kpnsm' is there twice",
+        ),
+        (
+            {"tables": {"soft_methods": {"methods": ["pcss", "pcss"]}}},
+            "tables.soft_methods.methods: 'pcss' is there twice",
+        ),
     ],
 )
 def test_what_tables_and_claims_cannot_have_is_refused(changes, told):
     with pytest.raises(InputError, match=told):
         read_config(shipped(**changes))
+
+
+@pytest.mark.parametrize(
+    ("claim", "again", "told"),
+    [
+        (
+            "kpnsm_leaks_less",
+            {"kpnsm": ["kpnsm_seed_1", "kpnsm_seed_1"]},
+            "again: 'kpnsm_seed_1' is there twice",
+        ),
+        (
+            "kpnsm_leaks_less",
+            {"kpnsm": ["kpnsm_seed_2", "kpnsm_seed_1"]},
+            "again.kpnsm: 'kpnsm_seed_1' has the seed 1 of 'kpnsm'; each should have its own",
+        ),
+        (
+            "kpnsm_half_ends_err_little_more",
+            {"kpnsm_steps": ["kpnsm_steps_seed_2", "kpnsm_steps_seed_1"]},
+            "again.kpnsm: 'kpnsm_seed_1' has the seed 1 of 'kpnsm'",
+        ),
+        (
+            "kpnsm_half_ends_err_little_more",
+            {"kpnsm_steps": ["kpnsm_table_3_seed_1"]},
+            "again.kpnsm_steps: 'kpnsm_table_3_seed_1' has no network .* from 'kpnsm_full_ends' in",
+        ),
+        (
+            "nsm_wider_with_the_light",
+            {"nsm_between": ["nsm_unseen"]},
+            "again.nsm_between: 'nsm_unseen' has no network .* from 'nsm' in",
+        ),
+    ],
+)
+def test_other_seeds_are_other_ones_of_the_same_network(claim, again, told):
+    values = shipped("nsm_seeds", "kpnsm_seeds", seed=1)
+    values["claims"] = {claim: values["claims"][claim] | {"again": again}}
+    with pytest.raises(InputError, match=f"claims.{claim}.{told}"):
+        read_config(values)
+
+
+def test_a_claim_on_tables_is_about_the_networks_of_other_seeds_too():
+    """And not about others in their tables."""
+    claims = resolved(read_config(shipped("nsm_seeds")))["claims"]
+    found = {"nsm", "nsm_seed_1", "nsm_seed_2", "nsm_plain", "nsm_plain_seed_1", "nsm_plain_seed_2"}
+    assert {*claims["nsm_perturbation_calms"]["networks"]} == found
+    found = {"nsm_trimmed", "nsm_trimmed_seed_1", "nsm_trimmed_seed_2"}
+    assert {*claims["nsm_16_bits_err_no_more"]["networks"]} == found

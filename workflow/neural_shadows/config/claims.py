@@ -1,5 +1,6 @@
 """`claims`: what the thesis concludes, and the data that tests it."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -9,6 +10,7 @@ from neural_shadows.config.base import Model, Name, by_kind, check_among, name_i
 from neural_shadows.config.experiments import network_of
 from neural_shadows.config.own_frames import OwnFrames
 from neural_shadows.config.ratios import Ratio
+from neural_shadows.config.screen_experiments import as_settings, differences
 from neural_shadows.config.tables import Row, RowSettings, row_of, rows_of
 from neural_shadows.evaluation.method_names import (
     is_classic,
@@ -31,6 +33,12 @@ def _no_twins(values: list[Any]) -> list[Any]:
         if values.count(value) > 1:
             raise ValueError(f"{value!r} is there twice; should be there once")
     return values
+
+
+def _each_once(again: dict[str, list[str]]) -> dict[str, list[str]]:
+    for name, others in again.items():
+        _no_twins([name, *others])
+    return again
 
 
 class Needs(Model):
@@ -154,9 +162,9 @@ class SoftClaim(AnyClaim):
     """Methods for soft shadows, compared on the same frames."""
 
     table: Name = Field(description="a table of `soft_methods` or `soft_summary` in `tables`")
-    again: dict[Name, list[name_in("screen_experiments")]] = Field(
-        {}, description="by network, those that are the same, trained from other seeds"
-    )
+    again: Annotated[
+        dict[Name, list[name_in("screen_experiments")]], AfterValidator(_each_once)
+    ] = Field({}, description="by network, those that are the same, trained from other seeds")
 
 
 class SoftBetterClaim(SoftClaim):
@@ -196,7 +204,7 @@ class RatioClaim(AnyClaim):
     networks: list[name_in("screen_experiments")] = Field(
         [], description="the trained networks that it is about"
     )
-    again: dict[Name, list[Name]] = Field(
+    again: Annotated[dict[Name, list[Name]], AfterValidator(_each_once)] = Field(
         {},
         description="by table, those with the same rows of networks that were trained from other seeds",
     )
@@ -238,10 +246,38 @@ def methods_of(claim: SoftBetterClaim | SoftEqualTimeClaim) -> list[str]:
     return getattr(claim, "methods", None) or [m for pair in claim.pairs for m in pair]
 
 
-def networks_of_claim(config: "Config", claim: SoftBetterClaim | SoftEqualTimeClaim) -> list[str]:
-    """The trained networks that a claim on soft shadows is about, those of other seeds among them."""
-    named = [*filter(is_network, methods_of(claim))]
-    named += [name for others in claim.again.values() for name in others]
+def other_seeds(config: "Config", claim: SoftClaim | RatioClaim) -> Iterator[tuple[str, list[str]]]:
+    """Networks of a claim, each with those that are the same, trained from other seeds.
+
+    Of a claim on tables: with those in the tables that are `again` one in which it stands.
+    """
+    if isinstance(claim, SoftClaim):
+        yield from claim.again.items()
+        return
+    for table, others in claim.again.items():
+        for network in claim.networks:
+            if network in _asked_in(config, table):
+                yield network, [x for other in others for x in _same_in(config, network, other)]
+
+
+def _asked_in(config: "Config", table: str) -> list[str]:
+    """The methods or networks that a table names; none of a table of another kind."""
+    return getattr(config.tables[table], "asked", [])
+
+
+def _same_in(config: "Config", network: str, table: str) -> list[str]:
+    """The networks of a table that are another but for their seeds, each once."""
+    others = [
+        x for x in _asked_in(config, table) if x in config.screen_experiments and x != network
+    ]
+    return [x for x in dict.fromkeys(others) if not differences(config, network, x)]
+
+
+def networks_of_claim(config: "Config", claim: SoftClaim | RatioClaim) -> list[str]:
+    """The trained networks of frames that a claim is about, those of other seeds among them."""
+    soft = isinstance(claim, SoftClaim)
+    named = [*filter(is_network, methods_of(claim))] if soft else [*claim.networks]
+    named += [name for _, others in other_seeds(config, claim) for name in others]
     known = config.networks_by_scene
     return [x for name in named for x in (known[name].experiments if name in known else [name])]
 
@@ -275,7 +311,16 @@ def check(config: "Config") -> None:
         for table, others in claim.again.items() if isinstance(claim, RatioClaim) else ():
             check_among(f"claims.{name}.again", table, [one.table for one in claim.ratios])
             for other in others:
-                check_among(f"claims.{name}.again.{table}", other, config.tables)
+                key = f"claims.{name}.again.{table}"
+                check_among(key, other, config.tables)
+                for network in claim.networks:
+                    if network in _asked_in(config, table) and not _same_in(config, network, other):
+                        raise ValueError(
+                            f"{key}: {other!r} has no network that differs from {network!r} in "
+                            "`seed` and `label` alone"
+                        )
+        if isinstance(claim, SoftClaim | RatioClaim):
+            _check_seeds(config, f"claims.{name}.again", claim)
         key = f"claims.{name}.{'pairs' if hasattr(claim, 'pairs') else 'methods'}"
         for methods in compared(claim):
             _check_methods(config, key, methods, claim)
@@ -333,10 +378,31 @@ def _check_soft(config: "Config", key: str, claim: SoftBetterClaim | SoftEqualTi
         check_among(f"{key}: {claim.table}.methods", method, table.asked)
     radii = config.frame_sets[table.frame_set].radii
     for method in claim.again:
-        check_among(f"{key}.again", method, given)
+        networks = [name for name in given if name in config.screen_experiments]
+        check_among(f"{key}.again", method, networks)
     for k in claim.radii or ():
         if k >= len(radii):
             raise ValueError(
                 f"{key}.radii: {k} is not below {len(radii)}, the number of radii of "
                 f"{table.frame_set!r}"
             )
+
+
+def _check_seeds(config: "Config", key: str, claim: SoftClaim | RatioClaim) -> None:
+    """Check that what a claim has again is the same but for seeds, of which each is another."""
+    for network, others in other_seeds(config, claim):
+        for other in others:
+            if unlike := differences(config, network, other):
+                raise ValueError(
+                    f"{key}.{network}: {other!r} has another {unlike[0]} than {network!r}; should "
+                    "differ from it in `seed` and `label` alone"
+                )
+        seeds = {}
+        for name in (network, *others):
+            seed = as_settings(config, name)["seed"]
+            if seed in seeds:
+                raise ValueError(
+                    f"{key}.{network}: {name!r} has the seed {seed} of {seeds[seed]!r}; each should "
+                    "have its own"
+                )
+            seeds[seed] = name

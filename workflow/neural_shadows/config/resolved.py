@@ -127,9 +127,9 @@ def _figure(config: "Config", name: str) -> Section:
 def _claim(config: "Config", name: str) -> Section:
     claim = config.claims[name]
     rows = [rows_of_claim(config, methods) for methods in compared(claim)]
-    if claim.kind in ("soft_better", "soft_equal_time"):
+    if claim.kind in ("soft_better", "soft_equal_time", "ratio"):
         return claim.model_dump() | {"networks": networks_of_claim(config, claim)}
-    if not rows:  # of printed numbers, or of tables
+    if not rows:  # of printed numbers, or of a column
         return claim.model_dump()
     if claim.kind == "violations":
         return claim.model_dump() | {"methods": [row for (row,) in rows]}

@@ -71,6 +71,12 @@ def as_settings(config: "Config", name: str) -> dict[str, Any]:
     }
 
 
+def differences(config: "Config", one: str, other: str) -> list[str]:
+    """The keys in which two experiments differ, but for `seed` and `label`."""
+    first, second = (dict(config.screen_experiments[name]) for name in (one, other))
+    return [key for key in first if key not in ("seed", "label") and first[key] != second[key]]
+
+
 def check(config: "Config") -> None:
     """Check that each network has frames to learn from, and crops that it can take."""
     trained: dict[str, str] = {}

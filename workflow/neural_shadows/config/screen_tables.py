@@ -55,6 +55,11 @@ class ScreenTrainedTable(AnyTable):
         min_length=1, description="a name in `screen_experiments` for each name that the paper has"
     )
 
+    @property
+    def asked(self) -> list[str]:
+        """Its networks."""
+        return [*self.columns.values()]
+
 
 class Step(Model):
     """A step on the way to a fast network."""
@@ -78,6 +83,11 @@ class ScreenStepsTable(AnyTable):
     frame_set: name_in("frame_sets") = Field(description="whose test frames they are asked about")
     steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")
 
+    @property
+    def asked(self) -> list[str]:
+        """Its networks."""
+        return [step.experiment for step in self.steps.values() if step.experiment]
+
 
 class ScreenErrorsTable(AnyTable):
     """A table of networks' errors, on what they learned from and on what not, or behind what."""
@@ -90,6 +100,11 @@ class ScreenErrorsTable(AnyTable):
     networks: list[name_in("screen_experiments")] = Field(
         min_length=1, description="names in `screen_experiments`, in the table's order"
     )
+
+    @property
+    def asked(self) -> list[str]:
+        """Its networks."""
+        return self.networks
 
 
 class ScreenTemporalTable(AnyTable):

@@ -101,6 +101,8 @@ def check_soft(
     known = [*LABELS, *config.screen_experiments, *config.networks_by_scene]
     for method in table.asked:
         check_among(f"{key}.methods", method, known)
+        if table.asked.count(method) > 1:
+            raise ValueError(f"{key}.methods: {method!r} is there twice; should be there once")
         if own and not (method.startswith(BASE) or method in NULL or is_network(method)):
             raise ValueError(
                 f"{key}.methods: {method!r} needs a scene to look at, and frames of a user's own have "
