@@ -13,7 +13,10 @@ STEPS = pd.DataFrame(
         "of_printed_size": True,
     }
 )
-LEARNED = {"validation_mse": [0.01, 0.02], "null_mse": {"hard_map": [0.02, 0.05]}}
+LEARNED = {
+    **{"validation_mse": [0.01, 0.02], "null_mse": {"hard_map": [0.02, 0.05]}},
+    "died_at_step": None,
+}
 
 
 def judged(ratio, trainings=None, steps=STEPS, again=(), **told):
@@ -133,6 +136,8 @@ def test_what_networks_measure_needs_seeds_and_that_they_learned():
     worse = LEARNED | {"validation_mse": [0.03, 0.05]}
     found = judged(ratio, {"nsm": worse}, **told)
     assert found["verdict"] == verdicts.NOT_LEARNED and "hard_map 350" in found["reason"]
+    found = judged(ratio, {"nsm": LEARNED | {"died_at_step": 4000}}, **told)
+    assert found["verdict"] == verdicts.NOT_LEARNED and "nsm: died at step 4,000" in found["reason"]
     # Of one that learned the second light alone, the first does not count.
     alone = {"validation_mse": [9.0, 0.02], "training": {"lights": [1]}}
     found = judged(ratio, {"nsm": LEARNED | alone}, **told)

@@ -108,7 +108,7 @@ def of_networks(seeds, gains, metric="mse", kind="soft_better"):
     timed = {method: {"ms": [9.0] * 3, "texel_floats": 0} for method in ("mine", "rt_1")}
     times = {"map_ms": 5.0, "methods": timed} if kind == "soft_equal_time" else None
     table = SoftTable(soft_values(pd.DataFrame(rows)), labels, times, RADII)
-    record = {"validation_mse": [0.01], "null_mse": {"hard_map": [0.02]}}
+    record = {"validation_mse": [0.01], "null_mse": {"hard_map": [0.02]}, "died_at_step": None}
     known = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))
     told = {"again": {"mine": runs[1:]}, "networks": runs, "needs": {"seeds": 3}, "radii": None}
     if kind == "soft_equal_time":
@@ -157,7 +157,7 @@ def test_of_a_network_two_trainings_are_needed_where_nothing_is_said():
 
 def test_rays_that_beat_what_has_not_learned_say_nothing():
     told, known = of_networks(3, [-0.002, -0.0021, -0.0019], kind="soft_equal_time")
-    known.screen_trainings["mine_1"] = {"validation_mse": [0.03], "null_mse": {"hard_map": [0.02]}}
+    known.screen_trainings["mine_1"] = known.screen_trainings["mine"] | {"validation_mse": [0.03]}
     assert judge(told, known)["verdict"] == verdicts.NOT_LEARNED
 
 

@@ -53,6 +53,8 @@ def _by_validation(name: str, data: Measured) -> str:
     it learned.
     """
     record = data.screen_trainings[name]
+    if record["died_at_step"] is not None:
+        return f"{name}: died at step {record['died_at_step']:,}"
     lights = record.get("training", {}).get("lights") or range(len(record["validation_mse"]))
     errors, nulls = record["validation_mse"], record["null_mse"]
     errors = [errors[light] for light in lights]
