@@ -1,6 +1,7 @@
 import pytest
 from claim_samples import better, loss_curve, pairs, points
 from report_samples import (
+    RUN,
     SCENES,
     TRAINING,
     cells_of,
@@ -25,6 +26,13 @@ CLAIMS = {
     | {"at_least": 1, "at_most": None, "overhead_ms": 0.0, "needs": {"device": "cpu"}},
     "printed": {"kind": "printed", "table": "4.4", "pairs": [["network", "shadow_map_128"]]}
     | {"metrics": ["psnr"]},
+}
+
+
+NOTHING = {
+    **{"metrics": [], "losses": [], "trainings": [], "times": [], "meshes": []},
+    **{"soft_metrics": [], "soft_times": [], "soft_tables": {}},
+    **{"learning_curves": {}, "run": RUN, "scenes": {}},
 }
 
 
@@ -102,6 +110,25 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
         "0.031 % of the thesis's samples,",
     )
     assert f"Mesh of dragon: {SCENES['dragon']['mesh_name']} (a procedural stand-in" in text
+
+
+@pytest.mark.parametrize(
+    ("samples", "lead"),
+    [
+        ([], "No network was trained for these claims."),
+        ([500, 2000], "Networks of frames saw at most 2,000 pixels each in this run."),
+    ],
+)
+def test_networks_of_frames_are_trained_too(tmp_path, samples, lead):
+    records = [
+        write_record(tmp_path / "frames" / str(i) / "training.json", {"samples": one})
+        for i, one in enumerate(samples)
+    ]
+    claims = {"printed": THESIS | CLAIMS["printed"]}
+    _, md = written_table(
+        write_claims, tmp_path, **NOTHING | {"claims": claims, "screen_trainings": records}
+    )
+    assert f"\n{lead} A verdict" in md.read_text()
 
 
 def test_the_page_shows_them_as_cards(written):

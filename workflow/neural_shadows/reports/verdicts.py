@@ -12,16 +12,18 @@ CONTRADICTED = "contradicted"
 MEANINGS = {
     NOT_COMPARABLE: "what was measured is not what the claim is about: another mesh than the "
     "thesis's, or times of another class of device.",
-    NOT_LEARNED: "a network of the claim is not better than drawing no shadow at all in every "
-    "metric, so that it says nothing of networks that have learned.",
+    NOT_LEARNED: "a network of the claim is not better than what knows nothing (no shadow at all, in "
+    "every metric; for a network of frames the best of no shadow, the hard map and its own base, in "
+    "squared error on validation frames), or died, so that it says nothing of networks that have "
+    "learned.",
     VACUOUS: "supported, and drawing no shadow at all in the networks' place passes the same test; "
     "where maps are to beat a network, only below a thirtieth of the thesis's samples.",
     TOO_SMALL: "too few training samples, seeds, views or frames for what is claimed, and the "
     "learning curves do not license an extrapolation to the thesis's samples; or against the claim "
     "below a thirtieth of these, which says nothing of more.",
     UNDECIDED: "the intervals do not separate the claim from its contrary.",
-    SUPPORTED: "the 95 % interval lies on the claim's side in each of its comparisons; of printed "
-    "numbers, each difference is beyond the margin.",
+    SUPPORTED: "the 95 % interval lies on the claim's side in each of its comparisons; of numbers "
+    "without one the number itself, of printed ones each difference beyond the margin.",
     CONTRADICTED: "one comparison or more lies on the other side, at a level of 5 % for all of "
     "the claim's comparisons together (Holm); of printed numbers, beyond the margin.",
 }
@@ -40,7 +42,7 @@ SYMBOLS = {
 # Why a claim stays undecided, in few words.
 REASONS = {
     NOT_COMPARABLE: "the mesh or the device is not the one that they are about",
-    NOT_LEARNED: "a network of theirs is here not better than drawing no shadow in every metric",
+    NOT_LEARNED: "a network of theirs is here not better than what knows nothing",
     VACUOUS: "drawing no shadow at all would pass their tests as well",
     TOO_SMALL: "the run has too few samples, seeds or views for them",
     UNDECIDED: "the differences are within what chance does",

@@ -1,4 +1,4 @@
-"""Which networks of a claim have learned nothing: they are not better than drawing no shadow."""
+"""Which networks of a claim have learned nothing: they are not better than what knows nothing."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -20,10 +20,12 @@ LOSS_MARGIN = 0.02  # of no shadow's loss: what chance does to the end of a curv
 
 
 def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
-    """Which trained networks are not better than drawing no shadow; empty if all are.
+    """Which trained networks are not better than what knows nothing; empty if all are.
 
-    Each training of the budget that is compared must be, in the metrics of the thesis's tables
-    and those of the claim. Of too few views nothing is said.
+    Networks of frames must be better than the best of no shadow, the hard map and their own base, by
+    the squared error on validation frames. Of others each training of the budget that is compared
+    must be better than drawing no shadow, in the metrics of the thesis's tables and those of the
+    claim, or in its loss. Of too few views nothing is said.
     """
     if networks := networks_of_frames(claim):
         return "; ".join(filter(None, (_by_validation(name, data) for name in networks)))
@@ -49,8 +51,8 @@ def not_learned(claim: Mapping[str, Any], data: Measured) -> str:
 
 
 def _by_validation(name: str, data: Measured) -> str:
-    """Why a network is not better than the unfiltered map on validation frames, over all lights that
-    it learned.
+    """Why a network died or is not better on validation frames than the best of no shadow, the hard
+    map and its own base, over all lights that it learned.
     """
     record = data.screen_trainings[name]
     if record["died_at_step"] is not None:

@@ -140,9 +140,11 @@ def _lead(verdicts: pd.Series, data: Measured) -> str:
     """What a reader must know before the first verdict: the scale, and what verdicts mean."""
     seen = [record["samples"] for record in data.trainings.values() if record["training"]]
     counts = verdicts.value_counts()
-    scale = "No network was trained for these claims."
-    if seen:
-        scale = phrases.describe_samples(max(seen), THESIS_SAMPLES)
+    pixels = [record["samples"] for record in data.screen_trainings.values()]
+    said = [phrases.describe_samples(max(seen), THESIS_SAMPLES)] if seen else []
+    if pixels:
+        said.append(f"Networks of frames saw at most {max(pixels):,} pixels each in this run.")
+    scale = " ".join(said) or "No network was trained for these claims."
     meanings = [f"- **{name}** ({counts.get(name, 0)}): {MEANINGS[name]}" for name in VERDICTS]
     first = (
         f"{scale} A verdict says what these data can carry about a claim, and nothing more: the "
@@ -160,7 +162,9 @@ def _notes(
         "(Student's t) and views (resampled within their view set) together, of losses over seeds "
         "(the last tenth of each curve is one value; of a training that died, at least the loss of "
         "drawing no shadow), of times over frames (exact, of the median of the frames' ratios of "
-        "own milliseconds, without primary visibility and shading).",
+        "own milliseconds, without primary visibility and shading), of ratios of tables over seeds "
+        "alone (Student's t of their logarithms). Ratios without networks and the column that another "
+        "follows have no interval: their numbers decide.",
         "Networks are compared at their largest common budget, and by the same seeds; a trend is "
         "over the budgets of a learning curve. Of one seed there is no interval over trainings.",
         "Printed: claims on the thesis's own tables have a margin and no test: a difference counts "
