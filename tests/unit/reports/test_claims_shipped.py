@@ -1,24 +1,33 @@
 """Each claim of the shipped configuration, on data that are as it says, and on their contrary."""
 
 import functools
+from itertools import product
 
 import numpy as np
+import pandas as pd
 import pytest
+from checkout import ROOT
 from claim_samples import loss_curve, measured, points, scene, views, violated
 from shipped import shipped
 
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
-from neural_shadows.reports.claims.gates import judge
+from neural_shadows.layout import screen_tables, soft_methods
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.claims.gates import KINDS, judge
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES, compared, rows_of
+from neural_shadows.reports.tables.penumbra_feature import feature_table
 
 BUDGETS = np.array([1 / 27, 1 / 9, 1 / 3, 1])  # of the largest
+REFERENCE = ROOT / "reports" / "reference"
 FALL = 0.1  # exponent of all networks' errors
 
 
 @functools.cache
 def claims():
-    """The thesis's: those of other texts are on methods without training, see test_claims_soft."""
+    """The thesis's: of those of other texts see the kinds in test_claims_soft and _ratio, and below
+    whether they find their numbers.
+    """
     found = resolved(read_config(shipped()))["claims"]
     return {name: claim for name, claim in found.items() if claim["text"] == "thesis"}
 
@@ -139,3 +148,77 @@ def test_a_claim_has_the_verdict_that_its_data_carry(name, share, contrary):
     # At a twentieth what needs all samples is decided by an extrapolation, and by that alone.
     carried = share == 0.05 and claim.get("needs", {}).get("budget") is not None
     assert ("extrapolated" in found["reason"]) == carried
+
+
+@functools.cache
+def of_all_seeds():
+    """The layout of a run with all trainings that claims on frames compare."""
+    return Layout(resolved(read_config(shipped("nsm_seeds", "kpnsm_seeds", "nsm_scenes"))))
+
+
+def on_tables():
+    found = of_all_seeds().settings["claims"].items()
+    return {name: claim for name, claim in found if claim["kind"] in ("ratio", "proportional")}
+
+
+def labels_of(table):
+    layout = of_all_seeds()
+    of_screen = layout.entry("tables", table)["kind"] in screen_tables.KINDS
+    kind = screen_tables if of_screen else soft_methods
+    return [*kind.labels(layout, table).values()]
+
+
+def with_taa(labels):
+    return [f"{label}{taa}" for label in labels for taa in ("", " + TAA")]
+
+
+def numbers_of(name):
+    """A table as its settings say, or as a reference has it."""
+    layout = of_all_seeds()
+    table, made = layout.entry("tables", name), [*REFERENCE.glob(f"*/{name}.csv")]
+    match table["kind"]:
+        case "screen_steps":
+            return pd.DataFrame({"row": [*table["steps"]]}).assign(runtime=1.0, size=1.0, error=1.0)
+        case "screen_temporal":
+            columns = dict.fromkeys(pd.read_csv(made[0]), 1.0)
+            return pd.DataFrame(columns | {"label": with_taa(labels_of(name))})
+        case "screen_errors" if not made:
+            frames = layout.entry("frame_sets", table["frame_set"])
+            lights = [*range(len(frames["radii"])), "all"]
+            rows = product(labels_of(name), frames["scenes"], lights)
+            return pd.DataFrame(rows, columns=["label", "frames", "light"]).assign(mse=1.0)
+        case "penumbra_feature":
+            return feature_table(np.ones((2, 3, 2)))
+    return pd.read_csv(made[0])
+
+
+@pytest.mark.parametrize("name", on_tables())
+def test_a_claim_finds_each_of_its_rows_and_columns(name):
+    claim = on_tables()[name] | {"needs": {}, "again": {}}
+    names = {one["table"] for one in claim.get("ratios", [claim])}
+    tables = {one: numbers_of(one).assign(of_printed_size=True) for one in names}
+    found = KINDS[claim["kind"]](claim, measured(tables=tables))
+    assert [one.text for one in found if not one.number] == []
+
+
+def names_in(table):
+    """What the rows of a table may be called, by the configuration alone."""
+    layout = of_all_seeds()
+    settings = layout.entry("tables", table)
+    scenes = layout.entry("frame_sets", settings["frame_set"])["scenes"]
+    return {
+        *(*settings.get("steps", ()), *settings.get("columns", ()), *with_taa(labels_of(table))),
+        *(scene.replace("plate_", "penumbra_") for scene in scenes),
+    }
+
+
+@pytest.mark.parametrize("name", [name for name, one in on_tables().items() if one.get("again")])
+def test_a_claim_finds_its_rows_in_tables_of_other_seeds(name):
+    claim = on_tables()[name]
+    for ratio in claim["ratios"]:
+        over = ratio["to"] if isinstance(ratio["to"], list) else [ratio["to"]]
+        rows = [row for row in (ratio["of"], *over) if isinstance(row, dict)]
+        keys = ("row", "column", "label")
+        named = {row[key] for row in rows for key in keys if key in row}
+        for table in (ratio["table"], *claim["again"][ratio["table"]]):
+            assert named <= names_in(table)
