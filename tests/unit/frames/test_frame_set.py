@@ -78,7 +78,6 @@ def test_nothing_is_left_where_a_frame_fails_after_others(tmp_path, monkeypatch)
         ({"channels": ["z", "depth"]}, "channels z, depth; should be z and others of z, gap"),
         ({"size": None}, "'size'"),
         ({"frames": [{"setting": {"fov_deg": 55, "window": None}}]}, "frame 0 has no 'twins'"),
-        ({"frames": [{"setting": {"fov_deg": 55}, "twins": []}]}, "frame 0 has no 'window'"),
     ],
 )
 def test_a_json_that_does_not_fit(part, tmp_path, change, told):
@@ -90,6 +89,16 @@ def test_a_json_that_does_not_fit(part, tmp_path, change, told):
         (tmp_path / name).symlink_to(part.frames_json.with_name(name))
     with pytest.raises(InputError, match=told):
         _ = FrameSetPart(copy).targets
+
+
+@pytest.mark.parametrize(
+    "frame, lacking", [({}, "fov_deg"), ({"setting": {"fov_deg": 55}}, "window")]
+)
+def test_a_setting_without_a_camera(part, tmp_path, frame, lacking):
+    copy = tmp_path / part.frames_json.name
+    copy.write_text(json.dumps(dict(part.about) | {"frames": [frame | {"twins": []}]}))
+    with pytest.raises(InputError, match=f"setting of frame 0 has no '{lacking}'"):
+        FrameSetPart(copy).lens(0)
 
 
 def test_a_truncated_shard(part, tmp_path):
@@ -105,8 +114,8 @@ def test_a_truncated_shard(part, tmp_path):
     "stem, place, value, told",
     [
         ("buffers", (1, 0, 0, 3, 4), np.nan, "buffers of frame 1 has NaN"),
-        ("buffers", (1, 0, CHANNELS.index("hard"), 3, 4), 2, "hard of frame 1 leaves"),
-        ("targets", (0, 1, 3, 4), 1.2, "targets of frame 0 leaves"),
+        ("buffers", (1, 0, CHANNELS.index("hard"), 3, 4), 2, "values of hard of frame 1 leave"),
+        ("targets", (0, 1, 3, 4), 1.2, "targets of frame 0 leave"),
         ("valid", (1,), False, "no pixel of frame 1 is valid"),
     ],
 )

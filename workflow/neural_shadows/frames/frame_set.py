@@ -57,12 +57,8 @@ class FrameSetPart:
             if key not in found:
                 raise InputError(f"{self.frames_json}: has no {key!r}")
         for number, frame in enumerate(found["frames"]):
-            setting = frame.get("setting", {})
-            if lacking := [
-                *({"setting", "twins"} - {*frame}),
-                *({"fov_deg", "window"} - {*setting}),
-            ]:
-                raise InputError(f"{self.frames_json}: frame {number} has no {lacking[0]!r}")
+            if "twins" not in frame:
+                raise InputError(f"{self.frames_json}: frame {number} has no 'twins'")
         channels = found["channels"]
         if len(set(channels)) < len(channels) or not {"z"} <= {*channels} <= {*CHANNELS}:
             raise InputError(
@@ -86,9 +82,18 @@ class FrameSetPart:
         return setting_of(self.about["frames"][number]["setting"])
 
     def lens(self, number: int) -> Lens:
-        """Of a frame's camera and its twins', wherever they stand."""
+        """Of a frame's camera and its twins', wherever they stand.
+
+        Raises:
+            InputError: the frame does not say what it is.
+        """
         about = self.about
-        setting = about["frames"][number]["setting"]
+        setting = about["frames"][number].get("setting", {})
+        for key in ("fov_deg", "window"):
+            if key not in setting:
+                raise InputError(
+                    f"{self.frames_json}: the setting of frame {number} has no {key!r}"
+                )
         window = setting["window"] and Window(**setting["window"])
         ahead = np.array([0.0, 0.0, -1.0])
         camera = Camera(np.zeros(3), ahead, UP, setting["fov_deg"], window)
@@ -158,9 +163,12 @@ def check_values(part: FrameSetPart) -> None:
                     f"{part.frames_json}: {stem} of frame {number} has NaN or infinity"
                 )
         seen = {"targets": arrays["targets"]}
-        seen |= {part.about["channels"][base]: arrays["buffers"][:, base] for base in bases}
+        seen |= {
+            f"values of {part.about['channels'][base]}": arrays["buffers"][:, base]
+            for base in bases
+        }
         for name, values in seen.items():
             if values.size and (values.min() < 0 or values.max() > 1):
-                raise InputError(f"{part.frames_json}: {name} of frame {number} leaves [0, 1]")
+                raise InputError(f"{part.frames_json}: {name} of frame {number} leave [0, 1]")
         if not part.valid[number, 0].any():
             raise InputError(f"{part.frames_json}: no pixel of frame {number} is valid")
