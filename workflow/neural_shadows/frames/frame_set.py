@@ -154,7 +154,7 @@ def check_values(part: FrameSetPart) -> None:
     Raises:
         InputError: a value is no number, a visibility is not from 0 to 1, or no pixel counts.
     """
-    bases = [number for number, name in enumerate(part.about["channels"]) if name in LIT]
+    bases = {name: at for at, name in enumerate(part.about["channels"]) if name in LIT}
     for number in range(len(part)):
         arrays = {"buffers": part.buffers[number], "targets": part.targets[number]}
         for stem, array in arrays.items():
@@ -162,12 +162,9 @@ def check_values(part: FrameSetPart) -> None:
                 raise InputError(
                     f"{part.frames_json}: {stem} of frame {number} has NaN or infinity"
                 )
-        seen = {"targets": arrays["targets"]}
-        seen |= {
-            f"values of {part.about['channels'][base]}": arrays["buffers"][:, base]
-            for base in bases
-        }
-        for name, values in seen.items():
+        visible = {"targets": arrays["targets"]}
+        visible |= {f"values of {name}": arrays["buffers"][:, at] for name, at in bases.items()}
+        for name, values in visible.items():
             if values.size and (values.min() < 0 or values.max() > 1):
                 raise InputError(f"{part.frames_json}: {name} of frame {number} leave [0, 1]")
         if not part.valid[number, 0].any():
