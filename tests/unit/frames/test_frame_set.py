@@ -24,7 +24,8 @@ SCENE = {"generate": "blinds", "seed": 3, "inserted": {}}
 def render(folder, first=0, last=2, use="train", **changed):
     paths = [folder / f"{use}_000.{end}" for end in ("json", "buffers.npy", "targets.npy")]
     told = {"use": use, "first": first, "last": last, "samples": 2, "twins": 2} | changed
-    render_frames([], *paths, folder / f"{use}_000.valid.npy", scene=SCENE, frames=FRAMES, **told)
+    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES} | told
+    render_frames([], *paths, folder / f"{use}_000.valid.npy", **told)
     return FrameSetPart(paths[0])
 
 
