@@ -46,7 +46,8 @@ def small_answers():
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("results")
     (folder / "blinds").mkdir()
-    told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 3, "samples": 4}
+    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES}
+    told |= {"first": 0, "last": 3, "samples": 4}
     for use in ("test", "light"):
         names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
         files = (folder / "blinds" / f"{use}_000.{name}" for name in names)
