@@ -65,7 +65,7 @@ def rendered(tmp_path_factory):
     """The pipeline's own frame, but that bases are dark by the shading normal, as an engine's."""
     part = tmp_path_factory.mktemp("own") / "garden/test_000.json"
     part.parent.mkdir()
-    files = (part.with_suffix(f".{kind}") for kind in KINDS)
+    files = (part.with_suffix(f".{kind}") for kind in (*KINDS, "edges.npy"))
     render_frames([], *files, scene=SCENE, frames=FRAMES, use="test", first=0, last=1, samples=1)
     buffers = np.load(part.with_suffix(".buffers.npy"))
     c_e, z = (buffers[:, :, CHANNELS.index(name)] for name in ("c_e", "z"))

@@ -31,6 +31,7 @@ def render_frames(
     buffers_npy: Path,
     targets_npy: Path,
     valid_npy: Path,
+    edges_npy: Path,
     *,
     scene: Mapping[str, Any],
     frames: Mapping[str, Any],
@@ -76,6 +77,7 @@ def render_frames(
         new_array(buffers_npy, (count, versions, len(CHANNELS), *image), np.float16) as buffers,
         new_array(targets_npy, (count, len(radii), *image), np.float16) as targets,
         new_array(valid_npy, (count, versions, *image), np.bool_) as valid,
+        new_array(edges_npy, (count, *image), np.bool_) as edges,
         ThreadPoolExecutor(threads) as pool,
         progress_bar(count, "frames", title) as bar,
     ):
@@ -87,7 +89,7 @@ def render_frames(
                 [setting, *changed[number]],
             )
             buffers[number], valid[number] = map(np.stack, zip(*found))
-            targets[number] = render_target(
+            targets[number], edges[number] = render_target(
                 opened,
                 kind,
                 setting,
@@ -104,7 +106,7 @@ def render_frames(
     about = {"use": use, "first": first, "seed": scene["seed"], "scene": opened.settings}
     about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
     about |= {"given_radii": frames["radii"], "radius_unit": frames["radius_unit"]}
-    about |= {"samples": samples, "blur": frames["blur"]}
+    about |= {"samples": samples, "blur": frames["blur"], "edges": True}
     about |= {
         "light_map": kind.light_map,
         "channels": CHANNELS,

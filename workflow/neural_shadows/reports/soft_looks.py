@@ -56,6 +56,13 @@ SOFT_LOOKS = {
         "Answers a whole frame from its buffers and the light's map.",
     ),
     "base": Look("what networks begin with", "#000000", "<", "◄", "The map's shadow, as stored."),
+    "exact": Look(
+        "the exact shadow",
+        "#000000",
+        "d",
+        "◈",
+        "What a perfect answer at the middle of each pixel still lacks of the antialiased target.",
+    ),
     "null": Look("no method", "#777777", "o", "○", "Draws no shadow at all, or all of it."),
 }
 
@@ -68,7 +75,8 @@ def family_of(method: str) -> str:
         return "null"
     first, _, rest = method.partition("_")
     if first == "rt":
-        return rest.partition("_")[2] or "rt"
+        kind = rest.partition("_")[2]
+        return "rt" if kind in ("", "spread") else kind
     return "moments" if first in ("vsm", "evsm", "msm") else first
 
 

@@ -51,7 +51,7 @@ def folder(tmp_path_factory):
     (folder / "blinds").mkdir()
     told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 3, "samples": 4}
     for use in ("test", "light"):
-        names = ("json", "buffers.npy", "targets.npy", "valid.npy")
+        names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
         files = (folder / "blinds" / f"{use}_000.{name}" for name in names)
         render_frames([], *files, use=use, **told)
     (folder / "lpips.json").write_text(json.dumps({"available": False}))

@@ -43,7 +43,7 @@ class SoftTable:
         if timed is None:
             return float("nan")
         own = np.mean(timed["ms"]) if radius is None else timed["ms"][radius]
-        return own + self.times["map_ms"] * (timed["texel_floats"] > 0)
+        return own + self.times["maps"].get(timed["map"], {"ms": 0.0})["ms"]
 
     def light(self, radius: int | None) -> str:
         """What a radius is called."""
