@@ -16,6 +16,9 @@ MEASURED = {
     "networks/*/training.json": {"seconds", "samples_per_second", "machine"},
     "frame_times/*/*.json": {"ms", "rays_per_second"},
     "cost/*.json": {"seconds", "bytes", "peak_bytes"},
+    "screen_networks/*/training.json": {"seconds", "samples_per_second", "machine"},
+    "screen_profiles/*.json": {"whole_ms", "product_macs", "ms", "machine"},
+    "soft_times/*.json": {"ms", "map_ms", "machine"},
 }
 
 # Folders below results/<scale> of what jobs say on the way, and of what is not finished.

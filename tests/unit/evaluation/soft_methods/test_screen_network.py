@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import torch
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
@@ -12,10 +13,12 @@ from neural_shadows.evaluation.measure_sensitivity import measure_sensitivity
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
 from neural_shadows.evaluation.soft_method_names import is_network, is_tuned
+from neural_shadows.evaluation.soft_methods import screen_network
 from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.evaluation.time_soft_methods import time_soft_methods
 from neural_shadows.frames.render_frames import render_frames
+from neural_shadows.networks import compute
 from neural_shadows.networks.screen_space.screen_networks import (
     make_screen_network,
     save_screen_network,
@@ -144,6 +147,20 @@ def test_of_several_networks_each_answers_the_scene_that_it_learned(folder, tmp_
         evaluate_soft(parts, [], [], None, files, lpips, *out, occluders=[], method="of_scenes")
         found.append(out[0].read_text())
     assert found[0] == found[1] and found[2].count("\n") == 1  # the headings alone
+
+
+def test_in_a_format_that_the_processor_lacks_it_has_no_answers(folder, tmp_path, monkeypatch):
+    for module in (compute, screen_network):
+        monkeypatch.setattr(module, "is_native", lambda dtype, device: dtype == torch.float32)
+    weights, lpips = [folder / "tiny/weights.safetensors"], folder / "lpips.json"
+    parts, lines = [folder / "blinds/test_000.json"], {}
+    for precision in ("auto", "float32", "bfloat16"):
+        out = tmp_path / "one.csv", tmp_path / "one.npz"
+        told = {"occluders": [], "method": "tiny", "precision": precision}
+        evaluate_soft(parts, [], [], None, weights, lpips, *out, **told)
+        lines[precision] = out[0].read_text()
+    assert lines["auto"] == lines["float32"]
+    assert lines["float32"].count("\n") > 1 and lines["bfloat16"].count("\n") == 1
 
 
 def test_times(folder):
