@@ -56,6 +56,8 @@ SOFT_LOOKS = {
         "Answers a whole frame from its buffers and the light's map.",
     ),
     "base": Look("what networks begin with", "#000000", "<", "◄", "The map's shadow, as stored."),
+    # Of a family that has none of its own here.
+    "other": Look("other methods", RED, "d", "⬧", "A method of this checkout's own."),
     "null": Look("no method", "#777777", "o", "○", "Draws no shadow at all, or all of it."),
 }
 
@@ -68,8 +70,10 @@ def family_of(method: str) -> str:
         return "null"
     first, _, rest = method.partition("_")
     if first == "rt":
-        return rest.partition("_")[2] or "rt"
-    return "moments" if first in ("vsm", "evsm", "msm") else first
+        first = rest.partition("_")[2] or "rt"
+    if first in ("vsm", "evsm", "msm"):
+        first = "moments"
+    return first if first in SOFT_LOOKS else "other"
 
 
 UNITS = {"metres": "m", "scene_sizes": "S"}

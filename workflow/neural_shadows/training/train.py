@@ -19,7 +19,7 @@ from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import save_network
 from neural_shadows.rays.ray_set import RaySet
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.batches import DeviceRays, batch_indices, batch_source
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
@@ -105,8 +105,7 @@ def train(
     save_network(weights, model, header)
     write_text(loss_csv, curve)
     about = {"parameters": model.parameter_count(), **result}
-    machine = {"machine": describe_machine(), "threads": threads}
-    write_json(training_json, {**header, **about, **machine})
+    write_json(training_json, {**header, **about, **describe_origin(), "threads": threads})
 
 
 def _trained(

@@ -32,7 +32,7 @@ TIMED = {
     "shadow_map_512": samples.timed([4], resident_bytes=2**20),
     "mesh_biased": samples.timed([2], resident_bytes=5 * 2**20),
     "dragon_biased": samples.timed([5, 9, 7, 8, 6], [1, 2, 3], resident_bytes=2**22),
-    "dragon": samples.timed([1], resident_bytes=2**22),
+    "dragon": samples.timed([1340], [1339.6], resident_bytes=2**22),
     "no_shadow": samples.timed([1]),
 }
 
@@ -112,6 +112,8 @@ def test_rows_keep_their_order_and_have_the_facts_of_their_kind(written):
     assert cells["LPIPS ↓"].startswith("0.2000 [0.1")
     assert (cells["stored KiB ↓"], cells["resident KiB ↓"]) == ("2,175", "4,096")
     assert (cells["own ms ↓"], cells["frame ms ↓"], cells["bias"]) == ("2", "7", "0.01")
+    # 1.34e+03 would be no number to the page.
+    assert samples.cells_of(md, 5)["own ms ↓"] == "1,340"
     assert "Mesh of fence: fence (a procedural stand-in, not the thesis's mesh)" in md.read_text()
     assert [samples.cells_of(md, i)["scene"] for i in (0, 1, 7)] == ["dragon", "", "fence"]
 

@@ -44,10 +44,10 @@ def soft_method(key: str, weights: Path | None = None, precision: str = "auto") 
 
 
 def soft_methods_by_scene(
-    key: str, weights: Sequence[Path] = (), precision: str = "auto"
+    key: str, weights: Sequence[Path] = (), precision: str = "auto", by_scene: bool = False
 ) -> "Callable[[str], SoftMethod | None]":
-    """The method of a key, by scene: of several networks the one that learned it, or None."""
-    if len(weights) < 2:
+    """The method of a key, by scene; `by_scene`: of the networks the one that learned it, or None."""
+    if not by_scene:
         method = soft_method(key, *weights, precision=precision)
         return lambda scene: method
     module = import_module("neural_shadows.evaluation.soft_methods.screen_network")
