@@ -23,6 +23,7 @@ NETWORK = {
     "died_at_step": None,
     "network": {"encoding": "frequency"},
     "parameters": 100,
+    "unfit": False,
 }
 ORIGIN = {"commit": "ab12", "code": "0f", "machine": MACHINE}
 SPENT = {"samples": 640, "seconds": 1.5, **ORIGIN, "threads": 2}

@@ -25,7 +25,7 @@ MEANS = {
     "no_shadow": (0.5, 20, 0.7),
 }
 BUILT = samples.TRAINING | {"name": "mesh", "network": {"encoding": "mesh"}, "training": None}
-BUILT |= {"samples": 0, "seconds": 2.0}
+BUILT |= {"samples": 0, "seconds": 2.0, "unfit": True}
 TIMED = {
     "ray_traced": samples.timed([1, 2, 3]),
     "shadow_map_128": samples.timed([3], resident_bytes=4 * 128**2),
@@ -127,6 +127,10 @@ def test_rivals_have_what_networks_have(written):
     assert (mesh["push"], mesh["bias_at_end"]) == (0.05, True)
     assert samples.cells_of(md, 3)["bias"] == "0 †" and "†: the first or last" in md.read_text()
     assert mesh["psnr_difference"] > 0 > mesh["lpips_difference"]
+    # It needs an inside that its mesh does not have.
+    assert mesh["unfit"] and not table["unfit"][4] and np.isnan(table["unfit"][1])
+    assert samples.cells_of(md, 3)["method"] == "Mesh (**unfit**)"
+    assert "**unfit**: it needs an inside" in md.read_text()
     assert table["learned"].isna().tolist() == [True] * 4 + [False] * 2 + [True] * 3
     assert table["learned"][4:6].tolist() == [True, False]
     assert samples.cells_of(md, 5)["method"] == "Network, no bias (**not learned**)"

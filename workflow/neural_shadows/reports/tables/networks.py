@@ -21,7 +21,7 @@ from neural_shadows.running.stage import run_stage
 
 # What a method is, beside its quality; empty where it does not apply.
 FACTS = ("encoding", "parameters", "stored_bytes", "resident_bytes", "build_seconds")
-FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end")
+FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end", "unfit")
 SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
 
 Row = Mapping[str, Any]
@@ -127,6 +127,7 @@ def facts_of(
         facts |= {
             "encoding": record["network"]["encoding"],
             "parameters": record["parameters"],
+            "unfit": record["unfit"],
             "build_seconds": read_seconds(map(Path, durations[row["experiment"]]))
             + record["seconds"],
             "training_seconds": record["seconds"] if record["training"] else np.nan,
