@@ -123,7 +123,7 @@ def test_mistakes(message, values, mistake):
 def test_maps_need_a_scene(message, values):
     values["frame_sets"]["mine"] = {"path": "mine"}
     values["tables"]["soft_windows"]["frame_set"] = "mine"
-    told = "soft_windows.methods: 'hard' needs a scene to look at, and frames of"
+    told = "soft_windows.methods: 'exact_centre' needs a scene to look at, and frames of"
     assert told in message(values)
 
 
