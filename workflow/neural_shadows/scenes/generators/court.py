@@ -148,12 +148,12 @@ def _spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray, side: float)
 def _roofs(
     rng: np.random.Generator, plan: Plan, middle: np.ndarray, front: float
 ) -> tuple[list[Placed], float]:
-    """One or two kinds of what is over the court, and the height of the highest part under light.
+    """Two or three kinds of what is over the court, and the height of the highest part under light.
 
     Args:
         front: how far towards the cameras they may reach.
     """
-    kinds = rng.permutation(len(ROOFS))[: rng.integers(1, 3)]
+    kinds = rng.permutation(len(ROOFS))[: rng.integers(2, 4)]
     objects, tops = [], [1.9]
     for kind in kinds:
         shape, top = ROOFS[kind](rng, plan, middle, front)
