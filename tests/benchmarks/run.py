@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only labels training queries field forest viewpoint soft area screen kernels default]
+        [--only rays labels training queries field forest viewpoint soft area screen kernels default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -22,6 +22,7 @@ import bench_forest
 import bench_kernels
 import bench_labels
 import bench_queries
+import bench_rays
 import bench_screen_networks
 import bench_screen_training
 import bench_soft
@@ -35,6 +36,7 @@ from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.running.hardware import describe_machine
 
 STAGES = (
+    "rays",
     "labels",
     "training",
     "queries",
@@ -54,6 +56,7 @@ def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iter
     """The rows of each stage that is asked for, of a mesh's file and what it was prepared to."""
     quick = arguments.quick
     measured = {
+        "rays": lambda: bench_rays.rows(quick),
         "labels": lambda: bench_labels.rows(mesh_ply, quick),
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
