@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only labels training queries field forest viewpoint soft area screen kernels default]
+        [--only labels training queries field forest viewpoint soft area rays screen kernels default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -22,6 +22,7 @@ import bench_forest
 import bench_kernels
 import bench_labels
 import bench_queries
+import bench_rays
 import bench_screen_networks
 import bench_screen_training
 import bench_soft
@@ -43,6 +44,7 @@ STAGES = (
     "viewpoint",
     "soft",
     "area",
+    "rays",
     "screen",
     "kernels",
     "default",
@@ -62,6 +64,7 @@ def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iter
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
         "area": lambda: bench_area_light.rows(mesh_ply, quick),
+        "rays": lambda: bench_rays.rows(mesh_ply, quick),
         "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),
         "kernels": lambda: bench_kernels.rows(quick),
         "default": bench_default.rows,
