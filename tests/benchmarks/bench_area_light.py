@@ -62,7 +62,7 @@ def rows(mesh_ply: Path, quick: bool) -> list[Row]:
 
 def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
     """By degrees and method: `mse`, `ns` of a pixel, and the columns of `_beside_rays`."""
-    size, count, rounds = ((120, 80), 1, 1) if quick else ((600, 400), 2, 3)
+    size, count, rounds = ((120, 80), 1, 9) if quick else ((600, 400), 2, 3)
     field = ObjectField(mesh, CELL)
     tracer = Tracer(mesh.vertices, mesh.faces)
     packets = EmbreeTriangles(mesh.vertices, mesh.faces)

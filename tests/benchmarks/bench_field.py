@@ -131,25 +131,51 @@ def _memory_row(name: str, network, triangles: Triangles) -> Row:
 def _equal_error_rows(
     name: str, network, exact: Triangles, frames: Sequence[ShadowRays], rounds: int
 ) -> list[Row]:
-    """The smallest decimated mesh whose answers are no more unlike than a field's, and its rates."""
+    """Rates beside the smallest decimated mesh whose answers are no more unlike than the field's."""
     error = sum(wrong_shares(network, exact, frames))
-    result, best, share, too_few = [], exact, 0.0, 0
+    best, share, tried = smallest_within(error, exact, frames)
+    result = [
+        Row(
+            f"{name}: decimated to {count:,} triangles, unlike the whole",
+            "cpu x1",
+            unlike,
+            "% of pixels",
+        )
+        for count, unlike in tried.items()
+    ]
+    stage = f"{name}, {error:.3f} %; {best.count:,} triangles, {share:.3f} %"
+    rates_of_it, _ = _total_rows(stage, network, best, frames, rounds)
+    return [*result, *rates_of_it, _memory_row(stage, network, best)]
+
+
+def smallest_within(
+    error: float, exact: Triangles, frames: Sequence[ShadowRays]
+) -> tuple[Triangles, float, dict[int, float]]:
+    """The smallest decimated mesh whose answers differ in at most a share of pixels, by bisection.
+
+    Args:
+        error: that share, in per cent. exact: the mesh itself.
+
+    Returns:
+        It, its share, and the shares by number of triangles of all that were tried.
+    """
+    best, share, too_few, tried = exact, 0.0, 0, {}
     while best.count - too_few > NEAR * best.count:
-        fewer = Triangles(*decimated(best.vertices, best.faces, (too_few + best.count) // 2))
-        unlike = [(fewer.occluded(frame) != exact.occluded(frame)).sum() for frame in frames]
-        fewer_share = 100 * np.mean(unlike) / (WIDTH * HEIGHT)
-        stage = f"{name}: decimated to {fewer.count:,} triangles, unlike the whole"
-        result.append(Row(stage, "cpu x1", fewer_share, "% of pixels"))
-        if fewer_share > error:
-            too_few = fewer.count
+        wanted = (too_few + best.count) // 2
+        fewer = Triangles(*decimated(best.vertices, best.faces, wanted))
+        unlike = [
+            np.count_nonzero(fewer.occluded(frame) != exact.occluded(frame)) / frame.pixels
+            for frame in frames
+        ]
+        tried[fewer.count] = 100 * float(np.mean(unlike))
+        if tried[fewer.count] > error:
+            too_few = wanted
             fewer.scene.close()
             continue
         if best is not exact:
             best.scene.close()
-        best, share = fewer, fewer_share
-    stage = f"{name}, {error:.3f} %; {best.count:,} triangles, {share:.3f} %"
-    rates_of_it, _ = _total_rows(stage, network, best, frames, rounds)
-    return [*result, *rates_of_it, _memory_row(stage, network, best)]
+        best, share = fewer, tried[fewer.count]
+    return best, share, tried
 
 
 def _total_rows(

@@ -6,7 +6,7 @@
         [--weights results/networks/*/weights.safetensors]
 
 Prints the table and writes it to reports/benchmarks.csv. Peers of the ray stages beyond trimesh
-come from envs/benchmarks.txt. Where there is a GPU, its rows are added. `--quick` takes fewer
+come from envs/benchmarks.txt; field, forest, area and rays need gcc, see embree_rays.py. Where there is a GPU, its rows are added. `--quick` takes fewer
 rounds and leaves the default main job out: under five minutes on two cores.
 """
 
@@ -30,6 +30,7 @@ import bench_training
 import bench_viewpoint
 from measurement import Row, table
 
+from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_text
 from neural_shadows.meshes.generate_mesh import generate_mesh
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
@@ -101,4 +102,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except InputError as error:
+        raise SystemExit(str(error)) from None
