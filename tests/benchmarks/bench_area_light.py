@@ -1,7 +1,8 @@
 """Suns of three sizes: one walk of a cone through an object's field, beside rays by Embree.
 
 Frames of an object over the ground, on one thread. Of each method the mean squared error against
-many rays, and its time of a pixel; and how many rays have the same error or take the same time.
+many rays, and its time of a pixel; and how many rays have the same error or take the same time, sent
+to Embree by embreex and in packets of eight from C: of a pixel's 8 rays they are one packet.
 How far the field is pushed out is chosen on other frames.
 """
 
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from embree_rays import PACKETS, EmbreeTriangles, check_compiled
 from measurement import Row, median_seconds
 
 from neural_shadows.evaluation.soft_method_names import CONE_WALKS
@@ -29,34 +31,41 @@ from neural_shadows.scenes.tracing import Tracer
 DEGREES = (1.0, 2.5, 5.0)  # the sun's angular radius
 RAYS = (1, 2, 4, 8, 16, 32)
 FAR, GROUND = 100.0, 20.0  # in radii of the object's sphere: the light's distance, half a side
+RAY_FORMS = {"rt": "embreex", "packets": PACKETS}
 SEED, OTHER = 2026, 77
 LIGHT = {"domain": "sphere", "min_elevation_deg": 20}
 CELL = 2 / 256
 
 
 def rows(mesh_ply: Path, quick: bool) -> list[Row]:
-    """Prints the whole table; a row has the rays of the same error over those of the same time."""
+    """Prints the whole table; of each cone two rows beside either form of rays.
+
+    One's ratio is of the rays of the same error; the other is how many rays take the same time.
+    """
+    check_compiled()
     table = errors_and_times(read_prepared(mesh_ply), quick)
     print(table.to_string(index=False, float_format="{:,.4g}".format))
-    cones = table[table.method.str.startswith("cone")]
-    return [
-        Row(
-            f"sun of {one.degrees:g} degrees: {one.method}, squared error {one.mse:.2g}",
-            "cpu x1",
-            1e9 / one.ns,
-            "pixels/s",
-            peer=f"Embree's rays of the same error, {one.rays_of_error:.3g} a pixel",
-            peer_rate=1e9 / one.ns_of_error,
-        )
-        for one in cones.itertuples()
-    ]
+    result = []
+    for cone in table[table.method.str.startswith("cone")].itertuples():
+        stage = f"sun of {cone.degrees:g} degrees: {cone.method}, squared error {cone.mse:.2g}"
+        for rays in RAY_FORMS:
+            ns, of_time = (
+                getattr(cone, f"{key}_{rays}") for key in ("ns_of_error", "rays_of_time")
+            )
+            peer = f"{RAY_FORMS[rays]}, {cone.rays_of_error:.3g} a pixel of the same error"
+            rate = {"peer": peer, "peer_rate": 1e9 / ns}
+            result.append(Row(stage, "cpu x1", 1e9 / cone.ns, "pixels/s", **rate))
+            stage_of_time = f"{stage}, {RAY_FORMS[rays]} in equal time"
+            result.append(Row(stage_of_time, "cpu x1", of_time, "rays a pixel"))
+    return result
 
 
 def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
-    """By degrees and method: `mse`, `ns` of a pixel, `rays_of_error` and `rays_of_time`."""
-    size, count, rounds = ((120, 80), 1, 1) if quick else ((600, 400), 2, 3)
+    """By degrees and method: `mse`, `ns` of a pixel, and the columns of `_beside_rays`."""
+    size, count, rounds = ((120, 80), 1, 9) if quick else ((600, 400), 2, 3)
     field = ObjectField(mesh, CELL)
     tracer = Tracer(mesh.vertices, mesh.faces)
+    packets = EmbreeTriangles(mesh.vertices, mesh.faces)
     frames, others = (_frames(mesh, seed, count, size) for seed in (SEED, OTHER))
     found = []
     for degrees in DEGREES:
@@ -71,11 +80,12 @@ def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
             ),
         )
         works = {"hard": partial(_all, _rays, frames, 0.0, tracer, 1)}
-        works |= {f"rt_{n}": partial(_all, _rays, frames, radius, tracer, n) for n in RAYS}
+        for form, through in (("rt", tracer), ("packets", packets)):
+            works |= {f"{form}_{n}": partial(_all, _rays, frames, radius, through, n) for n in RAYS}
         works |= {
             f"cone_{n}": partial(_all, cone, frames, radius, field, n, push) for n in CONE_WALKS
         }
-        seconds = median_seconds(works, rounds)
+        seconds = median_seconds(works, rounds, "thread_time")
         pixels = sum(len(one.starts) for one in frames)
         found.append(
             pd.DataFrame(
@@ -88,6 +98,7 @@ def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
                 }
             ).pipe(_beside_rays)
         )
+    packets.close()
     return pd.concat(found, ignore_index=True)
 
 
@@ -103,7 +114,9 @@ def cone(
     return visible
 
 
-def _rays(frame: SoftFrame, radius: float, tracer: Tracer, samples: int) -> np.ndarray:
+def _rays(
+    frame: SoftFrame, radius: float, tracer: Tracer | EmbreeTriangles, samples: int
+) -> np.ndarray:
     return ray_traced(frame, radius, samples=samples, blocked=tracer.blocked)
 
 
@@ -122,17 +135,19 @@ def _error(found: Sequence[np.ndarray], exact: Sequence[np.ndarray]) -> float:
 
 
 def _beside_rays(table: pd.DataFrame) -> pd.DataFrame:
-    """How many rays have each row's error, and its time, and the time of the former: on logarithms,
-    between the numbers that were measured and beyond them.
+    """How many rays have each row's error, `rays_of_error`; and of either form of rays their time,
+    `ns_of_error_…`, and how many take the row's time, `rays_of_time_…`: on logarithms, between the
+    numbers that were measured.
     """
-    rays = table[table.method.str.startswith("rt_")]
-    count, error, ns = (np.log(np.array(one, float)) for one in (RAYS, rays.mse, rays.ns))
+    count = np.log(RAYS)
+    error = np.log(table.mse[table.method.str.startswith("rt_")])
     same = np.interp(-np.log(table.mse), -error, count)
-    return table.assign(
-        rays_of_error=np.exp(same),
-        rays_of_time=np.exp(np.interp(np.log(table.ns), ns, count)),
-        ns_of_error=np.exp(np.interp(same, count, ns)),
-    )
+    columns = {"rays_of_error": np.exp(same)}
+    for form in RAY_FORMS:
+        ns = np.log(table.ns[table.method.str.startswith(f"{form}_")])
+        columns[f"ns_of_error_{form}"] = np.exp(np.interp(same, count, ns))
+        columns[f"rays_of_time_{form}"] = np.exp(np.interp(np.log(table.ns), ns, count))
+    return table.assign(**columns)
 
 
 def _frames(mesh: PreparedMesh, seed: int, count: int, size: tuple[int, int]) -> list[SoftFrame]:

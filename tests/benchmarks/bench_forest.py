@@ -1,7 +1,8 @@
 """A forest of copies of three objects: shadow rays through their fields, beside Embree's instances.
 
-On one thread, of the points that two cameras see. Also beside one tree over all triangles of as many
-copies as fit into memory; what a frame costs in which all copies move; and an object that deforms.
+On one thread, of the points that two cameras see; Embree is sent single rays and packets of eight
+from C. Also beside one tree over all triangles of as many copies as fit into memory; what a frame costs
+in which all copies move; and an object that deforms.
 """
 
 import time
@@ -13,6 +14,15 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import torch
 from embree_instances import EmbreeInstances
+from embree_rays import (
+    PACKETS,
+    SINGLE,
+    WIDE,
+    EmbreeScene,
+    EmbreeTriangles,
+    best_of_forms,
+    check_compiled,
+)
 from measurement import Row, median_seconds
 
 from neural_shadows.meshes.generate_mesh import generate_mesh
@@ -24,6 +34,7 @@ from neural_shadows.networks.object_space.untrained_field import untrained_field
 from neural_shadows.reports.figures.forest import LAMP, SUN, cameras, see
 from neural_shadows.scenes.forest import scattered
 from neural_shadows.scenes.mesh_instances import MeshInstances
+from neural_shadows.scenes.tracing import NEARLY_ALL
 
 RESOLUTION = 256
 INSTANCES = 1000
@@ -40,6 +51,7 @@ MIB = 1 << 20
 def rows(mesh_ply: Path, quick: bool) -> list[Row]:
     """Of the mesh, a fence and an oak."""
     torch.set_num_threads(1)
+    check_compiled()
     with TemporaryDirectory() as folder:
         paths = [mesh_ply, *_others(Path(folder))]
         objects = [read_prepared(path) for path in paths]
@@ -82,28 +94,26 @@ def _forest_rows(objects, fields: Sequence[FieldBricks], rounds: int) -> list[Ro
     name = f"forest, {INSTANCES:,} copies, {triangles / 1e6:.0f} M triangles"
     exact = MeshInstances(objects, kinds, placements)
     found = []
+    to_sun = (SUN / np.linalg.norm(SUN)).astype(np.float32)
     for number, camera in enumerate(cameras(placements)):
         points = see(exact, camera).p
-        for light, asked, ways in (
-            (
-                "sun",
-                "occluded",
-                np.tile((SUN / np.linalg.norm(SUN)).astype(np.float32), (len(points), 1)),
-            ),
-            ("lamp", "blocked", np.float32([0, LAMP, 0]) - points),
-        ):
-            ask, ask_peer = getattr(forest, asked), getattr(peer, asked)
-            wrong = 100 * np.mean(ask(points, ways) != ask_peer(points, ways))
-            stage = f"{name}, frame {number}, {light}, {wrong:.2f} % of points differ"
-            works = {"field": partial(ask, points, ways), PEER: partial(ask_peer, points, ways)}
-            found.append(_rate(stage, works, rounds, len(points), "rays/s"))
+        to_lamp = np.float32([0, LAMP, 0]) - points
+        stage = f"{name}, frame {number}"
+        answer = partial(forest.occluded, points, np.tile(to_sun, (len(points), 1)))
+        found += _rate_rows(f"{stage}, sun", answer, peer, (points, to_sun), rounds)
+        answer = partial(forest.blocked, points, to_lamp)
+        rays = points, to_lamp, NEARLY_ALL
+        found += _rate_rows(f"{stage}, lamp", answer, peer, rays, rounds)
     moved = placements.copy()
     moved[:, 0, 3] += 0.1
-    works = {"field": partial(forest.place, moved), PEER: partial(peer.place, moved)}
     found.append(
         Row(f"{name}, in memory", "cpu x1", shares[0], "MiB", peer=PEER, peer_rate=shares[1])
     )
-    found.append(_rate(f"{name}, all of them moved", works, 3 * rounds, 1, "frames/s"))
+    works = {"field": partial(forest.place, moved), PEER: partial(peer.place, moved)}
+    seconds = median_seconds(works, 3 * rounds)
+    told = {"peer": PEER, "peer_rate": 1 / seconds[PEER]}
+    stage = f"{name}, all of them moved"
+    found.append(Row(stage, "cpu x1", 1 / seconds["field"], "frames/s", **told))
     peer.close()
     return found
 
@@ -113,15 +123,12 @@ def _joined_rows(objects, fields: Sequence[FieldBricks], count: int, rounds: int
     kinds, placements = _placed(objects, count)
     forest = FieldInstances(fields, kinds, placements)
     joined = _joined(objects, kinds, placements)
-    peer, built = _timed(lambda: EmbreeInstances([joined], [0], np.eye(4)[None]))
+    peer, built = _timed(partial(EmbreeTriangles, *joined))
     points = see(MeshInstances(objects, kinds, placements), next(cameras(placements))).p
-    ways = np.tile((SUN / np.linalg.norm(SUN)).astype(np.float32), (len(points), 1))
-    works = {"field": partial(forest.occluded, points, ways)}
+    to_sun = (SUN / np.linalg.norm(SUN)).astype(np.float32)
+    answer = partial(forest.occluded, points, np.tile(to_sun, (len(points), 1)))
     name, one_tree = f"forest, {count} copies, {len(joined[1]) / 1e6:.1f} M triangles", "one tree"
-    works[one_tree] = partial(peer.occluded, points, ways)
-    wrong = 100 * np.mean(works["field"]() != works[one_tree]())
-    stage = f"{name}, sun, {wrong:.2f} % of points differ"
-    found = [_rate(stage, works, rounds, len(points), "rays/s")]
+    found = _rate_rows(f"{name}, sun", answer, peer, (points, to_sun), rounds)
     told = {"peer": one_tree, "peer_rate": peer.bytes / MIB}
     found.append(Row(f"{name}, in memory", "cpu x1", forest.bytes / MIB, "MiB", **told))
     place = median_seconds({"field": partial(forest.place, placements)}, rounds)["field"]
@@ -145,9 +152,7 @@ def _deformed_rows(objects, seconds: Sequence[float]) -> list[Row]:
     """Of an object whose shape changes its field is built anew, as Embree's tree over its triangles."""
     found = []
     for mesh, field in zip(objects, seconds):
-        peer, tree = _timed(
-            lambda mesh=mesh: EmbreeInstances([(mesh.vertices, mesh.faces)], [0], np.eye(4)[None])
-        )
+        peer, tree = _timed(partial(EmbreeTriangles, mesh.vertices, mesh.faces))
         peer.close()
         stage = f"object of {len(mesh.faces):,} triangles, deformed: {RESOLUTION}³ field built anew"
         told = {"peer": "Embree's tree", "peer_rate": 1 / tree}
@@ -155,9 +160,22 @@ def _deformed_rows(objects, seconds: Sequence[float]) -> list[Row]:
     return found
 
 
-def _rate(stage: str, works, rounds: int, count: int, unit: str) -> Row:
-    """How many of what are done in a second, by fields and by the other of two works."""
-    seconds = median_seconds(works, rounds)
-    (peer,) = works.keys() - {"field"}
-    rates = {name: count / value for name, value in seconds.items()}
-    return Row(stage, "cpu x1", rates["field"], unit, peer=peer, peer_rate=rates[peer])
+def _rate_rows(stage: str, answer, peer: EmbreeScene, rays: tuple, rounds: int) -> list[Row]:
+    """Rays a second of fields, beside Embree's single rays and packets."""
+    works = {
+        "field": answer,
+        SINGLE: partial(peer.single, *rays),
+        **peer.packet_forms(*rays),
+    }
+    exact = works[SINGLE]()
+    wrong, unlike = 100 * np.mean(answer() != exact), (works[PACKETS]() != exact).sum()
+    seconds = best_of_forms(median_seconds(works, rounds, "thread_time"))
+    rate = {name: len(exact) / value for name, value in seconds.items()}
+    differ = f"{stage}, {wrong:.2f} % of points differ"
+    return [
+        *(
+            Row(differ, "cpu x1", rate["field"], "rays/s", peer=peer, peer_rate=rate[peer])
+            for peer in (SINGLE, PACKETS, WIDE)
+        ),
+        Row(f"{stage}, {PACKETS} unlike {SINGLE}", "cpu x1", unlike, "answers"),
+    ]
