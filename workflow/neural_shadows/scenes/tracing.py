@@ -69,3 +69,13 @@ class Tracer:
                 length. Its last ten thousandth is left out, so that a goal may lie on a surface.
         """
         return self._scene.run(points, ways, query="OCCLUDED", dists=NEARLY_ALL) >= 0
+
+    def free_shares(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
+        """How much of each way is free before anything is met, as a share: (n,) float32.
+
+        Below `NEARLY_ALL` where `blocked`, at it elsewhere.
+
+        Args:
+            points, ways: see `blocked`.
+        """
+        return self._scene.run(points, ways, query="DISTANCE", dists=NEARLY_ALL)
