@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from neural_shadows.denoising.history import History
 from neural_shadows.denoising.svgf import SIGMA_LUMINANCE, SvgfFilter
-from neural_shadows.rendering.reprojection import looked_up, seen_before
 from neural_shadows.rendering.surface import Surface
 
 ALPHA = 0.2  # the least share of a new frame, of values and moments (Schied et al. 2017, 4.1)
@@ -21,9 +21,8 @@ class TemporalFilter:
 
     def __init__(self, height: int, width: int, sigma_luminance: float = SIGMA_LUMINANCE):
         self._spatial = SvgfFilter(height, width, sigma_luminance)
-        self._before: Surface | None = None
         # The picture, its mean, its mean square, and how many frames are in them.
-        self._history = np.zeros((4, height, width), np.float32)
+        self._history = History()
 
     def next_frame(
         self, visibility: np.ndarray, surface: Surface, was: np.ndarray | None = None
@@ -35,15 +34,14 @@ class TemporalFilter:
             was: (n, 3), where the surface's points were a frame ago; see `seen_before`.
         """
         new = np.stack([visibility, visibility, visibility * visibility, np.ones_like(visibility)])
-        if self._before is not None:
-            self._add_history(new, surface, was)
+        self._add_history(new, surface, was)
         picture, mean, square, frames = new
         self._spatial.see(surface.depth_image(), surface.image(surface.n))
         over_time = np.maximum(square - mean * mean, 0)
         over_pixels = self._spatial.variance(mean, square)
         variance = np.where(frames >= _ENOUGH, over_time, over_pixels)
         new[0], last = self._spatial.smooth(picture, variance)
-        self._history, self._before = new, surface
+        self._history.keep(surface, new)
         return last
 
     def _add_history(self, new: np.ndarray, surface: Surface, was: np.ndarray | None) -> None:
@@ -51,12 +49,10 @@ class TemporalFilter:
 
         The first frames of a point are averaged evenly, as the authors' code does.
         """
-        accepted, places = seen_before(surface, self._before, was)
-        pixels, places = surface.pixel[accepted], places[:, accepted]
-        *old, frames = (looked_up(image, places) for image in self._history)
+        pixels, (*old, frames) = self._history.at(surface, len(new), was)
         frames = np.rint(frames) + 1
         share = np.maximum(np.float32(ALPHA), 1 / frames)
-        flat = new.reshape(4, -1)
+        flat = new.reshape(len(new), -1)
         for image, past in zip(flat, old):
             image[pixels] = past + share * (image[pixels] - past)
         flat[3, pixels] = frames

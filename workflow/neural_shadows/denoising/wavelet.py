@@ -7,6 +7,8 @@ time, so that a processor weighs many pixels at once.
 import numpy as np
 from numba import njit
 
+from neural_shadows.denoising.decay import decayed
+
 SIGMA_DEPTH = 1.0  # σ_z: how many times its own slope a depth may differ (4.4)
 SIGMA_NORMAL = 128  # σ_n: power of the normals' cosine (4.4)
 _REACH = 3  # variance is that of 7 × 7 pixels (4.2)
@@ -48,8 +50,7 @@ def fill_slopes(depth, along, down):
 def _weigh(guides, light, sharpness, y, x, v, u, share, weights):
     """Weights of the pixels (v, u …) of a row for those of (y, x …), as many as `weights` has.
 
-    share · exp(−|Δz| / (σ_z |∇z·d| + ε) − |Δl| / (σ_l σ + ε)) · max(0, n·n')^σ_n (4.4). The
-    exponential as (1 − t / 1024)^1024; what is below 1e-9 is 0, off numbers that are slow.
+    share · exp(−|Δz| / (σ_z |∇z·d| + ε) − |Δl| / (σ_l σ + ε)) · max(0, n·n')^σ_n (4.4).
     """
     n = len(weights)
     here, there = guides[:, y, x : x + n], guides[:, v, u : u + n]
@@ -57,20 +58,16 @@ def _weigh(guides, light, sharpness, y, x, v, u, share, weights):
     z_, nx_, ny_, nz_ = there[0], there[1], there[2], there[3]
     light_here, light_there, sharp = light[y, x : x + n], light[v, u : u + n], sharpness[y, x:]
     across, below = np.float32(u - x), np.float32(v - y)
-    one, none, tiny = np.float32(1), np.float32(0), np.float32(1e-12)
-    sigma, part = np.float32(SIGMA_DEPTH), np.float32(1 / 1024)
-    rare, aslant = np.float32(20), np.float32(0.85)
+    none, tiny = np.float32(0), np.float32(1e-12)
+    sigma, aslant = np.float32(SIGMA_DEPTH), np.float32(0.85)
     for i in range(n):
         expected = sigma * abs(along[i] * across + down[i] * below) + _FLAT * z[i] + tiny
         t = abs(z[i] - z_[i]) / expected + abs(light_here[i] - light_there[i]) * sharp[i]
-        weight = none if t > rare else one - t * part
-        for _ in range(10):
-            weight *= weight
         cosine = nx[i] * nx_[i] + ny[i] * ny_[i] + nz[i] * nz_[i]
         cosine = none if cosine < aslant else cosine
         for _ in range(_SQUARINGS):
             cosine *= cosine
-        weights[i] = share * weight * cosine
+        weights[i] = share * decayed(t) * cosine
 
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")

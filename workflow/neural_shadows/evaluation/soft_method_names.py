@@ -7,9 +7,17 @@ from importlib.util import find_spec
 
 NULL = {"no_shadow": "No shadow", "all_dark": "All dark"}
 BOXES = (3, 5, 9, 15)  # texels of a side
-RAYS = (1, 2, 4, 8, 16, 32, 40, 64)  # of a pixel
+RAYS = (1, 2, 3, 4, 6, 8, 16, 32, 40, 64)  # of a pixel
 SPREAD_RAYS = (2, 4, 8)  # over as many places of a pixel
-DENOISED_RAYS = (1, 4, 16, 30)
+# By what a key of denoised rays ends with: what the denoiser is called, and rays of a pixel.
+DENOISERS = {
+    "svgf": ("SVGF-like", (1, 2, 4, 16, 30)),
+    "ffx": ("FFX-like", (1, 2, 4)),
+    "sigma": ("SIGMA-like", (1, 2, 4)),
+    "sigma_ffx": ("SIGMA- and FFX-like", (1, 2, 4)),
+    "oidn_fast": ("OIDN fast", (1, 2, 4)),
+    "oidn": ("OIDN", (1, 2, 4, 16, 30)),
+}
 FIELD_RAYS = (1, 4, 16)  # through occupancy fields
 CONE_WALKS = (1, 4, 8)  # through them, of what neither sees all of the light nor none
 # By channel of a frame's buffers.
@@ -17,7 +25,7 @@ BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 ×
 BASE = "base_"
 EXACT = "exact_centre"
 SPREAD = "_spread"
-OIDN = "_oidn"
+OIDN = ("oidn", "oidn_fast")  # of the denoisers, those of a package of its own
 FORMATS = ("float32", "bfloat16")
 # How far a field's rays start from what they leave does not depend on their number: to choose it anew
 # took 98 s of a core.
@@ -51,8 +59,11 @@ LABELS = {
     "msm_15": "MSM 15 × 15, σ 3",
     **{f"rt_{count}": _rays(count) for count in RAYS},
     **{f"rt_{count}{SPREAD}": f"{_rays(count)}, spread" for count in SPREAD_RAYS},
-    **{f"rt_{count}_svgf": f"{_rays(count)}, SVGF-like" for count in DENOISED_RAYS},
-    **{f"rt_{count}{OIDN}": f"{_rays(count)}, OIDN" for count in DENOISED_RAYS},
+    **{
+        f"rt_{count}_{key}": f"{_rays(count)}, {label}"
+        for key, (label, counts) in DENOISERS.items()
+        for count in counts
+    },
     **{f"field_{count}": f"{_rays(count)}, fields" for count in FIELD_RAYS},
     "cone_1": "One walk, fields",
     **{f"cone_{walks}": f"One walk split in {walks}, fields" for walks in CONE_WALKS[1:]},
@@ -64,6 +75,12 @@ def rays_of(method: str) -> int | None:
     """How many rays of a pixel a method sends that does nothing else; None for another."""
     count = method.removeprefix("rt_")
     return int(count) if count != method and count.isdecimal() else None
+
+
+def denoiser_of(method: str) -> str | None:
+    """The key in `DENOISERS` of what smooths a method's rays; None of another method."""
+    first, *rest = method.split("_", 2)
+    return rest[1] if first == "rt" and len(rest) == 2 and rest[1] in DENOISERS else None
 
 
 def is_network(method: str) -> bool:
@@ -81,7 +98,8 @@ def in_format(experiment: str, precision: str) -> str:
 def is_tuned(method: str) -> bool:
     """Whether a method has constants, which are chosen on validation frames."""
     constant = method in (*NULL, EXACT, "hard") or method.startswith(BASE) or is_network(method)
-    return not constant and not method.endswith((OIDN, SPREAD)) and rays_of(method) is None
+    untuned = rays_of(method) is not None or method.endswith(SPREAD) or denoiser_of(method) in OIDN
+    return not constant and not untuned
 
 
 def tuned_as(method: str) -> str:
@@ -91,4 +109,4 @@ def tuned_as(method: str) -> str:
 
 def available(method: str) -> bool:
     """Whether a method can be had on this machine: Open Image Denoise is for x86-64 alone."""
-    return not method.endswith(OIDN) or find_spec("pyoidn") is not None
+    return denoiser_of(method) not in OIDN or find_spec("pyoidn") is not None

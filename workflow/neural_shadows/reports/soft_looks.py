@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from neural_shadows.evaluation.soft_method_names import LABELS, NULL, is_network
+from neural_shadows.evaluation.soft_method_names import LABELS, NULL, denoiser_of, is_network
 from neural_shadows.reports.figures.style import COLOURS
 from neural_shadows.reports.method_look import Look
 
@@ -47,6 +47,30 @@ SOFT_LOOKS = {
         "Walks once from a point to the light, and keeps how near it comes to each object's surface.",
     ),
     "svgf": Look("rays, SVGF-like filter", PINK, "v", "▼", "Rays, smoothed within surfaces."),
+    "ffx": Look(
+        "rays, FFX-like filter",
+        SKY,
+        ">",
+        "►",
+        "Rays, smoothed within surfaces by the fewest taps.",
+    ),
+    "sigma": Look(
+        "rays, SIGMA-like filter",
+        BLUE,
+        "d",
+        "♦",
+        "Rays, blurred as the distances to what blocks the light ask.",
+    ),
+    "sigma_ffx": Look(
+        "rays, SIGMA- and FFX-like filters",
+        YELLOW,
+        "H",
+        "⬣",
+        "Rays, blurred by distances, then smoothed within surfaces.",
+    ),
+    "oidn_fast": Look(
+        "rays, Open Image Denoise fast", RED, "x", "✖", "Rays, denoised by a smaller network."
+    ),
     "oidn": Look("rays, Open Image Denoise", RED, "X", "✕", "Rays, denoised by a network."),
     "network": Look(
         "networks on frames",
@@ -75,10 +99,9 @@ def family_of(method: str) -> str:
         return "network"
     if method in NULL:
         return "null"
-    first, _, rest = method.partition("_")
+    first = method.partition("_")[0]
     if first == "rt":
-        kind = rest.partition("_")[2]
-        first = "rt" if kind in ("", "spread") else kind
+        return denoiser_of(method) or "rt"
     if first in ("vsm", "evsm", "msm"):
         first = "moments"
     return first if first in SOFT_LOOKS else "other"

@@ -116,12 +116,12 @@ class EmbreePackets:
         _fill_occluded(self._scene, *rays, np.float32(end), _packet(), hit)
         return hit
 
-    def first_hit(self, origins: np.ndarray, directions: np.ndarray):
-        """Nearest hit of each ray: t, face, u, v, each (n,); face −1 where nothing is hit."""
+    def first_hit(self, origins: np.ndarray, directions: np.ndarray, end: float = _FOREVER):
+        """Nearest hit of each ray before `end`: t, face, u, v, each (n,); face −1 where there is none."""
         rays = _as_rays(origins, directions)
         face = np.empty(len(origins), np.int32)
         t, u, v = np.empty((3, len(origins)), np.float32)
-        _fill_hits(self._scene, *rays, _packet(), t, face, u, v)
+        _fill_hits(self._scene, *rays, np.float32(end), _packet(), t, face, u, v)
         return t, face, u, v
 
 
@@ -162,11 +162,11 @@ def _fill_occluded(scene, origins, directions, end, packet, hit):
 
 
 @njit(cache=True, nogil=True)
-def _fill_hits(scene, origins, directions, packet, t, face, u, v):
+def _fill_hits(scene, origins, directions, end, packet, t, face, u, v):
     """Never as `_COHERENT`: of hits at one distance that would find now this, now that triangle."""
     bits = packet.view(np.int32)
     for first in range(0, len(origins), WIDTH):
-        count, _ = _fill_packet(packet, bits, origins, directions, first, np.float32(_FOREVER))
+        count, _ = _fill_packet(packet, bits, origins, directions, first, end)
         bits[_ARGUMENTS, 0] = 0
         bits[_MESH] = -1
         bits[_INSTANCE] = -1

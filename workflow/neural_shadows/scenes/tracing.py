@@ -63,6 +63,17 @@ class Tracer:
         """
         return self._rays.occluded(points, ways, NEARLY_ALL)
 
+    def free_shares(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
+        """How much of each way is free before anything is met, as a share: (n,) float32.
+
+        Below `NEARLY_ALL` where `blocked`, at it elsewhere.
+
+        Args:
+            points, ways: see `blocked`.
+        """
+        t, *_ = self._rays.first_hit(points, ways, NEARLY_ALL)
+        return np.minimum(t, np.float32(NEARLY_ALL))
+
 
 class EmbreeSingly:
     """`EmbreePackets` where Embree's library is not beside embreex: rays one by one, same answers."""
@@ -80,7 +91,7 @@ class EmbreeSingly:
     def occluded(self, origins, directions, end: float | None = None) -> np.ndarray:
         return self._scene.run(origins, directions, query="OCCLUDED", dists=end) >= 0
 
-    def first_hit(self, origins, directions):
-        hit = self._scene.run(origins, directions, query="INTERSECT", output=1)
+    def first_hit(self, origins, directions, end: float | None = None):
+        hit = self._scene.run(origins, directions, query="INTERSECT", output=1, dists=end)
         face = hit["primID"]
         return np.where(face >= 0, hit["tfar"], np.float32(np.inf)), face, hit["u"], hit["v"]

@@ -46,7 +46,7 @@ def test_a_point_gets_one_ray(frame):
 
 def test_rays_in_parts_and_of_later_frames(frame, monkeypatch):
     eight = ray_traced(frame, RADIUS, samples=8)
-    monkeypatch.setattr(room, "_RAYS", 1000)
+    monkeypatch.setattr(room, "_CHUNK", 1000)
     assert np.array_equal(ray_traced(frame, RADIUS, samples=8), eight)
     halves = [ray_traced(replace(frame, number=k), RADIUS, samples=4) for k in (0, 1)]
     assert not np.array_equal(*halves) and np.array_equal(sum(halves) / 2, eight)

@@ -1,104 +1,159 @@
 """Ray tracing with few rays a pixel, and what a denoiser makes of its picture."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from itertools import repeat
+from typing import Any
 
 import numpy as np
 
+from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx, ffx_like
 from neural_shadows.denoising.oidn import open_image_denoise
-from neural_shadows.denoising.svgf import SIGMA_LUMINANCE, SvgfFilter, svgf_like
+from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma, sigma_like
+from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx, sigma_ffx_like
+from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
 from neural_shadows.denoising.temporal import TemporalFilter
-from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
+from neural_shadows.evaluation.soft_method_names import DENOISERS
+from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced, ray_traced_penumbrae
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.surface import Surface
 
 
-def oidn_denoised(
-    frame: SoftFrame, radius: float, *, samples: int, quality: str = "high", clean: float = 0
+@dataclass(frozen=True)
+class Denoiser:
+    """A denoiser as methods use it: the last step, on one thread.
+
+    Attributes:
+        single: of pictures (height, width) float32, the surface and the constants, the smooth
+            picture. They are the visibility by rays and, if `distances`, the penumbrae's radii of
+            `ray_traced_penumbrae`; lit, and −1, where there is no surface.
+        temporal: of a height, a width and the constants, what does so for frames in turn, if it
+            has a history: `next_frame` of the pictures, the surface, and where its points were.
+        tried: see `SoftMethod.constants`.
+    """
+
+    single: Callable[..., np.ndarray]
+    temporal: Callable[..., Any] | None = None
+    tried: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    distances: bool = False
+
+    def pictures(self, frame: SoftFrame, radius: float, samples: int) -> tuple[np.ndarray, ...]:
+        """What it smooths, of a frame's rays."""
+        surface = frame.surface
+        if not self.distances:
+            return (surface.image(ray_traced(frame, radius, samples=samples), 1.0),)
+        visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples)
+        return surface.image(visibility, 1.0), surface.image(penumbra, -1.0)
+
+
+def denoised(
+    frame: SoftFrame, radius: float, *, samples: int, denoiser: Denoiser, **constants: float
 ) -> np.ndarray:
-    """Rays, then Open Image Denoise on one thread: (n,) float32.
+    """Rays, then a denoiser of one frame: (n,) float32.
 
     Args:
         radius: of the light, in the scene's unit; a point's shadow has no noise and stays as it is.
-        samples: rays of each pixel. quality, clean: see `open_image_denoise`.
+        samples: rays of each pixel.
 
     Raises:
-        InputError: the package is not installed.
+        InputError: the denoiser's package is not installed.
     """
-    rays = ray_traced(frame, radius, samples=samples)
     if radius == 0:
-        return rays
-    surface = frame.surface
-    picture = surface.image(rays, 1.0)
-    normal = surface.image(surface.n)
-    found = open_image_denoise(picture, normal, quality=quality, clean=bool(clean))
-    return found.ravel()[surface.pixel]
+        return ray_traced(frame, radius, samples=samples)
+    pictures = denoiser.pictures(frame, radius, samples)
+    smooth = denoiser.single(*pictures, frame.surface, **constants)
+    return smooth.ravel()[frame.surface.pixel]
 
 
-def svgf_denoised(
-    frame: SoftFrame, radius: float, *, samples: int, sigma_luminance: float = SIGMA_LUMINANCE
-) -> np.ndarray:
-    """Rays, then the SVGF-like filter of one frame: (n,) float32, on one thread.
-
-    Args:
-        radius: of the light, in the scene's unit; a point's shadow has no noise and stays as it is.
-        samples: rays of each pixel. sigma_luminance: see `SvgfFilter`.
-    """
-    rays = ray_traced(frame, radius, samples=samples)
-    if radius == 0:
-        return rays
-    surface = frame.surface
-    picture, normal = surface.image(rays, 1.0), surface.image(surface.n)
-    filter_ = _filter(*picture.shape, sigma_luminance)
-    return svgf_like(filter_, picture, surface.depth_image(), normal).ravel()[surface.pixel]
-
-
-def svgf_sequence(
+def denoised_sequence(
     frames: Iterable[SoftFrame],
     radius: float,
     *,
     samples: int,
-    sigma_luminance: float = SIGMA_LUMINANCE,
+    denoiser: Denoiser,
     was: Iterable[np.ndarray | None] | None = None,
+    **constants: float,
 ) -> Iterator[np.ndarray]:
-    """Rays, then the SVGF-like filter with its temporal part, of each frame in turn: (n,) float32.
+    """Rays, then a denoiser with its temporal part, of each frame in turn: (n,) float32.
 
     Args:
-        radius, samples, sigma_luminance: see `svgf_denoised`.
+        radius, samples: see `denoised`.
         frames: whose numbers grow. was: of each, where its points were in the one before, (n, 3), if
             anything moved.
     """
-    past = repeat(None) if was is None else was
-    filter_ = None
-    for frame, points in zip(frames, past):
-        rays = ray_traced(frame, radius, samples=samples)
+    temporal = None
+    for frame, points in zip(frames, repeat(None) if was is None else was):
         surface = frame.surface
-        if radius > 0:
-            filter_ = filter_ or TemporalFilter(surface.height, surface.width, sigma_luminance)
-            picture = filter_.next_frame(surface.image(rays, 1.0), surface, points)
-            rays = picture.ravel()[surface.pixel]
-        yield rays
+        if radius == 0:
+            yield ray_traced(frame, radius, samples=samples)
+            continue
+        temporal = temporal or denoiser.temporal(surface.height, surface.width, **constants)
+        pictures = denoiser.pictures(frame, radius, samples)
+        yield temporal.next_frame(*pictures, surface, points).ravel()[surface.pixel]
 
 
-# Only the last is kept: 50 MB for a million pixels, and the frames of a set have one size.
-_filter = lru_cache(maxsize=1)(SvgfFilter)
+# Only the last of a kind is kept: 50 MB for a million pixels, and the frames of a set have one size.
+_svgf_filter, _ffx_filter, _sigma_filter, _sigma_ffx_filter = (
+    lru_cache(maxsize=1)(kind) for kind in (SvgfFilter, FfxFilter, SigmaFilter, SigmaFfxFilter)
+)
 
 
-_RAYS = (1, 4, 16, 30)
-_TRIED = {"sigma_luminance": (2.0, 4.0, 8.0)}
-_BY_RAYS = {"texel_floats": 0, "by_rays": True}
+def _svgf(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
+    filter_ = _svgf_filter(*picture.shape, **constants)
+    return svgf_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
 
 
-def _smoothed(count: int) -> SoftMethod:
-    answer, sequence = (partial(one, samples=count) for one in (svgf_denoised, svgf_sequence))
-    return SoftMethod(answer, _TRIED, sequence=sequence, **_BY_RAYS)
+def _ffx(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
+    filter_ = _ffx_filter(*picture.shape, **constants)
+    return ffx_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
+
+
+def _sigma(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
+    return sigma_like(_sigma_filter(*picture.shape, **constants), picture, penumbra, surface)
+
+
+def _sigma_ffx(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
+    filter_ = _sigma_ffx_filter(*picture.shape, **constants)
+    return sigma_ffx_like(filter_, picture, penumbra, surface)
+
+
+def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
+    return open_image_denoise(picture, surface.image(surface.n), quality=quality)
+
+
+BY_KEY = {
+    "svgf": Denoiser(_svgf, TemporalFilter, {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0)}),
+    "ffx": Denoiser(_ffx, TemporalFfx, {"sigma": (1.0, 2.0, 4.0, 8.0, 16.0)}),
+    "sigma": Denoiser(_sigma, TemporalSigma, {"reach": (0.25, 0.5, 0.7, 1.0, 1.4, 2.0)}, True),
+    "sigma_ffx": Denoiser(
+        _sigma_ffx,
+        TemporalSigmaFfx,
+        {"reach": (0.06, 0.12, 0.25, 0.5, 1.0), "sigma": (0.5, 1.0, 2.0, 4.0, 8.0)},
+        True,
+    ),
+    "oidn_fast": Denoiser(partial(_oidn, quality="fast")),
+    "oidn": Denoiser(partial(_oidn, quality="high")),
+}
+
+
+def _method(key: str, count: int) -> SoftMethod:
+    denoiser = BY_KEY[key]
+    answer, sequence = (
+        partial(one, samples=count, denoiser=denoiser) for one in (denoised, denoised_sequence)
+    )
+    return SoftMethod(
+        answer,
+        denoiser.tried,
+        sequence=sequence if denoiser.temporal else None,
+        texel_floats=0,
+        by_rays=True,
+    )
 
 
 METHODS = {
-    **{f"rt_{count}_svgf": _smoothed(count) for count in _RAYS},
-    **{
-        f"rt_{count}_oidn": SoftMethod(partial(oidn_denoised, samples=count), **_BY_RAYS)
-        for count in _RAYS
-    },
+    f"rt_{count}_{key}": _method(key, count)
+    for key, (_, counts) in DENOISERS.items()
+    for count in counts
 }

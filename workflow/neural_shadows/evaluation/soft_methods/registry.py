@@ -10,7 +10,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from neural_shadows.evaluation.soft_method_names import is_network
+from neural_shadows.evaluation.soft_method_names import denoiser_of, is_network
 
 if TYPE_CHECKING:  # the graph asks for modules alone
     from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
@@ -33,9 +33,8 @@ def method_module(key: str) -> Path:
     """The module of a method: `pcf.py` for `pcf_9`."""
     if is_network(key):
         return Path(__file__).with_name("screen_network.py")
-    words = key.split("_")
-    denoised = words[-1] in ("svgf", "oidn")
-    name = "denoised" if denoised else _MODULES.get(words[0], words[0])
+    family = key.partition("_")[0]
+    name = "denoised" if denoiser_of(key) else _MODULES.get(family, family)
     return Path(__file__).with_name(f"{name}.py")
 
 

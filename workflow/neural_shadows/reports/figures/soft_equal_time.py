@@ -7,6 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from neural_shadows.evaluation.soft_method_names import DENOISERS
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.figures.point_labels import label_points
@@ -15,7 +16,7 @@ from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
 NUMBERS = ("number", "radius", "mse", "mse_low", "mse_high", "ms")
-JOINED = ("rt", "field", "svgf", "oidn")  # one method with more and more rays
+JOINED = ("rt", "field", *DENOISERS)  # one method with more and more rays
 
 
 def draw(

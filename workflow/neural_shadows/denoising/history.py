@@ -1,0 +1,37 @@
+"""What a filter keeps of a sequence's frame for the next one."""
+
+import numpy as np
+
+from neural_shadows.rendering.reprojection import looked_up, seen_before
+from neural_shadows.rendering.surface import Surface
+
+
+class History:
+    """Images of the frame before, looked up where its points are now."""
+
+    def __init__(self):
+        self._images: np.ndarray | None = None
+        self._surface: Surface | None = None
+
+    def at(
+        self, surface: Surface, count: int, was: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The pixels that the frame before shows as well, and its images there; none at first.
+
+        Args:
+            surface: of the frame now. was: (n, 3), where its points were; see `seen_before`.
+            count: of the images.
+
+        Returns:
+            pixels (m,) int64, row · width + column, and values (count, m) float32.
+        """
+        if self._images is None:
+            return np.empty(0, np.int64), np.empty((count, 0), np.float32)
+        accepted, places = seen_before(surface, self._surface, was)
+        places = places[:, accepted]
+        values = np.stack([looked_up(image, places) for image in self._images])
+        return surface.pixel[accepted], values
+
+    def keep(self, surface: Surface, images: np.ndarray) -> None:
+        """Take a frame's images (count, H, W) float32 for the next one."""
+        self._images, self._surface = images, surface

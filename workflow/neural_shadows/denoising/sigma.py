@@ -1,0 +1,263 @@
+"""A shadow denoiser like NRD's SIGMA: as blurred as the distances to what blocks the light ask.
+
+After what is described of NVIDIA's Real-Time Denoisers (4.18), whose code was not used. "Like",
+because what faces away from the light is blurred as all else is, as its rays know what they see
+(errors were a sixth smaller), and the weights that are not described are ours. All on one thread.
+"""
+
+import numpy as np
+from numba import njit
+from scipy.ndimage import uniform_filter
+
+from neural_shadows.denoising.history import History
+from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
+from neural_shadows.rendering.surface import Surface
+
+REACH = 0.7  # of a penumbra's radius, how far the sparse taps are
+PASSES = 2
+_NEAR = 2  # pixels to each side that dense taps are
+_TAPS = 12  # sparse ones
+_SHORT = np.float32(2)  # pixels of radius up to which a pixel keeps a part of its own visibility
+_LONG = np.float32(32)  # pixels that sparse taps reach at most
+_DENSE = np.float32(8)  # weight of the dense taps' mean; of 2, 4, 8 and 16 about the best
+_PLANE = np.float32(2)  # pixels off a pixel's own plane, from which on others weigh nothing
+_LEAST = np.float32(1e-12)
+_FRAMES = 7  # of history at most
+_CLAMP = 3.0  # standard deviations of 5 × 5 pixels that history may be off their mean
+
+
+def _gaussian(r: np.ndarray) -> np.ndarray:
+    """By distance, in shares of what is reached."""
+    return np.float32(np.exp(-0.66 * r * r))
+
+
+def _disc() -> np.ndarray:
+    """The sparse taps, evenly over a disc of radius 1 (Vogel): x, y and weight, (taps, 3) float32."""
+    k = np.arange(_TAPS)
+    r, angle = np.sqrt((k + 0.5) / _TAPS), k * np.pi * (3 - 5**0.5)
+    return np.float32(np.stack([r * np.cos(angle), r * np.sin(angle), _gaussian(r)], axis=1))
+
+
+_DISC = _disc()
+_SQUARE = _gaussian(np.hypot(*np.mgrid[: _NEAR + 1, : _NEAR + 1]) / _NEAR)
+
+
+class SigmaFilter:
+    """The filter for pictures (height, width); keeps its buffers, so one thread may use it.
+
+    Args:
+        reach: see REACH.
+    """
+
+    def __init__(self, height: int, width: int, reach: float = REACH):
+        self._reach = np.float32(reach)
+        self._nearby = Neighbourhoods(height, width)
+        self._guides = np.zeros((7, height, width), np.float32)
+        self._images = np.empty((6, height, width), np.float32)
+
+    def see(self, place: np.ndarray, normal: np.ndarray, pixel: np.ndarray) -> None:
+        """Take the surface whose planes are kept apart.
+
+        Args:
+            place, normal: (H, W, 3) float32, of its points and of their faces, in the scene's unit.
+            pixel: (H, W) float32, a pixel's side at the point; 0 where there is no surface.
+        """
+        self._guides[:3] = np.moveaxis(place, 2, 0)
+        self._guides[3:6] = np.moveaxis(normal, 2, 0)
+        self._guides[6] = pixel
+
+    def smooth(self, visibility: np.ndarray, penumbra: np.ndarray, turned: int = 0) -> np.ndarray:
+        """The picture (H, W) float32 after both passes.
+
+        Args:
+            visibility: (H, W) float32 in [0, 1].
+            penumbra: (H, W) float32, the mean radius of the penumbrae of what blocks a pixel's rays,
+                in the scene's unit; below 0 where nothing does.
+            turned: how often the sparse taps were turned before.
+        """
+        self._nearby.see(visibility)
+        light, share, width, next_light, next_share, next_width = self._images
+        pixel = self._guides[6]
+        # Narrow ones weigh most: 1 / (1 + their radius in pixels), and 0 where there is none.
+        light[:] = visibility
+        share[:] = np.where(penumbra < 0, 0, pixel / (pixel + penumbra + _LEAST))
+        width[:] = share * penumbra
+        for image, after in zip(self._images[:3], self._images[3:]):
+            after[:] = image
+        for number in range(PASSES):
+            _fill_next(
+                self._guides,
+                light,
+                share,
+                width,
+                self._nearby.mixed,
+                self._reach,
+                PASSES * turned + number,
+                next_light,
+                next_share,
+                next_width,
+            )
+            light, next_light = next_light, light
+            share, next_share = next_share, share
+            width, next_width = next_width, width
+        return np.clip(light, 0, 1)
+
+
+def see_surface_of(filter_: SigmaFilter, surface: Surface) -> None:
+    """Have the filter see a frame's surface."""
+    pixel = surface.depth_image() / np.float32(surface.camera.focal(surface.height))
+    filter_.see(surface.image(surface.p), surface.image(surface.n_g), pixel)
+
+
+def sigma_like(
+    filter_: SigmaFilter, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface
+) -> np.ndarray:
+    """One picture without what was before it, (H, W) float32; see `SigmaFilter`."""
+    see_surface_of(filter_, surface)
+    return filter_.smooth(visibility, penumbra)
+
+
+class TemporalSigma:
+    """The filter for a sequence of frames (height, width), given one by one.
+
+    What is given out is what the next frame is added to.
+
+    Args:
+        reach: see REACH.
+    """
+
+    def __init__(self, height: int, width: int, reach: float = REACH):
+        self._spatial = SigmaFilter(height, width, reach)
+        self._history = History()  # the picture, and how many frames are in it
+        self._frame = 0
+
+    def next_frame(
+        self,
+        visibility: np.ndarray,
+        penumbra: np.ndarray,
+        surface: Surface,
+        was: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """The next frame's picture, (H, W) float32.
+
+        Args:
+            visibility, penumbra: see `SigmaFilter.smooth`.
+            was: (n, 3), where the surface's points were a frame ago; see `seen_before`.
+        """
+        see_surface_of(self._spatial, surface)
+        picture = self._spatial.smooth(visibility, penumbra, self._frame)
+        self._frame += 1
+        pixels, (past, frames) = self._history.at(surface, 2, was)
+        mean, deviation = (image.ravel()[pixels] for image in _nearby(picture))
+        clamped = np.clip(past, mean - _CLAMP * deviation, mean + _CLAMP * deviation)
+        # What had to be clamped is of another shadow: its frames count as fewer.
+        frames = 1 + np.minimum(frames, _FRAMES) * (1 - np.abs(past - clamped))
+        new = np.stack([picture, np.ones_like(picture)])
+        flat = new.reshape(2, -1)
+        flat[0, pixels] = clamped + (flat[0, pixels] - clamped) / frames
+        flat[1, pixels] = frames
+        self._history.keep(surface, new)
+        return new[0].copy()
+
+
+def _nearby(picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Means and standard deviations over 5 × 5 pixels, (H, W) float32 each."""
+    mean, square = (uniform_filter(one, 2 * _NEAR + 1) for one in (picture, picture * picture))
+    return mean, np.sqrt(np.maximum(square - mean * mean, 0))
+
+
+@njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
+def _fill_next(guides, light, share, width, mixed, reach, turn, next_light, next_share, next_width):
+    """One pass over what is mixed: dense taps, then sparse ones as far as the penumbra is wide."""
+    height, columns = light.shape
+    total, lights, shares, widths = np.empty((4, SIDE), np.float32)
+    for y in range(height):
+        for block in range(mixed.shape[1]):
+            if not mixed[y, block]:
+                continue
+            begin, end = block * SIDE, min(block * SIDE + SIDE, columns)
+            total[:], lights[:], shares[:], widths[:] = _LEAST, 0, 0, 0
+            for v in range(max(0, y - _NEAR), min(height, y + _NEAR + 1)):
+                for along in range(-_NEAR, _NEAR + 1):
+                    x, last = max(begin, -along), min(end, columns - along)
+                    if x >= last:
+                        continue
+                    _add_tap(
+                        guides[:, y, x:last],
+                        guides[:, v, x + along : last + along],
+                        _SQUARE[abs(v - y), abs(along)],
+                        light[v, x + along :],
+                        share[v, x + along :],
+                        width[v, x + along :],
+                        total[x - begin :],
+                        lights[x - begin :],
+                        shares[x - begin :],
+                        widths[x - begin :],
+                    )
+            for i in range(end - begin):
+                x = begin + i
+                if guides[6, y, x] <= 0:
+                    continue
+                dense = lights[i] / total[i]
+                if shares[i] <= 0:  # nothing is blocked near it
+                    next_light[y, x] = dense
+                    continue
+                next_light[y, x], next_share[y, x], next_width[y, x] = _spread(
+                    guides, light, share, width, reach, turn, y, x, dense, widths[i] / shares[i]
+                )
+
+
+@njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
+def _add_tap(here, there, part, light, share, width, total, lights, shares, widths):
+    """Add a run of pixels to those of another by part · max(0, 1 − distance off the plane)."""
+    px, py, pz, nx, ny, nz, pixel = here[0], here[1], here[2], here[3], here[4], here[5], here[6]
+    qx, qy, qz, seen = there[0], there[1], there[2], there[6]
+    none, one = np.float32(0), np.float32(1)
+    for i in range(len(px)):
+        away = abs(nx[i] * (qx[i] - px[i]) + ny[i] * (qy[i] - py[i]) + nz[i] * (qz[i] - pz[i]))
+        weight = part * max(none, one - away / (_PLANE * pixel[i] + _LEAST))
+        weight = weight if seen[i] > 0 else none
+        total[i] += weight
+        lights[i] += weight * light[i]
+        shares[i] += weight * share[i]
+        widths[i] += weight * width[i]
+
+
+@njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
+def _spread(guides, light, share, width, reach, turn, y, x, dense, penumbra):
+    """A pixel's visibility, share and width from its dense mean and sparse taps round it."""
+    height, columns = light.shape
+    none, one, half = np.float32(0), np.float32(1), np.float32(0.5)
+    px, py, pz, nx, ny, nz, pixel = guides[:, y, x]
+    radius = reach * penumbra / pixel
+    t = min(radius / _SHORT, one)
+    mix = t * t * (3 - 2 * t)
+    total = _DENSE
+    lights = total * (light[y, x] + mix * (dense - light[y, x]))
+    shares = total * pixel / (pixel + penumbra)
+    widths = shares * penumbra
+    cosine, sine = _turned(x, y, turn)
+    radius = min(radius, _LONG)
+    for k in range(_TAPS):
+        u = int(np.floor(x + half + radius * (cosine * _DISC[k, 0] - sine * _DISC[k, 1])))
+        v = int(np.floor(y + half + radius * (sine * _DISC[k, 0] + cosine * _DISC[k, 1])))
+        if u < 0 or v < 0 or u >= columns or v >= height or guides[6, v, u] <= 0:
+            continue
+        qx, qy, qz = guides[0, v, u], guides[1, v, u], guides[2, v, u]
+        away = abs(nx * (qx - px) + ny * (qy - py) + nz * (qz - pz))
+        weight = _DISC[k, 2] * max(none, one - away / (_PLANE * pixel))
+        if share[v, u] > 0:  # a narrower penumbra does not reach as far
+            weight *= min(one, width[v, u] / (share[v, u] * penumbra + _LEAST))
+        total += weight
+        lights += weight * light[v, u]
+        shares += weight * share[v, u]
+        widths += weight * width[v, u]
+    return lights / total, shares / total, widths / total
+
+
+@njit(cache=True, nogil=True)
+def _turned(x, y, turn):
+    """Cosine and sine of a pixel's angle, other than its neighbours' (Jimenez 2014)."""
+    x, y = x + 5.588238 * turn, y + 5.588238 * turn
+    angle = 2 * np.pi * ((52.9829189 * ((0.06711056 * x + 0.00583715 * y) % 1)) % 1)
+    return np.float32(np.cos(angle)), np.float32(np.sin(angle))
