@@ -45,7 +45,7 @@ claims.sampling.needs | {seeds: 0} | needs.seeds = 0: Input should be greater th
 claims.sampling.needs | {budget: 3} | needs.budget = 3: Input should be less than or equal to 1
 claims.sampling.needs | {mesh: bunny} | needs.mesh = 'bunny': Input should be 'thesis'
 claims.sampling.needs | {seed: 3} | needs: unknown key: 'seed' (did you mean 'seeds'?) is not among
-claims.printed_comparable_to_512.row | nothing | rows of table 4.3: 'nothing' is not among
+claims.printed_comparable_to_512.row | nothing | rows of table 4.5: 'nothing' is not among
 claims.printed_comparable_to_512.equivalent_to | 64 | 'shadow_map_64' (did you mean
 claims.printed_comparable_to_512.equivalent_to | null | needs `pairs`, or `row` and `equivalent
 claims.printed_wider_is_worse_on_the_landscape.metrics | [psnr] | metrics of table 4.6: 'psnr' is

@@ -21,7 +21,7 @@ LEARNED = {
 
 def judged(ratio, trainings=None, steps=STEPS, again=(), **told):
     ratio = {"table": "steps", "of": {"row": "original"}, "to": {"row": "trimmed"}, **ratio}
-    ratio = {"at_least": None, "at_most": None, "per": None} | ratio
+    ratio = {"at_least": None, "at_most": None, "per": None, "unlearned": None} | ratio
     others = {f"steps_{number}": table for number, table in enumerate(again)}
     claim = {"kind": "ratio", "ratios": [ratio], "networks": [], "needs": {}, **told}
     claim["again"] = {"steps": [*others]}
@@ -142,3 +142,83 @@ def test_what_networks_measure_needs_seeds_and_that_they_learned():
     alone = {"validation_mse": [9.0, 0.02], "training": {"lights": [1]}}
     found = judged(ratio, {"nsm": LEARNED | alone}, **told)
     assert found["verdict"] == verdicts.TOO_SMALL
+
+
+def of_nulls(**nulls):
+    """Errors of a network on what it learned and never saw, and of another; and of nulls on both."""
+    numbers = {"mine": (0.01, 0.012), "other": (0.02, 0.02)} | nulls
+    rows = [
+        {"label": name, "null": name if name in nulls else None, "frames": frames, "mse": value}
+        for name, pair in numbers.items()
+        for frames, value in zip(("learned", "unseen"), pair)
+    ]
+    return pd.DataFrame(rows)
+
+
+CARRIES = {
+    "of": {"label": "mine", "frames": "unseen"},
+    "to": {"label": "mine", "frames": "learned"},
+}
+CARRIES |= {"column": "mse", "at_most": 1.5}
+BEATS = {"of": {"label": "other", "frames": "unseen"}, "to": {"label": "mine", "frames": "unseen"}}
+BEATS |= {"column": "mse", "at_least": 1}
+
+
+@pytest.mark.parametrize(
+    ("ratio", "nulls", "verdict"),
+    [
+        (CARRIES, {"hard": (0.04, 0.03)}, verdicts.VACUOUS),  # a map carries over as well
+        (CARRIES, {"hard": (0.02, 0.04)}, verdicts.SUPPORTED),
+        (BEATS, {"no_shadow": (0.09, 0.015)}, verdicts.VACUOUS),
+        (BEATS, {"no_shadow": (0.09, 0.09)}, verdicts.SUPPORTED),
+        (BEATS, {"no_shadow": (0.09, 0.02)}, verdicts.SUPPORTED),  # level is not better
+        (
+            BEATS,
+            {"no_shadow": (0.09, 0.0)},
+            verdicts.VACUOUS,
+        ),  # what never changes does not flicker
+        (BEATS, {}, verdicts.SUPPORTED),
+    ],
+)
+def test_a_ratio_that_what_learns_nothing_has_too_is_vacuous(ratio, nulls, verdict):
+    found = judged(ratio, {"nsm": LEARNED}, of_nulls(**nulls), networks=["nsm"])
+    assert found["verdict"] == verdict
+
+
+@pytest.mark.parametrize(("null", "verdict"), [(0.25, verdicts.VACUOUS), (0.1, verdicts.SUPPORTED)])
+def test_a_null_of_shares_is_given(null, verdict):
+    ratio = {
+        "column": "size",
+        "of": {"row": "trimmed"},
+        "to": 0.2,
+        "at_least": 1,
+        "unlearned": null,
+    }
+    assert judged(ratio, {"nsm": LEARNED}, networks=["nsm"])["verdict"] == verdict
+
+
+@pytest.mark.parametrize(
+    ("ends", "verdict"),
+    [
+        ((1.1, 1.42), verdicts.CONTRADICTED),
+        ((0.9, 1.74), verdicts.UNDECIDED),
+        ((None, None), verdicts.TOO_SMALL),
+    ],
+)
+def test_a_number_with_an_interval_of_its_own(ends, verdict):
+    low, high = ends
+    steps = pd.DataFrame(
+        {"row": ["trimmed"], "size": [1.25], "size_low": [low], "size_high": [high]}
+    )
+    ratio = {"column": "size", "of": {"row": "trimmed"}, "to": 1.0, "at_most": 1}
+    found = judged(ratio, steps=steps.astype({"size_low": float, "size_high": float}))
+    assert found["verdict"] == verdict
+
+
+def test_times_without_a_device_are_a_cpu_s():
+    """As those of tables of methods for soft shadows."""
+    steps = pd.DataFrame({"row": ["original", "trimmed"], "time": [92.0, 114.0]})
+    ratio = {"column": "time", "of": {"row": "trimmed"}, "to": {"row": "original"}, "at_most": 1.1}
+    found = judged(ratio, steps=steps, needs={"device": "cuda"})
+    assert found["verdict"] == verdicts.NOT_COMPARABLE
+    assert judged(ratio, steps=steps)["verdict"] == verdicts.CONTRADICTED

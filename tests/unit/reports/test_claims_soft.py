@@ -7,6 +7,7 @@ from claim_samples import measured
 
 from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.claims.measured import TEXT_SAMPLES
 from neural_shadows.reports.claims.soft import SoftTable, soft_values
 
 LABELS = {"pcss": "PCSS", "msm_15": "MSM", "rt_1": "1 ray", "rt_4": "4 rays", "rt_4_svgf": "SVGF"}
@@ -26,29 +27,36 @@ TIMES = {
 RADII = ["0 m", "0.1 m", "0.2 m"]
 
 
-def data(frames=20, noise=0.001, methods=TIMES["methods"]):
-    """What frames have in common is larger than what methods differ by."""
+OFF = "mse_off_edges"
+
+
+def data(frames=20, noise=0.001, methods=TIMES["methods"], scenes=2, edges=None):
+    """What frames have in common is larger than what methods differ by, off edges and at them.
+
+    `edges`: by method what all pixels have beside that.
+    """
     rng = np.random.default_rng(4)
     level = rng.uniform(0, 0.02, frames)
     rows = [
         {
-            "scene": ("room", "tree")[i % 2],
+            "scene": f"scene {i % scenes}",
             "part": "test_000",
             "frame": i,
             "radius": k,
-            "metric": "mse",
+            "metric": metric,
         }
-        | {"method": method, "value": level[i] + mse + rng.normal(0, noise)}
+        | {"method": method, "value": level[i] + mse + rng.normal(0, noise) + extra}
         for method, mse in MSE.items()
         for k in range(3)
         for i in range(frames)
+        for metric, extra in {OFF: 0, "mse": (edges or {}).get(method, 0)}.items()
     ]
     table = SoftTable(soft_values(pd.DataFrame(rows)), LABELS, TIMES | {"methods": methods}, RADII)
     return measured(soft={"soft": table})
 
 
 def claim(kind, **told):
-    return {"kind": kind, "table": "soft", "needs": {}, "metrics": ["mse"], "radii": [1, 2], **told}
+    return {"kind": kind, "table": "soft", "needs": {}, "metrics": [OFF], "radii": [1, 2], **told}
 
 
 @pytest.mark.parametrize(
@@ -90,19 +98,28 @@ def test_a_metric_that_is_missing_is_said():
     assert found["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in found["reason"]
 
 
-def of_networks(seeds, gains, metric="mse", kind="soft_better"):
+def of_networks(
+    seeds, gains, metric=OFF, kind="soft_better", samples=TEXT_SAMPLES["nsm"], nulls=()
+):
     """A network that is better than PCSS by a gain of its own, each seed by another; one ray is as
     PCSS, in the time of the network.
     """
     runs = ["mine", *(f"mine_{seed}" for seed in range(1, seeds))]
-    errors = {"pcss": 0.01, "rt_1": 0.01, **{run: 0.01 - gain for run, gain in zip(runs, gains)}}
+    errors = {
+        "pcss": 0.01,
+        "rt_1": 0.01,
+        "hard": 0.02,
+        **dict(nulls),
+        **{run: 0.01 - gain for run, gain in zip(runs, gains)},
+    }
     rng = np.random.default_rng(4)
     rows = [
         {"scene": ("room", "tree")[i % 2], "part": "test_000", "frame": i, "radius": k}
-        | {"metric": metric, "method": method, "value": value + rng.normal(0, 1e-4)}
+        | {"metric": name, "method": method, "value": value + rng.normal(0, 1e-4)}
         for i in range(20)
         for k in range(3)
         for method, value in errors.items()
+        for name in {metric, "mse"}
     ]
     labels = {"pcss": "PCSS", "rt_1": "1 ray", "mine": "Mine"}
     timed = {
@@ -115,8 +132,13 @@ def of_networks(seeds, gains, metric="mse", kind="soft_better"):
     )
     table = SoftTable(soft_values(pd.DataFrame(rows)), labels, times, RADII)
     record = {"validation_mse": [0.01], "null_mse": {"hard_map": [0.02]}, "died_at_step": None}
+    record["samples"] = samples
     known = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))
     told = {"again": {"mine": runs[1:]}, "networks": runs, "needs": {"seeds": 3}, "radii": None}
+    told |= {
+        "text": "nsm",
+        "bases": dict.fromkeys(runs, "base_hard") if "base_hard" in dict(nulls) else {},
+    }
     if kind == "soft_equal_time":
         return claim(kind, methods=["mine"], **told | {"radii": [1]}), known
     return claim(kind, pairs=[["mine", "pcss"]], metrics=[metric], **told), known
@@ -136,7 +158,8 @@ def test_three_trainings_decide_over_all_lights(gains, verdict):
     found = judge(*of_networks(len(gains), gains))
     assert found["verdict"] == verdict
     assert (
-        "MSE × 10⁻⁴ at all lights of Mine" in found["evidence"] and "nan" not in found["evidence"]
+        "MSE × 10⁻⁴ off edges at all lights of Mine" in found["evidence"]
+        and "nan" not in found["evidence"]
     )
     assert verdict != verdicts.TOO_SMALL or "2 seeds of 3" in found["reason"]
 
@@ -152,7 +175,7 @@ def test_three_trainings_decide_over_all_lights(gains, verdict):
 )
 def test_rays_of_a_network_s_time_are_judged_by_its_trainings(gains, verdict):
     found = judge(*of_networks(len(gains), gains, kind="soft_equal_time"))
-    assert found["verdict"] == verdict and "1 ray 100 (9 ms) against Mine" in found["evidence"]
+    assert found["verdict"] == verdict and "(9 ms) against Mine " in found["evidence"]
     assert verdict != verdicts.TOO_SMALL or "1 seed of 3" in found["reason"]
 
 
@@ -169,4 +192,90 @@ def test_rays_that_beat_what_has_not_learned_say_nothing():
 
 def test_of_ssim_more_is_better():
     gains = [-0.002, -0.0021, -0.0019]
-    assert judge(*of_networks(3, gains, "ssim"))["verdict"] == verdicts.SUPPORTED
+    assert (
+        judge(*of_networks(3, gains, "ssim", nulls=[("hard", 0.001)]))["verdict"]
+        == verdicts.SUPPORTED
+    )
+
+
+@pytest.mark.parametrize(
+    ("scenes", "frames", "units"),
+    [(1, 16, "16 frames in 1 scene"), (4, 16, "16 frames in 4 scenes"), (8, 16, "8 scenes")],
+)
+def test_the_evidence_says_what_is_counted(scenes, frames, units):
+    pair = [["pcss", "msm_15"]]
+    found = judge(claim("soft_better", pairs=pair), data(frames=frames, scenes=scenes))
+    assert f"] over {units}" in found["evidence"]
+
+
+def test_scenes_are_what_a_claim_is_about():
+    """Many frames of five scenes, in two of which the contrary holds."""
+    rows = [
+        {"scene": str(scene), "part": "test_000", "frame": frame, "radius": 0, "metric": OFF}
+        | {"method": method, "value": 0.01 + (method == "msm_15") * gain}
+        for scene, gain in enumerate((0.004, 0.003, 0.005, -0.002, -0.001))
+        for frame in range(40)
+        for method in ("pcss", "msm_15")
+    ]
+    table = SoftTable(soft_values(pd.DataFrame(rows)), LABELS, None, RADII[:1])
+    told = claim("soft_better", pairs=[["pcss", "msm_15"]], radii=[0])
+    found = judge(told, measured(soft={"soft": table}))
+    assert found["verdict"] == verdicts.UNDECIDED and "over 5 scenes" in found["evidence"]
+
+
+def test_what_all_pixels_would_say_is_said_where_it_differs():
+    """Antialiasing gives PCSS more error at edges than moments have in all."""
+    told = claim("soft_better", pairs=[["pcss", "msm_15"]])
+    unlike = judge(told, data(scenes=8, edges={"pcss": 0.01}))
+    assert unlike["verdict"] == verdicts.SUPPORTED
+    assert unlike["evidence"].endswith("edges of surfaces among them: contradicted")
+    assert "By the error of all pixels" not in judge(told, data(scenes=8))["evidence"]
+    equal = claim("soft_equal_time", methods=["pcss"], radii=[2])
+    unlike = judge(equal, data(scenes=8, edges={"rt_4": 0.01}))
+    assert unlike["verdict"] == verdicts.SUPPORTED
+    assert unlike["evidence"].endswith("edges of surfaces among them: contradicted")
+
+
+GAINS = [0.002, 0.0021, 0.0019]
+
+
+@pytest.mark.parametrize(
+    ("nulls", "named"),
+    [
+        ({"hard": 0.005}, "hard"),
+        ({"no_shadow": 0.005}, "no shadow"),
+        ({"base_hard": 0.005}, "base"),
+    ],
+)
+def test_a_network_s_lead_that_what_learns_nothing_has_too_is_vacuous(nulls, named):
+    found = judge(*of_networks(3, GAINS, nulls=nulls.items()))
+    assert (found["verdict"], found["null_verdict"]) == (verdicts.VACUOUS, "supported")
+    assert f"with {named} in place of the networks" in found["reason"]
+
+
+def test_rays_that_beat_a_map_as_well_say_nothing_below_a_thirtieth():
+    lost = [-gain for gain in GAINS]
+    told = {"kind": "soft_equal_time", "nulls": [("hard", 0.02)]}
+    whole = judge(*of_networks(3, lost, **told))
+    assert (whole["verdict"], whole["null_verdict"]) == (verdicts.SUPPORTED, "supported")
+    few = judge(*of_networks(3, lost, **told, samples=TEXT_SAMPLES["nsm"] // 240))
+    assert few["verdict"] == verdicts.VACUOUS
+    assert few["reason"].endswith("they do at 0.42 % of Datta et al. 2022's pixels")
+
+
+@pytest.mark.parametrize(
+    ("share", "gains", "budget", "verdict"),
+    [
+        (1 / 240, -1, None, verdicts.TOO_SMALL),
+        (1 / 20, -1, None, verdicts.CONTRADICTED),
+        (1 / 240, 1, 1, verdicts.TOO_SMALL),
+        (1 / 240, 1, None, verdicts.SUPPORTED),
+        (1, 1, 1, verdicts.SUPPORTED),
+    ],
+)
+def test_a_paper_s_networks_have_the_thesis_s_standard(share, gains, budget, verdict):
+    samples = round(share * TEXT_SAMPLES["nsm"])
+    told, known = of_networks(3, [gains * gain for gain in GAINS], samples=samples)
+    found = judge(told | {"needs": {"seeds": 3, "budget": budget}}, known)
+    assert found["verdict"] == verdict and found["budget_fraction"] == pytest.approx(share)
+    assert (found["samples"], found["text_samples"]) == (samples, TEXT_SAMPLES["nsm"])

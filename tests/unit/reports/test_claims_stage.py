@@ -91,7 +91,7 @@ def test_claims_are_written_with_verdict_reason_and_scale(written):
         "contradicted",
     )
     assert first["budget_fraction"] == pytest.approx(1 / 3200)
-    assert (first["samples"], first["thesis_samples"]) == (20_480_000, 65_536_000_000)
+    assert (first["samples"], first["text_samples"]) == (20_480_000, 65_536_000_000)
     assert found["kind"].tolist() == ["better", "better", "lower_loss", "frame_time", "printed"]
     assert found["samples"].isna().tolist() == [False, False, False, True, True]
 
@@ -116,7 +116,11 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
     ("samples", "lead"),
     [
         ([], "No network was trained for these claims."),
-        ([500, 2000], "Networks of frames saw at most 2,000 pixels each in this run."),
+        (
+            [500, 2000],
+            "Networks of frames saw at most 2,000 pixels each in this run, and 62.9 billion and 168 "
+            "billion in Datta et al. 2022 and Hu et al. 2025.",
+        ),
     ],
 )
 def test_networks_of_frames_are_trained_too(tmp_path, samples, lead):

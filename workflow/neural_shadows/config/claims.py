@@ -18,7 +18,7 @@ from neural_shadows.evaluation.method_names import (
     shadow_map_key,
     unbiased,
 )
-from neural_shadows.evaluation.soft_method_names import is_network
+from neural_shadows.evaluation.soft_method_names import BASE, is_network
 from neural_shadows.reports.claims.measured import WITHOUT_ROWS
 from neural_shadows.reports.published import read_published
 
@@ -50,7 +50,7 @@ class Needs(Model):
         None,
         gt=0,
         le=1,
-        description="share of the thesis's samples; with less only what learning curves license",
+        description="share of the samples of its text; with less only what learning curves license",
     )
     mesh: Literal["thesis"] | None = Field(
         None, description="`thesis`: the thesis's meshes, and no others in their place"
@@ -178,13 +178,22 @@ class SoftBetterClaim(SoftClaim):
     )
     pairs: Pairs = Field(description="methods of the table, the claimed winner first")
     metrics: Annotated[
-        list[Literal["mse", "ssim", "l1", "light_leak", "false_shadow", "flip", "lpips"]],
+        list[
+            Literal[
+                "mse_off_edges", "mse", "ssim", "l1", "light_leak", "false_shadow", "flip", "lpips"
+            ]
+        ],
         AfterValidator(_no_twins),
-    ] = Field(["mse"], min_length=1, description="in all of which it is to hold")
+    ] = Field(
+        ["mse_off_edges"],
+        min_length=1,
+        description="in all of which it is to hold; where `mse`, of all pixels, would have another "
+        "verdict than `mse_off_edges`, of those without an edge of a surface, the evidence says so",
+    )
 
 
 class SoftEqualTimeClaim(SoftClaim):
-    """As many rays as fit into a method's time have a smaller squared error than it."""
+    """As many rays as fit into a method's time have a smaller squared error off edges than it."""
 
     kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
     radii: SoftRadii = Field(
@@ -280,6 +289,17 @@ def networks_of_claim(config: "Config", claim: SoftClaim | RatioClaim) -> list[s
     named += [name for _, others in other_seeds(config, claim) for name in others]
     known = config.networks_by_scene
     return [x for name in named for x in (known[name].experiments if name in known else [name])]
+
+
+def bases_of_claim(config: "Config", claim: SoftClaim) -> dict[str, str]:
+    """By network of a claim the method that its base shadow is; without those that have none."""
+    experiments = {
+        name: config.screen_experiments[name] for name in networks_of_claim(config, claim)
+    }
+    features = {
+        name: config.screen_networks[one.network].features for name, one in experiments.items()
+    }
+    return {name: base for name, some in features.items() for base in some if base.startswith(BASE)}
 
 
 def rows_of_claim(config: "Config", methods: list[str]) -> list[Row]:

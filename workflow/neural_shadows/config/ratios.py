@@ -24,6 +24,10 @@ class Ratio(Model):
     per: str | None = Field(
         None, min_length=1, description="a column of the table by which each is divided first"
     )
+    unlearned: Size | None = Field(
+        None,
+        description="what `of` is of a network that learned nothing, where the table has no row of it",
+    )
     at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
     at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")
 

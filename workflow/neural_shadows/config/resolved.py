@@ -3,7 +3,13 @@
 from typing import TYPE_CHECKING, Any
 
 from neural_shadows.config import screen_experiments
-from neural_shadows.config.claims import compared, networks_of_claim, rows_of_claim
+from neural_shadows.config.claims import (
+    SoftClaim,
+    bases_of_claim,
+    compared,
+    networks_of_claim,
+    rows_of_claim,
+)
 from neural_shadows.config.experiments import formatted, network_of, seed_of, training_of
 from neural_shadows.config.figures import (
     LossFigure,
@@ -128,7 +134,11 @@ def _claim(config: "Config", name: str) -> Section:
     claim = config.claims[name]
     rows = [rows_of_claim(config, methods) for methods in compared(claim)]
     if claim.kind in ("soft_better", "soft_equal_time", "ratio"):
-        return claim.model_dump() | {"networks": networks_of_claim(config, claim)}
+        bases = bases_of_claim(config, claim) if isinstance(claim, SoftClaim) else {}
+        return claim.model_dump() | {
+            "networks": networks_of_claim(config, claim),
+            "bases": bases,
+        }
     if not rows:  # of printed numbers, or of a column
         return claim.model_dump()
     if claim.kind == "violations":

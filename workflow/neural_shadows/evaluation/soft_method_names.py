@@ -6,6 +6,7 @@ Apart from that, so that the configuration and the graph need not wait for what 
 from importlib.util import find_spec
 
 NULL = {"no_shadow": "No shadow", "all_dark": "All dark"}
+UNLEARNED = (*NULL, "hard")  # what a network must be better than: they learn nothing
 BOXES = (3, 5, 9, 15)  # texels of a side
 RAYS = (1, 2, 3, 4, 6, 8, 16, 32, 40, 64)  # of a pixel
 SPREAD_RAYS = (2, 4, 8)  # over as many places of a pixel

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from neural_shadows.evaluation.soft_method_names import UNLEARNED
 from neural_shadows.layout import soft_methods, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.claims.measured import WITHOUT_ROWS, networks_of_frames
@@ -32,6 +33,7 @@ def files(layout: Layout) -> dict[str, Any]:
     tables_of = soft_tables(layout)
     soft = [soft_methods.evaluations(layout, table, "csv") for table in tables_of]
     soft += [_other_seeds(layout, claim) for claim in layout.settings["claims"].values()]
+    soft += [_unlearned(layout, claim) for claim in layout.settings["claims"].values()]
     found["soft_metrics"] = tables.unique(path for paths in soft for path in paths)
     found["soft_times"] = [
         path for table in tables_of for path in soft_methods.times(layout, table)
@@ -70,6 +72,15 @@ def _other_seeds(layout: Layout, claim: Mapping[str, Any]) -> list[str]:
         return []
     frame_set = soft_methods.frame_set(layout, claim["table"])
     names = [name for others in claim["again"].values() for name in others]
+    return [layout.paths.soft_evaluation("csv", frame_set, name) for name in names]
+
+
+def _unlearned(layout: Layout, claim: Mapping[str, Any]) -> list[str]:
+    """What was measured of that which learns nothing, on the frames of a claim on networks."""
+    if not claim["kind"].startswith("soft_") or not claim["networks"]:
+        return []
+    frame_set = soft_methods.frame_set(layout, claim["table"])
+    names = [*UNLEARNED, *claim["bases"].values()]
     return [layout.paths.soft_evaluation("csv", frame_set, name) for name in names]
 
 

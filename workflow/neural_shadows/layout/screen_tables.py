@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from neural_shadows.evaluation.soft_method_names import in_format, is_network
+from neural_shadows.evaluation.soft_method_names import UNLEARNED, in_format, is_network
 from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
 
@@ -28,11 +28,12 @@ def methods(layout: Layout, table: str) -> list[str]:
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
-    """Files of a table's methods on its frame set, and of the networks among them."""
+    """Files of a table's methods on its frame set, of what learns nothing, and of the networks."""
     paths, frame_set = layout.paths, soft_methods.frame_set(layout, table)
     named = methods(layout, table)
     networks = [*filter(is_network, named)]
     asked = _in_formats(layout, table) or named
+    asked = [*asked, *(null for null in UNLEARNED if asked and null not in asked)]
     return {
         "soft_metrics": [paths.soft_evaluation("csv", frame_set, method) for method in asked],
         "trainings": [paths.screen_network("training.json", name) for name in networks],

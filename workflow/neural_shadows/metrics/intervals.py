@@ -1,14 +1,24 @@
-"""How sure means over views and trainings are: 95 % intervals, percentile bootstrap over views."""
+"""95 % intervals of means over views, frames, scenes and trainings.
+
+Means over views of one object: percentile bootstrap, expanded to the width of Student's t. Means
+over scenes, and whatever trainings are compared by: Student's t with the degrees of freedom of
+Satterthwaite (1946). Simulated coverage of the latter for 5, 10 and 16 scenes of 2 to 6 frames,
+with three trainings or none: 93 to 97 % for scenes and frames that differ normally or with a skewness
+of up to 1.3 (lognormal, σ 0.4), 88 to 90 % for one of 6.2 (σ 1).
+"""
 
 from collections.abc import Callable
 
 import numpy as np
-from scipy.stats import bootstrap, t
+from scipy.stats import bootstrap, norm, t
 
 from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
 
 LEVEL = 0.95
-FEWEST_VIEWS = 10  # a resampling of fewer is far too narrow to decide anything
+FEWEST_VIEWS = 10  # views or frames that decide something; of fewer a percentile is a single view
+# Scenes that are units of their own. Of five, 2.8 standard errors either way; of fewer (4: 3.2, 3: 4.3,
+# 2: 12.7) no statement on other scenes is decided, and frames speak of these alone.
+FEWEST_SCENES = 5
 
 
 def mean_interval(
@@ -64,55 +74,103 @@ def t_interval(values: np.ndarray) -> tuple[float, float, float, float]:
     mean, count = float(values.mean()), values.size
     if count == 1:
         return mean, -np.inf, np.inf, 1.0
-    error = values.std(ddof=1) / np.sqrt(count)
-    half = float(t.ppf((1 + LEVEL) / 2, count - 1) * error)
-    p = float(2 * t.sf(abs(mean) / error, count - 1)) if error else float(mean == 0)
-    return mean, mean - half, mean + half, p
+    return _students(mean, [(values.var(ddof=1) / count, count - 1)])
+
+
+def scenes_interval(values: np.ndarray, scenes: np.ndarray) -> tuple[float, float, float, float]:
+    """Mean over scenes of their frames' means, its interval and the p-value of its being 0.
+
+    From `FEWEST_SCENES` on scenes are the units, of which frames are samples: the statement is about
+    other scenes like these. Of fewer the frames are, each among those of its scene: the statement is
+    about these scenes. Every scene has the same weight, however many frames it has. Trainings are
+    as in `two_way_interval`.
+
+    Args:
+        values: (..., S, F) of trainings and frames; leading axes are data of their own.
+        scenes: (F,), the scene of each frame.
+
+    Returns:
+        Arrays of the leading axes, or numbers; see `two_way_interval`.
+    """
+    values, scenes = np.asarray(values, np.float64), np.asarray(scenes)
+    by_scene = [values[..., scenes == name] for name in np.unique(scenes)]
+    means = np.stack([frames.mean(axis=-1) for frames in by_scene], axis=-1)
+    trainings, count = means.shape[-2:]
+    if count >= FEWEST_SCENES:
+        parts = [(means.mean(axis=-2).var(axis=-1, ddof=1) / count, count - 1)]
+    else:
+        parts = [_variance_of_mean(frames.mean(axis=-2), count) for frames in by_scene]
+    if trainings > 1:
+        parts.append((means.mean(axis=-1).var(axis=-1, ddof=1) / trainings, trainings - 1))
+    return _students(means.mean(axis=(-2, -1)), parts)
+
+
+def _variance_of_mean(frames: np.ndarray, scenes: int) -> tuple[np.ndarray, int]:
+    """Of a scene's mean in that over `scenes`, with its degrees of freedom; infinite of one frame."""
+    count = frames.shape[-1]
+    if count == 1:
+        return np.full(frames.shape[:-1], np.inf), 1
+    return frames.var(axis=-1, ddof=1) / count / scenes**2, count - 1
 
 
 def two_way_interval(
     values: np.ndarray,
-    seed: int,
     statistic: Callable[[np.ndarray], float] = np.mean,
     groups: np.ndarray | None = None,
-    resamples: int = 2000,
 ) -> tuple[float, float, float, float]:
-    """A statistic of trainings and views, and how sure it is of both.
+    """A statistic of trainings and views with an interval for both, by Student's t.
 
-    Views are drawn with replacement, each in place of one of its own group. Trainings are not:
-    three can be drawn in ten ways only, none wider than themselves, which covers 77 % where it
-    should 95. Their part is drawn from Student's t with S − 1 degrees of freedom instead, with
-    the standard deviation of the statistic between the trainings on the drawn views. With one
-    training the interval is of its views alone.
+    The variance of views is that of the jackknife, each view left out among those of its group
+    (exact for means); that of trainings is of the statistic of each. Both are added, with the
+    degrees of freedom of Satterthwaite; what views and trainings do together is counted in both.
+    With one training the interval is of its views alone.
 
     Args:
         values: (S, V) of trainings and views, or (S, V, ...), for instance with both methods of a
             pair. A method without a training, such as a map, is repeated S times.
-        statistic: of values with the shape of `values`, whatever S. Columns of a group stay in
-            the places of that group.
-        groups: (V,) the view set of each view (with two scenes, of which); None: all are of one.
+        statistic: of values with the shape of `values`, whatever S; a function of means or sums over
+            the columns of a group, which stay in their places.
+        groups: (V,) the view set of each view (with two objects, of which); None: all are of one.
 
     Returns:
-        The statistic, the ends of its 95 % interval, and the two-sided p-value of its being 0,
-        which is at least 2 / (resamples + 1).
+        The statistic, the ends of its 95 % interval (infinite if a group has a single view), and the
+        two-sided p-value of its being 0.
     """
     values = np.asarray(values, dtype=np.float64)
     trainings, views = values.shape[:2]
-    rng = np.random.default_rng(seed)
     labels = np.zeros(views, int) if groups is None else np.unique(groups, return_inverse=True)[1]
-    places = np.empty((resamples, views), int)
+    influences, value = np.zeros(views), statistic(values)
+    each = np.array([statistic(training[None]) for training in values])
+    parts = []  # variance and degrees of freedom
     for label in range(labels.max() + 1):
         group = np.flatnonzero(labels == label)
-        places[:, group] = rng.choice(group, (resamples, len(group)))
-    drawn = np.array([statistic(values[:, some]) for some in places])
+        if len(group) == 1:
+            return float(value), -np.inf, np.inf, 1.0
+        for training, its in zip(values, each):
+            total = training[group].sum(axis=0)
+            for place in group:
+                without = training.copy()
+                without[place] = (total - training[place]) / (len(group) - 1)
+                influences[place] += (len(group) - 1) * (its - statistic(without[None])) / trainings
+        parts.append((influences[group].var(ddof=1) / len(group), len(group) - 1))
     if trainings > 1:
-        each = [[statistic(one[None, some]) for one in values] for some in places]
-        errors = np.std(each, axis=1, ddof=1) / np.sqrt(trainings)
-        drawn += errors * rng.standard_t(trainings - 1, resamples)
-    low, high = np.quantile(drawn, ((1 - LEVEL) / 2, (1 + LEVEL) / 2))
-    fewer = min(np.count_nonzero(drawn <= 0), np.count_nonzero(drawn >= 0))
-    p = min(1.0, 2 * (fewer + 1) / (resamples + 1))
-    return float(statistic(values)), float(low), float(high), p
+        parts.append((each.var(ddof=1) / trainings, trainings - 1))
+    return _students(value, parts)
+
+
+def _students(
+    value: np.ndarray, parts: list[tuple[np.ndarray, int]]
+) -> tuple[float, float, float, float]:
+    """A value, its interval and p-value, of independent variances with their degrees of freedom."""
+    variance = np.asarray(sum(part for part, _ in parts))
+    if not np.isfinite(variance).all():
+        return float(value), -np.inf, np.inf, 1.0
+    some = np.where(variance > 0, variance, 1.0)
+    freedom = some**2 / sum((part**2 + (variance <= 0)) / degrees for part, degrees in parts)
+    half = t.ppf((1 + LEVEL) / 2, freedom) * np.sqrt(variance)
+    p = np.where(variance > 0, 2 * t.sf(np.abs(value) / np.sqrt(some), freedom), value == 0)
+    found = value, value - half, value + half, p
+    return found if np.ndim(value) else tuple(map(float, found))
 
 
 def _psnr_difference(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray:
@@ -126,8 +184,19 @@ def _interval(
         samples,
         statistic,
         n_resamples=resamples,
+        confidence_level=_expanded(len(samples[0])),
         method="percentile",
         paired=paired,
         rng=np.random.default_rng(seed),
     ).confidence_interval
     return float(statistic(*samples)), float(low), float(high)
+
+
+def _expanded(count: int) -> float:
+    """The level at which percentiles of resampled means of `count` values are as far as Student's t.
+
+    A resampling has the variance of `count` − 1 values, and knows it as if they were many; at `LEVEL`
+    its percentiles cover 90 % for ten values, 92 for 16 (Hesterberg 2015, section 5.3).
+    """
+    ends = np.sqrt(count / (count - 1)) * t.ppf((1 + LEVEL) / 2, count - 1)
+    return float(1 - 2 * norm.sf(ends))

@@ -100,5 +100,7 @@ def counted(cards: list[Card]) -> list[Verdict]:
 def budget(csv: Path) -> str:
     """How the run's training samples compare with the thesis's; empty if nothing was trained."""
     claims = pd.read_csv(csv)
-    seen, theirs = claims["samples"].max(), claims["thesis_samples"].max()
+    claims = claims[claims["text"] == "thesis"] if "text" in claims else claims
+    theirs = claims.get("text_samples", claims.get("thesis_samples")).max()
+    seen = claims["samples"].max()
     return "" if pd.isna(seen) else describe_samples(seen, theirs)

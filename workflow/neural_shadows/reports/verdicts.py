@@ -16,11 +16,12 @@ MEANINGS = {
     "every metric; for a network of frames the best of no shadow, the hard map and its own base, in "
     "squared error on validation frames), or died, so that it says nothing of networks that have "
     "learned.",
-    VACUOUS: "supported, and drawing no shadow at all in the networks' place passes the same test; "
-    "where maps are to beat a network, only below a thirtieth of the thesis's samples.",
-    TOO_SMALL: "too few training samples, seeds, views or frames for what is claimed, and the "
-    "learning curves do not license an extrapolation to the thesis's samples; or against the claim "
-    "below a thirtieth of these, which says nothing of more.",
+    VACUOUS: "supported, and what learns nothing (no shadow, all dark, the light's map as it is, the "
+    "base that a network is given) passes the same test in the networks' place; where others are to "
+    "beat a network, only below a thirtieth of its text's samples.",
+    TOO_SMALL: "too few training samples, seeds, views, frames or scenes for what is claimed, and no "
+    "learning curves license an extrapolation to the samples of its text (65.5 billion rays, 62.9 or "
+    "168 billion pixels); or against the claim below a thirtieth of these, which says nothing of more.",
     UNDECIDED: "the intervals do not separate the claim from its contrary.",
     SUPPORTED: "the 95 % interval lies on the claim's side in each of its comparisons; of numbers "
     "without one the number itself, of printed ones each difference beyond the margin.",
@@ -43,7 +44,7 @@ SYMBOLS = {
 REASONS = {
     NOT_COMPARABLE: "the mesh or the device is not the one that they are about",
     NOT_LEARNED: "a network of theirs is here not better than what knows nothing",
-    VACUOUS: "drawing no shadow at all would pass their tests as well",
+    VACUOUS: "what learns nothing would pass their tests as well",
     TOO_SMALL: "the run has too few samples, seeds or views for them",
     UNDECIDED: "the differences are within what chance does",
 }

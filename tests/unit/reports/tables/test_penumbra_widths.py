@@ -10,9 +10,9 @@ def test_widths_as_measured_and_as_modelled():
     """Of widths up to 100 a model that gives each twice exceeds all, one that gives half just half."""
     measured = np.arange(101.0)
     pairs = {
-        ("twice", 1, 0.25): np.stack([measured, 2 * measured]),
-        ("half", 1, 0.25): np.stack([measured, measured / 2]),
-        ("none", 1, 0.25): np.empty((2, 0)),
+        ("twice", 1, 0.25): [np.stack([measured, 2 * measured])],
+        ("half", 1, 0.25): [np.stack([measured, measured / 2])],
+        ("none", 1, 0.25): [np.empty((2, 0))],
     }
     table = widths_table(pairs).set_index("scene")
     assert table["light"].tolist() == [1, 1, 1] and table["pixels"].tolist() == [101, 101, 0]
@@ -24,3 +24,17 @@ def test_widths_as_measured_and_as_modelled():
     assert table["modelled_wide"].tolist()[:2] == pytest.approx([190, 47.5])
     assert table["within"].tolist()[:2] == pytest.approx([1, 48 / 101])
     assert table.loc["none", ["measured", "modelled_wide", "within"]].isna().all()
+    assert table["wide_ratio"].tolist()[:2] == pytest.approx([0.5, 2])
+    assert table["wide_ratio_low"].isna().all()  # of one frame there is no interval
+
+
+def test_the_ratio_of_wide_penumbrae_is_covered_over_frames():
+    """Frames differ by a tenth, far more than their many pixels do."""
+    rng, hits = np.random.default_rng(2), 0
+    for _ in range(1000):
+        modelled = rng.uniform(5, 10, (8, 20))
+        measured = modelled * rng.lognormal(0, 0.1, (8, 1))
+        frames = [np.stack(pair) for pair in zip(measured, modelled)]
+        row = widths_table({("plate", 1, 0.25): frames}).iloc[0]
+        hits += row["wide_ratio_low"] <= 1.0 <= row["wide_ratio_high"]
+    assert 0.92 <= hits / 1000 <= 0.98  # 0.7 % by chance

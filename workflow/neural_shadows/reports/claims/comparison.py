@@ -16,6 +16,7 @@ NAMES = {
     "shadow_error": "shadow error",
     "loss": "loss",
     "mse": "MSE × 10⁻⁴",
+    "mse_off_edges": "MSE × 10⁻⁴ off edges",
     "l1": "L1 in %",
     "light_leak": "light leak in %",
     "false_shadow": "false shadow in %",

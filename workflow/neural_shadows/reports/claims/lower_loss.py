@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.metrics.power_law import FEWEST_BUDGETS, Curve
 from neural_shadows.reports.claims.comparison import Comparison, judged, unjudged
@@ -16,6 +17,21 @@ from neural_shadows.reports.digits import short
 def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     """A comparison for each pair: one value a seed, since a curve's points are no replicates."""
     return [_compared(pair, data) for pair in claim["pairs"]]
+
+
+def without_networks(claim: Mapping[str, Any], data: Measured) -> dict[str, list[Comparison]]:
+    """The same with the loss of drawing no shadow in the place of each claimed winner."""
+    return {NO_SHADOW: [_without_first(pair, data) for pair in claim["pairs"]]}
+
+
+def _without_first(pair: Sequence[Row], data: Measured) -> Comparison:
+    kept = {"metric": "loss", "methods": " against ".join(labels(pair)), "text": NO_SHADOW}
+    if why := data.unshared(pair):
+        return Comparison(**kept, **unjudged(incomparable=why))
+    budget = data.budgets(pair)[-1]
+    runs = budget.runs[pair[0]["experiment"]]
+    null = np.array([data.trainings[run]["no_shadow_loss"] for run in runs])
+    return Comparison(**kept, **judged(*t_interval(data.end_losses(pair[1], budget) - null)))
 
 
 def _compared(pair: Sequence[Row], data: Measured) -> Comparison:

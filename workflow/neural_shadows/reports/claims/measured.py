@@ -11,6 +11,13 @@ from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.metrics.error_scale import error_of
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
+# What a network of each text was trained on: rays of the thesis, pixels of the papers.
+TEXT_SAMPLES = {
+    "thesis": THESIS_SAMPLES,
+    "nsm": 75 * 400 * 2048 * 1024,  # epochs of up to 400 images [4]
+    # Steps of two images; the rate falls last at 40,000, and where it ends is not printed [5, code].
+    "kpnsm": 40_000 * 2 * 2048 * 1024,
+}
 LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
 NO_SHADOW_ROW = {
     "method": NO_SHADOW,
@@ -129,6 +136,11 @@ class Measured:
         methods = self.methods(row, budget)
         values = pd.concat([found[method, metric] for method in methods], axis=1)
         return values.apply(lambda each: error_of(metric, each))
+
+    def pixels(self, claim: Mapping[str, Any]) -> int | None:
+        """The fewest pixels that one of a claim's networks of frames saw; None if it has none."""
+        records = [self.screen_trainings.get(name, {}) for name in networks_of_frames(claim)]
+        return min((record["samples"] for record in records if "samples" in record), default=None)
 
     def end_losses(self, row: Row, budget: Budget) -> np.ndarray:
         """The mean loss of the last tenth of each training (S,).

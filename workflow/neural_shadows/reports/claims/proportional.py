@@ -20,7 +20,7 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     table = data.tables[name]
     kept = {"metric": column, "methods": f"{over[0]} rather than {over[1]}"}
     kept["text"] = f"{column} as a line through the origin ({name})"
-    if why := of_another_size(table, column):
+    if why := of_another_size(table, column, (claim.get("needs") or {}).get("device")):
         return [Comparison(**kept, **unjudged(incomparable=why))]
     if missing := [one for one in (column, *over) if one not in table]:
         return [Comparison(**kept, **unjudged(untested=f"no {', '.join(missing)} in {name}"))]

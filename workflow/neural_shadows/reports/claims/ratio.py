@@ -5,12 +5,16 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.stats import norm
 
-from neural_shadows.metrics.intervals import t_interval
+from neural_shadows.evaluation.soft_method_names import UNLEARNED
+from neural_shadows.metrics.intervals import LEVEL, t_interval
 from neural_shadows.reports.claims.comparison import Comparison, unjudged
 from neural_shadows.reports.claims.measured import Measured
 from neural_shadows.reports.digits import short
+from neural_shadows.reports.tables.screen_rows import learned_rows
 
+TIMES = ("runtime", "time")
 WITHOUT_TRUNK = "no network with a perceptual loss: it needs a pretrained trunk"
 
 
@@ -27,8 +31,62 @@ def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     return [_compared(claim, ratio, data) for ratio in claim["ratios"]]
 
 
+def without_networks(claim: Mapping[str, Any], data: Measured) -> dict[str, list[Comparison]]:
+    """The same ratios of what learns nothing, by what that is; without networks there is none.
+
+    It takes the place of a network that stands on both sides, else of the one that is to have the
+    smaller number. A table without rows of it says nothing of that.
+    """
+    if not claim["networks"]:
+        return {}
+    return {null: [_of_null(one, data, null) for one in claim["ratios"]] for null in UNLEARNED}
+
+
+def _of_null(ratio: Mapping[str, Any], data: Measured, null: str) -> Comparison:
+    """Within bounds only strictly: to be level with itself is no merit."""
+    value, limits = _null_ratio(data.tables[ratio["table"]], ratio, null), _limits(ratio)
+    inside = [value > x if key == "at_least" else value < x for key, x in limits.items()]
+    kept = {"metric": ratio["column"], "methods": null, "text": null}
+    return Comparison(**kept, number=f"ratio {value:.3g}", supports=all(inside), against=1.0)
+
+
+def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> float:
+    """The ratio with a null in the place of networks; NaN where the table has no row of it."""
+    of, to = ratio["of"], ratio["to"]
+    if ratio.get("unlearned") is not None:
+        return ratio["unlearned"] / to
+    if "null" not in table or to is None:
+        return float("nan")
+    unlearned = table[table["null"] == null]
+    rows = to if isinstance(to, list) else [to]
+    networks = [_network_in(unlearned, one) for one in (of, *rows) if isinstance(one, dict)]
+    both = all(one == networks[0] for one in networks)
+    winner = of if ratio["at_least"] is None or not isinstance(to, dict) else to
+
+    def number(where: Mapping[str, Any] | float) -> float:
+        if isinstance(where, float):
+            return where
+        if not both and where is not winner:
+            return _number_in(learned_rows(table), ratio, where)
+        named = {key: value for key, value in where.items() if key not in networks[0]}
+        return _number_in(unlearned, ratio, named)
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return float(np.divide(number(of), np.mean([number(one) for one in rows])))
+
+
+def _network_in(unlearned: pd.DataFrame, where: Mapping[str, Any]) -> dict[str, Any]:
+    """The part of a row's description that names a network: what no row of a null has."""
+    return {
+        key: value
+        for key, value in where.items()
+        if key not in unlearned or not (unlearned[key].astype(str) == str(value)).any()
+    }
+
+
 def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured) -> Comparison:
-    tables = [data.tables[name] for name in (ratio["table"], *_again(claim, ratio))]
+    named = (ratio["table"], *_again(claim, ratio))
+    tables = [learned_rows(data.tables[name]) for name in named]
     names = [_name(ratio[key]) for key in ("of", "to")]
     column = f"{ratio['column']} per {ratio['per']}" if ratio["per"] else ratio["column"]
     kept = {"metric": column, "methods": f"{names[0]} over {names[1]}"}
@@ -51,6 +109,8 @@ def _compared(claim: Mapping[str, Any], ratio: Mapping[str, Any], data: Measured
         why = f"{len(tables)} seed{'s' * (len(tables) > 1)} of {needed}"
         number = _number(ratios, _limits(ratio))
         return Comparison(**kept, **number, supports=False, against=1.0, untested=why)
+    if (ends := _ends(tables, ratio)) is not None:
+        return Comparison(**kept, **_with_ends(ratios[0], ends, _limits(ratio)))
     return Comparison(**kept, **_number(ratios, _limits(ratio)), **_judged(ratios, _limits(ratio)))
 
 
@@ -62,12 +122,14 @@ def _perceptual(claim: Mapping[str, Any], data: Measured) -> bool:
 
 def of_another_size(table: pd.DataFrame, column: str, device: str | None = None) -> str:
     """Why a column's numbers are not what a claim is about; empty if they are."""
-    if column != "runtime":
+    if column not in TIMES:
         return ""
-    if not table["of_printed_size"].all():
-        return "times of frames that have not the paper's size"
-    if device and not (table["device"] == device).all():
+    # Methods for soft shadows are timed on a CPU alone.
+    timed = table["device"] if "device" in table else pd.Series("cpu", table.index)
+    if device and not (timed == device).all():
         return f"times on {device} are needed"
+    if column == "runtime" and not table["of_printed_size"].all():
+        return "times of frames that have not the paper's size"
     return ""
 
 
@@ -115,6 +177,35 @@ def _judged(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:
     return {
         "supports": all(low > 0 for _, low, _, _ in found),
         "against": min(against, default=1.0),
+    }
+
+
+def _ends(tables: Sequence[pd.DataFrame], ratio: Mapping[str, Any]) -> np.ndarray | None:
+    """The ends of a number's own interval over a given one; None if it has none, or no part here."""
+    columns = [f"{ratio['column']}_{end}" for end in ("low", "high")]
+    alone = len(tables) == 1 and isinstance(ratio["to"], float) and not ratio["per"]
+    if not alone or any(column not in tables[0] for column in columns):
+        return None
+    return np.array([_cell(tables[0], column, ratio["of"]) for column in columns]) / ratio["to"]
+
+
+def _with_ends(ratio: float, ends: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:
+    """What a ratio with an interval of its own says; without ends it decides nothing."""
+    bounds = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in limits.items())
+    if not np.isfinite(ends).all():
+        return unjudged(untested=f"ratio {ratio:.3g} ({bounds}) without an interval")
+    low, high = ends
+    half = np.log(high / low) / 2
+    sides = {"at_least": 1, "at_most": -1}
+    inside = {key: sides[key] * np.log(ratio / limit) for key, limit in limits.items()}
+    # As of a normal distribution whose interval this is.
+    wide = norm.ppf((1 + LEVEL) / 2)
+    against = [2 * norm.sf(wide * -one / half) for one in inside.values() if one < 0]
+    return {
+        "number": f"ratio {ratio:.3g} [{low:.3g}, {high:.3g}]",
+        "remark": f" ({bounds})",
+        "supports": all(one > half for one in inside.values()),
+        "against": float(min(against, default=1.0)),
     }
 
 

@@ -9,16 +9,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.evaluation.soft_method_names import is_network, rays_of
+from neural_shadows.evaluation.soft_method_names import UNLEARNED, is_network, rays_of
 from neural_shadows.metrics.error_scale import error_of
-from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
+from neural_shadows.metrics.intervals import FEWEST_SCENES, FEWEST_VIEWS, scenes_interval
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.measured import Measured
 from neural_shadows.reports.digits import short
+from neural_shadows.reports.tables.frame_means import OFF_EDGES
 
 # What values are multiplied by, as their names in `NAMES` say.
-FACTORS = {"mse": 1e4, "l1": 100, "light_leak": 100, "false_shadow": 100}
+FACTORS = {"mse": 1e4, "mse_off_edges": 1e4, "l1": 100, "light_leak": 100, "false_shadow": 100}
 OF_ALL_LIGHTS = "all lights"
+ITS_BASE = "base"  # a null of each network: the shadow that it is given, or the light's map
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,7 @@ def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
     """The same of each method and the most rays that take no longer than it, of a network than its
     first seed.
     """
-    table = data.soft[claim["table"]]
+    table, metric = data.soft[claim["table"]], claim.get("metric", OFF_EDGES)
     found = []
     for method in claim["methods"]:
         for radius in claim["radii"]:
@@ -93,55 +95,90 @@ def equal_time(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
             if rays is None:
                 text = f"{table.labels[method]} takes {limit:.1f} ms at {table.radii[radius]}"
                 why = unjudged(untested=f"no number of rays fits into {limit:.1f} ms")
-                found.append(Comparison("mse", table.labels[method], text, **why))
+                found.append(Comparison(metric, table.labels[method], text, **why))
                 continue
-            found.append(_of_seeds(claim, data, "mse", radius, (rays, method)))
+            found.append(_of_seeds(claim, data, metric, radius, (rays, method)))
     return found
+
+
+def without_networks(claim: Mapping[str, Any], data: Measured) -> dict[str, list[Comparison]]:
+    """The same comparisons with what learns nothing in the networks' place, by what that is.
+
+    In each pair it takes the place of the claimed winner, or of the loser where that alone is a
+    network; times stay the networks'. Without networks there is none.
+    """
+    if not claim.get("networks"):
+        return {}
+    compare = {"soft_better": better, "soft_equal_time": equal_time}[claim["kind"]]
+    nulls = (*UNLEARNED, *([ITS_BASE] if claim.get("bases") else ()))
+    return {null: compare({**claim, "null": null}, data) for null in nulls}
+
+
+def wins(claim: Mapping[str, Any]) -> bool:
+    """Whether a claim says of a network that it is better than something."""
+    return any(is_network(pair[0]) for pair in claim.get("pairs", ()))
 
 
 def _of_seeds(
     claim: Mapping[str, Any], data: Measured, metric: str, radius: int | None, pair: Sequence[str]
 ) -> Comparison:
-    """Two methods by paired differences over frames and seeds.
+    """Two methods by paired differences over scenes and seeds, see `scenes_interval`.
 
     Frames say nothing of how trainings differ: of fewer seeds of a network than the claim needs (two,
     if it does not say) nothing is judged. Other seeds of a network are `again` of its name.
     """
+    table = data.soft[claim["table"]]
+    if null := claim.get("null"):
+        runs = _with_null(pair, null, claim.get("bases", {}))
+        return _compared(table, metric, radius, pair, runs)
     again, needed = claim.get("again") or {}, (claim.get("needs") or {}).get("seeds") or 2
     runs = [[method, *again.get(method, ())] for method in pair]
     seeds = min((len(one) for one in runs if is_network(one[0])), default=None)
-    table = data.soft[claim["table"]]
-    one = _compared(table, metric, radius, [some[:seeds] for some in runs], data.seed)
+    one = _compared(table, metric, radius, pair, [some[:seeds] for some in runs])
     if seeds is None or seeds >= needed or one.untested:
         return one
     why = f"{seeds} seed{'s' * (seeds > 1)} of {needed}"
     return replace(one, supports=False, against=1.0, untested=why)
 
 
+def _with_null(pair: Sequence[str], null: str, bases: Mapping[str, str]) -> list[list[str]]:
+    """The runs of a pair with a null in the place of the first network."""
+    place = next((k for k, method in enumerate(pair) if is_network(method)), None)
+    stand_in = null if place is None or null != ITS_BASE else bases.get(pair[place], "hard")
+    return [[stand_in] if k == place else [method] for k, method in enumerate(pair)]
+
+
 def _compared(
-    table: SoftTable, metric: str, radius: int | None, pair: Sequence[Sequence[str]], seed: int
+    table: SoftTable,
+    metric: str,
+    radius: int | None,
+    pair: Sequence[str],
+    runs: Sequence[Sequence[str]],
 ) -> Comparison:
     """Of two methods, each by its runs: of as many seeds, or one that all are compared with."""
-    names = [runs[0] for runs in pair]
-    labels, light = [table.labels[name] for name in names], table.light(radius)
+    labels, light = [table.labels[name] for name in pair], table.light(radius)
     kept = {"metric": metric, "methods": f"{' against '.join(labels)} at {light}"}
-    errors = [[table.errors(run, metric, radius) for run in runs] for runs in pair]
+    errors = [[table.errors(run, metric, radius) for run in some] for some in runs]
     if missing := [label for label, some in zip(labels, errors) if any(x is None for x in some)]:
         told = f"no {NAMES[metric]} of {', '.join(missing)}"
         return Comparison(**kept, text=kept["methods"], **unjudged(untested=told))
     frames = [pd.concat(some, axis=1) for some in errors]
-    means = [error_of(metric, one.mean(axis=None)) for one in frames]
+    means = [error_of(metric, one.groupby("scene").mean().mean(axis=None)) for one in frames]
     texts = [
         f"{label} {short(mean)}{_in_time(table.milliseconds(name, radius))}"
-        for label, name, mean in zip(labels, names, means)
+        for label, name, mean in zip(labels, pair, means)
     ]
     kept["text"] = f"{NAMES[metric]} at {light} of {' against '.join(texts)}"
     first, second = (one.to_numpy() for one in frames)
     gain = pd.DataFrame(second - first, frames[0].index).dropna()  # one run stands beside several
-    if len(gain) < FEWEST_VIEWS:
-        return Comparison(**kept, **unjudged(untested=f"{len(gain)} frames are too few"))
     scenes = gain.index.get_level_values("scene").to_numpy()
-    return Comparison(**kept, **judged(*two_way_interval(gain.to_numpy().T, seed, groups=scenes)))
+    count = len(set(scenes))
+    if count < FEWEST_SCENES and len(gain) < FEWEST_VIEWS:
+        return Comparison(**kept, **unjudged(untested=f"{len(gain)} frames are too few"))
+    units = f"{count} scenes" if count >= FEWEST_SCENES else f"{len(gain)} frames in {count} scene"
+    units += "s" * (1 < count < FEWEST_SCENES)
+    found = judged(*scenes_interval(gain.to_numpy().T, scenes))
+    return Comparison(**kept, **found, remark=f" over {units}")
 
 
 def _in_time(milliseconds: float) -> str:

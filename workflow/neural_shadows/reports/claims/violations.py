@@ -52,12 +52,12 @@ def _compared(label: str, row: Row, data: Measured) -> Comparison:
     if len(frames[0]) < FEWEST_VIEWS:
         return Comparison(**kept, **unjudged(untested=f"{len(frames[0])} views are too few"))
     groups = frames[0].index.get_level_values("view_set")
-    return Comparison(**kept, **judged(*two_way_interval(counts, data.seed, _excess, groups)))
+    return Comparison(**kept, **judged(*two_way_interval(counts, _excess, groups)))
 
 
 def _excess(counts: np.ndarray) -> float:
     _, lit, false, _, shadowed, leak = counts.sum((0, 1))
-    # A resampling may have no violation of a bound: it then cost nothing.
+    # Without one view there may be no violation of a bound: it then cost nothing.
     return float(false / max(lit, 1) - leak / max(shadowed, 1))
 
 

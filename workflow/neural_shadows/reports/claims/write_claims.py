@@ -11,11 +11,12 @@ from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured
+from neural_shadows.reports.claims.measured import TEXT_SAMPLES, THESIS_SAMPLES, Measured
 from neural_shadows.reports.claims.soft import SoftTable, soft_values
 from neural_shadows.reports.claims.violations import counts_by_view
 from neural_shadows.reports.inputs import by_folder, read_meshes
 from neural_shadows.reports.learned import margins
+from neural_shadows.reports.phrases import TEXTS
 from neural_shadows.reports.published import by_cell, read_rows
 from neural_shadows.reports.tables.quality import values_by_view
 from neural_shadows.reports.tables.writing import write_twins
@@ -26,7 +27,7 @@ from neural_shadows.training.loss_curve import read_loss
 COLUMNS = [
     *("claim", "text", "section", "statement", "kind", "verdict", "reason", "metric", "seeds"),
     *("budget_fraction", "trend_of", "trend", "trend_low", "trend_high", "direction"),
-    *("null_verdict", "number_of", "number", "evidence", "scale", "samples", "thesis_samples"),
+    *("null_verdict", "number_of", "number", "evidence", "scale", "samples", "text_samples"),
 ]
 SAID = ("text", "section", "statement", "kind")
 
@@ -93,7 +94,7 @@ def write_claims(
     found = pd.DataFrame(
         {"claim": name} | {key: claim[key] for key in SAID} | judge(claim, data)
         for name, claim in claims.items()
-    ).assign(scale=run["scale"], thesis_samples=THESIS_SAMPLES)
+    ).assign(scale=run["scale"])
     found = found[COLUMNS].astype({"seeds": "Int64", "samples": "Int64"})  # with gaps
     columns = {
         "claim": found["statement"],
@@ -143,7 +144,11 @@ def _lead(verdicts: pd.Series, data: Measured) -> str:
     pixels = [record["samples"] for record in data.screen_trainings.values()]
     said = [phrases.describe_samples(max(seen), THESIS_SAMPLES)] if seen else []
     if pixels:
-        said.append(f"Networks of frames saw at most {max(pixels):,} pixels each in this run.")
+        theirs = " and ".join(f"{TEXT_SAMPLES[text] / 1e9:.3g} billion" for text in TEXTS)
+        said.append(
+            f"Networks of frames saw at most {max(pixels):,} pixels each in this run, and {theirs} in "
+            f"{' and '.join(TEXTS.values())}."
+        )
     scale = " ".join(said) or "No network was trained for these claims."
     meanings = [f"- **{name}** ({counts.get(name, 0)}): {MEANINGS[name]}" for name in VERDICTS]
     first = (
@@ -159,7 +164,9 @@ def _notes(
     notes = [
         "An advantage is counted so that positive is in the claim's favour; of PSNR it is of "
         "pooled PSNR, that of the mean squared error over views. Its 95 % interval is over seeds "
-        "(Student's t) and views (resampled within their view set) together, of losses over seeds "
+        "(Student's t) and views within their view set (jackknife; the object is fixed) together, of "
+        "soft shadows over seeds and scenes (of fewer than five: frames, and these scenes alone; both "
+        "Student's t), of losses over seeds "
         "(the last tenth of each curve is one value; of a training that died, at least the loss of "
         "drawing no shadow), of times over frames (exact, of the median of the frames' ratios of "
         "own milliseconds, without primary visibility and shading), of ratios of tables over seeds "

@@ -9,6 +9,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.figures.style import BLUE, GRID, Section, new_figure, note_below
 from neural_shadows.reports.tables.screen_features import LEAST_SHARE
+from neural_shadows.reports.tables.screen_rows import learned_rows
 from neural_shadows.running.stage import run_stage
 
 SHARE = "share_"
@@ -21,7 +22,7 @@ def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None
         InputError: it is missing or not whole.
     """
     try:
-        found = pd.read_csv(table, dtype={"label": str}).set_index("label")
+        found = learned_rows(pd.read_csv(table, dtype={"label": str})).set_index("label")
     except (OSError, ValueError, KeyError) as error:
         raise InputError(f"{table}: damaged ({error}); delete it and run again") from error
     write_chart(sensitivity_figure(found, f"{title} ({run['scale']} scale)"), png, svg)

@@ -12,9 +12,12 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.digits import short
 from neural_shadows.reports.published_nsm import read_published_nsm, titled
+from neural_shadows.reports.tables.frame_means import OFF_EDGES, mean_with_interval
 from neural_shadows.reports.tables.screen_rows import (
+    ABOUT_NULLS,
     describe_trainings,
-    mean_with_interval,
+    learned_rows,
+    nulls_in,
     with_printed,
 )
 from neural_shadows.reports.tables.writing import number_cells, write_twins
@@ -50,10 +53,11 @@ def write(
     about = read_json(frames_json)
     records = {path.parent.name: read_json(path) for path in trainings}
     found = read_soft_metrics(soft_metrics)
-    table = depth_table(found, len(about["radii"]) - 1, columns, labels, records, run["seed"])
+    table = depth_table(found, len(about["radii"]) - 1, columns, labels, records)
     numbers = read_published_nsm(published_nsm_csv)
     table = with_printed(table, published, "mse", None, numbers)
-    table = table.assign(scale=run["scale"])
+    whole = table.assign(scale=run["scale"])
+    table = learned_rows(whole)
     parts = {
         "penumbra": [one.replace("penumbra_", "") + " px" for one in table["row"].unique()],
     }
@@ -75,12 +79,13 @@ def write(
         f"of its row; a network whose receptive field (3 · 2^levels pixels) is narrower than the "
         f"penumbra should have {SUFFICES:g} or more. Of the widest: of the tenth of each frame's penumbra "
         "pixels whose penumbra is widest by the paper's model (3.6).",
+        ABOUT_NULLS,
         _describe_learning(records, labels),
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
     parts = {name: cells for name, cells in parts.items() if any(cells)}
-    write_twins(table, parts, csv, md, title=titled(title, published), notes=notes)
+    write_twins(whole, parts, csv, md, title=titled(title, published), notes=notes)
 
 
 def depth_table(
@@ -89,29 +94,34 @@ def depth_table(
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     records: Mapping[str, Mapping[str, Any]],
-    seed: int,
 ) -> pd.DataFrame:
-    """A row for each scene and network.
+    """A row for each scene and network, and for what learns nothing.
 
-    Columns: `row` (`penumbra_21` of the scene `plate_21`), `column`, `experiment`, `label`,
-    `receptive_field` in pixels, `mse` with the ends of its interval over frames, `mse_widest` of
+    Columns: `row` (`penumbra_21` of the scene `plate_21`), `column`, `experiment`, `label`, `null` (see
+    `nulls_in`), `receptive_field` in pixels, `mse` and `mse_off_edges` with the ends of their intervals over
+    a scene's frames, `mse_widest` of
     the tenth of a frame's penumbra pixels whose penumbra is widest, `ratio` of `mse` to the least of
     its row.
     """
-    rows = []
+    rows, nulls = [], nulls_in(found)
     for scene, frames in found[found["radius"] == radius].groupby("scene", sort=False):
-        for column, experiment in columns.items():
-            mine = frames[frames["method"] == experiment].set_index("metric")["value"]
-            levels = len(records[experiment]["network"]["widths"])
-            rows.append(
-                {"row": scene.replace("plate_", "penumbra_"), "column": column}
-                | {"experiment": experiment, "label": labels[experiment]}
-                | {"receptive_field": 3 * 2**levels}
-                | mean_with_interval(mine.loc[["mse"]], "mse", seed)
-                | {"mse_widest": mine.get("mse_widest", pd.Series(dtype=float)).mean()}
-            )
+        for column, experiment in [*columns.items(), *zip(nulls, nulls)]:
+            null = experiment if experiment in nulls else None
+            mine = frames[frames["method"] == experiment].set_index(["scene", "metric"])["value"]
+            levels = 0 if null else len(records[experiment]["network"]["widths"])
+            row = {"row": scene.replace("plate_", "penumbra_"), "column": column, "null": null}
+            row |= {"experiment": experiment, "label": (nulls | dict(labels))[experiment]}
+            row |= {"receptive_field": 3 * 2**levels if levels else np.nan}
+            for metric in ("mse", OFF_EDGES):
+                row |= mean_with_interval(_of(mine, metric), metric)
+            rows.append(row | {"mse_widest": _of(mine, "mse_widest").mean()})
     table = pd.DataFrame(rows)
-    return table.assign(ratio=table["mse"] / table.groupby("row")["mse"].transform("min"))
+    least = table[table["null"].isna()].groupby("row")["mse"].min()
+    return table.assign(ratio=table["mse"] / table["row"].map(least))
+
+
+def _of(mine: pd.Series, metric: str) -> pd.Series:
+    return mine[mine.index.get_level_values("metric") == metric]
 
 
 def _describe_learning(records: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]) -> str:

@@ -12,14 +12,21 @@ import pandas as pd
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.screen_rows import describe_trainings, mean_with_interval
+from neural_shadows.reports.tables.frame_means import OFF_EDGES, by_frame, mean_with_interval
+from neural_shadows.reports.tables.screen_rows import (
+    ABOUT_NULLS,
+    describe_trainings,
+    learned_rows,
+    nulls_in,
+)
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 TRAINING, VALIDATION, SEQUENCES = "training", "validation", "sequences"
 ALL = "all"  # lights of all radii
 WIDTHS = {"width": "width, px", "width_reference": "exact width, px"}
-SHOWN = {"mse": ("MSE × 10⁻⁴", 1e4)} | {name: (text, 1) for name, text in WIDTHS.items()}
+SHOWN = {"mse": ("MSE × 10⁻⁴", 1e4), OFF_EDGES: ("MSE off edges × 10⁻⁴", 1e4)}
+SHOWN |= {name: (text, 1) for name, text in WIDTHS.items()}
 
 
 def write(
@@ -46,8 +53,8 @@ def write(
     records = {path.parent.name: read_json(path) for path in trainings}
     found = read_soft_metrics(soft_metrics)
     radii = about.get("given_radii", about["radii"])
-    table = errors_table(found, records, labels, radii, run["seed"]).assign(scale=run["scale"])
-    columns = _cells(table, radii)
+    table = errors_table(found, records, labels, radii).assign(scale=run["scale"])
+    columns = _cells(learned_rows(table), radii)
     notes = [
         f"By the light's radius, in {about.get('radius_unit', 'metres').replace('_', ' ')}. Width: the "
         "area of penumbrae (visibility 10 to 90 %, × 1.25) over the length of the edges of the hard "
@@ -55,6 +62,7 @@ def write(
         "A scene's row is of its test frames; sequences are paths through the first scene, of cameras, "
         "lights and an object.",
         *_describe_training("× training" in columns),
+        ABOUT_NULLS,
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
@@ -66,14 +74,13 @@ def errors_table(
     records: Mapping[str, Mapping[str, Any]],
     labels: Mapping[str, str],
     radii: Sequence[float],
-    seed: int,
 ) -> pd.DataFrame:
-    """A row for each network, kind of frames and light.
+    """A row for each network, kind of frames and light, and for what learns nothing.
 
-    Columns: `experiment`, `label`; `frames`: `training`, `validation`, a scene's name for its test
+    Columns: `experiment`, `label`; `null`, the method that learns nothing, None of networks; `frames`: `training`, `validation`, a scene's name for its test
     frames, `sequences`; `learned`, whether the network learned from the scene; `light`, the radius's
-    number from 0, or `all`; `radius`; `mse` with the ends of its interval over frames, NaN where only
-    the mean is known; `width` and `width_reference` of the answered and of the exact penumbrae of test
+    number from 0, or `all`; `radius`; `mse` and `mse_off_edges` with the ends of their intervals over a
+    scene's frames, NaN where only the mean is known; `width` and `width_reference` of the answered and of the exact penumbrae of test
     frames; `ratio` to that of training frames at the same light, NaN for lights that the
     network did not learn.
     """
@@ -82,8 +89,15 @@ def errors_table(
         mine, record = found[found["method"] == experiment], records[experiment]
         same = list(record["radii"]) == list(radii)
         rows += [
-            {"experiment": experiment, "label": label, **row}
-            for row in (*_learned(record, same), *_tested(mine, record, seed))
+            {"experiment": experiment, "label": label, "null": None, **row}
+            for row in (*_learned(record, same), *_tested(mine, record))
+        ]
+    record = next(iter(records.values()))
+    for null, label in nulls_in(found).items():
+        mine = found[found["method"] == null]
+        rows += [
+            {"experiment": null, "label": label, "null": null, **row}
+            for row in (*_unlearned(null, record, radii), *_tested(mine, record))
         ]
     table = pd.DataFrame(rows)
     table["radius"] = [np.nan if one == ALL else radii[int(one)] for one in table["light"]]
@@ -102,29 +116,37 @@ def _learned(record: Mapping[str, Any], same: bool) -> Iterator[dict[str, Any]]:
             yield {"frames": frames, "learned": frames == TRAINING, "light": light, **ends}
 
 
-def _tested(mine: pd.DataFrame, record: Mapping[str, Any], seed: int) -> Iterator[dict[str, Any]]:
+def _unlearned(
+    null: str, record: Mapping[str, Any], radii: Sequence[float]
+) -> Iterator[dict[str, Any]]:
+    """What learns nothing, on validation frames; in place of training frames, which are like them."""
+    name = {"hard": "hard_map"}.get(null, null)
+    values = record.get("null_mse", {}).get(name)
+    if values and list(record["radii"]) == list(radii):
+        own = {"train_mse": values, "validation_mse": values}
+        yield from _learned(own, True)
+
+
+def _tested(mine: pd.DataFrame, record: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     """Of each scene's test frames, and of sequences."""
-    for scene, frames in mine[mine["metric"] == "mse"].groupby("scene", sort=False):
+    for scene, frames in mine.groupby("scene", sort=False):
         learned = scene in record["scenes"]
-        by_light = [*frames.groupby("radius")["value"], (ALL, _of_all_lights(frames))]
-        for light, values in by_light:
+        errors = frames[frames["metric"].isin(("mse", OFF_EDGES))]
+        for light, some in [*errors.groupby("radius"), (ALL, errors)] if len(errors) else []:
             row = {"frames": scene, "learned": learned, "light": str(light)}
-            yield row | mean_with_interval(values, "mse", seed) | _widths(mine, scene, light)
+            for metric in ("mse", OFF_EDGES):
+                row |= mean_with_interval(by_frame(some, metric), metric)
+            yield row | _widths(mine, scene, light)
     paths = mine[mine["metric"] == "mse_sequence"]
     if len(paths):
         row = {"frames": SEQUENCES, "learned": paths["scene"].iloc[0] in record["scenes"]}
         row |= {"light": str(paths["radius"].iloc[0])}
-        yield row | mean_with_interval(paths["value"], "mse", seed)
+        yield row | mean_with_interval(paths.set_index("scene")["value"], "mse")
 
 
 def _widths(mine: pd.DataFrame, scene: str, light: Any) -> dict[str, float]:
     here = mine[(mine["scene"] == scene) & (mine["radius"] == light)]
     return {name: here[here["metric"] == name]["value"].mean() for name in WIDTHS}
-
-
-def _of_all_lights(frames: pd.DataFrame) -> pd.Series:
-    """Frames are what is drawn: all lights of one together."""
-    return frames.groupby(["part", "frame"])["value"].mean()
 
 
 def _cells(table: pd.DataFrame, radii: Sequence[float]) -> dict[str, list[str]]:

@@ -11,9 +11,17 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.reports import phrases
 from neural_shadows.reports.published_nsm import read_published_nsm, titled
-from neural_shadows.reports.tables.screen_rows import (
-    describe_trainings,
+from neural_shadows.reports.tables.frame_means import (
+    OFF_EDGES,
+    by_frame,
+    describe_units,
     mean_with_interval,
+)
+from neural_shadows.reports.tables.screen_rows import (
+    ABOUT_NULLS,
+    describe_trainings,
+    learned_rows,
+    nulls_in,
     with_printed,
 )
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
@@ -49,34 +57,40 @@ def write(
     records = {path.parent.name: read_json(path) for path in trainings}
     shares = {path.stem: read_json(path)["features"] for path in sensitivities}
     found = read_soft_metrics(soft_metrics)
-    table = features_table(found, columns, labels, shares, run["seed"])
+    table = features_table(found, columns, labels, shares)
     # The paper gives two of these in its text (3.2) and the others in table S1.
     numbers = read_published_nsm(published_nsm_csv).rename(
         index={"nsm.features": "nsm.s1"}, level=0
     )
-    table = with_printed(table, published, "error", "error", numbers).assign(scale=run["scale"])
+    whole = with_printed(table, published, "error", "error", numbers).assign(scale=run["scale"])
+    table = learned_rows(whole)
+    frames = by_frame(found[found["method"].isin(columns.values())], "mse")
     told = [
         ", ".join(f"{name} {100 * one['share']:.1f}" for name, one in _sorted(shares[experiment]))
         for experiment in table["experiment"]
     ]
     cells = {
         "features": table["label"],
-        "channels": table["channels"].astype(str),
+        "channels": number_cells(table["channels"], "{:.0f}"),
         "MSE × 10⁻³": interval_cells(table, ["error", "error_low", "error_high"], 2, 1e3),
+        "off edges × 10⁻³": number_cells(table["error_off_edges"], "{:.2f}", 1e3),
         "printed × 10⁻³": number_cells(table["printed_error"], "{:.2f}", 1e3),
         "difference": number_cells(table["error_minus_printed"], "{:+.2f}", 1e3),
         "sensitivity, %": told,
     }
     notes = [
-        "Mean over test frames and all lights, a point among them [95 % bootstrap interval over "
-        "frames]; the paper does not name its error, which fits a squared one.",
+        "Mean over test frames and all lights, a point among them "
+        f"[{describe_units([*frames.index.unique('scene')], len(frames))}]; the paper does not name its "
+        "error, which fits a squared one.",
         f"Sensitivity: how far the answer moves with noise of a tenth of a feature's standard "
         f"deviation, absolute, in shares of all. The paper drops what has less than "
         f"{100 * LEAST_SHARE:g} %.",
+        ABOUT_NULLS,
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
-    write_twins(table, cells, csv, md, title=titled(title, published), notes=notes)
+    cells = {name: column for name, column in cells.items() if any(column)}
+    write_twins(whole, cells, csv, md, title=titled(title, published), notes=notes)
 
 
 def features_table(
@@ -84,27 +98,32 @@ def features_table(
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     shares: Mapping[str, Mapping[str, Any]],
-    seed: int,
 ) -> pd.DataFrame:
-    """A row for each network.
+    """A row for each network, and for what learns nothing.
 
-    Columns: `row`, the paper's; `experiment`, `label`, `channels`, `error`
-    with the ends of its interval, `share_NAME` of each feature, and `as_printed_NAME`.
+    Columns: `row`, the paper's; `null` (see `nulls_in`); `experiment`, `label`, `channels`, `error`
+    and `error_off_edges` with the ends of their intervals, `share_NAME` of each feature, and `as_printed_NAME`.
     """
     rows = []
     for row, experiment in columns.items():
-        mine = found[(found["metric"] == "mse") & (found["method"] == experiment)]
-        # Frames are what is drawn: all lights of one together.
-        values = mine.groupby(["scene", "part", "frame"])["value"].mean()
         parts = shares[experiment]
         rows.append(
-            {"row": row, "experiment": experiment, "label": labels[experiment]}
+            {"row": row, "null": None, "experiment": experiment, "label": labels[experiment]}
             | {"channels": sum(FEATURES[name] for name in parts)}
-            | mean_with_interval(values, "error", seed)
+            | _errors(found, experiment)
             | {f"share_{name}": one["share"] for name, one in parts.items()}
             | {f"as_printed_{name}": one["as_printed"] for name, one in parts.items()}
         )
+    for null, label in nulls_in(found).items():
+        named = {"row": null, "null": null, "experiment": null, "label": label}
+        rows.append(named | _errors(found, null))
     return pd.DataFrame(rows)
+
+
+def _errors(found: pd.DataFrame, method: str) -> dict[str, float]:
+    mine = found[found["method"] == method]
+    errors = mean_with_interval(by_frame(mine, "mse"), "error")
+    return errors | mean_with_interval(by_frame(mine, OFF_EDGES), "error_off_edges")
 
 
 def _sorted(features: Mapping[str, Any]) -> list[tuple[str, Any]]:

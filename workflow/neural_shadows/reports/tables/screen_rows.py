@@ -6,13 +6,23 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.metrics.intervals import mean_interval
+from neural_shadows.evaluation.soft_method_names import LABELS, UNLEARNED
+
+ABOUT_NULLS = (
+    "The CSV also has rows of what learns nothing (no shadow, all dark, the light's map as it is), "
+    "named in `null`: a claim that holds of them as well is vacuous."
+)
 
 
-def mean_with_interval(values: pd.Series, name: str, seed: int) -> dict[str, float]:
-    """`name`, `name_low` and `name_high`: the mean over frames and its 95 % interval."""
-    mean, low, high = mean_interval(values.to_numpy(), seed)
-    return {name: mean, f"{name}_low": low, f"{name}_high": high}
+def nulls_in(found: pd.DataFrame) -> dict[str, str]:
+    """What learns nothing and was measured, with its label: rows of a CSV that `null` names."""
+    measured = set(found["method"])
+    return {method: LABELS[method] for method in UNLEARNED if method in measured}
+
+
+def learned_rows(table: pd.DataFrame) -> pd.DataFrame:
+    """A table without the rows of what learns nothing."""
+    return table[table["null"].isna()] if "null" in table else table
 
 
 def with_printed(

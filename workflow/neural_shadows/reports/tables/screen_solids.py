@@ -4,14 +4,19 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.occluder_error import MOST
 from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.screen_rows import describe_trainings, mean_with_interval
+from neural_shadows.reports.tables.frame_means import describe_units, mean_with_interval
+from neural_shadows.reports.tables.screen_rows import (
+    ABOUT_NULLS,
+    describe_trainings,
+    learned_rows,
+    nulls_in,
+)
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -39,8 +44,9 @@ def write(
     records = {path.parent.name: read_json(path) for path in trainings}
     found = read_soft_metrics(soft_metrics)
     soft = [number for number, radius in enumerate(read_json(frames_json)["radii"]) if radius > 0]
-    table = solids_table(found[found["radius"].isin(soft)], labels, run["seed"])
-    table = table.assign(scale=run["scale"])
+    found = found[found["radius"].isin(soft)]
+    whole = solids_table(found, labels).assign(scale=run["scale"])
+    table = learned_rows(whole)
     more = [" and more" * (number == MOST) for number in table["solids"]]
     columns = {
         "network": table["label"],
@@ -51,20 +57,28 @@ def write(
     }
     notes = [
         "Of pixels of test frames with so many solids between them and the light's centre, mean over "
-        "all lights but a point, of which one solid hides as much as several [95 % bootstrap interval over frames]. A solid: two surfaces that the way to the "
-        "light crosses, or one of a sheet.",
+        "all lights but a point, of which one solid hides as much as several "
+        f"[{describe_units(*_frames(found))}]. A solid: two surfaces that the way to the light "
+        "crosses, or one of a sheet.",
         "What each solid adds: the slope of a straight line through the squared errors of a frame's "
         "pixels over their numbers of solids, mean over frames; the line: that through their means.",
+        ABOUT_NULLS,
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=2)
+    write_twins(whole, columns, csv, md, title=title, notes=notes, text_columns=2)
 
 
-def solids_table(found: pd.DataFrame, labels: Mapping[str, str], seed: int) -> pd.DataFrame:
-    """A row for each network and number of solids before the light.
+def _frames(found: pd.DataFrame) -> tuple[list[str], int]:
+    """The scenes of test frames, and how many frames there are."""
+    frames = found[["scene", "part", "frame"]].drop_duplicates()
+    return [*frames["scene"].unique()], len(frames)
 
-    Columns: `experiment`, `label`, `solids`, `mse` and `slope` (what each solid adds, the same in all
+
+def solids_table(found: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
+    """A row for each network and number of solids before the light, and for what learns nothing.
+
+    Columns: `experiment`, `label`, `null` (see `nulls_in`), `solids`, `mse` and `slope` (what each solid adds, the same in all
     rows of a network) with the ends of their intervals over frames, `line`, the error at this number on
     a line of this slope.
     """
@@ -72,23 +86,21 @@ def solids_table(found: pd.DataFrame, labels: Mapping[str, str], seed: int) -> p
     keys = ["method", "metric", "scene", "part", "frame"]
     frames = found.groupby(keys)["value"].mean().dropna()
     rows = []
-    for experiment, label in labels.items():
+    for experiment, label in (dict(labels) | nulls_in(found)).items():
         mine = frames[experiment]
-        slope = _of_frames(mine, "mse_per_solid", "slope", seed)
+        slope = _of_frames(mine, "mse_per_solid", "slope")
         behind, middle = (_values(mine, name).mean() for name in ("mse_behind", "solids_behind"))
         for number in range(1, MOST + 1):
             row = {"experiment": experiment, "label": label, "solids": number}
-            row |= _of_frames(mine, f"mse_solids_{number}", "mse", seed)
+            row["null"] = None if experiment in labels else experiment
+            row |= _of_frames(mine, f"mse_solids_{number}", "mse")
             rows.append(row | {"line": behind + slope["slope"] * (number - middle)} | slope)
     return pd.DataFrame(rows)
 
 
-def _of_frames(mine: pd.Series, metric: str, name: str, seed: int) -> dict[str, float]:
+def _of_frames(mine: pd.Series, metric: str, name: str) -> dict[str, float]:
     """The mean of a metric over frames with its interval; NaN where no frame has one."""
-    values = _values(mine, metric)
-    if values.empty:
-        return dict.fromkeys((name, f"{name}_low", f"{name}_high"), np.nan)
-    return mean_with_interval(values, name, seed)
+    return mean_with_interval(_values(mine, metric), name)
 
 
 def _values(mine: pd.Series, metric: str) -> pd.Series:

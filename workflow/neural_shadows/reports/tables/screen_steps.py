@@ -15,14 +15,27 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.published_nsm import PAPER, printed_size, read_published_nsm
 from neural_shadows.reports.screen_profiles import describe, product_share, run_name
-from neural_shadows.reports.tables.screen_rows import (
-    describe_trainings,
+from neural_shadows.reports.tables.frame_means import (
+    OFF_EDGES,
+    by_frame,
+    describe_units,
     mean_with_interval,
+)
+from neural_shadows.reports.tables.screen_rows import (
+    ABOUT_NULLS,
+    describe_trainings,
+    learned_rows,
+    nulls_in,
     with_printed,
 )
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
+COLUMNS = (
+    *("row", "null", "network", "precision", "run", "device", "runtime", "share", "size"),
+    *("error", "error_low", "error_high"),
+    *("error_off_edges", "error_off_edges_low", "error_off_edges_high"),
+)
 BYTES = {"float32": 4, "bfloat16": 2}
 
 
@@ -56,7 +69,7 @@ def write(
     profiled = {path.stem: read_json(path) for path in profiles}
     records = {path.parent.name: read_json(path) for path in trainings}
     found = read_soft_metrics(soft_metrics) if soft_metrics else None
-    table = steps_table(steps, profiled, found, run["seed"])
+    table = steps_table(steps, profiled, found)
     numbers = read_published_nsm(published_nsm_csv)
     sizes = [(one["width"], one["height"]) for one in profiled.values()]
     # The other paper's frames have this size, too.
@@ -65,7 +78,8 @@ def write(
         table = with_printed(table, published, name, name, numbers)
         bounds = [numbers.get((published, row, f"{name}_above"), np.nan) for row in table["row"]]
         table[f"printed_{name}_above"] = bounds
-    table = table.assign(scale=run["scale"])
+    whole = table.assign(scale=run["scale"])
+    table = learned_rows(whole)
     cells = {
         "step": table["row"],
         "format": table["precision"],
@@ -75,6 +89,7 @@ def write(
         "MiB": number_cells(table["size"], "{:.2f}"),
         "printed, MB": _printed(table, "size", "{:g}"),
         "MSE × 10⁻³": interval_cells(table, ["error", "error_low", "error_high"], 2, 1e3),
+        "off edges × 10⁻³": number_cells(table["error_off_edges"], "{:.2f}", 1e3),
         "printed × 10⁻³": number_cells(table["printed_error"], "{:.2f}", 1e3),
     }
     cells = {name: column for name, column in cells.items() if any(column)}
@@ -84,29 +99,27 @@ def write(
     )
     notes = [
         *([printed] if published else []),
-        "Errors: mean over test frames and all lights, in the step's format [95 % bootstrap interval "
-        "over frames].",
+        *_describe_errors(found),
         *(describe(profile) for profile in list(profiled.values())[:1]),
         *_without_errors(table, steps),
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
     heading = f"{title} ({PAPER}, 3.5)" if published else title
-    write_twins(table, cells, csv, md, title=heading, notes=notes, text_columns=2)
+    write_twins(whole, cells, csv, md, title=heading, notes=notes, text_columns=2)
 
 
 def steps_table(
     steps: Mapping[str, Mapping[str, Any]],
     profiles: Mapping[str, Mapping[str, Any]],
     found: pd.DataFrame | None,
-    seed: int,
 ) -> pd.DataFrame:
-    """A row for each step.
+    """A row for each step, and for the errors of what learns nothing.
 
-    Columns: `row`, `network`, `precision`, `runtime` (ms of a frame on all of the machine's threads, or
+    Columns: `row`, `null` (see `nulls_in`), `network`, `precision`, `runtime` (ms of a frame on all of the machine's threads, or
     its GPU, see `run` and `device`), `share` of a matrix product's rate, `size` (MiB of weights and biases not
-    counted), `error` (mean squared) with the ends of its interval, NaN of what is not trained. Times
-    and errors are NaN, too, in a number format that the machine would emulate.
+    counted), `error` (mean squared) and `error_off_edges` with the ends of their intervals, NaN of what is not
+    trained. Times and errors are NaN, too, in a number format that the machine would emulate.
     """
     rows = []
     for name, step in steps.items():
@@ -122,17 +135,33 @@ def steps_table(
         row |= {"size": weights * BYTES[step["precision"]] / 2**20}
         row |= dict.fromkeys(("error", "error_low", "error_high"), np.nan)
         if step["experiment"]:
-            method = in_format(step["experiment"], step["precision"])
-            mine = found[(found["metric"] == "mse") & (found["method"] == method)]
-            values = mine.groupby(["scene", "part", "frame"])["value"].mean()
-            row |= mean_with_interval(values, "error", seed) if len(values) else {}
-        rows.append(row)
-    return pd.DataFrame(rows)
+            row |= _errors(found, in_format(step["experiment"], step["precision"]))
+        rows.append(row | {"null": None})
+    for null in nulls_in(found) if found is not None else ():
+        rows.append({"row": null, "null": null} | _errors(found, null))
+    return pd.DataFrame(rows).reindex(columns=COLUMNS)
+
+
+def _errors(found: pd.DataFrame, method: str) -> dict[str, float]:
+    mine = found[found["method"] == method]
+    errors = mean_with_interval(by_frame(mine, "mse"), "error")
+    return errors | mean_with_interval(by_frame(mine, OFF_EDGES), "error_off_edges")
+
+
+def _describe_errors(found: pd.DataFrame | None) -> list[str]:
+    if found is None:
+        return []
+    frames = by_frame(found, "mse")
+    units = describe_units([*frames.index.unique("scene")], len(frames))
+    return [
+        f"Errors: mean over test frames and all lights, in the step's format [{units}].",
+        ABOUT_NULLS,
+    ]
 
 
 def _without_errors(table: pd.DataFrame, steps: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """A note on the steps that are trained and yet have no error; none if all have one."""
-    trained = table["row"].map(lambda name: bool(steps[name]["experiment"]))
+    trained = table["row"].map(lambda name: bool(steps.get(name, {}).get("experiment")))
     lacking = table[table["error"].isna() & trained]
     if lacking.empty:
         return []

@@ -9,7 +9,12 @@ import pandas as pd
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.screen_rows import describe_trainings
+from neural_shadows.reports.tables.screen_rows import (
+    ABOUT_NULLS,
+    describe_trainings,
+    learned_rows,
+    nulls_in,
+)
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -36,7 +41,8 @@ def write(
     """
     about = read_json(frames_json)
     records = {path.parent.name: read_json(path) for path in trainings}
-    table = temporal_table(read_soft_metrics(soft_metrics), labels).assign(scale=run["scale"])
+    whole = temporal_table(read_soft_metrics(soft_metrics), labels).assign(scale=run["scale"])
+    table = learned_rows(whole)
     kinds = [name.removeprefix("e_") for name in table if name.startswith("e_")]
     columns = {
         "method": table["label"],
@@ -53,25 +59,27 @@ def write(
         f"Sequences have a light of {radius:g} m. TAA: each frame averaged with the one before, where "
         "that shows the same point. Edges: within 3 pixels of those of a point light's shadow, in "
         "test frames, of all lights.",
+        ABOUT_NULLS,
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes)
+    write_twins(whole, columns, csv, md, title=title, notes=notes)
 
 
 def temporal_table(found: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
-    """A row for each method as it is and one with TAA.
+    """A row for each method as it is and one with TAA, and for what learns nothing.
 
-    Columns: `method`, `label`, `taa`; by what moves in a sequence `e_camera`, …, and
+    Columns: `method`, `label`, `null` (see `nulls_in`), `taa`; by what moves in a sequence `e_camera`, …, and
     `reference_camera`, …, of the exact shadow; `mse_sequence`, and `mse_edge` of test frames, which
     a filter over time has none of.
     """
     rows = []
-    for method, label in labels.items():
+    for method, label in (dict(labels) | nulls_in(found)).items():
         mine = found[found["method"] == method]
         for taa in (False, True):
             end = "_taa" if taa else ""
             row = {"method": method, "label": f"{label} + TAA" if taa else label, "taa": taa}
+            row["null"] = None if method in labels else method
             row |= _by_kind(mine, f"instability{end}", "e")
             row |= _by_kind(mine, "instability_reference", "reference")
             row["mse_sequence"] = _mean(mine, "mse_taa" if taa else "mse_sequence")

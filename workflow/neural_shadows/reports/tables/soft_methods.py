@@ -10,15 +10,21 @@ import pandas as pd
 from neural_shadows.evaluation.soft_method_names import tuned_as
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.metrics.intervals import two_way_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.reports import phrases
 from neural_shadows.reports.soft_looks import UNITS, light_name
+from neural_shadows.reports.tables.frame_means import (
+    ABOUT_EDGES,
+    OFF_EDGES,
+    describe_units,
+    mean_over_scenes,
+    mean_with_interval,
+)
 from neural_shadows.reports.tables.soft_costs import cost, describe_bytes, describe_times
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
-WITH_INTERVALS = ("mse", "l1")
+WITH_INTERVALS = ("mse", OFF_EDGES, "l1")
 MEANS = (
     *("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge", "false_shadow", "light_leak"),
     *("ssim", "flip", "lpips"),
@@ -61,12 +67,15 @@ def write(
     found = read_soft_metrics(soft_metrics)
     unit = UNITS[about.get("radius_unit", "metres")]
     radii = about.get("given_radii", about["radii"])
-    table = soft_table(found, radii, times, labels, unseen, run["seed"])
+    table = soft_table(found, radii, times, labels, unseen)
     table = table.assign(unit=unit, scale=run["scale"])
     columns = {
         "light": [light_name(radius, unit) for radius in table["radius"]],
         "method": table["label"],
         "MSE × 10⁻⁴ ↓": interval_cells(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
+        "off edges": interval_cells(
+            table, [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"], 1, 1e4
+        ),
         "unseen scenes": number_cells(table["mse_unseen"], "{:.1f}", 1e4),
         "umbra": number_cells(table["mse_umbra"], "{:.1f}", 1e4),
         "penumbra": number_cells(table["mse_penumbra"], "{:.1f}", 1e4),
@@ -85,9 +94,10 @@ def write(
     columns = {name: cells for name, cells in columns.items() if any(cells)}
     records = {one["method"]: one for one in map(read_json, soft_constants)}
     chosen = {name: records[tuned_as(name)] for name in labels if tuned_as(name) in records}
+    scenes, frames = [*found["scene"].unique()], table["frames"].iloc[0]
     parts = (
-        f"Mean over {table['frames'].iloc[0]} frames of {about['width']} × {about['height']} in "
-        f"{found['scene'].nunique()} scenes [95 % bootstrap interval over frames within scenes]; "
+        f"Mean over {frames} frames of {about['width']} × {about['height']} in {len(scenes)} scenes "
+        f"[{describe_units(scenes, frames)}]; "
     )
     notes = [
         f"{parts}unseen scenes: {', '.join(unseen) or 'none'}. The exact soft shadow is by rays from "
@@ -96,6 +106,7 @@ def write(
         "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
         "surface inside the light's map. What faces away from the light's centre is dark for all "
         "methods but rays. FLIP and LPIPS are of the first frame of each part.",
+        *([ABOUT_EDGES.capitalize()] if table[OFF_EDGES].notna().any() else []),
         *_describe_constants(chosen, labels),
         *describe_times(times),
         *describe_bytes(times),
@@ -113,12 +124,11 @@ def soft_table(
     times: Mapping[str, Any],
     labels: Mapping[str, str],
     unseen: Sequence[str],
-    seed: int,
 ) -> pd.DataFrame:
     """A row for each radius and method.
 
-    Columns: `method, label, number` (of the radius, from 0), `radius, frames`, of `mse` and `l1`
-    also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`, `own_ms`,
+    Columns: `method, label, number` (of the radius, from 0), `radius, frames`, of `mse`, `mse_off_edges`
+    and `l1` also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`, `own_ms`,
     `map_ms`, `ms`, `bytes`, those of `_flicker`.
     """
     frames = found[~found["metric"].isin(FLICKER)]
@@ -126,20 +136,16 @@ def soft_table(
     for number, radius in enumerate(radii):
         lit = frames[frames["radius"] == number]
         for method, label in labels.items():
-            here = lit[lit["method"] == method]
+            here = lit[lit["method"] == method].set_index("scene")
             row = {"method": method, "label": label, "number": number, "radius": radius}
             row["frames"] = int((here["metric"] == "mse").sum())
             for name in WITH_INTERVALS:
-                some = here[here["metric"] == name]
-                values = some["value"].to_numpy()[None]
-                mean, low, high, _ = two_way_interval(values, seed, groups=some["scene"].to_numpy())
-                row |= {name: mean, f"{name}_low": low, f"{name}_high": high}
+                row |= mean_with_interval(here[here["metric"] == name]["value"], name)
             # Of a part that no frame has, there is no mean.
-            means = here.groupby("metric")["value"].mean()
-            row |= {name: means.get(name, np.nan) for name in MEANS}
+            row |= {n: mean_over_scenes(here[here["metric"] == n]["value"]) for n in MEANS}
             row["psnr_pooled"] = float(psnr_of(max(row["mse"], 1e-10)))
-            some = here[here["scene"].isin(unseen) & (here["metric"] == "mse")]["value"]
-            row["mse_unseen"] = some.mean()
+            some = here[here.index.isin(unseen)]
+            row["mse_unseen"] = mean_over_scenes(some[some["metric"] == "mse"]["value"])
             rows.append(row | cost(times, method, number))
     table = pd.DataFrame(rows)
     return table.merge(_flicker(found), on=["method", "number"], how="left")

@@ -13,6 +13,7 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
 from neural_shadows.reports.published_kpnsm import PAPER, read_published_kpnsm, titled
 from neural_shadows.reports.soft_looks import UNITS, light_name
+from neural_shadows.reports.tables.frame_means import ABOUT_EDGES, OFF_EDGES, describe_units
 from neural_shadows.reports.tables.screen_rows import describe_trainings
 from neural_shadows.reports.tables.soft_costs import describe_times
 from neural_shadows.reports.tables.soft_summary_rows import MOVES, Row, summary_table, with_printed
@@ -64,13 +65,15 @@ def write(
     radii = about.get("given_radii", about["radii"])
     numbers = read_published_kpnsm(published_kpnsm_csv)
     asked = {"methods": methods, "by": by, "metrics": metrics, "measured": measured}
-    table = summary_table(found, times, radii, **asked, seed=run["seed"])
+    table = summary_table(found, times, radii, **asked)
     for metric in metrics:
         first = metric == metrics[0]  # a column of the paper's own is of this one
         table = with_printed(table, metric, first, published, methods, numbers)
     table = table.assign(unit=unit, scale=run["scale"])
     notes = [
-        *_describe_frames(found[found["scene"].isin(measured)], metrics, about, radii, unit),
+        *_describe_frames(
+            found[found["scene"].isin(measured)], metrics, about, radii, unit, by == "scene"
+        ),
         *([_describe_sequences(found)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
@@ -96,6 +99,8 @@ def _cells(
         cells[head] = number_cells(table[metric], form, factor)
         if metric == "mse":
             cells[head] = interval_cells(table, ["mse", "mse_low", "mse_high"], 2, factor)
+            ends = [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"]
+            cells["off edges"] = interval_cells(table, ends, 2, factor)
         printed = table[f"printed_{metric}"]
         cells[f"{head.split(' ×')[0].strip(' ↓↑')}, printed"] = number_cells(printed, form, factor)
         if metric == "temporal_error":
@@ -116,16 +121,18 @@ def _describe_frames(
     about: Mapping[str, Any],
     radii: Sequence[float],
     unit: str,
+    by_scene: bool,
 ) -> list[str]:
     if not {"mse", "ssim"} & set(metrics):
         return []
     one = frames[(frames["metric"] == "mse") & (frames["radius"] == 0)]
-    count = one.groupby("method").size().max()
+    count, scenes = one.groupby("method").size().max(), [*one["scene"].unique()]
+    units = "95 % over the frames of each scene" if by_scene else describe_units(scenes, count)
     return [
         f"Mean over {count} frames of {about['width']} × {about['height']} of "
-        f"{', '.join(one['scene'].unique())}, and {len(radii)} "
-        f"radii of the light from {radii[0]:g} to {radii[-1]:g} {unit}, all with the same weight "
-        "[95 % bootstrap interval over frames within scenes]."
+        f"{', '.join(scenes)}, and {len(radii)} radii of the light from {radii[0]:g} to "
+        f"{radii[-1]:g} {unit}, all with the same weight [{units}].",
+        *([ABOUT_EDGES.capitalize()] if (frames["metric"] == OFF_EDGES).any() else []),
     ]
 
 

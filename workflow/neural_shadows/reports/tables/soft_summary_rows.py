@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from neural_shadows.metrics.intervals import two_way_interval
+from neural_shadows.evaluation.soft_method_names import UNLEARNED
 from neural_shadows.reports.published_kpnsm import printed_value
+from neural_shadows.reports.tables.frame_means import OFF_EDGES, by_frame, mean_with_interval
 from neural_shadows.reports.tables.soft_costs import cost
 
 MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
@@ -24,13 +25,12 @@ def summary_table(
     by: str | None,
     metrics: Sequence[str],
     measured: Sequence[str],
-    seed: int,
 ) -> pd.DataFrame:
     """A row for each method, or for each scene or radius and method.
 
     Columns: `scene`, or `number` and `radius` of the light, where rows are by these; `method`, `label`;
-    of `metrics` those that are named: `mse` and `ssim` with the ends of their intervals, `time` (ms),
-    those of `_in_sequences`.
+    `null`, the method if it learns nothing; of `metrics` those that are named: `mse` with
+    `mse_off_edges`, and `ssim`, with the ends of their intervals, `time` (ms), those of `_in_sequences`.
 
     Args:
         found: of `read_soft_metrics`; times: what `time_soft_methods` wrote; radii: of the lights.
@@ -39,7 +39,7 @@ def summary_table(
     frames = found[found["scene"].isin(measured)]
     return pd.DataFrame(
         [
-            group | _row(some, found, times, row, metrics, len(radii), seed)
+            group | _row(some, found, times, row, metrics, len(radii))
             for group, some in _groups(frames, by, measured, radii)
             for row in methods
         ]
@@ -68,30 +68,21 @@ def _row(
     row: Row,
     metrics: Sequence[str],
     radii: int,
-    seed: int,
 ) -> dict[str, Any]:
     """A method's row: `method`, `label`, and what `metrics` name."""
     mine = frames[frames["method"] == row["method"]]
     values: dict[str, Any] = {"method": row["method"], "label": row["label"]}
+    values["null"] = row["method"] if row["method"] in UNLEARNED else None
+    for metric in ("mse", "ssim"):
+        if metric in metrics:
+            values |= mean_with_interval(by_frame(mine, metric), metric)
     if "mse" in metrics:
-        values |= _mean(mine, "mse", seed)
-    if "ssim" in metrics:
-        values |= _mean(mine, "ssim", seed)
+        values |= mean_with_interval(by_frame(mine, OFF_EDGES), OFF_EDGES)
     if "time" in metrics:
         values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
     if "temporal_error" in metrics:
         values |= _in_sequences(found[found["method"] == row["method"]])
     return values
-
-
-def _mean(frames: pd.DataFrame, metric: str, seed: int) -> dict[str, float]:
-    """The mean over frames, of each over its radii, and the ends of its interval; NaN of no frame."""
-    each = frames[frames["metric"] == metric].groupby(["scene", "part", "frame"])["value"].mean()
-    if each.empty:
-        return dict.fromkeys((metric, f"{metric}_low", f"{metric}_high"), np.nan)
-    scenes = each.index.get_level_values("scene").to_numpy()
-    mean, low, high, _ = two_way_interval(each.to_numpy()[None], seed, groups=scenes)
-    return {metric: mean, f"{metric}_low": low, f"{metric}_high": high}
 
 
 def _in_sequences(mine: pd.DataFrame) -> dict[str, float]:

@@ -1,0 +1,94 @@
+"""No text of ours states on soft shadows what no claim has decided."""
+
+import pytest
+from checkout import ROOT
+from claimed_sentences import findings_mistakes, mistakes, read_verdicts, sentences
+
+REFERENCE = ROOT / "reports" / "reference"
+VERDICTS = {
+    "ahead": {"supported"},
+    "calmer": {"contradicted"},
+    "open": {"undecided"},
+    "small": {"undecided (scale)"},
+    "twice": {"supported", "undecided"},
+    "desk/twice": {"supported"},
+}
+GOOD = """\
+## Soft shadows
+
+PCSS has 33.6 in five scenes, and took 50 ms. <!-- numbers: soft.csv --> Times are of one thread.
+
+- **Four rays err less than PCSS**, by 12 [3, 21] (Hu et al. 2025).
+  <!-- claim: ahead supported --> The table has all.
+- That the network is calmer is contradicted. <!-- claim: calmer contradicted -->
+- Whether kernels are better than PCSS is undecided <!-- claim: open undecided -->.
+- **Of what it learns nothing is decided.** <!-- claim: small undecided (scale), open undecided -->
+- It is ahead in the desk's run. <!-- claim: desk/twice supported -->
+
+| better | PCSS is worse than rays |
+| --- | --- |
+
+## Shadows of one object
+
+**The field has 42 dB, more than the map, and is faster.** Filters take less.
+"""
+BAD = {
+    "PCSS is better than moments.": "names no claim",
+    "**It carries over.**": "names no claim",
+    "**Rays cost 12 ms**": "names no claim",
+    "Four rays are ahead. <!-- claim: ahead supported --> They beat moments, too.": "no claim: They",
+    "They beat moments. Four rays are ahead. <!-- claim: ahead supported -->": "no claim: They",
+    "Kernels are better. <!-- claim: open supported -->": "open: is undecided, and not supported",
+    "Kernels are better. <!-- claim: open undecided -->": "open: is undecided, and the sentence",
+    "Kernels are better. <!-- claim: small undecided (scale) -->": "small: is undecided (scale), and",
+    "It is calmer. <!-- claim: calmer contradicted -->": "calmer: is contradicted, and the sentence",
+    "It is calmer. <!-- claim: calmer supported -->": "calmer: is contradicted, and not supported",
+    "Rays are ahead. <!-- claim: ahead -->": "ahead: is supported, and not without verdict",
+    "Rays are ahead. <!-- claim: gone supported -->": "gone: is no claim of the reference",
+    "Rays are ahead. <!-- claim: twice supported -->": "twice: is supported and undecided",
+    "Rays are ahead, and it is calmer. <!-- claim: ahead supported, calmer supported -->": "calmer:",
+    "Denoised, they have half of the error.": "names no claim",
+    "At 25 cm the map errs 1.5 times as much.": "names no claim",
+}
+
+
+def test_sentences_that_are_right_pass():
+    assert mistakes(GOOD, VERDICTS) == []
+
+
+@pytest.mark.parametrize("sentence", BAD)
+@pytest.mark.parametrize(
+    "form", ["## Soft shadows\n\n{}", "### Neural Shadow Mapping\n- One.\n- {}"]
+)
+def test_sentences_that_are_wrong_are_named(sentence, form):
+    (found,) = mistakes(form.format(sentence), VERDICTS)
+    assert BAD[sentence] in found
+
+
+def test_elsewhere_a_sentence_on_soft_shadows_has_a_claim_too():
+    """As in the README, which has no part for them."""
+    text = (
+        "# Neural shadows\n\n- A light of 12.5 cm: PCSS 175, less than moments.\n- A map is worse."
+    )
+    (found,) = mistakes(text, VERDICTS)
+    assert "PCSS 175, less" in found
+
+
+def test_the_page_s_findings_have_no_claims_to_name():
+    page = '<p>PCSS is worse.</p><ul class="findings"><li>The <b>field</b> beats maps.</li>{}</ul>'
+    assert findings_mistakes(page.format("")) == []
+    assert findings_mistakes(page.format("<li>Kernels are <b>better</b> than PCSS.</li>"))
+
+
+@pytest.mark.parametrize("name", ["README.md", "reports/reference/README.md"])
+def test_our_sentences_say_what_their_claims_say(name):
+    text = (ROOT / name).read_text(encoding="utf-8")
+    assert mistakes(text, read_verdicts(REFERENCE.glob("*/claims.csv"))) == []
+    assert any(in_part for _, _, in_part in sentences(text)) or name == "README.md"
+
+
+@pytest.mark.parametrize(
+    "page", [*REFERENCE.glob("*/index.html")], ids=lambda path: path.parent.name
+)
+def test_our_page_says_nothing_else(page):
+    assert findings_mistakes(page.read_text(encoding="utf-8")) == []
