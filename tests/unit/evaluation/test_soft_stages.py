@@ -35,7 +35,8 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("results") / "blinds"
     folder.mkdir()
     (folder / "lpips.json").write_text(json.dumps(NO_LPIPS))
-    told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 2, "samples": 8}
+    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES}
+    told |= {"first": 0, "last": 2, "samples": 8}
     for use in ("validation", "test", "camera", "light"):
         stem = folder / f"{use}_000"
         names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
@@ -178,7 +179,8 @@ def test_a_window_bears_its_share_of_the_map(tmp_path):
     names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
     parts = [stem.with_name(f"{stem.name}.{n}") for n in names]
     told = FRAMES | {"of": [192, 48], "light_map": {"kind": "cube", "resolution": 64}}
-    few = {"scene": SCENE, "frames": told, "first": 0, "last": 1, "samples": 1}
+    few = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": told}
+    few |= {"first": 0, "last": 1, "samples": 1}
     render_frames([], *parts, use="test", **few)
     out = tmp_path / "times.json"
     time_soft_methods(parts[:1], [], [], [], out, methods={"hard": None}, repeats=1)

@@ -25,7 +25,8 @@ def render(folder, first=0, last=2, use="train", **changed):
     ends = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
     paths = [folder / f"{use}_000.{end}" for end in ends]
     told = {"use": use, "first": first, "last": last, "samples": 2, "twins": 2} | changed
-    render_frames([], *paths, scene=SCENE, frames=FRAMES, **told)
+    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES} | told
+    render_frames([], *paths, **told)
     return FrameSetPart(paths[0])
 
 

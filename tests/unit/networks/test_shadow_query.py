@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import torch
 
+from neural_shadows.networks.object_space import sphere_rays
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 
@@ -123,3 +124,19 @@ def test_depth_bias():
     # From 2 on, the chord, everything is lit.
     assert not lit(Constant(1.9), p, light).all()
     assert lit(Constant(1.9), p, light, depth_bias=0.1 + 1e-6).all()
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_rays_of_one_pass_are_those_of_tensors(light):
+    """On a CPU and a GPU: as many, in the same order, of points up to the ground's rim."""
+    light = np.array(light)
+    p = np.concatenate([points_of(region, light) for region in REGIONS])
+    p = torch.from_numpy(np.concatenate([p, 20 * p]))
+    light = torch.from_numpy(light.astype(np.float32))
+    one, other = sphere_rays._in_one_pass(p, light), sphere_rays._by_tensors(p, light)
+    assert 0.1 * len(p) < len(one.index) < 0.9 * len(p)
+    assert torch.equal(one.index, other.index)
+    for part in ("origins", "s", "chord"):
+        a, b = getattr(one, part), getattr(other, part)
+        assert a.dtype == b.dtype == torch.float32
+        assert torch.allclose(a, b, rtol=1e-6, atol=4e-6)  # of two roundings at |p| = 20

@@ -17,7 +17,7 @@ from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.kernel_widths import layers_of
 from neural_shadows.networks.screen_space.screen_networks import ScreenNetwork, make_screen_network
 from neural_shadows.networks.screen_space.widths import by_level
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -77,7 +77,7 @@ def profile_screen_network(
             "warm_up": WARM_UP,
             "levels": _counts(network),
             "runs": runs,
-            "machine": describe_machine(),
+            **describe_origin(),
         },
     )
 

@@ -15,7 +15,7 @@ from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -112,7 +112,7 @@ def time_soft_methods(
                 }
                 for name, each in taken.items()
             },
-            "machine": describe_machine(),
+            **describe_origin(),
         },
     )
 

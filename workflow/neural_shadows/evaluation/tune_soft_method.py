@@ -10,6 +10,7 @@ from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -43,7 +44,8 @@ def tune_soft_method(
             if _at_end(values, each, best):
                 one["at_end"] = [*one["at_end"], name]
     tried = {name: list(values) for name, values in asked.constants.items()}
-    write_json(constants_json, {"method": method, "tried": tried, "radii": found})
+    chosen = {"method": method, "tried": tried, "radii": found}
+    write_json(constants_json, chosen | describe_origin())
 
 
 def _errors(

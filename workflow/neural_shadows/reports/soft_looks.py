@@ -63,6 +63,8 @@ SOFT_LOOKS = {
         "◈",
         "What a perfect answer at the middle of each pixel still lacks of the antialiased target.",
     ),
+    # Of a family that has none of its own here.
+    "other": Look("other methods", RED, "d", "⬧", "A method of this checkout's own."),
     "null": Look("no method", "#777777", "o", "○", "Draws no shadow at all, or all of it."),
 }
 
@@ -76,8 +78,10 @@ def family_of(method: str) -> str:
     first, _, rest = method.partition("_")
     if first == "rt":
         kind = rest.partition("_")[2]
-        return "rt" if kind in ("", "spread") else kind
-    return "moments" if first in ("vsm", "evsm", "msm") else first
+        first = "rt" if kind in ("", "spread") else kind
+    if first in ("vsm", "evsm", "msm"):
+        first = "moments"
+    return first if first in SOFT_LOOKS else "other"
 
 
 UNITS = {"metres": "m", "scene_sizes": "S"}

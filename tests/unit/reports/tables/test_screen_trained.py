@@ -101,7 +101,7 @@ def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
     assert cells["receptive_field"].tolist() == [24, 96, 24, 96]
     assert "| 90 px" in text and "8.0 / 1.0" in text and "table 1 of Datta" in text
     assert "perceptual term: squeeze" in text and "3 levels, 5 levels." in text
-    assert "3 levels 1e+04 after 1, 2.5e+03 after 4, 1.43e+03 after 7, 200 after 10; 5" in text
+    assert "3 levels 10,000 after 1, 2,500 after 4, 1,429 after 7, 200 after 10; 5" in text
 
 
 def test_features_with_their_worth(tmp_path, trained):

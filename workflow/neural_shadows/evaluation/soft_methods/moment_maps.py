@@ -17,7 +17,7 @@ from neural_shadows.shadow_maps.light_map import distances_of
 # `bias`: times a cone's, which grows with the kernel: of a slanted receiver's own texels half lie
 # before it. `bleeding`: visibilities up to it are made 0, and those above it stretched to [0, 1] again
 # (Lauritzen 2007).
-CONSTANTS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0, 3.0), "bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}
+CONSTANTS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0), "bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}
 
 
 def moment_method(

@@ -28,7 +28,7 @@ def _answer(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> np
     )
 
 
-_PCSS = SoftMethod(_answer, {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.0, 0.1, 0.3, 1.0, 3.0)})
+_PCSS = SoftMethod(_answer, {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)})
 METHODS = {
     "pcss": _PCSS,
     "pcss_post": replace(_PCSS, last=depth_aware),

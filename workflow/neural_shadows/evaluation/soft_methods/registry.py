@@ -46,16 +46,16 @@ def soft_method(key: str, weights: Path | None = None, precision: str = "auto") 
 
 
 def soft_methods_by_scene(
-    key: str, weights: Sequence[Path] = (), precision: str = "auto"
+    key: str, weights: Sequence[Path] = (), precision: str = "auto", by_scene: bool = False
 ) -> "Callable[[str], SoftMethod | None]":
-    """The method of a key, by scene: of several networks the one that learned it, or None.
+    """The method of a key, by scene; `by_scene`: of the networks the one that learned it, or None.
 
     None of all scenes for a network in a number format that the CPU would have to emulate.
     """
     network = import_module(_NETWORK) if is_network(key) else None
     if network and not network.computes_in(precision):
         return lambda scene: None
-    if len(weights) < 2:
+    if not by_scene:
         method = soft_method(key, *weights, precision=precision)
         return lambda scene: method
     return {

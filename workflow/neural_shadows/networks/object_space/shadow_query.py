@@ -32,8 +32,7 @@ def network_lit(
 
     def lit(depth_bias: float) -> Tensor:
         points = torch.ones(len(p), dtype=torch.bool, device=p.device)
-        points[rays.index] = rays_lit(depth_bias)
-        return points
+        return points.scatter_(0, rays.index, rays_lit(depth_bias))
 
     return lit
 

@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+import torch
+from numba import njit
 from torch import Tensor
 
 
@@ -22,6 +25,10 @@ def sphere_rays(p: Tensor, light: Tensor) -> SphereRays:
     and is lit, if its line p + s l misses the sphere or if it lies between the light and the
     sphere (s ≤ 0).
     """
+    return _in_one_pass(p, light) if p.device.type == "cpu" else _by_tensors(p, light)
+
+
+def _by_tensors(p: Tensor, light: Tensor) -> SphereRays:
     along = p @ light
     # The part of p across the light and not |p|² − (p·l)², which would lose a ground point's
     # digits: at |p| = 20, the ground's rim, the square is 400 times the sphere's.
@@ -37,3 +44,36 @@ def sphere_rays(p: Tensor, light: Tensor) -> SphereRays:
         s=s.index_select(0, index),
         chord=2 * half_chord,
     )
+
+
+def _in_one_pass(p: Tensor, light: Tensor) -> SphereRays:
+    """The same, a point at a time: on a CPU in a fifth of the time, 5 ns a point and not 25."""
+    index = np.empty(len(p), np.int64)
+    origins = np.empty((len(p), 3), np.float32)
+    s, chord = np.empty((2, len(p)), np.float32)
+    count = _enter(p.numpy(), light.numpy(), index, origins, s, chord)
+    return SphereRays(*(torch.from_numpy(part[:count]) for part in (index, origins, s, chord)))
+
+
+@njit(cache=True, nogil=True)
+def _enter(p, light, index, origins, s, chord):
+    """Fill in the rays that are not culled; how many they are."""
+    u, v, w = light
+    one, count = np.float32(1), 0
+    for point in range(len(p)):
+        x, y, z = p[point]
+        along = x * u + y * v + z * w
+        x, y, z = x - along * u, y - along * v, z - along * w
+        half_chord_squared = one - (x * x + y * y + z * z)
+        if half_chord_squared <= 0:
+            continue
+        half_chord = np.sqrt(half_chord_squared)
+        if half_chord <= along:
+            continue
+        index[count] = point
+        origins[count, 0] = x + half_chord * u
+        origins[count, 1] = y + half_chord * v
+        origins[count, 2] = z + half_chord * w
+        s[count], chord[count] = half_chord - along, 2 * half_chord
+        count += 1
+    return count
