@@ -80,13 +80,20 @@ def _filtered(
     """`pcf` and `msm`, whichever is named, (n,): of receivers at distances `behind`."""
     if not {"pcf", "msm"} & names:
         return {}
-    texels, weights = neighbourhood(frame.light_map, frame.ways, reach=int("msm" in names))
+    reach = int("msm" in names)
+    texels, fractions = neighbourhood(frame.light_map, frame.ways, reach)
     found = {}
     if "pcf" in names:
-        first = np.where(texels >= 0, np.take(frame.depths, texels), np.float32(np.inf))
-        found["pcf"] = np.einsum("nij,nij->n", weights, behind[:, None, None] <= first)
+        inner = texels[:, reach : reach + 2, reach : reach + 2]
+        first = np.where(inner >= 0, np.take(frame.depths, inner), np.float32(np.inf))
+        right, down = (np.stack([1 - one, one], axis=1) for one in fractions.T)
+        tests = behind[:, None, None] <= first
+        found["pcf"] = np.einsum("ni,nj,nij->n", down, right, tests)
     if "msm" in names:
-        found["msm"] = _by_moments(frame.depths, texels, weights, behind, 2 * frame.scene.size)
+        moments = np.empty((len(texels), 4))
+        far = 2 * frame.scene.size
+        _fill_moments(frame.depths, texels, fractions, _KERNEL, far, moments)
+        found["msm"] = hamburger_visibility(moments, behind / far)
     return found
 
 
@@ -115,32 +122,22 @@ class _TracedFrame(SoftFrame):
         return self._hits[1]
 
 
-def _by_moments(
-    depths: np.ndarray, texels: np.ndarray, weights: np.ndarray, behind: np.ndarray, far: float
-) -> np.ndarray:
-    """Visibility (n,) by the moments of 3 × 3 texels, bilinear between them.
-
-    Args:
-        depths: of the whole map. texels: (n, 4, 4), −1 for none; weights: of the bilinear look-up.
-    """
-    moments = np.empty((len(texels), 4))
-    _fill_moments(depths, texels, weights, _KERNEL, far, moments)
-    return hamburger_visibility(moments, behind / far)
-
-
 @njit(cache=True, nogil=True, error_model="numpy")
-def _fill_moments(depths, texels, weights, kernel, far, moments):
-    """Four powers of depth over 3 × 3 texels round each of four, by their weights: (n, 4) float64."""
+def _fill_moments(depths, texels, fractions, kernel, far, moments):
+    """Four powers of depth over 3 × 3 texels round each of four, bilinear between them: (n, 4) float64.
+
+    Of `neighbourhood`: texels (n, 4, 4), −1 for none, and fractions (n, 2).
+    """
     # In float64: of weights that sum to one but for a rounding the fourth moment makes nonsense.
     rows, columns = np.empty(4), np.empty(4)
     for i in range(len(texels)):
         rows[:], columns[:] = 0, 0
-        for j in (1, 2):
-            down = weights[i, j, 1] + weights[i, j, 2]
-            right = weights[i, 1, j] + weights[i, 2, j]
-            for k in range(3):
-                rows[j + k - 1] += down * kernel[k]
-                columns[j + k - 1] += right * kernel[k]
+        right, down = fractions[i, 0], fractions[i, 1]
+        for k in range(3):
+            rows[k] += (1 - down) * kernel[k]
+            rows[k + 1] += down * kernel[k]
+            columns[k] += (1 - right) * kernel[k]
+            columns[k + 1] += right * kernel[k]
         one = two = three = four = 0.0
         for j in range(4):
             for k in range(4):
