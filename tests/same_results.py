@@ -21,7 +21,7 @@ MEASURED = {
     "cost/*.json": {"seconds", "bytes", "peak_bytes"},
     "screen_networks/*/training.json": {"seconds", "samples_per_second", "machine"},
     "screen_profiles/*.json": {"whole_ms", "product_macs", "ms", "machine"},
-    "soft_times/*.json": {"ms", "map_ms", "machine"},
+    "soft_times/*.json": {"ms", "machine"},
 }
 
 # Folders below results/<scale> of what jobs say on the way, and of what is not finished.
@@ -55,6 +55,7 @@ def leavings_of(checkout: Checkout) -> list[str]:
         for folder in (checkout.results, checkout.reports)
         for path in folder.rglob("*")
         if path.name.startswith(".")
+        and path.name != ".snakemake_timestamp"  # of a folder's age
         or path.suffix == ".unfinished"
         or path.parent.name == "checkpoints"
     )

@@ -5,13 +5,17 @@ import time
 
 import numpy as np
 import pytest
+import torch
+from threadpoolctl import threadpool_info
 
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation import time_soft_methods as timing
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import read_answer
 from neural_shadows.evaluation.soft_method_names import is_tuned
 from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.evaluation.time_soft_methods import medians, time_soft_methods
 from neural_shadows.evaluation.tune_soft_method import tune_soft_method
@@ -170,6 +174,29 @@ def test_times(folder):
     floats = {name: found["methods"][name]["texel_floats"] for name in names}
     assert floats == {"hard": 1, "msm_3": 4, "rt_1": 0, "pcss_2048": 1}
     assert all(ms > 0 for name in names for ms in found["methods"][name]["ms"])
+
+
+def test_all_is_timed_on_the_one_thread_that_tables_name(folder, monkeypatch):
+    """However many Snakemake tells the libraries of: networks were once timed on two."""
+    seen = []
+
+    def answer(frame, radius):
+        pools = {one["num_threads"] for one in threadpool_info()}
+        seen.append(pools | {torch.get_num_threads()})
+        return np.ones(len(frame.ways), np.float32)
+
+    recording = SoftMethod(answer)
+    monkeypatch.setattr(timing, "soft_method", lambda name, weights: recording)
+    before, out = torch.get_num_threads(), folder / "threads.json"
+    torch.set_num_threads(2)
+    try:
+        parts = [folder / "test_000.json"]
+        time_soft_methods(parts, [], [], [], out, methods={"mine": None}, repeats=1)
+        assert torch.get_num_threads() == 2
+    finally:
+        torch.set_num_threads(before)
+    assert seen and set.union(*seen) == {1}
+    assert "one thread of" in describe_times(json.loads(out.read_text()))[0]
 
 
 def test_a_window_bears_its_share_of_the_map(tmp_path):

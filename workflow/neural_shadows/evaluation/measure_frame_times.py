@@ -20,6 +20,7 @@ from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.running.one_thread import one_thread
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
@@ -106,7 +107,6 @@ def measure_frame_times(
     Raises:
         InputError: an input file cannot be read, or a setting does not fit the scene.
     """
-    torch.set_num_threads(1)
     opened = open_scene(mesh_ply, **scene)
     chosen = choose_device(device)
     files = {path.parent.name: path for path in weights}
@@ -127,7 +127,8 @@ def measure_frame_times(
     whole: dict[str, list[float]] = {method: [] for method in timed}
     own: dict[str, list[float]] = {method: [] for method in timed}
     rays = []
-    with progress_bar(WARM_UP + repeats, "frames", f"measure times of {times_json.stem}") as bar:
+    title = f"measure times of {times_json.stem}"
+    with one_thread(), progress_bar(WARM_UP + repeats, "frames", title) as bar:
         for i in range(-WARM_UP, repeats):
             view = viewpoints[i % len(viewpoints)]
             started = time.perf_counter()

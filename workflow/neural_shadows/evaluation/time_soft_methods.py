@@ -15,6 +15,7 @@ from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.running.one_thread import one_thread
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
@@ -66,7 +67,7 @@ def time_soft_methods(
     sides = {name: method.resolution or own for name, method in timed.items()}
     maps: dict[int, list[float]] = {side: [] for side in sorted({own, *sides.values()})}
     shares: list[float] = []
-    with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
+    with one_thread(), progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
             frame = _prepared(measured.frame)
             shares.append(_share(frame))

@@ -15,20 +15,24 @@ Where the map shows nothing, or the point lies outside it, `gap` is 0, `agreemen
 normal the point's own. A pixel without a surface has zeros, and visibilities of 1.
 """
 
+from collections.abc import Collection
+from functools import cached_property
+
 import numpy as np
 from numba import njit
 
+from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.scene import Scene
-from neural_shadows.shadow_maps.light_filters import receiver_bias
 from neural_shadows.shadow_maps.light_map import LightMap
 from neural_shadows.shadow_maps.moments import gaussian, hamburger_visibility
 from neural_shadows.shadow_maps.neighbourhood import neighbourhood
 
+_NORMAL, _SHOWN = ("n_x", "n_y", "n_z"), ("e_x", "e_y", "e_z")
 CHANNELS = (
     *("z", "gap", "d", "c_e", "c_v", "agreement", "hard", "pcf", "msm"),
-    *("n_x", "n_y", "n_z"),
-    *("e_x", "e_y", "e_z"),
+    *_NORMAL,
+    *_SHOWN,
 )
 LIT = ("hard", "pcf", "msm")  # 1 where there is no surface
 _KERNEL = gaussian(3, 0.55)
@@ -39,80 +43,113 @@ def buffers_of(scene: Scene, surface: Surface, light_map: LightMap) -> np.ndarra
 
     Only the texels that its points look up are traced.
     """
-    size, normal = scene.size, surface.n
-    ways = surface.p - light_map.centre.astype(np.float32)
+    images = channel_images(CHANNELS, _TracedFrame(scene, surface, light_map.centre, light_map))
+    return np.stack([images[name].astype(np.float16) for name in CHANNELS])
+
+
+def channel_images(names: Collection[str], frame: SoftFrame) -> dict[str, np.ndarray]:
+    """Some channels of a frame by name, (height, width) float32, from its points and its light's map."""
+    size, ways, normal = frame.scene.size, frame.ways, frame.surface.n
     z = np.linalg.norm(ways, axis=1)
-    eye = surface.camera.eye.astype(np.float32) - surface.p
+    eye = frame.surface.camera.eye.astype(np.float32) - frame.surface.p
     d = np.linalg.norm(eye, axis=1)
-    geometric = -np.einsum("ij,ij->i", ways, surface.n_g) / z
-    behind = z - receiver_bias(light_map, ways, geometric, size)
-    nearest = light_map.texels_of(ways)
-    texels, weights = neighbourhood(light_map, ways, reach=1)
-    depths, faces = _traced(scene, light_map, np.append(texels.ravel(), nearest))
-    known = (nearest >= 0) & np.isfinite(depths[nearest])
-    shown = np.take(scene.joined.face_normals, faces[nearest], axis=0)
-    inner = np.einsum("ij,ij->i", shown, ways) > 0
-    shown = np.where(inner[:, None], -shown, shown)  # on the light's side
-    shown = np.where(known[:, None], shown, normal)
-    first = np.where(texels >= 0, depths[texels], np.float32(np.inf))
-    lit = {
-        "hard": behind <= np.where(known, depths[nearest], np.float32(np.inf)),
-        "pcf": np.einsum("nij,nij->n", weights, (behind[:, None, None] <= first)),
-        "msm": _by_moments(first, weights, behind, 2 * size),
-    }
+    nearest = frame.light_map.texels_of(ways)
+    first = np.where(nearest >= 0, np.take(frame.depths, nearest), np.float32(np.inf))
+    known, behind = np.isfinite(first), z - frame.bias
+    lit = {"hard": behind <= first} | _filtered({*names}, frame, behind)
     values = {
         "z": z / size,
-        "gap": np.where(known, depths[nearest] - z, 0) / size,
+        "gap": np.where(known, first - z, 0) / size,
         "d": d / size,
         "c_e": -np.einsum("ij,ij->i", ways, normal) / z,
         "c_v": np.einsum("ij,ij->i", eye, normal) / d,
-        "agreement": np.where(known, np.einsum("ij,ij->i", normal, shown), 1),
-        **{name: value * (geometric > 0) for name, value in lit.items()},
-        **dict(zip(("n_x", "n_y", "n_z", "e_x", "e_y", "e_z"), [*normal.T, *shown.T])),
+        **{name: value * (frame.cosines > 0) for name, value in lit.items()},
+        **dict(zip(_NORMAL, normal.T)),
     }
-    images = (surface.image(values[name], float(name in LIT)) for name in CHANNELS)
-    return np.stack([image.astype(np.float16) for image in images])
+    if not values.keys() >= {*names}:
+        shown = _shown_normals(frame, nearest, known)
+        values["agreement"] = np.where(known, np.einsum("ij,ij->i", normal, shown), 1)
+        values |= zip(_SHOWN, shown.T)
+    images = frame.surface.image
+    return {name: images(values[name].astype(np.float32), float(name in LIT)) for name in names}
 
 
-def _traced(scene: Scene, light_map: LightMap, texels: np.ndarray):
-    """Depths and faces by texel, of the whole map; only these texels' are known."""
-    asked = np.zeros(light_map.count, bool)
-    asked[texels[texels >= 0]] = True
-    some = np.flatnonzero(asked)
-    # Of zeros, only the pages that are written take memory and time.
-    depths, faces = np.zeros(light_map.count, np.float32), np.zeros(light_map.count, np.int32)
-    depths[some], faces[some] = light_map.first_hits(scene.tracer, some)
-    return depths, faces
+def _filtered(
+    names: Collection[str], frame: SoftFrame, behind: np.ndarray
+) -> dict[str, np.ndarray]:
+    """`pcf` and `msm`, whichever is named, (n,): of receivers at distances `behind`."""
+    if not {"pcf", "msm"} & names:
+        return {}
+    reach = int("msm" in names)
+    texels, fractions = neighbourhood(frame.light_map, frame.ways, reach)
+    found = {}
+    if "pcf" in names:
+        inner = texels[:, reach : reach + 2, reach : reach + 2]
+        first = np.where(inner >= 0, np.take(frame.depths, inner), np.float32(np.inf))
+        right, down = (np.stack([1 - one, one], axis=1) for one in fractions.T)
+        tests = behind[:, None, None] <= first
+        found["pcf"] = np.einsum("ni,nj,nij->n", down, right, tests)
+    if "msm" in names:
+        moments = np.empty((len(texels), 4))
+        far = 2 * frame.scene.size
+        _fill_moments(frame.depths, texels, fractions, _KERNEL, far, moments)
+        found["msm"] = hamburger_visibility(moments, behind / far)
+    return found
 
 
-def _by_moments(first: np.ndarray, weights: np.ndarray, behind: np.ndarray, far: float):
-    """Visibility (n,) by the moments of 3 × 3 texels, bilinear between them.
+def _shown_normals(frame: SoftFrame, nearest: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Of what texels show, on the light's side, (n, 3) float32; the points' own where unknown."""
+    shown = np.take(frame.scene.joined.face_normals, np.take(frame.shown, nearest), axis=0)
+    inner = np.einsum("ij,ij->i", shown, frame.ways) > 0
+    shown = np.where(inner[:, None], -shown, shown)
+    return np.where(known[:, None], shown, frame.surface.n)
 
-    Args:
-        first: (n, 4, 4) distances in the texels; weights: of the bilinear look-up.
+
+class _TracedFrame(SoftFrame):
+    """A frame whose map has those texels alone that its points look up, by rays."""
+
+    @cached_property
+    def _hits(self) -> tuple[np.ndarray, np.ndarray]:
+        texels, _ = neighbourhood(self.light_map, self.ways, reach=1)
+        return self.traced(np.append(texels.ravel(), self.light_map.texels_of(self.ways)))
+
+    @cached_property
+    def depths(self) -> np.ndarray:
+        return self._hits[0]
+
+    @cached_property
+    def shown(self) -> np.ndarray:
+        return self._hits[1]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _fill_moments(depths, texels, fractions, kernel, far, moments):
+    """Four powers of depth over 3 × 3 texels round each of four, bilinear between them: (n, 4) float64.
+
+    Of `neighbourhood`: texels (n, 4, 4), −1 for none, and fractions (n, 2).
     """
-    moments = np.empty((len(first), 4))
-    _fill_moments(first, weights, _KERNEL, far, moments)
-    return hamburger_visibility(moments, behind / far)
-
-
-@njit(cache=True, nogil=True)
-def _fill_moments(first, weights, kernel, far, moments):
-    """Four powers of depth over 3 × 3 texels round each of four, by their weights: (n, 4) float64."""
     # In float64: of weights that sum to one but for a rounding the fourth moment makes nonsense.
-    for i in range(len(first)):
-        rows, columns = np.zeros(4), np.zeros(4)
-        for j in (1, 2):
-            for k in range(3):
-                rows[j + k - 1] += (weights[i, j, 1] + weights[i, j, 2]) * kernel[k]
-                columns[j + k - 1] += (weights[i, 1, j] + weights[i, 2, j]) * kernel[k]
+    rows, columns = np.empty(4), np.empty(4)
+    for i in range(len(texels)):
+        rows[:], columns[:] = 0, 0
+        right, down = fractions[i, 0], fractions[i, 1]
+        for k in range(3):
+            rows[k] += (1 - down) * kernel[k]
+            rows[k + 1] += down * kernel[k]
+            columns[k] += (1 - right) * kernel[k]
+            columns[k + 1] += right * kernel[k]
         one = two = three = four = 0.0
         for j in range(4):
             for k in range(4):
-                q = min(np.float64(first[i, j, k]), far) / far
+                texel = texels[i, j, k]
+                q = min(np.float64(depths[texel]), far) / far if texel >= 0 else 1.0
                 weight = rows[j] * columns[k]
-                one += weight * q
-                two += weight * q * q
-                three += weight * q * q * q
-                four += weight * q * q * q * q
+                weight *= q
+                one += weight
+                weight *= q
+                two += weight
+                weight *= q
+                three += weight
+                weight *= q
+                four += weight
         moments[i, 0], moments[i, 1], moments[i, 2], moments[i, 3] = one, two, three, four

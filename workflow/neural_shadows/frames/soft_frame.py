@@ -34,6 +34,26 @@ class SoftFrame:
         return rasterised_depths(self.light_map, mesh.vertices, mesh.faces)
 
     @cached_property
+    def shown(self) -> np.ndarray:
+        """The face that each texel shows, (texels,) int32, of those that points look up; by rays."""
+        return self.traced(self.light_map.texels_of(self.ways))[1]
+
+    def traced(self, texels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Depths and faces, (texels,) float32 and int32, of the whole map; only these texels' count.
+
+        Args:
+            texels: any number, −1 for none.
+        """
+        looked_up = np.zeros(self.light_map.count, bool)
+        looked_up[texels[texels >= 0]] = True
+        some = np.flatnonzero(looked_up)
+        # Of zeros, only the pages that are written take memory and time.
+        depths = np.zeros(self.light_map.count, np.float32)
+        faces = np.zeros(self.light_map.count, np.int32)
+        depths[some], faces[some] = self.light_map.first_hits(self.scene.tracer, some)
+        return depths, faces
+
+    @cached_property
     def ways(self) -> np.ndarray:
         """From the light to each point, (n, 3) float32."""
         return self.surface.p - self.centre.astype(np.float32)

@@ -13,17 +13,15 @@ def neighbourhood(
 
     Returns:
         texels: (n, side, side) int64, rows downwards; −1 where the map has none.
-        weights: (n, side, side) float64 of a bilinear look-up: 0 but for the four innermost.
+        fractions: (n, 2) float64, right and down from the centre of the upper left one of the four
+            innermost: what a bilinear look-up gives the others of them.
     """
     side = 2 * (reach + 1)
     texels = np.empty((len(directions), side, side), np.int64)
     fractions = np.empty((len(directions), 2))
     maps = light_map.faces, light_map.half, light_map.resolution
     _fill(directions, *maps, reach, texels, fractions)
-    x, y = fractions[:, :1], fractions[:, 1:]
-    outer = np.zeros((len(directions), reach))
-    columns, rows = (np.concatenate([outer, 1 - one, one, outer], axis=1) for one in (x, y))
-    return texels, rows[:, :, None] * columns[:, None, :]
+    return texels, fractions
 
 
 @njit(cache=True, nogil=True)

@@ -1,6 +1,7 @@
 """A network of whole frames as a method for soft shadows."""
 
 import json
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -15,8 +16,11 @@ from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
 from neural_shadows.evaluation.soft_method_names import is_network, is_tuned
 from neural_shadows.evaluation.soft_methods import screen_network
 from neural_shadows.evaluation.soft_methods.registry import soft_method, soft_methods_by_scene
+from neural_shadows.evaluation.soft_methods.soft_method import visibility
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.evaluation.time_soft_methods import time_soft_methods
+from neural_shadows.frames.buffers import LIT
+from neural_shadows.frames.feature_names import NSM_FEATURES
 from neural_shadows.frames.render_frames import render_frames
 from neural_shadows.networks import compute
 from neural_shadows.networks.screen_space.screen_networks import (
@@ -94,6 +98,47 @@ def test_it_answers_in_the_number_format_that_is_asked_for(folder):
     inside = (exact > 0) & (exact < 1) & frame.valid
     assert 0 < np.median(np.abs(exact - rounded)[inside]) < 0.02
     assert len(np.unique(rounded[inside])) < len(np.unique(exact[inside]))
+
+
+FORMS = {
+    "nsm": NETWORK | {"features": [*NSM_FEATURES]},
+    **{
+        base: {
+            "form": "kernels",
+            "widths": [4, 8],
+            "features": ["cosine", "c_v_by_d", "penumbra", "behind", "z_b", f"base_{base}"],
+            "filters": 2,
+        }
+        for base in LIT
+    },
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_what_is_timed_is_what_is_evaluated(folder, tmp_path, form):
+    """Of buffers that are rounded as they are stored, and a map that is traced, to the last digit."""
+    network = make_screen_network(FORMS[form])
+    network.initialise(1)
+    path = tmp_path / "weights.safetensors"
+    header = {"network": FORMS[form], "radii": RADII, "radius_unit": "metres"}
+    save_screen_network(path, network, header)
+    method = soft_method("tiny", path)
+    measured = next(measured_frames([folder / "blinds/test_000.json"], []))
+    asked = measured.answered(method, 0.25, {})
+    frame = measured.frame
+    vars(frame)["depths"] = frame.light_map.depths(frame.scene.tracer)
+    exact = frame.surface.image(visibility(method, frame, 0.25, {}), 1.0)
+    off = np.abs(exact - asked)
+    # A rounding moves a kernel's weights by a hundredth, no more.
+    assert np.median(off) < 1e-3 and np.quantile(off, 0.99) < 0.02
+    made = screen_network.channel_images
+    with mock.patch.object(screen_network, "channel_images", lambda *told: halved(made(*told))):
+        rounded = frame.surface.image(visibility(method, frame, 0.25, {}), 1.0)
+    assert np.array_equal(rounded, asked)
+
+
+def halved(images):
+    return {name: np.float32(np.float16(image)) for name, image in images.items()}
 
 
 @pytest.mark.parametrize("base", ["hard", "pcf", "msm"])

@@ -7,9 +7,8 @@ import numpy as np
 import torch
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.soft_methods.base_shadows import base_by_map
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.buffers import LIT
+from neural_shadows.frames.buffers import LIT, channel_images
 from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import LightSize, light_size
@@ -99,28 +98,11 @@ class _Answers:
             )
 
     def _of_frame(self, frame: SoftFrame, radius: float) -> np.ndarray:
-        """The same from points and the light's map, as it is timed: features are made, too."""
-        surface, size = frame.surface, frame.scene.size
-        z = np.linalg.norm(frame.ways, axis=1)
-        texels = frame.light_map.texels_of(frame.ways)
-        first = np.where(texels >= 0, np.take(frame.depths, texels), np.float32(np.inf))
-        eye = surface.camera.eye.astype(np.float32) - surface.p
-        d = np.linalg.norm(eye, axis=1)
-        values = {
-            "z": z / size,
-            "gap": np.where(np.isfinite(first), first - z, 0) / size,
-            "d": d / size,
-            "c_e": -np.einsum("ij,ij->i", frame.ways, surface.n) / z,
-            "c_v": np.einsum("ij,ij->i", eye, surface.n) / d,
-        }
-        asked = buffers_of(self._network.features)
-        values |= {name: base_by_map(name, frame) for name in LIT if name in asked}
-        buffers = {
-            name: surface.image(one.astype(np.float32), float(name in LIT))
-            for name, one in values.items()
-        }
+        """The same from points and the light's map, as it is timed: buffers are made, too."""
+        surface = frame.surface
+        buffers = channel_images(buffers_of(self._network.features), frame)
         lens = lens_of(surface.camera, surface.width, surface.height)
-        return self._of_buffers(buffers, lens, radius, size).ravel()[surface.pixel]
+        return self._of_buffers(buffers, lens, radius, frame.scene.size).ravel()[surface.pixel]
 
     def _light(self, radius: float, size: float) -> LightSize:
         """The light's size as the network is told it: step 4 for the largest that it was trained on."""

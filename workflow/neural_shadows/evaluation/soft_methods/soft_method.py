@@ -76,6 +76,6 @@ def visibility(
     if method.resolution is not None:
         frame = frame.with_map_of(method.resolution)
     answer = method.answer(frame, radius, **constants)
-    if not method.by_rays:
+    if not method.by_rays and method.of_buffers is None:
         answer = np.where(frame.cosines > 0, answer, np.float32(0))
     return answer if method.last is None else method.last(frame.surface, answer)
