@@ -7,7 +7,9 @@ Lengths are in shares of the scene's size S, distances are radial. Channels, in 
 - `c_e`, `c_v`: cosines of the normal with the ways to light and eye;
 - `agreement`: cosine between the point's normal and that of what the map's texel shows;
 - `hard`, `pcf`, `msm`: visibility by that texel, by 2 × 2 of them, and by the four moments of 3 × 3
-  (σ 0.55, as the maps of Hu et al. 2025 seem to have), with the bias that all maps have;
+  (σ 0.55, as the maps of Hu et al. 2025 seem to have), the first two with the bias that all maps have.
+  Moments have none: they take a slope for what it is, and a bias only lets light leak (of MSM 3 × 3 on
+  three scenes the squared error was 153, with that bias 225 × 10⁻⁴);
 - `n_x`, `n_y`, `n_z`: the normal, in the scene's axes, on the camera's side;
 - `e_x`, `e_y`, `e_z`: that of what the map's texel shows, on the light's side, in the same axes.
 
@@ -90,10 +92,10 @@ def _filtered(
         tests = behind[:, None, None] <= first
         found["pcf"] = np.einsum("ni,nj,nij->n", down, right, tests)
     if "msm" in names:
-        moments = np.empty((len(texels), 4))
-        far = 2 * frame.scene.size
+        moments, far = np.empty((len(texels), 4)), 2 * frame.scene.size
+        distances = np.linalg.norm(frame.ways, axis=1)
         _fill_moments(frame.depths, texels, fractions, _KERNEL, far, moments)
-        found["msm"] = hamburger_visibility(moments, behind / far)
+        found["msm"] = hamburger_visibility(moments, distances / far)
     return found
 
 

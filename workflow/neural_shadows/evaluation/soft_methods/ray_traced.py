@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from numba import njit
 
-from neural_shadows.evaluation.soft_method_names import RAYS
+from neural_shadows.evaluation.soft_method_names import RAYS, SPREAD_RAYS
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.light_samples import ring_ways
