@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 from measurement import Row, median_seconds
 
-from neural_shadows.evaluation.soft_method_names import LABELS
+from neural_shadows.evaluation.soft_method_names import DENOISERS, LABELS
+from neural_shadows.evaluation.soft_methods.denoised import BY_KEY
 from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting, light_map_of
 from neural_shadows.frames.draw_twins import twin_of
@@ -31,7 +32,7 @@ def rows(quick: bool) -> list[Row]:
     scene = SoftScene(SCENE, [])
     frame = _frame(scene, 1024 if quick else 2048)
     rounds = 1 if quick else 3
-    return [*methods(frame, rounds), *frames(scene, rounds)]
+    return [*methods(frame, rounds), *filters(_frame(scene, 512), rounds), *frames(scene, rounds)]
 
 
 def methods(frame: SoftFrame, rounds: int) -> list[Row]:
@@ -53,6 +54,9 @@ def methods(frame: SoftFrame, rounds: int) -> list[Row]:
         "msm_9",
         "msm_15",
         "rt_1",
+        "rt_2",
+        "rt_2_ffx",
+        "rt_2_sigma_ffx",
     ):
         method = soft_method(key)
         constants = method.settings()[-1] | ({"texels": 4.0} if key == "pcf_disc" else {})
@@ -71,6 +75,22 @@ def methods(frame: SoftFrame, rounds: int) -> list[Row]:
     stage = f"light's map of {frame.light_map.resolution}²"
     told = {"peer": TRACED, "peer_rate": rate[TRACED]}
     return [*found, Row(stage, "cpu x1", rate["map"], "maps/s", **told)]
+
+
+def filters(frame: SoftFrame, rounds: int) -> list[Row]:
+    """Pictures of one ray a pixel that each denoiser smooths a second, alone, without the rays."""
+    works = {
+        key: partial(denoiser.single, *denoiser.pictures(frame, RADIUS, 1), frame.surface)
+        for key, denoiser in BY_KEY.items()
+    }
+    rate = {key: 1 / seconds for key, seconds in median_seconds(works, 3 * rounds).items()}
+    size, found = f"{frame.surface.width} x {frame.surface.height}", []
+    for key, value in rate.items():
+        peer = "oidn" if key.startswith("oidn") else "svgf"
+        stage, named = (f"filter of {size}: {DENOISERS[one][0]}" for one in (key, peer))
+        told = {} if key == peer else {"peer": named, "peer_rate": rate[peer]}
+        found.append(Row(stage, "cpu x1", value, "frames/s", **told))
+    return found
 
 
 def frames(scene: SoftScene, rounds: int) -> list[Row]:

@@ -1,76 +1,12 @@
-"""The SVGF-like filter beside its formulas, and on pictures whose result is known."""
+"""The SVGF-like filter beside its formulas."""
 
 from itertools import product
 
 import numpy as np
-import pytest
+from filtered_walls import COLUMNS, HEIGHT, WIDTH, wall
 from scipy.ndimage import convolve, uniform_filter
 
-from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
-
-HEIGHT, WIDTH = 40, 56
-COLUMNS = np.broadcast_to(np.arange(WIDTH), (HEIGHT, WIDTH))
-RIGHT = COLUMNS >= 30
-
-
-def wall(depth=2.0, normal=(0, 0, 1)):
-    """Guides of a surface across the view."""
-    normals = np.empty((HEIGHT, WIDTH, 3), np.float32)
-    normals[:] = normal
-    return np.full((HEIGHT, WIDTH), depth, np.float32), normals
-
-
-def two_walls(edge):
-    """Guides that have one edge: where RIGHT begins."""
-    (depth, normal), (depth_, normal_) = (
-        wall(),
-        wall(*{"depth": (3.0,), "normal": (2, (1, 0, 0))}[edge]),
-    )
-    return np.where(RIGHT, depth_, depth), np.where(RIGHT[..., None], normal_, normal)
-
-
-def denoise(visibility, depth, normal):
-    return svgf_like(SvgfFilter(*depth.shape), np.float32(visibility), depth, normal)
-
-
-def test_what_has_no_noise_stays():
-    constant = np.full((HEIGHT, WIDTH), 0.3)
-    assert np.abs(denoise(constant, *wall()) - constant).max() < 1e-6
-    for edge in ("depth", "normal"):
-        step = np.where(RIGHT, 0.8, 0.3)
-        assert np.abs(denoise(step, *two_walls(edge)) - step).max() < 1e-6
-
-
-@pytest.mark.parametrize("edge", ["depth", "normal"])
-def test_nothing_crosses_an_edge(edge):
-    noise = np.random.default_rng(1).random((HEIGHT, WIDTH)) * 0.6
-    noise[RIGHT] += 0.4
-    found = denoise(noise, *two_walls(edge))
-    assert found[~RIGHT].max() < 0.6 and found[RIGHT].min() > 0.4
-    for side, mean in ((~RIGHT, 0.3), (RIGHT, 0.7)):
-        assert np.abs(found - mean)[side].mean() < 0.05
-    # On a surface without the edge it does.
-    blurred = denoise(noise, *wall())
-    assert blurred[:, 29].mean() > found[:, 29].mean() + 0.05
-
-
-def test_pixels_without_a_surface_stay_and_count_nowhere():
-    noise = np.random.default_rng(2).random((HEIGHT, WIDTH))
-    depth, normal = wall()
-    depth, normal = np.where(RIGHT, 0, depth), np.where(RIGHT[..., None], 0, normal)
-    a, b = denoise(np.where(RIGHT, 1, noise), depth, normal), denoise(noise, depth, normal)
-    assert np.abs(a[RIGHT] - 1).max() < 1e-6 and np.abs(a - b)[~RIGHT].max() < 1e-4
-
-
-@pytest.mark.parametrize("samples, factor", [(1, 10), (4, 8)])
-def test_a_noisy_penumbra(samples, factor):
-    truth = np.clip((COLUMNS - 10) / 36, 0, 1)
-    seen = np.random.default_rng(3).random((samples, HEIGHT, WIDTH)) < truth
-    noisy = seen.mean(0)
-    found = denoise(noisy, *wall())
-    assert found.dtype == np.float32 and found.min() >= 0 and found.max() <= 1
-    assert factor * np.mean((found - truth) ** 2) < np.mean((noisy - truth) ** 2)
-    assert abs(np.mean(found - noisy)) < 0.01
+from neural_shadows.denoising.svgf import SvgfFilter
 
 
 def test_variance_on_a_wall_is_that_of_49_pixels():
