@@ -60,6 +60,7 @@ tables.table_4_3.rows.0 | shadow_map_512_biased | 'shadow_map_512_biased' (did y
 tables.table_4_3.against | dragon_64 | table_4_3.against: 'dragon_64' (did you mean
 tables.beyond.against | {fence: dragon} | tables.beyond.against: 'dragon' is not among ray_traced
 experiments.tiny | {scene: dragon, network: {encoding: mesh, triangles: 3}} | experiments.tiny.network.triangles = 3: Input should be greater than or equal to 4
+experiments.tiny | {scene: dragon, network: {encoding: mesh, stored: coded, bits: 24}} | experiments.tiny.network: bits = 24: a coded mesh has at most 23
 experiments.tiny | {scene: dragon, network: {encoding: mesh}, training: base} | experiments.tiny: a network of the kind 'mesh' is built and not trained
 experiments.dragon_field.training | muon | experiments.dragon_field.training: optimiser = 'muon': is for matrices between two layers of neurons
 tables.table_4_7.against | dragon | tables.table_4_7.against: a table of kind 'memory' gives no differences

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 
+import DracoPy
 import numpy as np
 import pytest
 import torch
@@ -16,14 +17,15 @@ from neural_shadows.errors import InputError
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import LIT, ShadowNetwork
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
+from neural_shadows.networks.untrained.coded_mesh import coded, decoded
 from neural_shadows.networks.untrained.decimation import decimated
-from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.networks.weight_file import load_network, save_network, save_tensors
 from neural_shadows.running.module_graph import PACKAGE
 
 
-def made(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16):
+def made(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16, stored="packed"):
     """A network of a shape as it comes back from its file."""
-    settings = {"encoding": "mesh", "triangles": triangles, "bits": bits}
+    settings = {"encoding": "mesh", "triangles": triangles, "bits": bits, "stored": stored}
     shape.export(tmp_path / "mesh.ply")
     network = make_network(settings)
     network.prepare(tmp_path / "mesh.ply")
@@ -69,6 +71,57 @@ def test_bytes(tmp_path):
     stored = {name: tensor.nbytes for name, tensor in network.stored().items()}
     # ⌈log₂ 642⌉ = 10 bits an index.
     assert stored == {"counts": 8, "vertices": -(-642 * 3 * 14 // 8), "faces": 1280 * 3 * 10 // 8}
+
+
+def corners_of(steps, faces) -> set[tuple]:
+    """The triangles as triples of places, each from its least corner on: its winding is kept."""
+    turned = (np.roll(corners, -shift, axis=1) for corners in [steps[faces]] for shift in range(3))
+    keys = np.stack([each.reshape(len(faces), 9) for each in turned], axis=1).tolist()
+    return {min(map(tuple, three)) for three in keys}
+
+
+@pytest.mark.parametrize(
+    ("triangles", "bits"), [(None, 4), (None, 8), (700, 12), (1500, 16), (None, 21), (None, 23)]
+)
+def test_a_coded_mesh_is_the_quantised_one_exactly(tmp_path, triangles, bits):
+    """The same triangles between the same places, in fewer bytes; only their order is another."""
+    found, expected = (
+        made(bumpy_sphere(4), tmp_path, triangles, bits, stored) for stored in ("coded", "packed")
+    )
+    assert corners_of(found._steps, found._faces) == corners_of(expected._steps, expected._faces)
+    assert len(found._faces) == len(expected._faces)
+    assert sorted(found._steps.tolist()) == sorted(expected._steps.tolist())
+    sizes = [sum(one.nbytes for one in network.stored().values()) for network in (found, expected)]
+    assert 1.9 * sizes[0] < sizes[1]
+    rays = ball_batch(2000)[:2]
+    depths = [network(*rays, torch.float32) for network in (found, expected)]
+    assert (torch.isclose(*depths, atol=1e-6) | (depths[0] == depths[1])).float().mean() > 0.999
+
+
+def test_an_edge_of_many_triangles_is_coded_exactly():
+    """All triangles between eight points: Draco keeps a vertex for each fan."""
+    steps = np.random.default_rng(1).permutation(4096)[:24].reshape(8, 3)
+    faces = np.array(list(itertools.combinations(range(8), 3)))
+    assert corners_of(*decoded(coded(steps, faces, 12))) == corners_of(steps, faces)
+
+
+def test_a_coded_mesh_that_is_damaged_is_refused(tmp_path):
+    network = made(bumpy_sphere(2), tmp_path, stored="coded")
+    whole = network.stored()["mesh"]
+    for wrong in (whole[:0], whole[:-3], torch.zeros(100, dtype=torch.uint8)):
+        with pytest.raises(ValueError, match="no mesh that Draco reads"):
+            network.restore({"mesh": wrong})
+    points = DracoPy.encode(np.eye(3, dtype=np.float32))
+    with pytest.raises(ValueError, match="points without faces"):
+        network.restore({"mesh": torch.frombuffer(bytearray(points), dtype=torch.uint8)})
+    network.bits = 12
+    with pytest.raises(ValueError, match="vertices beyond 12 bits"):
+        network.restore({"mesh": whole})
+    path = tmp_path / "weights.safetensors"
+    settings = {"encoding": "mesh", "triangles": None, "bits": 16, "stored": "coded"}
+    save_tensors(path, {"mesh": whole[:-3]}, {"network": settings})
+    with pytest.raises(InputError, match="weights do not fit the header .* delete it and train"):
+        load_network(path)
 
 
 MEASURE = """

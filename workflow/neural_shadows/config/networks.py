@@ -5,6 +5,7 @@ from typing import Annotated, ClassVar, Literal, get_args
 from pydantic import Field, model_validator
 
 from neural_shadows.config.base import Model, PowerOfTwo, by_kind
+from neural_shadows.networks.untrained.coded_mesh import MOST_BITS
 
 
 class NetworkModel(Model):
@@ -122,6 +123,20 @@ class Mesh(NetworkModel):
         None, description="the most it is decimated to; all of them by default"
     )
     bits: int = Field(16, ge=4, le=24, description="of a vertex's coordinate")
+    stored: Literal["packed", "coded"] = Field(
+        "packed",
+        description="how the weight file holds it: `packed`, bits and no more; `coded` by Draco, the "
+        "same mesh in a seventh to a quarter of the bytes",
+    )
+
+    @model_validator(mode="after")
+    def _check_bits(self):
+        if self.stored == "coded" and self.bits > MOST_BITS:
+            raise ValueError(
+                f"bits = {self.bits}: a coded mesh has at most {MOST_BITS}; give fewer, or set "
+                "stored: packed"
+            )
+        return self
 
 
 class VoxelDag(NetworkModel):

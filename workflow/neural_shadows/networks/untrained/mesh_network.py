@@ -12,6 +12,7 @@ from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.object_space.shadow_network import LIT
 from neural_shadows.networks.object_space.sphere_rays import SphereRays
 from neural_shadows.networks.quantisation import pack_integers, unpack_integers
+from neural_shadows.networks.untrained.coded_mesh import coded, decoded
 from neural_shadows.networks.untrained.decimation import decimated
 from neural_shadows.networks.untrained.untrained_network import UntrainedNetwork
 from neural_shadows.scenes.tracing import Tracer
@@ -29,13 +30,14 @@ class MeshNetwork(UntrainedNetwork):
     Args:
         triangles: what the mesh is decimated to; None for all.
         bits: of each coordinate of a vertex, in [−1, 1].
+        stored: how it is written: `packed`, bits and no more, or `coded`, see `coded_mesh`.
     """
 
     query_chunks = {"cpu": 1 << 16}
 
-    def __init__(self, *, triangles: int | None, bits: int):
+    def __init__(self, *, triangles: int | None, bits: int, stored: str = "packed"):
         super().__init__()
-        self.triangles, self.bits = triangles, bits
+        self.triangles, self.bits, self.storage = triangles, bits, stored
 
     def prepare(self, mesh_ply: Path) -> None:
         """Decimate and quantise the mesh."""
@@ -82,7 +84,9 @@ class MeshNetwork(UntrainedNetwork):
         return VERTEX_BYTES * len(self._steps) + (FACE_BYTES + TREE_BYTES) * count
 
     def stored(self) -> dict[str, Tensor]:
-        """See `ShadowNetwork.stored`; indices have as many bits as the largest needs."""
+        """See `ShadowNetwork.stored`; packed indices have as many bits as the largest needs."""
+        if self.storage == "coded":
+            return {"mesh": torch.from_numpy(coded(self._steps, self._faces, self.bits))}
         counts = len(self._steps), len(self._faces)
         return {
             "counts": torch.tensor(counts, dtype=torch.int32),
@@ -91,12 +95,21 @@ class MeshNetwork(UntrainedNetwork):
         }
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
+        if self.storage == "coded":
+            steps, faces = decoded(tensors["mesh"].numpy())
+            if steps.min(initial=0) < 0 or steps.max(initial=0) > self._most:
+                raise ValueError(f"vertices beyond {self.bits} bits")
+        else:
+            steps, faces = self._unpacked(tensors)
+        if len(faces) == 0 or faces.max() >= len(steps):  # Embree would read beyond its vertices
+            raise ValueError(f"faces of other than its {len(steps)} vertices")
+        self._use(steps, faces)
+
+    def _unpacked(self, tensors: dict[str, Tensor]) -> tuple[np.ndarray, np.ndarray]:
         vertices, faces = tensors["counts"].tolist()
         steps = unpack_integers(tensors["vertices"], self.bits, 3 * vertices).reshape(-1, 3)
         faces = unpack_integers(tensors["faces"], _bits_for(vertices), 3 * faces).reshape(-1, 3)
-        if len(faces) == 0 or faces.max() >= vertices:  # Embree would read beyond its vertices
-            raise ValueError(f"faces of other than its {vertices} vertices")
-        self._use(steps, faces)
+        return steps, faces
 
 
 def _bits_for(count: int) -> int:

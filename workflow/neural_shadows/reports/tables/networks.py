@@ -20,7 +20,7 @@ from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 # What a method is, beside its quality; empty where it does not apply.
-FACTS = ("encoding", "parameters", "stored_bytes", "resident_bytes", "build_seconds")
+FACTS = ("encoding", "parameters", "stored_bytes", "coded", "resident_bytes", "build_seconds")
 FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end", "unfit")
 SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
 
@@ -85,7 +85,9 @@ def write(
     leaks = {s: quality.null_leaks(read_metrics(files)) for s, files in by_folder(metrics).items()}
     notes = [
         "Over a scene's views [95 % bootstrap interval]; stored: what the weight file holds, 4 N² "
-        "bytes for a shadow map, of 16 bit 2 N²; resident: what is in memory while it answers; "
+        "bytes for a shadow map, of 16 bit 2 N²; coded: by entropy, a mesh by Draco, a field's "
+        "differences by LZMA, where all others are packed bits; resident: what is in memory while it "
+        "answers; "
         "build: from the mesh's file to a network that can answer, the jobs of its mesh, rays and "
         "labels one after another and its training; own: median of the method's answer alone; "
         "frame: of whole frames, primary visibility and shading included.",
@@ -127,6 +129,7 @@ def facts_of(
         facts |= {
             "encoding": record["network"]["encoding"],
             "parameters": record["parameters"],
+            "coded": record["network"].get("stored") == "coded",
             "unfit": record["unfit"],
             "build_seconds": read_seconds(map(Path, durations[row["experiment"]]))
             + record["seconds"],
@@ -168,6 +171,7 @@ def cells(table: pd.DataFrame) -> dict[str, Iterable[str]]:
         quality_cells.READING[perceived][0]: quality_cells.quality_cells(table, perceived),
         "equal map": quality_cells.map_cells(table["map_lpips"], table["map_psnr"]),
         "stored KiB ↓": number_cells(table["stored_bytes"], "{:,.0f}", 1 / 1024),
+        "coded": ["yes" if coded is True else "" for coded in table["coded"]],
         "resident KiB ↓": number_cells(table["resident_bytes"], "{:,.0f}", 1 / 1024),
         "build s ↓": number_cells(table["build_seconds"], "{:,.0f}"),
         "own ms ↓": number_cells(table["own_ms"], short),
