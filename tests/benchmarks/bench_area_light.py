@@ -12,12 +12,12 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from embree_rays import PACKETS, EmbreeTriangles, check_compiled
+from embree_rays import INCOHERENT, PACKETS, EmbreeTriangles, best_of_forms, check_compiled
 from measurement import Row, median_seconds
 
 from neural_shadows.evaluation.soft_method_names import CONE_WALKS
 from neural_shadows.evaluation.soft_methods.object_fields import ObjectField
-from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
+from neural_shadows.evaluation.soft_methods.ray_traced import Blocked, ray_traced
 from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared, with_normals
@@ -26,7 +26,7 @@ from neural_shadows.rendering.surface import see_surface
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.scenes.cameras import VIEW_SETS, Camera
 from neural_shadows.scenes.scene import make_scene
-from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.scenes.tracing import NEARLY_ALL, Tracer
 
 DEGREES = (1.0, 2.5, 5.0)  # the sun's angular radius
 RAYS = (1, 2, 4, 8, 16, 32)
@@ -65,7 +65,10 @@ def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
     size, count, rounds = ((120, 80), 1, 9) if quick else ((600, 400), 2, 3)
     field = ObjectField(mesh, CELL)
     tracer = Tracer(mesh.vertices, mesh.faces)
-    packets = EmbreeTriangles(mesh.vertices, mesh.faces)
+    embree = EmbreeTriangles(mesh.vertices, mesh.faces)
+    packets = partial(embree.packets, end=NEARLY_ALL)
+    forms = {"rt_{}": tracer.blocked, "packets_{}": packets}
+    forms["packets_{}" + INCOHERENT] = partial(packets, coherent=False)
     frames, others = (_frames(mesh, seed, count, size) for seed in (SEED, OTHER))
     found = []
     for degrees in DEGREES:
@@ -79,26 +82,29 @@ def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
                 [cone(one, radius, field, 1, push) for one in others], exact_of_others
             ),
         )
-        works = {"hard": partial(_all, _rays, frames, 0.0, tracer, 1)}
-        for form, through in (("rt", tracer), ("packets", packets)):
-            works |= {f"{form}_{n}": partial(_all, _rays, frames, radius, through, n) for n in RAYS}
+        works = {"hard": partial(_all, _rays, frames, 0.0, tracer.blocked, 1)}
+        works |= {
+            form.format(n): partial(_all, _rays, frames, radius, blocked, n)
+            for n in RAYS
+            for form, blocked in forms.items()
+        }
         works |= {
             f"cone_{n}": partial(_all, cone, frames, radius, field, n, push) for n in CONE_WALKS
         }
-        seconds = median_seconds(works, rounds, "thread_time")
+        seconds = best_of_forms(median_seconds(works, rounds, "thread_time"))
         pixels = sum(len(one.starts) for one in frames)
         found.append(
             pd.DataFrame(
                 {
                     "degrees": degrees,
-                    "method": list(works),
-                    "mse": [_error(work(), exact) for work in works.values()],
-                    "ns": [1e9 * seconds[name] / pixels for name in works],
+                    "method": list(seconds),
+                    "mse": [_error(works[name](), exact) for name in seconds],
+                    "ns": [1e9 * value / pixels for value in seconds.values()],
                     "push": push,
                 }
             ).pipe(_beside_rays)
         )
-    packets.close()
+    embree.close()
     return pd.concat(found, ignore_index=True)
 
 
@@ -114,10 +120,8 @@ def cone(
     return visible
 
 
-def _rays(
-    frame: SoftFrame, radius: float, tracer: Tracer | EmbreeTriangles, samples: int
-) -> np.ndarray:
-    return ray_traced(frame, radius, samples=samples, blocked=tracer.blocked)
+def _rays(frame: SoftFrame, radius: float, blocked: Blocked, samples: int) -> np.ndarray:
+    return ray_traced(frame, radius, samples=samples, blocked=blocked)
 
 
 def _all(answer, frames: Sequence[SoftFrame], *told) -> list[np.ndarray]:
@@ -127,7 +131,7 @@ def _all(answer, frames: Sequence[SoftFrame], *told) -> list[np.ndarray]:
 def _many_rays(frame: SoftFrame, radius: float, tracer: Tracer) -> np.ndarray:
     """Other rays than those that are measured: what a sequence's fourth frame would send."""
     later = SoftFrame(frame.scene, frame.surface, frame.centre, frame.light_map, number=3)
-    return _rays(later, radius, tracer, 256)
+    return _rays(later, radius, tracer.blocked, 256)
 
 
 def _error(found: Sequence[np.ndarray], exact: Sequence[np.ndarray]) -> float:

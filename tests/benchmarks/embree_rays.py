@@ -16,7 +16,6 @@ import embreex
 import numpy as np
 
 from neural_shadows.errors import InputError
-from neural_shadows.scenes.tracing import NEARLY_ALL
 
 SOURCE = Path(__file__).with_suffix(".c")
 SINGLE, PACKETS, WIDE = (f"rtcOccluded{width} from C" for width in (1, 8, 16))
@@ -25,7 +24,7 @@ TRIANGLES = 0
 INDICES, VERTICES = 0, 1
 UINT3, FLOAT3 = 0x5003, 0x9003
 ADDRESS = ctypes.c_size_t
-_INCOHERENT = ", not coherent"
+INCOHERENT = ", not coherent"
 _COUNTED = ctypes.CFUNCTYPE(ctypes.c_bool, ctypes.c_void_p, ctypes.c_ssize_t, ctypes.c_bool)
 
 
@@ -166,7 +165,7 @@ class EmbreeScene:
         return {
             name + note: partial(self.packets, *rays, coherent=coherent, width=width)
             for name, width in ((PACKETS, 8), (WIDE, 16))
-            for note, coherent in (("", True), (_INCOHERENT, False))
+            for note, coherent in (("", True), (INCOHERENT, False))
         }
 
     def _rays(self, points, ways, end) -> tuple[np.ndarray, tuple]:
@@ -176,10 +175,6 @@ class EmbreeScene:
         stride = 0 if ways.ndim == 1 else 3
         addresses = points.ctypes.data, ways.ctypes.data
         return np.empty(len(points), bool), (self.scene, len(points), *addresses, stride, end)
-
-    def blocked(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
-        """See `Tracer.blocked`; in packets."""
-        return self.packets(points, ways, NEARLY_ALL)
 
     def close(self) -> None:
         """Give the scene's and the device's memory back."""
@@ -201,9 +196,9 @@ class EmbreeTriangles(EmbreeScene):
 def best_of_forms(seconds: Mapping[str, float]) -> dict[str, float]:
     """Seconds by name, where of `packet_forms` the better one, coherent or not, stands for both."""
     return {
-        name: min(value, seconds.get(name + _INCOHERENT, value))
+        name: min(value, seconds.get(name + INCOHERENT, value))
         for name, value in seconds.items()
-        if not name.endswith(_INCOHERENT)
+        if not name.endswith(INCOHERENT)
     }
 
 
