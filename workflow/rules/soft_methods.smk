@@ -28,6 +28,28 @@ rule tune_soft_method:
         "../neural_shadows/evaluation/tune_soft_method.py"
 
 
+rule measure_widths:
+    input:
+        parts=of(soft_methods.tests),
+        beside=of(soft_methods.tested_arrays),
+    output:
+        widths_json=PATHS.penumbra_widths(),
+    log:
+        PATHS.log("measure_widths", "frame_set"),
+    benchmark:
+        PATHS.benchmark("measure_widths", "frame_set")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(2000, minutes=30),
+    params:
+        code=code("evaluation/measure_widths"),
+    message:
+        "Measuring how wide the penumbrae of {wildcards.frame_set} are"
+    script:
+        "../neural_shadows/evaluation/measure_widths.py"
+
+
 rule measure_occluders:
     input:
         parts=PATHS.frames("json"),

@@ -96,6 +96,10 @@ class Paths:
         """What blocks the light in the frames of a part."""
         return f"{self.results}/occluders/{frame_set}/{scene}/{part}.npy"
 
+    def penumbra_widths(self, frame_set: str = "{frame_set}") -> str:
+        """How wide the penumbrae of a frame set's test frames are."""
+        return f"{self.results}/penumbra_widths/{frame_set}.json"
+
     def screen_sensitivity(
         self, frame_set: str = "{frame_set}", experiment: str = "{experiment}"
     ) -> str:

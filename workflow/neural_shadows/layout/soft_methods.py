@@ -114,6 +114,13 @@ def sequences(layout: Layout, frame_set: str) -> list[str]:
     return [one for what in SEQUENCES for one in frame_sets.parts(layout, first, frame_set, what)]
 
 
+def widths(layout: Layout, frame_set: str) -> list[str]:
+    """How wide the penumbrae of its test frames are; none of an engine's frames without targets."""
+    engine = layout.entry("frame_sets", frame_set).get("engine")
+    known = engine is None or engine["targets"]
+    return [layout.paths.penumbra_widths(frame_set)] if known else []
+
+
 def first_tests(layout: Layout, frame_set: str) -> list[str]:
     """The first part of each scene's test frames."""
     scenes = frame_sets.measured_scenes(layout, frame_set)

@@ -40,12 +40,14 @@ FILES = {
         "soft_metrics",
         "soft_times",
         "soft_constants",
+        "widths_json",
         "lpips_json",
     ),
     "soft_summary": (
         "frames_json",
         "soft_metrics",
         "soft_times",
+        "widths_json",
         "trainings",
         "published_kpnsm_csv",
     ),
@@ -112,6 +114,7 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         values["soft_metrics"] = soft_methods.evaluations(layout, table, "csv")
         values["soft_times"] = soft_methods.times(layout, table)
         values["frames_json"] = soft_methods.tests(layout, settings["frame_set"])[0]
+        values["widths_json"] = soft_methods.widths(layout, settings["frame_set"])
         values["soft_constants"] = soft_methods.constants(layout, table)
     if kind == "soft_summary":
         values["trainings"] = soft_methods.trainings(layout, table)

@@ -63,6 +63,7 @@ def written(tmp_path):
         frames_json=frames,
         soft_metrics=paths,
         soft_times=times,
+        widths_json=None,
         soft_constants=[constants],
         lpips_json=lpips,
         csv=csv,

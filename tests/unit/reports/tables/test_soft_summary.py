@@ -63,7 +63,7 @@ def summary(folder, files, **told):
         md=md,
         title="Title",
         run={"scale": "test", "seed": 1},
-        **{"soft_times": None, "measured": ["room", "tree"], **given, **told},
+        **{"soft_times": None, "widths_json": None, "measured": ["room", "tree"], **given, **told},
     )
     return pd.read_csv(csv).set_index("method"), md.read_text(encoding="utf-8")
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from neural_shadows.evaluation.soft_method_names import tuned_as
@@ -20,10 +21,12 @@ from neural_shadows.reports.tables.frame_means import (
     mean_with_interval,
 )
 from neural_shadows.reports.tables.soft_costs import cost, describe_bytes, describe_times
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
 WITH_INTERVALS = ("mse", OFF_EDGES, "l1")
+ERRORS = ("mse", OFF_EDGES)
 MEANS = (
     *("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge", "false_shadow", "light_leak"),
     *("ssim", "flip", "lpips"),
@@ -41,6 +44,7 @@ def write(
     soft_metrics: list[Path],
     soft_times: Path | None,
     soft_constants: list[Path],
+    widths_json: Path | None,
     lpips_json: Path,
     csv: Path,
     md: Path,
@@ -58,6 +62,7 @@ def write(
         frames_json: a part of the frame set's test frames.
         soft_metrics: of each method; soft_times: what `time_soft_methods` wrote, None for frames
             without a scene to ask; soft_constants: what `tune_soft_method` wrote.
+        widths_json: what `measure_widths` wrote; None for frames without targets.
         labels: what each method is called; left_out: methods that this machine does not have.
         unseen: scenes that no network trains on.
     """
@@ -76,6 +81,7 @@ def write(
             table, [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"], 1, 1e4
         ),
         "unseen scenes": number_cells(table["mse_unseen"], "{:.1f}", 1e4),
+        "unseen, off edges": number_cells(table["off_edges_unseen"], "{:.1f}", 1e4),
         "umbra": number_cells(table["mse_umbra"], "{:.1f}", 1e4),
         "penumbra": number_cells(table["mse_penumbra"], "{:.1f}", 1e4),
         "lit": number_cells(table["mse_lit"], "{:.1f}", 1e4),
@@ -101,11 +107,13 @@ def write(
     notes = [
         f"{parts}unseen scenes: {', '.join(unseen) or 'none'}. The exact soft shadow is by rays from "
         "eight places a pixel.",
+        *describe_widths(widths_json, scenes, [light_name(radius, unit) for radius in radii]),
         "Squared errors: umbra, penumbra and lit by the exact shadow (below 2 %, between, above 98 "
         "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
         "surface inside the light's map. What faces away from the light's centre is dark for all "
         "methods but rays. FLIP and LPIPS are of the first frame of each part.",
         *([ABOUT_EDGES.capitalize()] if table[OFF_EDGES].notna().any() else []),
+        *_describe_orders(table, radii, unit),
         *_describe_constants(chosen, labels),
         *describe_times(times),
         *describe_bytes(times),
@@ -127,8 +135,8 @@ def soft_table(
     """A row for each radius and method.
 
     Columns: `method, label, number` (of the radius, from 0), `radius, frames`, of `mse`, `mse_off_edges`
-    and `l1` also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`, `own_ms`,
-    `map_ms`, `ms`, `bytes`, those of `_flicker`.
+    and `l1` also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`,
+    `off_edges_unseen`, `own_ms`, `map_ms`, `ms`, `bytes`, those of `_flicker`.
     """
     frames = found[~found["metric"].isin(FLICKER)]
     rows = []
@@ -145,6 +153,7 @@ def soft_table(
             row["psnr_pooled"] = float(psnr_of(max(row["mse"], 1e-10)))
             some = here[here.index.isin(unseen)]
             row["mse_unseen"] = mean_over_scenes(some[some["metric"] == "mse"]["value"])
+            row["off_edges_unseen"] = mean_over_scenes(some[some["metric"] == OFF_EDGES]["value"])
             rows.append(row | cost(times, method, number))
     table = pd.DataFrame(rows)
     return table.merge(_flicker(found), on=["method", "number"], how="left")
@@ -158,6 +167,22 @@ def _flicker(found: pd.DataFrame) -> pd.DataFrame:
     means = flicker.pivot_table("value", index, "metric").reindex(columns=FLICKER)
     each = flicker.assign(column=flicker["metric"] + "_" + what)
     return means.join(each.pivot_table("value", index, "column")).reset_index()
+
+
+def _describe_orders(table: pd.DataFrame, radii: Sequence[float], unit: str) -> list[str]:
+    """How often the two errors order two methods differently, by light; none where one is missing."""
+    parts = []
+    for number, rows in table.dropna(subset=["mse", OFF_EDGES]).groupby("number"):
+        ahead = [np.less.outer(rows[name].to_numpy(), rows[name].to_numpy()) for name in ERRORS]
+        pairs = len(rows) * (len(rows) - 1) // 2
+        other = np.count_nonzero(ahead[0] & ahead[1].T)
+        parts.append(f"{light_name(radii[number], unit)} {other} of {pairs}")
+    if not parts:
+        return []
+    return [
+        "Pairs of methods that the errors of all pixels and off edges order differently: "
+        f"{'; '.join(parts)}."
+    ]
 
 
 def _describe_flicker(

@@ -17,6 +17,7 @@ from neural_shadows.reports.tables.frame_means import ABOUT_EDGES, OFF_EDGES, de
 from neural_shadows.reports.tables.screen_rows import describe_trainings
 from neural_shadows.reports.tables.soft_costs import describe_times
 from neural_shadows.reports.tables.soft_summary_rows import MOVES, Row, summary_table, with_printed
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -33,6 +34,7 @@ def write(
     frames_json: Path,
     soft_metrics: list[Path],
     soft_times: Path | None,
+    widths_json: Path | None,
     trainings: list[Path],
     published_kpnsm_csv: Path,
     csv: Path,
@@ -53,6 +55,7 @@ def write(
         frames_json: a part of the frame set's test frames.
         soft_metrics: of each method; trainings: training.json of the networks.
         soft_times: what `time_soft_methods` wrote; None where `metrics` has no time.
+        widths_json: what `measure_widths` wrote; None for frames without targets.
         published: `kpnsm.` and the paper's number of the table; None for one that it only draws.
         methods: `method`, `label` and, None if nothing is printed, `published` and `column`.
         by: `scene`, `radius`, or None; metrics: of `HEADS`.
@@ -74,6 +77,7 @@ def write(
         *_describe_frames(
             found[found["scene"].isin(measured)], metrics, about, radii, unit, by == "scene"
         ),
+        *describe_widths(widths_json, measured, [light_name(one, unit) for one in radii]),
         *([_describe_sequences(found)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
