@@ -57,7 +57,9 @@ def test_sentences_that_are_right_pass():
 
 
 @pytest.mark.parametrize("sentence", BAD)
-@pytest.mark.parametrize("form", ["## Soft shadows\n\n{}", "### Neural Shadow Mapping\n- One.\n- {}"])
+@pytest.mark.parametrize(
+    "form", ["## Soft shadows\n\n{}", "### Neural Shadow Mapping\n- One.\n- {}"]
+)
 def test_sentences_that_are_wrong_are_named(sentence, form):
     (found,) = mistakes(form.format(sentence), VERDICTS)
     assert BAD[sentence] in found
@@ -65,7 +67,9 @@ def test_sentences_that_are_wrong_are_named(sentence, form):
 
 def test_elsewhere_a_sentence_on_soft_shadows_has_a_claim_too():
     """As in the README, which has no part for them."""
-    text = "# Neural shadows\n\n- A light of 12.5 cm: PCSS 175, less than moments.\n- A map is worse."
+    text = (
+        "# Neural shadows\n\n- A light of 12.5 cm: PCSS 175, less than moments.\n- A map is worse."
+    )
     (found,) = mistakes(text, VERDICTS)
     assert "PCSS 175, less" in found
 
@@ -83,6 +87,8 @@ def test_our_sentences_say_what_their_claims_say(name):
     assert any(in_part for _, _, in_part in sentences(text)) or name == "README.md"
 
 
-@pytest.mark.parametrize("page", [*REFERENCE.glob("*/index.html")], ids=lambda path: path.parent.name)
+@pytest.mark.parametrize(
+    "page", [*REFERENCE.glob("*/index.html")], ids=lambda path: path.parent.name
+)
 def test_our_page_says_nothing_else(page):
     assert findings_mistakes(page.read_text(encoding="utf-8")) == []

@@ -155,7 +155,10 @@ def of_nulls(**nulls):
     return pd.DataFrame(rows)
 
 
-CARRIES = {"of": {"label": "mine", "frames": "unseen"}, "to": {"label": "mine", "frames": "learned"}}
+CARRIES = {
+    "of": {"label": "mine", "frames": "unseen"},
+    "to": {"label": "mine", "frames": "learned"},
+}
 CARRIES |= {"column": "mse", "at_most": 1.5}
 BEATS = {"of": {"label": "other", "frames": "unseen"}, "to": {"label": "mine", "frames": "unseen"}}
 BEATS |= {"column": "mse", "at_least": 1}
@@ -169,7 +172,11 @@ BEATS |= {"column": "mse", "at_least": 1}
         (BEATS, {"no_shadow": (0.09, 0.015)}, verdicts.VACUOUS),
         (BEATS, {"no_shadow": (0.09, 0.09)}, verdicts.SUPPORTED),
         (BEATS, {"no_shadow": (0.09, 0.02)}, verdicts.SUPPORTED),  # level is not better
-        (BEATS, {"no_shadow": (0.09, 0.0)}, verdicts.VACUOUS),  # what never changes does not flicker
+        (
+            BEATS,
+            {"no_shadow": (0.09, 0.0)},
+            verdicts.VACUOUS,
+        ),  # what never changes does not flicker
         (BEATS, {}, verdicts.SUPPORTED),
     ],
 )
@@ -180,7 +187,13 @@ def test_a_ratio_that_what_learns_nothing_has_too_is_vacuous(ratio, nulls, verdi
 
 @pytest.mark.parametrize(("null", "verdict"), [(0.25, verdicts.VACUOUS), (0.1, verdicts.SUPPORTED)])
 def test_a_null_of_shares_is_given(null, verdict):
-    ratio = {"column": "size", "of": {"row": "trimmed"}, "to": 0.2, "at_least": 1, "unlearned": null}
+    ratio = {
+        "column": "size",
+        "of": {"row": "trimmed"},
+        "to": 0.2,
+        "at_least": 1,
+        "unlearned": null,
+    }
     assert judged(ratio, {"nsm": LEARNED}, networks=["nsm"])["verdict"] == verdict
 
 
@@ -194,7 +207,9 @@ def test_a_null_of_shares_is_given(null, verdict):
 )
 def test_a_number_with_an_interval_of_its_own(ends, verdict):
     low, high = ends
-    steps = pd.DataFrame({"row": ["trimmed"], "size": [1.25], "size_low": [low], "size_high": [high]})
+    steps = pd.DataFrame(
+        {"row": ["trimmed"], "size": [1.25], "size_low": [low], "size_high": [high]}
+    )
     ratio = {"column": "size", "of": {"row": "trimmed"}, "to": 1.0, "at_most": 1}
     found = judged(ratio, steps=steps.astype({"size_low": float, "size_high": float}))
     assert found["verdict"] == verdict

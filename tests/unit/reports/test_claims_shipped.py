@@ -188,7 +188,9 @@ def numbers_of(name):
             frames = layout.entry("frame_sets", table["frame_set"])
             lights = [*range(len(frames["radii"])), "all"]
             rows = product(labels_of(name), frames["scenes"], lights)
-            return pd.DataFrame(rows, columns=["label", "frames", "light"]).assign(mse=1.0, mse_off_edges=1.0)
+            return pd.DataFrame(rows, columns=["label", "frames", "light"]).assign(
+                mse=1.0, mse_off_edges=1.0
+            )
     table = pd.read_csv(made[0])
     for column in ("mse", "error"):  # of references that are older than these columns
         if column in table:

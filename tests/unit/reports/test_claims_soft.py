@@ -98,12 +98,20 @@ def test_a_metric_that_is_missing_is_said():
     assert found["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in found["reason"]
 
 
-def of_networks(seeds, gains, metric=OFF, kind="soft_better", samples=TEXT_SAMPLES["nsm"], nulls=()):
+def of_networks(
+    seeds, gains, metric=OFF, kind="soft_better", samples=TEXT_SAMPLES["nsm"], nulls=()
+):
     """A network that is better than PCSS by a gain of its own, each seed by another; one ray is as
     PCSS, in the time of the network.
     """
     runs = ["mine", *(f"mine_{seed}" for seed in range(1, seeds))]
-    errors = {"pcss": 0.01, "rt_1": 0.01, "hard": 0.02, **dict(nulls), **{run: 0.01 - gain for run, gain in zip(runs, gains)}}
+    errors = {
+        "pcss": 0.01,
+        "rt_1": 0.01,
+        "hard": 0.02,
+        **dict(nulls),
+        **{run: 0.01 - gain for run, gain in zip(runs, gains)},
+    }
     rng = np.random.default_rng(4)
     rows = [
         {"scene": ("room", "tree")[i % 2], "part": "test_000", "frame": i, "radius": k}
@@ -121,7 +129,10 @@ def of_networks(seeds, gains, metric=OFF, kind="soft_better", samples=TEXT_SAMPL
     record["samples"] = samples
     known = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))
     told = {"again": {"mine": runs[1:]}, "networks": runs, "needs": {"seeds": 3}, "radii": None}
-    told |= {"text": "nsm", "bases": dict.fromkeys(runs, "base_hard") if "base_hard" in dict(nulls) else {}}
+    told |= {
+        "text": "nsm",
+        "bases": dict.fromkeys(runs, "base_hard") if "base_hard" in dict(nulls) else {},
+    }
     if kind == "soft_equal_time":
         return claim(kind, methods=["mine"], **told | {"radii": [1]}), known
     return claim(kind, pairs=[["mine", "pcss"]], metrics=[metric], **told), known
@@ -141,7 +152,8 @@ def test_three_trainings_decide_over_all_lights(gains, verdict):
     found = judge(*of_networks(len(gains), gains))
     assert found["verdict"] == verdict
     assert (
-        "MSE × 10⁻⁴ off edges at all lights of Mine" in found["evidence"] and "nan" not in found["evidence"]
+        "MSE × 10⁻⁴ off edges at all lights of Mine" in found["evidence"]
+        and "nan" not in found["evidence"]
     )
     assert verdict != verdicts.TOO_SMALL or "2 seeds of 3" in found["reason"]
 
@@ -174,7 +186,10 @@ def test_rays_that_beat_what_has_not_learned_say_nothing():
 
 def test_of_ssim_more_is_better():
     gains = [-0.002, -0.0021, -0.0019]
-    assert judge(*of_networks(3, gains, "ssim", nulls=[("hard", 0.001)]))["verdict"] == verdicts.SUPPORTED
+    assert (
+        judge(*of_networks(3, gains, "ssim", nulls=[("hard", 0.001)]))["verdict"]
+        == verdicts.SUPPORTED
+    )
 
 
 @pytest.mark.parametrize(
@@ -220,7 +235,11 @@ GAINS = [0.002, 0.0021, 0.0019]
 
 @pytest.mark.parametrize(
     ("nulls", "named"),
-    [({"hard": 0.005}, "hard"), ({"no_shadow": 0.005}, "no shadow"), ({"base_hard": 0.005}, "base")],
+    [
+        ({"hard": 0.005}, "hard"),
+        ({"no_shadow": 0.005}, "no shadow"),
+        ({"base_hard": 0.005}, "base"),
+    ],
 )
 def test_a_network_s_lead_that_what_learns_nothing_has_too_is_vacuous(nulls, named):
     found = judge(*of_networks(3, GAINS, nulls=nulls.items()))

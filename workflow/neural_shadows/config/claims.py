@@ -293,16 +293,13 @@ def networks_of_claim(config: "Config", claim: SoftClaim | RatioClaim) -> list[s
 
 def bases_of_claim(config: "Config", claim: SoftClaim) -> dict[str, str]:
     """By network of a claim the method that its base shadow is; without those that have none."""
-    experiments = {name: config.screen_experiments[name] for name in networks_of_claim(config, claim)}
+    experiments = {
+        name: config.screen_experiments[name] for name in networks_of_claim(config, claim)
+    }
     features = {
         name: config.screen_networks[one.network].features for name, one in experiments.items()
     }
-    return {
-        name: base
-        for name, some in features.items()
-        for base in some
-        if base.startswith(BASE)
-    }
+    return {name: base for name, some in features.items() for base in some if base.startswith(BASE)}
 
 
 def rows_of_claim(config: "Config", methods: list[str]) -> list[Row]:

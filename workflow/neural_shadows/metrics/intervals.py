@@ -77,9 +77,7 @@ def t_interval(values: np.ndarray) -> tuple[float, float, float, float]:
     return _students(mean, [(values.var(ddof=1) / count, count - 1)])
 
 
-def scenes_interval(
-    values: np.ndarray, scenes: np.ndarray
-) -> tuple[float, float, float, float]:
+def scenes_interval(values: np.ndarray, scenes: np.ndarray) -> tuple[float, float, float, float]:
     """Mean over scenes of their frames' means, its interval and the p-value of its being 0.
 
     From `FEWEST_SCENES` on scenes are the units, of which frames are samples: the statement is about

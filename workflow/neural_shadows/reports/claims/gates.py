@@ -57,7 +57,9 @@ OF_TRAININGS = ("better", "lower_loss")
 LEAST_SEEDS = 2
 # Of a smaller share of a text's samples nothing may be extrapolated, so that nothing is known of these.
 DECISIVE = 1 / LARGEST_STEP
-WHOSE = {"thesis": "the thesis's samples"} | {name: f"{paper}'s pixels" for name, paper in TEXTS.items()}
+WHOSE = {"thesis": "the thesis's samples"} | {
+    name: f"{paper}'s pixels" for name, paper in TEXTS.items()
+}
 MOVING = {
     TOWARDS: "moving towards the claim",
     AWAY: "moving away from the claim",
@@ -169,7 +171,9 @@ def vacuous(claim: Claim, found: Sequence[Comparison], passing: str) -> str:
     if network_wins(claim):
         return f"supported as well with {passing} in place of the networks"
     if (least := fewest_samples(found)) < DECISIVE * whole_of(claim):
-        return f"{passing} in the networks' place loses as well, and they do at {share(claim, least)}"
+        return (
+            f"{passing} in the networks' place loses as well, and they do at {share(claim, least)}"
+        )
     return ""
 
 

@@ -52,7 +52,9 @@ def write(
         f"{WIDE} % of them": number_cells(table["measured_wide"], "≤ {:.1f}"),
         "by the model, px": number_cells(table["modelled"], "{:.1f}"),
         f"{WIDE} % of these": number_cells(table["modelled_wide"], "≤ {:.1f}"),
-        "their ratio": interval_cells(table, ["wide_ratio", "wide_ratio_low", "wide_ratio_high"], 2),
+        "their ratio": interval_cells(
+            table, ["wide_ratio", "wide_ratio_low", "wide_ratio_high"], 2
+        ),
         "measured within, %": number_cells(table["within"], "{:.1f}", 100),
     }
     notes = [
