@@ -18,7 +18,7 @@ SUBJECTS = re.compile(
     re.I,
 )
 DIRECTIONS = re.compile(
-    r"\b(better|best|worse|worst|ahead|behind|beats?|beaten|outperforms?|wins?|loses?|less|fewer|more than"
+    r"\b(better|best|worse|worst|ahead|behind|beats?|beaten|outperforms?|wins?|loses?|less|fewer|more"
     r"|below|above|lower|higher|smaller|larger|faster|slower|exceeds?|surpass\w*|superior|inferior|helps?"
     r"|halves|doubles|costs? (nothing|little)|level with|as good as|nearer|calms?|calmer|sharpens?"
     r"|carries over|reaches|worth|times (as|the) (much|many|fast|error)|half (of )?the error)\b",

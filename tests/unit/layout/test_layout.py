@@ -126,7 +126,8 @@ def test_unseen_scenes_may_have_more_test_frames():
 def test_steps_are_measured_in_their_number_formats(desk):
     made = tables.files(desk, "nsm_steps")
     assert [path.rsplit("/", 1)[1] for path in made["soft_metrics"]] == [
-        *("nsm_trimmed_float32.csv", "nsm_trimmed_bfloat16.csv", "nsm_bfloat16.csv")
+        *("nsm_trimmed_float32.csv", "nsm_trimmed_bfloat16.csv", "nsm_bfloat16.csv"),
+        *("no_shadow.csv", "all_dark.csv", "hard.csv"),  # what learns nothing
     ]
     method = "nsm_trimmed_float32"
     assert soft_methods.precision(desk, method) == "float32"
@@ -271,3 +272,16 @@ def test_the_words_at_the_end(desk, monkeypatch, tmp_path):
     opened = "Open reports/a.md, reports/figure_1.png"
     assert targets.closing_words(desk, made) == f"| a row that is too…\n{opened}"
     assert targets.closing_words(desk, made[:1]) == ""
+
+
+def test_claims_on_networks_have_what_learns_nothing_on_their_frames(desk):
+    """And of networks of kernels what each begins with."""
+    measured = claims.files(desk)["soft_metrics"]
+    for frame_set, names in {
+        "nsm": ("no_shadow", "all_dark", "hard"),
+        "windows": ("no_shadow", "all_dark", "hard", "base_msm", "base_hard", "base_pcf"),
+    }.items():
+        for name in names:
+            assert desk.paths.soft_evaluation("csv", frame_set, name) in measured
+    bases = desk.settings["claims"]["kpnsm_moments_are_the_best_base"]["bases"]
+    assert bases == {"kpnsm": "base_msm", "kpnsm_basic": "base_hard", "kpnsm_pcf": "base_pcf"}

@@ -273,3 +273,16 @@ def test_the_number_of_a_claim_is_of_the_comparison_that_decides():
     assert most_against([few, held]) is held and most_against([few]) is None
     found = judged(**FAILURES[verdicts.CONTRADICTED])
     assert (found["number_of"], found["number"][:6]) == ("LPIPS", "-0.05 ")
+
+
+def test_a_loss_that_drawing_no_shadow_has_too_is_vacuous():
+    """Of networks whose losses are of unlike rays: no shadow costs the winner's little."""
+    data = losses({"a": 0.1, "b": 0.4})
+    claim = {"kind": "lower_loss", "pairs": pairs(("a", "b"))}
+    assert judge(claim, data)["null_verdict"] == "contradicted"  # 0.5 of both
+    runs = [point["experiment"] for point in data.curves["a"]]
+    easy = replace(
+        data, trainings=data.trainings | {run: record(no_shadow_loss=0.2) for run in runs}
+    )
+    found = judge(claim, easy)
+    assert (found["verdict"], found["null_verdict"]) == (verdicts.VACUOUS, "supported")

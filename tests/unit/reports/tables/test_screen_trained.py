@@ -17,6 +17,7 @@ from neural_shadows.reports.tables import (
     screen_steps,
     screen_temporal,
 )
+from neural_shadows.reports.tables.frame_means import describe_units
 from neural_shadows.reports.tables.screen_rows import describe_trainings
 
 PUBLISHED = THESIS_CSV.with_name("published_nsm.csv")
@@ -295,3 +296,48 @@ def test_maps_of_flicker_are_drawn(tmp_path):
     told = {"title": "Flicker", "labels": {"five": "Five"}, "run": RUN}
     screen_flicker.draw([part], [tmp_path / "five.npz"], *outputs, **told)
     assert "Five, light moves: 0.0157" in outputs[1].read_text(encoding="utf-8")
+
+
+def test_what_learns_nothing_is_in_the_csv_alone(tmp_path, trained, about):
+    """On training frames as on those of validation: it has learned neither."""
+    errors = {"five": 0.02, "hard": 0.04, "no_shadow": 0.1}
+    files = []
+    for method, value in errors.items():
+        rows = [
+            {"scene": "room", "frame": i, "radius": k, "metric": metric, "value": value / part}
+            for i in range(4)
+            for k in (0, 1)
+            for metric, part in {"mse": 1, "mse_off_edges": 2}.items()
+        ]
+        names = ("instability", "instability_reference")
+        rows += [{"metric": name, "part": "light_000", "value": value} for name in names]
+        files.append(metrics(tmp_path / f"{method}.csv", rows))
+    learned = {"scenes": ["room"], "radii": [0, 0.25], "train_mse": [0.01] * 2}
+    learned |= {"validation_mse": [0.02] * 2, "null_mse": {"hard_map": [0.05, 0.07]}}
+    trained[1].write_text(json.dumps(json.loads(trained[1].read_text()) | learned))
+    told = {"soft_metrics": files, "trainings": trained[1:], "labels": {"five": "Five"}}
+    told |= {"frames_json": about}
+    table, text = written(screen_errors.write, tmp_path, **told)
+    cells = table.set_index(["experiment", "frames", "light"])["mse"]
+    assert cells["hard", "training", "all"] == cells["hard", "validation", "all"] == 0.06
+    assert cells["no_shadow", "room", "1"] == 0.1 and cells["five", "room", "all"] == 0.02
+    assert table.set_index("experiment").loc["five", "null"].isna().all()
+    assert set(table["null"].dropna()) == {"hard", "no_shadow"}
+    assert set(table["mse_off_edges"].dropna()) == {0.01, 0.02, 0.05}
+    assert "Shadow map" not in text and "vacuous" in text and "MSE off edges" in text
+    table, text = written(screen_temporal.write, tmp_path, **told)
+    flickers = table.set_index("label")["e_light"]
+    assert flickers["Shadow map"] == 0.04 and flickers["Five"] == 0.02
+    assert "| Shadow map" not in text and "| Five" in text
+
+
+@pytest.mark.parametrize(
+    ("scenes", "said"),
+    [
+        (["room"], "95 % over 16 frames of one scene, room: nothing is said of others"),
+        (["a", "b"], "95 % over 16 frames in 2 scenes, a, b: nothing is said of others"),
+        ([*"abcde"], "95 % over 5 scenes, by Student's t of their means"),
+    ],
+)
+def test_intervals_say_what_they_are_over(scenes, said):
+    assert describe_units(scenes, 16).startswith(said)

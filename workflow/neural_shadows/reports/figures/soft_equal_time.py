@@ -1,6 +1,7 @@
 """Error over milliseconds of every method for soft shadows, on one thread of one device."""
 
 from collections.abc import Sequence
+from math import isnan
 from pathlib import Path
 
 import pandas as pd
@@ -69,11 +70,10 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
             spread = [[row.mse - row.mse_low], [row.mse_high - row.mse]]
             drawn = {"color": look.colour, "marker": look.marker, "linestyle": "", "capsize": 2}
             bar = axes.errorbar(row.ms, row.mse, spread, **drawn)
-            say(
-                bar.lines[0],
-                f"{row.label}: MSE {1e4 * row.mse:.1f} "
-                f"[{1e4 * row.mse_low:.1f}, {1e4 * row.mse_high:.1f}] × 10⁻⁴; {row.ms:.1f} ms",
-            )
+            ends = f" [{1e4 * row.mse_low:.1f}, {1e4 * row.mse_high:.1f}]"
+            ends = "" if isnan(row.mse_low) else ends  # of a single frame
+            mse = f"{1e4 * row.mse:.1f}{ends}"
+            say(bar.lines[0], f"{row.label}: MSE {mse} × 10⁻⁴; {row.ms:.1f} ms")
         for family in JOINED:
             some = methods[methods["method"].map(family_of) == family].sort_values("ms")
             look = SOFT_LOOKS[family]
