@@ -18,6 +18,7 @@ from neural_shadows.metrics.psnr_ssim import psnr, ssim
 from neural_shadows.metrics.shadow_error import shadow_error
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.mesh_surface import with_surface
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 from neural_shadows.rendering.gbuffer import GBuffer
@@ -105,7 +106,7 @@ def _opened(key: str, experiment: Mapping[str, Any], device: torch.device, data:
     dtype = choose_dtype(data.settings["compute"]["precision"], device)
     made = {"device": device.type, "precision": str(dtype).removeprefix("torch.")}
     training = experiment["training"] | {"seed": experiment["seed"]} | made
-    network = make_network(experiment["network"])
+    network = make_network(with_surface(experiment["network"], {"sheet": False}))
     if Layout(data.settings).kind(key).needs_mesh:
         network.prepare(data.mesh(scene))
     network.initialise(experiment["seed"])

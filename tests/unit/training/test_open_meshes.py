@@ -10,6 +10,7 @@ from shapes import SPHERE_OF_LIGHTS
 from neural_shadows.evaluation.shadow_methods import network_method
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.metrics.shadow_error import shadow_error
+from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.mesh_surface import is_unfit, with_surface
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rays.labels import dual_bounds
@@ -107,6 +108,11 @@ def test_a_field_of_an_open_mesh_is_a_sheet_by_itself_and_far_better_so(folder, 
     assert forced["unfit"]
     # 0.9 % of the points against 65.
     assert 10 * error < wrong
+
+
+def test_a_surface_that_is_not_chosen_is_refused():
+    with pytest.raises(ValueError, match="surface: auto: is no surface yet"):
+        make_network(FIELD | {"surface": "auto"})
 
 
 @pytest.mark.parametrize(

@@ -53,6 +53,8 @@ def measure_cost(
     costs = {stage: _in_process(stage, folder, sizes, settings) for stage in needed}
     shutil.rmtree(folder)
     stages = [{"stage": stage, **costs[stage]} for stage in STAGES[over]]
+    import torch  # noqa: F401 - the stages' processes had it, and their GPU is to be named
+
     name, size = size_of(over, value)
     made = {**describe_origin(), **settings}
     write_json(cost_json, {"over": name, "size": size, "stages": stages, **made})

@@ -15,7 +15,12 @@ def make_network(settings: dict[str, Any]) -> ShadowNetwork:
 
     Raises:
         KeyError, TypeError: there is no such encoding, or it has other arguments.
+        ValueError: its surface is not chosen.
     """
+    if settings.get("surface") == "auto":
+        raise ValueError(
+            "surface: auto: is no surface yet. Let `with_surface` choose it by the mesh."
+        )
     arguments = dict(settings)
     encoding = arguments.pop("encoding")
     if not str(encoding).isidentifier() or not kind_module(encoding).is_file():
