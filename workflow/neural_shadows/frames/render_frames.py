@@ -65,7 +65,7 @@ def render_frames(
     size = opened.at_rest.size
     unit = {"metres": 1.0, "scene_sizes": size}[frames["radius_unit"]]
     radii = [unit * radius for radius in frames["radii"]]
-    streams = seed, crc32(name.encode())  # each scene's draws are its own
+    streams = streams_of(name, seed)
     shared = {key: frames[key] for key in ("width", "height", "fov", "of", "light_map")}
     kind = FrameKind(**shared, radius=max(radii))
     settings = draw(opened, kind, use, first, last, streams)
@@ -118,13 +118,22 @@ def render_frames(
     write_json(frames_json, about)
 
 
+def streams_of(name: str, seed: int) -> tuple[int, int]:
+    """What a scene's random streams begin with: no two scenes of a run have the same.
+
+    Args:
+        name: of the scene in the configuration. seed: of the run.
+    """
+    return seed, crc32(name.encode())
+
+
 def draw(
     scene: SoftScene, kind: FrameKind, use: str, first: int, last: int, streams: tuple[int, ...]
 ) -> list[Setting]:
     """The settings of frames `first` to `last` (exclusive), of a sequence all.
 
     Args:
-        streams: what the scene's random streams begin with.
+        streams: see `streams_of`.
     """
     stream = USES.index(use)
     if use in SEQUENCES:
