@@ -87,6 +87,8 @@ frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: mu
 frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence has two frames or more
 frame_sets.windows.of | {width: 64, height: 64} | frame_sets.windows: of = 64 × 64: must not be smaller
 frame_sets.frames.light_map.resolution | 100 | light_map.resolution: 100 is not a power of two
+soft_scenes.room.seed | -1 | soft_scenes.room.seed = -1: Input should be greater than or equal to 0
+soft_scenes.court_3.seed | 1 | frame_sets.frames: 'court_1' and 'court_3' are one scene and would count
 soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each only once
 tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'

@@ -49,6 +49,14 @@ def test_scenes_and_experiments(values):
     assert smoke["experiments"]["dragon_field"]["label"] == "64³ occupancy field"
 
 
+def test_a_soft_scene_has_its_own_seed_or_the_run_s(settings):
+    scenes = settings["soft_scenes"]
+    assert scenes["room"] == {"generate": "room", "seed": 2026, "inserted": {}, "penumbra": None}
+    found = scenes["interior_2"]
+    assert (found["generate"], found["seed"]) == ("interior", 2)
+    assert found["inserted"] == {"dragon": settings["scenes"]["dragon"]["up"]}
+
+
 def test_a_height_map_has_its_scene_s_up(values):
     values["scenes"]["landscape"]["up"] = "x"
     network = resolved(read_config(values))["experiments"]["landscape_heights"]["network"]

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 import trimesh
+from placed_objects import check_objects
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.prepared_mesh import with_normals
@@ -48,14 +49,7 @@ def test_seeds_sizes_and_floor(name):
     )
     for drawn in (first, other):
         assert 10_000 <= sum(len(part.faces) for part in drawn.objects) <= 60_000
-        names = [part.name for part in drawn.objects]
-        assert len(set(names)) == len(names) and drawn.mover in names
-        for part in drawn.objects:
-            corners = part.vertices[part.faces].astype(float)
-            doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-            assert np.linalg.norm(doubled, axis=1).min() > 1e-9, part.name
-            assert part.vertices[:, 1].min() >= -1e-5, part.name
-            assert len(np.unique(part.faces)) == len(part.vertices), part.name
+        check_objects(drawn)
 
 
 @pytest.mark.parametrize("name", NAMES)

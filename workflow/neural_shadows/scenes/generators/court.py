@@ -12,8 +12,8 @@ from neural_shadows.scenes.generators import outdoors
 from neural_shadows.scenes.generators.building import arcade, balustrade, column, flight, floor
 from neural_shadows.scenes.generators.fittings import crates, stool
 from neural_shadows.scenes.generators.furniture import bench, grille, plant, table, vase
-from neural_shadows.scenes.generators.hanging import frame_over, ring_lamp, wires
 from neural_shadows.scenes.generators.plan import Drawn, Kind, Plan, furnish
+from neural_shadows.scenes.generators.roofs import Site, draw_roofs
 from neural_shadows.scenes.generators.shapes import (
     Shape,
     at,
@@ -22,7 +22,6 @@ from neural_shadows.scenes.generators.shapes import (
     boxes,
     joined,
     placed,
-    smooth,
 )
 
 BESIDE = 0.85  # metres from the light's region to all objects: a light of half a metre has room
@@ -34,14 +33,14 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     plan = Plan(width - 0.7, depth - 0.7)
     middle = np.array([rng.uniform(-0.1, 0.1) * width, 0, rng.uniform(-0.14, -0.02) * depth])
     cameras = _cameras(rng, width, depth, middle)
-    plan.take(cameras.low[[0, 2]] - 0.2, cameras.high[[0, 2]] + 0.2)
+    plan.take(cameras.low[[0, 2]] - [0.2, 0.8], cameras.high[[0, 2]] + 0.2)  # nothing close before
 
     objects = [placed("ground", floor(width, depth)), *_edges(rng, width, depth)]
     seat = plan.place(rng, 1.7, 0.7, *_about(middle, 1.0))
     seat = middle if seat is None else seat
     objects.append(placed("bench", at(bench(1.5), seat, rng.uniform(-0.2, 0.2))))
     spots = tuple(_spot(rng, plan, middle, side) for side in (1.0, 0.8))
-    roofs, top = _roofs(rng, plan, middle, cameras.low[2] - 0.6)
+    roofs, top = draw_roofs(rng, Site(plan, middle, cameras.low[2] - 0.95))
     objects += roofs
     kinds = [KINDS[k] for k in rng.choice(len(KINDS), 5, replace=False)]
     objects += furnish(rng, plan, kinds, rng.integers(10, 17), objects)
@@ -143,128 +142,6 @@ def _spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray, side: float)
         if place is not None:
             break
     return Spot(place, own, rng.uniform(0, 2 * np.pi))
-
-
-def _roofs(
-    rng: np.random.Generator, plan: Plan, middle: np.ndarray, front: float
-) -> tuple[list[Placed], float]:
-    """Two or three kinds of what is over the court, and the height of the highest part under light.
-
-    Args:
-        front: how far towards the cameras they may reach.
-    """
-    kinds = rng.permutation(len(ROOFS))[: rng.integers(2, 4)]
-    objects, tops = [], [1.9]
-    for kind in kinds:
-        shape, top = ROOFS[kind](rng, plan, middle, front)
-        if shape is not None:
-            objects.append(placed(f"roof {kind + 1}", shape))
-            tops.append(top)
-    return objects, max(tops)
-
-
-Roof = tuple[Shape | None, float]
-
-
-def _stand(plan: Plan, feet: np.ndarray, half: float = 0.1) -> bool:
-    """Take the places of posts (n, 3) if all are free."""
-    squares = [(foot[[0, 2]] - half, foot[[0, 2]] + half) for foot in feet]
-    if not all(plan.is_free(*square) for square in squares):
-        return False
-    for square in squares:
-        plan.take(*square)
-    return True
-
-
-def _pergola(rng, plan: Plan, middle: np.ndarray, front: float) -> Roof:
-    """A pergola over a drawn part of the court, its slats along x or z."""
-    for _ in range(40):
-        size = rng.uniform([1.8, 1.6], [3.2, 2.6])
-        turn = rng.integers(2)
-        half = (size if turn == 0 else size[::-1]) / 2
-        high = min(front - half[1] - 0.3, middle[2] + 0.8)
-        place = middle + [rng.uniform(-1.2, 1.2), 0, 0]
-        place[2] = rng.uniform(min(middle[2] - 0.8, high), high)
-        posts = place + np.array([[a, 0, b] for a in (-1, 1) for b in (-1, 1)]) * [
-            half[0],
-            0,
-            half[1],
-        ]
-        if _stand(plan, posts):
-            height = rng.uniform(1.9, 2.3)
-            slat = (rng.uniform(0.03, 0.08), rng.uniform(0.04, 0.08))
-            slats = round(size[0] / rng.uniform(0.13, 0.26))
-            shape = outdoors.pergola(*size, height, slats, slat)
-            return at(shape, place, turn * np.pi / 2), height + 0.1
-    return None, 0.0
-
-
-def _sail(rng, plan: Plan, middle: np.ndarray, front: float) -> Roof:
-    """A cloth stretched between four poles of uneven height."""
-    for _ in range(40):
-        half = rng.uniform([0.9, 0.8], [1.6, 1.3])
-        place = middle + [rng.uniform(-1.2, 1.2), 0, rng.uniform(-0.8, 0.6)]
-        place[2] = min(place[2], front - half[1] - 0.2)
-        signs = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-        feet = place + np.insert(signs * half, 1, 0, axis=1)
-        if _stand(plan, feet):
-            break
-    else:
-        return None, 0.0
-    heights = rng.uniform(1.7, 2.3, 4)
-    u, v = np.meshgrid(np.linspace(0, 1, 25), np.linspace(0, 1, 25), indexing="ij")
-    weights = np.stack([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v], axis=-1)
-    corners = feet + heights[:, None] * [0, 1, 0]
-    cloth = weights @ corners - 0.9 * (u * (1 - u) * v * (1 - v))[..., None] * [0, 1.6, 0]
-    poles = [outdoors.pole(foot, height + 0.06) for foot, height in zip(feet, heights)]
-    # Corners face down where the grid is turned; a cloth has two sides all the same.
-    return joined(smooth(cloth.transpose(1, 0, 2)), *poles), float(heights.max())
-
-
-def _canopy(rng, plan: Plan, middle: np.ndarray, front: float) -> Roof:
-    """A tree whose crown is over the middle."""
-    for _ in range(40):
-        place = middle + [rng.uniform(-1.5, 1.5), 0, rng.uniform(-1.3, 0.2)]
-        if _stand(plan, place[None], 0.2):
-            trunk = rng.uniform(0.75, 1.0)
-            shape = joined(*outdoors.tree(rng, trunk, 5, rng.uniform(0.07, 0.12)))
-            return at(shape, place), float(shape.bounds[1, 1])
-    return None, 0.0
-
-
-def _strung(rng, plan: Plan, middle: np.ndarray, front: float) -> Roof:
-    """Frames of posts and beams with wires from one to the next, lamps under them."""
-    back = -plan.depth / 2 + 0.4
-    for _ in range(40):
-        zs = np.array([rng.uniform(back, back + 1.0), rng.uniform(middle[2], front)])
-        half = rng.uniform(1.5, 2.4)
-        x = np.clip(middle[0] + rng.uniform(-0.5, 0.5), -plan.width / 2 + half + 0.1, None)
-        x = min(x, plan.width / 2 - half - 0.1)
-        ends = np.array([[[x - half, 0, z], [x + half, 0, z]] for z in zs])
-        if zs[1] - zs[0] > 1.2 and _stand(plan, ends.reshape(-1, 3)):
-            break
-    else:
-        return None, 0.0
-    height, count = rng.uniform(1.95, 2.3), rng.integers(4, 8)
-    share = rng.uniform(0.05, 0.95, (2, count, 1))
-    starts, stops = (
-        beam[0] + own * (beam[1] - beam[0]) + [0, height - 0.04, 0]
-        for beam, own in zip(ends, share)
-    )
-    bulbs = rng.random() < 0.5
-    lamps = [
-        at(
-            ring_lamp(rng.uniform(0.2, 0.5), rng.uniform(0.2, 0.35)),
-            end[0] + own * (end[1] - end[0]) + [0, height - 0.14, 0],
-        )
-        for end in ends
-        for own in (rng.uniform(0.15, 0.45), rng.uniform(0.55, 0.85))
-    ]
-    strings = wires(rng, starts, stops, bulbs=bulbs, pennants=not bulbs)
-    return joined(frame_over(ends, height), strings, *lamps), height
-
-
-ROOFS = (_pergola, _sail, _canopy, _strung)
 
 
 def _ground(rng: np.random.Generator, plan: Plan, width: float, depth: float) -> list[Placed]:

@@ -42,11 +42,13 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     hung = rng.uniform(1.95, 2.45)  # height of the beams' tops
     middle = np.array([rng.uniform(-0.1, 0.1) * width, 0, rng.uniform(-0.12, 0.0) * depth])
     cameras = _cameras(rng, width, depth, middle)
-    plan.take(cameras.low[[0, 2]] - 0.15, cameras.high[[0, 2]] + 0.15)
+    plan.take(
+        cameras.low[[0, 2]] - [0.15, 0.5], cameras.high[[0, 2]] + 0.15
+    )  # nothing close before
     lights = _lights(rng, middle, hung)
 
     objects = [placed("floor", floor(width, depth)), *_walls(rng, width, depth)]
-    posts = _beams(rng, plan, width, cameras.low[2] - 0.5)
+    posts = _beams(rng, plan, width, cameras.low[2] - 0.65)
     objects.append(placed("beams", frame_over(posts, hung)))
     laid, table_spot = _laid_table(rng, plan, middle)
     objects += laid
@@ -170,9 +172,11 @@ def _laid_table(
         seats = [(c, half[1] + 0.12, np.pi) for c in x] + [(c, -half[1] - 0.12, 0.0) for c in x]
         seats += [(half[0] + 0.15, 0, -np.pi / 2)] * (rng.random() < 0.6)
     reach = half + 0.62
-    low, high = middle[[0, 2]] + [-1.0, -0.6], middle[[0, 2]] + [1.0, 0.5]
+    low, high = middle[[0, 2]] + [-1.0, -1.1], middle[[0, 2]] + [1.0, 0.5]
     place = plan.place(rng, *(2 * reach), low, high, top=1.05)
-    place = middle if place is None else place
+    if place is None:
+        place = middle
+        plan.take(middle[[0, 2]] - reach, middle[[0, 2]] + reach, top=1.05)
     parts = [placed("table", at(top, place))]
     for k, (x, z, turn) in enumerate(seats):
         back = rng.uniform(0, 0.22) * np.array([np.sin(turn), 0, np.cos(turn)])
