@@ -30,6 +30,7 @@ from neural_shadows.config.resolved import resolved
 from neural_shadows.evaluation.soft_methods.registry import method_module, soft_method
 from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.figures.shown_errors import COLUMNS
 from neural_shadows.reports.figures.soft_equal_time import equal_time_figure
 from neural_shadows.reports.soft_looks import SOFT_METHODS
 
@@ -40,7 +41,7 @@ assert soft_methods.weights(layout, "mine_1") == []
 assert method_module("mine_1").name == "mine.py" and soft_method("mine_1").constants
 assert SOFT_METHODS["Mine"].name == "other methods"
 row = {"method": "mine_1", "label": "Mine", "number": 0, "radius": 0.1, "unit": "m", "ms": 1.0}
-row |= {"mse": 0.1, "mse_low": 0.05, "mse_high": 0.2}
+row |= dict.fromkeys(COLUMNS, 0.1)
 figure = equal_time_figure(pd.DataFrame([row]), [0], title="Title")
 assert [text.get_text() for text in figure.legends[0].get_texts()] == ["other methods"]
 """

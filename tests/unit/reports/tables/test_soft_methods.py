@@ -8,6 +8,7 @@ import pytest
 
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
 from neural_shadows.reports.figures import soft_equal_time, soft_pictures
+from neural_shadows.reports.figures.shown_errors import COLUMNS
 from neural_shadows.reports.tables import soft_methods
 
 LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "pcss_post": "PCSS, filtered"}
@@ -124,7 +125,7 @@ def test_the_legend_is_as_wide_as_the_figure(radii):
     methods = ["hard", "pcf_3", "pcss", "msm_9", "rt_1", "rt_4_svgf", "no_shadow"]
     rows = [
         {"method": method, "label": method, "number": number, "radius": number, "unit": "m"}
-        | {"mse": 0.1, "mse_low": 0.1, "mse_high": 0.1, "ms": 1 + k}
+        | {"ms": 1 + k, **dict.fromkeys(COLUMNS, 0.1)}
         for k, method in enumerate(methods)
         for number in (0, 1)
     ]

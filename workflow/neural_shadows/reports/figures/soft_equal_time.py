@@ -12,11 +12,12 @@ from neural_shadows.evaluation.soft_method_names import DENOISERS
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.figures.point_labels import label_points
+from neural_shadows.reports.figures.shown_errors import COLUMNS, with_shown_errors
 from neural_shadows.reports.soft_looks import SOFT_LOOKS, family_of, light_name
 from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
 
-NUMBERS = ("number", "radius", "mse", "mse_low", "mse_high", "ms")
+NUMBERS = ("number", "radius", "ms", *COLUMNS)
 JOINED = ("rt", "field", *DENOISERS)  # one method with more and more rays
 
 
@@ -49,9 +50,10 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
     """A panel for each radius: mean squared error over milliseconds of a frame, both logarithmic.
 
     Args:
-        table: `method`, `label`, `number` (of the radius), `radius`, `unit`, `mse` with its ends, `ms`.
+        table: `method`, `label`, `number` (of the radius), `radius`, `unit`, `ms` and `COLUMNS`.
         radii: numbers of those to draw.
     """
+    table, name = with_shown_errors(table)
     figure = style.new_figure(title, 5.2 * len(radii), 5.2)
     panels = figure.subplots(1, len(radii), sharex=True, sharey=True, squeeze=False)[0]
     families = {family_of(method) for method in table["method"]} - {"null"}
@@ -67,22 +69,22 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         methods = rows.dropna(subset="ms")
         for row in methods.itertuples():
             look = SOFT_LOOKS[family_of(row.method)]
-            spread = [[row.mse - row.mse_low], [row.mse_high - row.mse]]
+            spread = [[row.error - row.error_low], [row.error_high - row.error]]
             drawn = {"color": look.colour, "marker": look.marker, "linestyle": "", "capsize": 2}
-            bar = axes.errorbar(row.ms, row.mse, spread, **drawn)
-            ends = f" [{1e4 * row.mse_low:.1f}, {1e4 * row.mse_high:.1f}]"
-            ends = "" if isnan(row.mse_low) else ends  # of a single frame
-            mse = f"{1e4 * row.mse:.1f}{ends}"
-            say(bar.lines[0], f"{row.label}: MSE {mse} × 10⁻⁴; {row.ms:.1f} ms")
+            bar = axes.errorbar(row.ms, row.error, spread, **drawn)
+            ends = f" [{1e4 * row.error_low:.1f}, {1e4 * row.error_high:.1f}]"
+            ends = "" if isnan(row.error_low) else ends  # of a single frame
+            error = f"{1e4 * row.error:.1f}{ends}"
+            say(bar.lines[0], f"{row.label}: {name} {error} × 10⁻⁴; {row.ms:.1f} ms")
         for family in JOINED:
             some = methods[methods["method"].map(family_of) == family].sort_values("ms")
             look = SOFT_LOOKS[family]
-            axes.plot(some["ms"], some["mse"], color=look.colour, linewidth=0.8, zorder=0)
+            axes.plot(some["ms"], some["error"], color=look.colour, linewidth=0.8, zorder=0)
         for row in rows[rows["method"] == "no_shadow"].itertuples():
-            axes.axhline(row.mse, color="#777777", linewidth=0.7, linestyle=":", zorder=0)
+            axes.axhline(row.error, color="#777777", linewidth=0.7, linestyle=":", zorder=0)
             place = axes.get_yaxis_transform()
             axes.text(
-                0.99, row.mse, row.label, transform=place, ha="right", va="bottom", fontsize=7
+                0.99, row.error, row.label, transform=place, ha="right", va="bottom", fontsize=7
             )
         axes.set(xscale="log", yscale="log", xlabel="ms a frame, one thread")
         radius, unit = rows["radius"].iloc[0], rows["unit"].iloc[0]
@@ -91,11 +93,11 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         style.plain_numbers(axes.xaxis)
         named.append((axes, methods))
     panels[0].set_ylabel(
-        "mean squared error of visibility, lower is better\n(bars: 95 % intervals)"
+        f"{name} of visibility, lower is better\n(bars: 95 % intervals)"
     )
     figure.draw_without_rendering()  # names are placed when the layout is done
     for axes, methods in named:
-        label_points(axes, methods[["ms", "mse"]].to_numpy(), [*methods["label"]], fontsize=7)
+        label_points(axes, methods[["ms", "error"]].to_numpy(), [*methods["label"]], fontsize=7)
     return figure
 
 
