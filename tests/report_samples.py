@@ -23,8 +23,10 @@ NETWORK = {
     "died_at_step": None,
     "network": {"encoding": "frequency"},
     "parameters": 100,
+    "unfit": False,
 }
-SPENT = {"samples": 640, "seconds": 1.5, "machine": MACHINE, "threads": 2}
+ORIGIN = {"commit": "ab12", "code": "0f", "machine": MACHINE}
+SPENT = {"samples": 640, "seconds": 1.5, **ORIGIN, "threads": 2}
 TRAINING = {"training": SETTINGS | ON_CPU} | NETWORK | SPENT
 FRAMES = {"width": 60, "height": 40, "views": 4, "repeats": 2, "warm_up": 1, "sphere_rays": 123.0}
 TIMES = {"scene": "dragon", "machine": MACHINE} | ON_CPU | FRAMES

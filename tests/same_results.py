@@ -14,15 +14,21 @@ from checkout import Checkout
 MEASURED = {
     # On a cluster the machine too: cores are those of the job.
     "networks/*/training.json": {"seconds", "samples_per_second", "machine"},
+    "depth_biases/*/*.json": {"machine"},
+    "soft_constants/*/*.json": {"machine"},
+    "screen_sensitivities/*/*.json": {"machine"},
     "frame_times/*/*.json": {"ms", "rays_per_second"},
     "cost/*.json": {"seconds", "bytes", "peak_bytes"},
+    "screen_networks/*/training.json": {"seconds", "samples_per_second", "machine"},
+    "screen_profiles/*.json": {"whole_ms", "product_macs", "ms", "machine"},
+    "soft_times/*.json": {"ms", "map_ms", "machine"},
 }
 
 # Folders below results/<scale> of what jobs say on the way, and of what is not finished.
 NO_RESULTS = re.compile(r"(^|/)(logs|benchmarks|checkpoints|[^/]+\.unfinished)/")
 
-# A run may pass midnight, and the page says how long the jobs took.
-CHANGING = re.compile(rb"made on \d{4}-\d\d-\d\d|<dt>(page made on|durations)</dt><dd>[^<]*")
+# The page says how long the jobs took.
+CHANGING = re.compile(rb"<dt>durations</dt><dd>[^<]*")
 
 
 def results_of(checkout: Checkout) -> dict[str, bytes]:
@@ -35,7 +41,7 @@ def results_of(checkout: Checkout) -> dict[str, bytes]:
 
 
 def reports_of(checkout: Checkout) -> dict[str, bytes]:
-    """Content of each report by its path, without dates and durations."""
+    """Content of each report by its path, without durations."""
     return {
         str(path): CHANGING.sub(b"", (checkout.reports / path).read_bytes())
         for path in _files(checkout.reports)

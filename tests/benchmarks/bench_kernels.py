@@ -2,7 +2,8 @@
 
 Memory is what a process of its own holds at most more than before, with inputs made and both ways
 warm: run as a script with the name of a way, it prints its MiB. The ceiling of frames is a product of
-square matrices of the same type, on as many threads, by the multiply-adds of the network.
+square matrices of the same type, on as many threads, by the multiply-adds of the network: in
+bfloat16 where the CPU has it, or float32.
 """
 
 import subprocess
@@ -14,6 +15,7 @@ from measurement import Row, median_seconds
 from torch import Tensor
 from unfolded import by_unfold
 
+from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
 from neural_shadows.networks.screen_space.pixel_kernels import filtered
@@ -75,11 +77,12 @@ def _mebibytes(way: str) -> float:
 
 
 def _frames(rounds: int) -> list[Row]:
-    network = KernelUnet("kernels", WIDTHS, FEATURES, FILTERS).folded().in_format(torch.bfloat16)
+    dtype = choose_dtype("auto", torch.device("cpu"))
+    network = KernelUnet("kernels", WIDTHS, FEATURES, FILTERS).folded().in_format(dtype)
     frame = torch.rand(1, len(FEATURES), 1024, 2048).contiguous(memory_format=torch.channels_last)
     macs = total(kernel_convolutions("kernels", WIDTHS, len(FEATURES), FILTERS), "macs")
     macs *= frame[0, 0].numel()
-    square = torch.rand(PRODUCT, PRODUCT).to(torch.bfloat16)
+    square = torch.rand(PRODUCT, PRODUCT).to(dtype)
     found = []
     with torch.inference_mode():
         inner, base = network.inner(frame), frame[:, -1:]
@@ -97,7 +100,7 @@ def _frames(rounds: int) -> list[Row]:
             ceiling = PRODUCT**3 / seconds.pop("product") / macs
             for part, one in seconds.items():
                 told = {"ceiling": ceiling} if part == "frame" else {}
-                name = f"KPNSM, 2048 x 1024, bfloat16: {part}"
+                name = f"KPNSM, 2048 x 1024, {str(dtype).removeprefix('torch.')}: {part}"
                 found.append(Row(name, f"cpu x{threads}", 1 / one, "frames/s", **told))
     return found
 

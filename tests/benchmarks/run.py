@@ -1,12 +1,12 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only labels training queries field forest viewpoint soft area rays screen kernels default]
+        [--only rays labels training queries field forest viewpoint soft area peers screen kernels default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
 Prints the table and writes it to reports/benchmarks.csv. Peers of the ray stages beyond trimesh
-come from envs/benchmarks.txt; field, forest, area and rays need gcc, see embree_rays.py. Where there is a GPU, its rows are added. `--quick` takes fewer
+come from envs/benchmarks.txt; field, forest, area and peers need gcc, see embree_rays.py. Where there is a GPU, its rows are added. `--quick` takes fewer
 rounds and leaves the default main job out: under five minutes on two cores.
 """
 
@@ -22,6 +22,7 @@ import bench_forest
 import bench_kernels
 import bench_labels
 import bench_queries
+import bench_ray_peers
 import bench_rays
 import bench_screen_networks
 import bench_screen_training
@@ -37,6 +38,7 @@ from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.running.hardware import describe_machine
 
 STAGES = (
+    "rays",
     "labels",
     "training",
     "queries",
@@ -45,7 +47,7 @@ STAGES = (
     "viewpoint",
     "soft",
     "area",
-    "rays",
+    "peers",
     "screen",
     "kernels",
     "default",
@@ -57,6 +59,7 @@ def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iter
     """The rows of each stage that is asked for, of a mesh's file and what it was prepared to."""
     quick = arguments.quick
     measured = {
+        "rays": lambda: bench_rays.rows(quick),
         "labels": lambda: bench_labels.rows(mesh_ply, quick),
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
@@ -65,7 +68,7 @@ def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iter
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
         "area": lambda: bench_area_light.rows(mesh_ply, quick),
-        "rays": lambda: bench_rays.rows(mesh_ply, quick),
+        "peers": lambda: bench_ray_peers.rows(mesh_ply, quick),
         "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),
         "kernels": lambda: bench_kernels.rows(quick),
         "default": bench_default.rows,

@@ -6,16 +6,14 @@ Not part of `pytest` alone: six minutes on two cores.
 """
 
 import itertools
-import re
 import shutil
 import signal
-from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from checkout import Checkout
-from few_jobs import NO_JOB, TARGETS, few_jobs
+from few_jobs import TARGETS, few_jobs, files_of_rules, rules_of
 from processes import interrupt, resize, small_disk
 from same_results import differences, differing_reports, leavings_of, reports_of, results_of
 
@@ -53,16 +51,6 @@ def finished(start, overlays, tmp_path_factory) -> Checkout:
     return checkout
 
 
-def files_of_rules(finished: Checkout, overlays: list[Path]) -> dict[str, list[str]]:
-    """Names of what each rule's jobs write."""
-    files = defaultdict(list)
-    for row in finished.summary(*TARGETS, overlays=overlays):
-        files[row["rule"]].append(row["output_file"])
-    graph = "".join(path.read_text() for path in finished.folder.glob("workflow/rules/*.smk"))
-    assert set(files) == set(re.findall(r"^rule (\w+):", graph, re.MULTILINE)) - NO_JOB
-    return files
-
-
 def wrong(checkout: Checkout, wanted: dict[str, bytes]) -> list[str]:
     """Results of an unfinished run that have their name and are not as they should be."""
     return [name for name, content in results_of(checkout).items() if content != wanted.get(name)]
@@ -85,6 +73,7 @@ def test_killed_in_every_stage(start, finished, overlays, tmp_path):
     """One run, on one core, that a signal ends once in each rule and thrice while it trains."""
     checkout = replace(start.copy(tmp_path / "another"), cores=1)
     watched = files_of_rules(finished, overlays)
+    assert watched.keys() == rules_of(finished)
     # Written when the state beside it is whole.
     curve = "results/smoke/networks/checkpoints/dragon-*/loss.csv"
     watched |= {f"checkpoint {number}": [curve] for number in (1, 2, 3)}

@@ -11,6 +11,7 @@ from unittest import mock
 import pytest
 from checkout import ROOT
 from snakemake.api import SnakemakeApi
+from snakemake.exceptions import WorkflowError
 from snakemake.iocontainers import Wildcards
 from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
@@ -56,6 +57,12 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
         return [SCREEN]
     timed = next(name for name, table in settings["tables"].items() if table["kind"] == "networks")
     return [{**EXAMPLES, "table": timed}]
+
+
+def test_an_argument_that_is_no_wildcard_is_refused(workflow):
+    answer = workflow.globals["of"](lambda layout, scnee: scnee)
+    with pytest.raises(WorkflowError, match="'scnee' is no wildcard of the rule; .* scene"):
+        answer(Wildcards(fromdict={"scene": "dragon"}))
 
 
 def test_names(workflow):

@@ -6,7 +6,9 @@ meshes        a mesh file, made, downloaded or the user's, to a clean mesh in it
 scenes        what is lit and seen: lights, cameras, tracing
 rendering     what a camera sees: G-buffer, exact shadow, shading, viewpoints
 shadow_maps   depth seen from the light, and the test against it
+denoising     a smooth picture of few shadow rays a pixel
 rays          training rays: directions, silhouettes, quadtrees, labels, ray sets on disk
+frames        frames for screen-space methods: settings, buffers, exact soft shadows
 networks      what is trained: kinds of network, weight files, quantisation
 training      Adam on a network's loss: resumable, reproducible
 metrics       PSNR, SSIM, FLIP, LPIPS, shadow error, intervals

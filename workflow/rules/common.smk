@@ -94,13 +94,16 @@ def setting(path):
 
 def of(function):
     """An input or a param: what a function of the layout answers for the wildcards it names."""
-    names = [*inspect.signature(function).parameters]
-    given = {"layout": LAYOUT}
+    needed = [*inspect.signature(function).parameters]
 
     def answer(wildcards):
-        return function(
-            **{name: given.get(name, wildcards.get(name)) for name in names}
-        )
+        given = {"layout": LAYOUT, **dict(wildcards.items())}
+        if unknown := [name for name in needed if name not in given]:
+            raise WorkflowError(
+                f"{function.__name__}: {unknown[0]!r} is no wildcard of the rule; name one of "
+                f"{', '.join(given)}"
+            )
+        return function(**{name: given[name] for name in needed})
 
     return answer
 

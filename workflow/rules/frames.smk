@@ -9,6 +9,7 @@ rule render_frames:
         buffers_npy=PATHS.frames("buffers.npy"),
         targets_npy=PATHS.frames("targets.npy"),
         valid_npy=PATHS.frames("valid.npy"),
+        edges_npy=PATHS.frames("edges.npy"),
     log:
         PATHS.log("render_frames", "scene", "frame_set", "part"),
     benchmark:

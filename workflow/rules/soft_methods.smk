@@ -82,6 +82,7 @@ rule evaluate_soft:
             methods=[wildcards.method],
         ),
         precision=of(soft_methods.precision),
+        by_scene=of(soft_methods.by_scene),
     message:
         "Evaluating {wildcards.method} on {wildcards.frame_set}"
     script:
@@ -111,6 +112,7 @@ rule answer_frames:
             methods=[wildcards.method],
         ),
         label=of(soft_methods.label),
+        by_scene=of(soft_methods.by_scene),
     message:
         "Answering the frames of {wildcards.frame_set} by {wildcards.method}"
     script:

@@ -99,6 +99,9 @@ screen_networks.original.widths | [32, [64, 32]] | screen_networks.original.widt
 screen_networks.nsm.pool | max | screen_networks.nsm: unknown key: 'pool' is not among
 screen_networks.nsm.features | [ratoi] | screen_networks.nsm.features: 'ratoi' (did you mean 'ratio'?) is not among c_e, view
 screen_networks.nsm.features | [z, z] | screen_networks.nsm.features: 'z' is there twice
+screen_experiments.pcss | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | screen_experiments.pcss: a method of soft tables has this name
+screen_experiments.mine_bfloat16 | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | screen_experiments.mine_bfloat16: '_bfloat16' ends the name of a network in that number
+networks_by_scene.rt_4 | {label: x, experiments: [nsm, kpnsm]} | networks_by_scene.rt_4: a method of soft tables has this name
 tables.nsm_temporal.frame_set | nsm_between | tables.nsm_temporal.frame_set: frame_sets.nsm_between has sequence = 0
 tables.nsm_temporal.methods | [pcs] | tables.nsm_temporal.methods: 'pcs' (did you mean 'pcss'?)
 tables.nsm_table_s2.network | nms | tables.nsm_table_s2.network: 'nms' (did you mean 'nsm'?) is not among
@@ -120,7 +123,7 @@ def test_mistakes(message, values, mistake):
 def test_maps_need_a_scene(message, values):
     values["frame_sets"]["mine"] = {"path": "mine"}
     values["tables"]["soft_windows"]["frame_set"] = "mine"
-    told = "soft_windows.methods: 'hard' needs a scene to look at, and frames of"
+    told = "soft_windows.methods: 'exact_centre' needs a scene to look at, and frames of"
     assert told in message(values)
 
 

@@ -65,8 +65,9 @@ def rendered(tmp_path_factory):
     """The pipeline's own frame, but that bases are dark by the shading normal, as an engine's."""
     part = tmp_path_factory.mktemp("own") / "garden/test_000.json"
     part.parent.mkdir()
-    files = (part.with_suffix(f".{kind}") for kind in KINDS)
-    render_frames([], *files, scene=SCENE, frames=FRAMES, use="test", first=0, last=1, samples=1)
+    files = (part.with_suffix(f".{kind}") for kind in (*KINDS, "edges.npy"))
+    told = {"scene": SCENE, "name": "garden", "seed": 3, "frames": FRAMES, "use": "test"}
+    render_frames([], *files, **told, first=0, last=1, samples=1)
     buffers = np.load(part.with_suffix(".buffers.npy"))
     c_e, z = (buffers[:, :, CHANNELS.index(name)] for name in ("c_e", "z"))
     for name in LIT:

@@ -1,8 +1,12 @@
 """A profile times every part of a network once a frame, whatever its form."""
 
 import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
 import pytest
+import torch
 
 from neural_shadows.evaluation import profile_screen_network as stage
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
@@ -18,16 +22,22 @@ FORMS = [
 ]
 
 
+def profiled(folder: Path, network: Mapping[str, Any]) -> dict[str, Any]:
+    """What the stage writes of a network in a frame of 16 × 8 pixels."""
+    path = folder / "profile.json"
+    profile = {"width": 16, "height": 8, "repeats": 3, "product_size": 10}
+    stage.profile_screen_network(path, network=network, profile=profile, device="cpu", threads=1)
+    return json.loads(path.read_text())
+
+
 @pytest.mark.parametrize("settings", FORMS, ids=lambda one: one["form"] + one.get("ends", ""))
 def test_each_part_of_each_level_is_timed(tmp_path, monkeypatch, settings):
     """A clock that goes on by 1 ms at each look: a part takes 1, a whole frame too, untimed inside."""
     ticks = iter(range(10**6))
     monkeypatch.setattr(stage.time, "perf_counter", lambda: next(ticks) / 1000)
-    monkeypatch.setattr(stage, "PRODUCT", 10)
+    monkeypatch.setattr(stage, "is_native", lambda dtype, device: True)
     network = {"features": ["ratio", "n"]} | settings
-    path, profile = tmp_path / "profile.json", {"width": 16, "height": 8, "repeats": 3}
-    stage.profile_screen_network(path, network=network, profile=profile, device="cpu", threads=1)
-    found = json.loads(path.read_text())
+    found = profiled(tmp_path, network)
     made = make_screen_network(network)
     weights = sum(one.numel() for one in made.parameters() if one.ndim == 4)
     assert sum(level["weights"] for level in found["levels"]) == weights
@@ -38,3 +48,11 @@ def test_each_part_of_each_level_is_timed(tmp_path, monkeypatch, settings):
         assert [part["ms"] for part in run["parts"]] == pytest.approx([1.0] * len(places))
         assert run["whole_ms"] == pytest.approx(1.0)
         assert run["product_macs"] == pytest.approx(10**3 / 1e-3)
+
+
+def test_a_format_that_the_processor_lacks_is_not_computed_in(tmp_path, monkeypatch):
+    """Emulated bfloat16 took the smoke run half an hour on two cores with AVX2 alone."""
+    monkeypatch.setattr(stage, "is_native", lambda dtype, device: dtype == torch.float32)
+    found = profiled(tmp_path, {"features": ["ratio", "n"]} | FORMS[0])
+    assert [run["precision"] for run in found["runs"]] == ["float32"]
+    assert found["product_size"] == 10

@@ -35,10 +35,11 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("results") / "blinds"
     folder.mkdir()
     (folder / "lpips.json").write_text(json.dumps(NO_LPIPS))
-    told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 2, "samples": 8}
+    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES}
+    told |= {"first": 0, "last": 2, "samples": 8}
     for use in ("validation", "test", "camera", "light"):
         stem = folder / f"{use}_000"
-        names = ("json", "buffers.npy", "targets.npy", "valid.npy")
+        names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
         render_frames([], *(stem.with_name(f"{stem.name}.{n}") for n in names), use=use, **told)
     return folder
 
@@ -56,7 +57,9 @@ def test_the_constants_of_least_error_are_chosen(folder):
     for k, radius in enumerate(RADII):
         errors = []
         for constants in method.settings():
-            pairs = [(f.answered(method, radius, constants), f.target[k], f.valid) for f in frames]
+            pairs = [
+                (f.answered(method, radius, constants), f.target[k], f.off_edges) for f in frames
+            ]
             square = sum(np.square(found - target)[valid].sum() for found, target, valid in pairs)
             errors.append(square / sum(valid.sum() for *_, valid in pairs))
         chosen = record["radii"][k]
@@ -71,7 +74,7 @@ def test_no_other_value_of_the_last_constant_is_better(folder):
 
     def mse(k, constants):
         squares = [
-            np.square(one.answered(method, RADII[k], constants) - one.target[k])[one.valid]
+            np.square(one.answered(method, RADII[k], constants) - one.target[k])[one.off_edges]
             for one in (frame, *rest)
         ]
         return np.concatenate(squares).mean()
@@ -82,7 +85,7 @@ def test_no_other_value_of_the_last_constant_is_better(folder):
             min(mse(k, chosen | {"bias": bias}) for bias in biases), rel=1e-4
         )
         # and of the first none is, at the bias in the middle
-        first = {one: mse(k, {"texels": one, "bias": biases[1]}) for one in texels}
+        first = {one: mse(k, {"texels": one, "bias": biases[len(biases) // 2]}) for one in texels}
         assert chosen["texels"] == min(first, key=first.get)
 
 
@@ -145,12 +148,13 @@ def test_answers_are_kept(folder):
 
 
 def test_times(folder):
-    names = ["hard", "msm_3", "rt_1"]
+    names = ["hard", "msm_3", "rt_1", "pcss_2048"]
     tune(folder, "msm_3")
+    tune(folder, "pcss_2048")
     out = folder / "times.json"
     time_soft_methods(
         [folder / "test_000.json"],
-        [folder / "msm_3.json"],
+        [folder / "msm_3.json", folder / "pcss_2048.json"],
         [],
         [],
         out,
@@ -158,9 +162,13 @@ def test_times(folder):
         repeats=1,
     )
     found = json.loads(out.read_text())
-    assert found["texels"] == 64**2 and found["map_ms"] > 0 and found["frames"] == 1
+    own, finer = found["maps"]["64"], found["maps"]["2048"]
+    assert own["texels"] == 64**2 and finer["texels"] == 2048**2 and found["frames"] == 1
+    assert 0 < own["ms"] < finer["ms"]
+    sides = {name: found["methods"][name]["map"] for name in names}
+    assert sides == {"hard": "64", "msm_3": "64", "rt_1": None, "pcss_2048": "2048"}
     floats = {name: found["methods"][name]["texel_floats"] for name in names}
-    assert floats == {"hard": 1, "msm_3": 4, "rt_1": 0}
+    assert floats == {"hard": 1, "msm_3": 4, "rt_1": 0, "pcss_2048": 1}
     assert all(ms > 0 for name in names for ms in found["methods"][name]["ms"])
 
 
@@ -168,15 +176,16 @@ def test_a_window_bears_its_share_of_the_map(tmp_path):
     """A quarter of the frame's width and half of its height."""
     stem = tmp_path / "blinds" / "test_000"
     stem.parent.mkdir()
-    parts = [stem.with_name(f"{stem.name}.{n}") for n in ("json", "buffers.npy", "targets.npy")]
+    names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
+    parts = [stem.with_name(f"{stem.name}.{n}") for n in names]
     told = FRAMES | {"of": [192, 48], "light_map": {"kind": "cube", "resolution": 64}}
-    valid = stem.with_name(f"{stem.name}.valid.npy")
-    few = {"scene": SCENE, "frames": told, "first": 0, "last": 1, "samples": 1}
-    render_frames([], *parts, valid, use="test", **few)
+    few = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": told}
+    few |= {"first": 0, "last": 1, "samples": 1}
+    render_frames([], *parts, use="test", **few)
     out = tmp_path / "times.json"
     time_soft_methods(parts[:1], [], [], [], out, methods={"hard": None}, repeats=1)
     times = json.loads(out.read_text())
-    assert times["map_share"] == 1 / 8 and times["map_ms"] > 0
+    assert times["map_share"] == 1 / 8 and times["maps"]["64"]["ms"] > 0
     assert "12.5% of a whole frame's" in describe_times(times)[0]
 
 

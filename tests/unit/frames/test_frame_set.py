@@ -22,9 +22,11 @@ SCENE = {"generate": "blinds", "seed": 3, "inserted": {}}
 
 
 def render(folder, first=0, last=2, use="train", **changed):
-    paths = [folder / f"{use}_000.{end}" for end in ("json", "buffers.npy", "targets.npy")]
+    ends = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
+    paths = [folder / f"{use}_000.{end}" for end in ends]
     told = {"use": use, "first": first, "last": last, "samples": 2, "twins": 2} | changed
-    render_frames([], *paths, folder / f"{use}_000.valid.npy", scene=SCENE, frames=FRAMES, **told)
+    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES} | told
+    render_frames([], *paths, **told)
     return FrameSetPart(paths[0])
 
 
@@ -63,7 +65,7 @@ def test_uses_have_frames_of_their_own(part, tmp_path):
 
 
 def test_nothing_is_left_where_a_frame_fails_after_others(tmp_path, monkeypatch):
-    fails = mock.Mock(side_effect=[np.zeros((3, 16, 32)), MemoryError])
+    fails = mock.Mock(side_effect=[(np.zeros((3, 16, 32)), np.zeros((16, 32))), MemoryError])
     monkeypatch.setattr(render_frames_stage, "render_target", fails)
     with pytest.raises(MemoryError):
         render(tmp_path)

@@ -134,6 +134,11 @@ def test_steps_are_measured_in_their_number_formats(desk):
     assert soft_methods.precision(desk, "nsm_trimmed") == "auto"
 
 
+def test_a_network_for_each_scene_is_by_scene(desk):
+    methods = ("kpnsm_nsm_single", "kpnsm_nsm_joint", "pcss")
+    assert [soft_methods.by_scene(desk, one) for one in methods] == [True, False, False]
+
+
 def test_tables_and_claims_are_made_of_their_rows(desk):
     made = tables.files(desk, "table_4_3")
     assert "results/evaluations/dragon/shadow_map_512.001.csv" in made["metrics"]

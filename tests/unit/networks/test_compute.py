@@ -1,10 +1,16 @@
 """Devices and number formats are those of the machine, and wrong wishes are refused."""
 
+import os
+import subprocess
+import sys
+
 import pytest
 import torch
 
 from neural_shadows.errors import InputError
-from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks import compute
+from neural_shadows.networks.compute import choose_device, choose_dtype, is_native
+from neural_shadows.running.module_graph import PACKAGE
 
 
 @pytest.mark.parametrize("native", [True, False])
@@ -13,12 +19,50 @@ def test_automatic_choices(monkeypatch, native):
     monkeypatch.setattr(torch.cuda, "is_available", lambda: native)
     monkeypatch.setattr(torch.cuda, "is_bf16_supported", lambda including_emulation=True: native)
     monkeypatch.setattr(torch.cpu, "get_capabilities", lambda: {"amx_bf16": native})
+    monkeypatch.setattr(compute, "_used_by_onednn", lambda dtype: True)
     assert choose_device("auto").type == ("cuda" if native else "cpu")
     for device in ("cpu", "cuda"):
         wanted = torch.bfloat16 if native else torch.float32
         assert choose_dtype("auto", torch.device(device)) == wanted
-    for precision in ("float32", "bfloat16", "float16"):
-        assert str(choose_dtype(precision, torch.device("cpu"))) == f"torch.{precision}"
+
+
+CPU, FORMATS = torch.device("cpu"), ("float32", "bfloat16", "float16")
+ASKED = f"""
+import torch
+from neural_shadows.networks.compute import is_native
+print(*(is_native(getattr(torch, name), torch.device("cpu")) for name in {FORMATS}))
+"""
+
+
+@pytest.mark.parametrize(
+    ("capabilities", "native"),
+    [
+        ({"avx2": True}, ["float32"]),
+        ({"avx512_bf16": True, "avx512_fp16": False}, ["float32", "bfloat16"]),
+        ({"amx_bf16": True, "amx_fp16": True}, [*FORMATS]),
+        ({"architecture": "aarch64", "bf16": True}, ["float32", "bfloat16"]),
+    ],
+)
+def test_a_format_that_the_processor_lacks_is_refused(monkeypatch, capabilities, native):
+    monkeypatch.setattr(torch.cpu, "get_capabilities", lambda: capabilities)
+    monkeypatch.setattr(compute, "_used_by_onednn", lambda dtype: True)
+    assert [name for name in FORMATS if is_native(getattr(torch, name), CPU)] == native
+    for name in FORMATS:
+        if name in native:
+            assert choose_dtype(name, CPU) == getattr(torch, name)
+        else:
+            with pytest.raises(InputError, match=f"precision: {name}: this CPU has no instr.*auto"):
+                choose_dtype(name, CPU)
+
+
+def test_what_onednn_may_not_use_is_not_native():
+    """By a variable of its own, which it reads once: whatever the processor has."""
+    if torch.cpu.get_capabilities()["architecture"] != "x86_64":
+        pytest.skip("the variable is for x86-64")
+    environment = os.environ | {"ONEDNN_MAX_CPU_ISA": "AVX2", "PYTHONPATH": str(PACKAGE.parent)}
+    command = [sys.executable, "-c", ASKED]
+    limited = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert limited.stdout.split() == ["True", "False", "False"]
 
 
 def test_a_gpu_that_is_not_there(monkeypatch):

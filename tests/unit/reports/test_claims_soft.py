@@ -12,13 +12,13 @@ from neural_shadows.reports.claims.soft import SoftTable, soft_values
 LABELS = {"pcss": "PCSS", "msm_15": "MSM", "rt_1": "1 ray", "rt_4": "4 rays", "rt_4_svgf": "SVGF"}
 MSE = {"pcss": 0.010, "msm_15": 0.012, "rt_1": 0.03, "rt_4": 0.008, "rt_4_svgf": 0.001}
 TIMES = {
-    "map_ms": 5.0,
+    "maps": {"8": {"ms": 5.0, "texels": 64}},
     "methods": {
-        "pcss": {"ms": [1.0, 30.0, 40.0], "texel_floats": 1},
-        "msm_15": {"ms": [1.0, 8.0, 8.0], "texel_floats": 4},
-        "rt_1": {"ms": [5.0, 10.0, 10.0], "texel_floats": 0},
-        "rt_4": {"ms": [5.0, 36.0, 36.0], "texel_floats": 0},
-        "rt_4_svgf": {"ms": [5.0, 12.0, 12.0], "texel_floats": 0},
+        "pcss": {"ms": [1.0, 30.0, 40.0], "map": "8", "texel_floats": 1},
+        "msm_15": {"ms": [1.0, 8.0, 8.0], "map": "8", "texel_floats": 4},
+        "rt_1": {"ms": [5.0, 10.0, 10.0], "map": None, "texel_floats": 0},
+        "rt_4": {"ms": [5.0, 36.0, 36.0], "map": None, "texel_floats": 0},
+        "rt_4_svgf": {"ms": [5.0, 12.0, 12.0], "map": None, "texel_floats": 0},
     },
 }
 
@@ -80,7 +80,7 @@ def test_as_many_rays_as_fit_into_the_time():
 
 
 def test_a_method_that_is_faster_than_any_ray_is_not_judged():
-    quick = TIMES["methods"] | {"msm_15": {"ms": [1.0, 1.0, 1.0], "texel_floats": 4}}
+    quick = TIMES["methods"] | {"msm_15": {"ms": [1.0, 1.0, 1.0], "map": "8", "texel_floats": 4}}
     found = judge(claim("soft_equal_time", methods=["msm_15"]), data(methods=quick))
     assert found["verdict"] == verdicts.TOO_SMALL and "no number of rays fits" in found["reason"]
 
@@ -105,8 +105,14 @@ def of_networks(seeds, gains, metric="mse", kind="soft_better"):
         for method, value in errors.items()
     ]
     labels = {"pcss": "PCSS", "rt_1": "1 ray", "mine": "Mine"}
-    timed = {method: {"ms": [9.0] * 3, "texel_floats": 0} for method in ("mine", "rt_1")}
-    times = {"map_ms": 5.0, "methods": timed} if kind == "soft_equal_time" else None
+    timed = {
+        method: {"ms": [9.0] * 3, "map": None, "texel_floats": 0} for method in ("mine", "rt_1")
+    }
+    times = (
+        {"maps": {"8": {"ms": 5.0, "texels": 64}}, "methods": timed}
+        if kind == "soft_equal_time"
+        else None
+    )
     table = SoftTable(soft_values(pd.DataFrame(rows)), labels, times, RADII)
     record = {"validation_mse": [0.01], "null_mse": {"hard_map": [0.02]}, "died_at_step": None}
     known = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))

@@ -8,7 +8,9 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from checkout import ROOT
 
+from neural_shadows.running.origin import commit_of
 from neural_shadows.running.stage import arguments_of
 
 
@@ -36,7 +38,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
-names = dict(input={}, output={}, params={}, wildcards={})
+names = dict(input={}, output={}, params={"code": "0123abcd"}, wildcards={})
 job = SimpleNamespace(log=["a job.log"], rule="train", threads=2, **names)
 
 def train():
@@ -48,6 +50,12 @@ def train():
         bar.update(2000)
 """
 SAID = ["print to stdout", "print to stderr", "native stderr", "from a child"]
+
+
+def test_a_log_begins_with_what_makes_the_results(tmp_path):
+    """Whatever they are: arrays and tables have no place for it."""
+    first = run(tmp_path, "pass")[1].splitlines()[0]
+    assert first.startswith(f"train: commit {commit_of(ROOT)}, code 0123abcd, {{'cpu': ")
 
 
 def run(folder: Path, last_line: str, stderr=subprocess.PIPE):
@@ -77,7 +85,7 @@ def test_a_job_that_fails(tmp_path, error, message):
     assert done.returncode == 1 and done.stdout == ""
     assert done.stderr == f"train: {message} [log: 'a job.log']\n"  # quoted: it has a space
     # In the order in which it was said, by whatever way.
-    assert log.splitlines()[:4] == SAID and log.endswith(done.stderr)
+    assert log.splitlines()[1:5] == SAID and log.endswith(done.stderr)
     assert "Traceback (most recent call last)" in log and "in train" in log
 
 

@@ -9,6 +9,11 @@ from neural_shadows.shadow_maps.light_map import LightMap, cube_map, perspective
 CENTRE = np.zeros(3)
 
 
+def facing(ways):
+    """Normals of receivers that face the light."""
+    return -ways / np.linalg.norm(ways, axis=1, keepdims=True)
+
+
 def half_plane(light_map):
     """Depths of a map: 1 where x > 0, which hides what is at 2."""
     ways = light_map.directions_of(np.arange(light_map.count))
@@ -21,15 +26,18 @@ def test_a_half_plane_fades_over_the_kernels_width(size):
     light_map = perspective_map(CENTRE, np.array([0, 0, 1.0]), 90.0, 64)
     texels = np.linspace(-12, 12, 193)  # across the edge
     ways = np.stack([texels / 32, np.full_like(texels, 0.013), np.ones_like(texels)], axis=1) * 2
-    lit = box_visibility(light_map, half_plane(light_map), ways, np.zeros(len(ways)), size=size)
+    receivers = ways, facing(ways), np.zeros(len(ways))
+    lit = box_visibility(light_map, half_plane(light_map), *receivers, size=size)
     assert np.allclose(lit, np.clip(0.5 - texels / size, 0, 1), atol=1e-6)
 
 
 def test_bias_lets_receivers_lie_behind():
     light_map = perspective_map(CENTRE, np.array([0, 0, 1.0]), 90.0, 8)
     ways = np.array([[0.1, 0.1, 1.0], [0.1, 0.1, 1.0], [5.0, 0, 1.0]])
-    depths = np.full(64, 1.0, np.float32)
-    lit = box_visibility(light_map, depths, ways, np.array([0.02, 0, 0]), size=3)
+    wall = light_map.directions_of(np.arange(64))
+    depths = (0.99 / wall[:, 2]).astype(np.float32)  # flat, a hundredth before the receivers
+    normals = np.array([[0, 0, -1.0]] * 3)
+    lit = box_visibility(light_map, depths, ways, normals, np.array([0.02, 0, 0]), size=3)
     assert lit.tolist() == [1, 0, 1]  # the last is off the map
 
 
@@ -49,12 +57,14 @@ def test_kernels_go_on_over_a_cubes_seams():
     faces, places = cube.places_of(ways)
     assert ((places < 4) | (places > 28)).any(1).sum() > 200
     bias = np.zeros(len(ways))
-    lit = box_visibility(cube, depths, ways, bias, size=9)
+    normals = facing(ways)
+    lit = box_visibility(cube, depths, ways, normals, bias, size=9)
     for face in range(6):
         wide = LightMap(CENTRE, cube.faces[face : face + 1], 2.0, 64)
         texels = cube.texels_of(wide.directions_of(np.arange(wide.count)))
         there = faces == face
-        one = box_visibility(wide, depths[texels], ways[there], bias[there], size=9)
+        receivers = ways[there], normals[there], bias[there]
+        one = box_visibility(wide, depths[texels], *receivers, size=9)
         assert np.allclose(lit[there], one, atol=1e-5)
 
 
@@ -70,7 +80,8 @@ def test_a_turned_cube_tells_the_same():
     for light_map in (cube, turned):
         texels = light_map.directions_of(np.arange(light_map.count))
         depths = np.where(texels[:, 0] > texels[:, 2], 1, 10).astype(np.float32)
-        lit.append(box_visibility(light_map, depths, ways, np.zeros(len(ways)), size=9))
+        receivers = ways, facing(ways), np.zeros(len(ways))
+        lit.append(box_visibility(light_map, depths, *receivers, size=9))
     seam, middle = lit
     # A texel at a seam is narrower than one in the middle, by the cosine of 45 degrees squared.
     centres = [np.interp(0.5, 1 - answer, around) for answer in lit]
@@ -79,3 +90,18 @@ def test_a_turned_cube_tells_the_same():
     assert 0.4 < widths[0] / widths[1] < 0.6
     for answer in lit:
         assert np.all(np.diff(answer) <= 1e-6) and answer[0] == 1 and answer[-1] == 0
+
+
+@pytest.mark.parametrize("tilt", [0, 45, 75])
+def test_a_slanted_plane_does_not_shadow_itself(tilt):
+    """Against the receiver's own distance half of a kernel on a slope would hide it."""
+    light_map, angle = perspective_map(CENTRE, np.array([0, 0, 1.0]), 60.0, 64), np.radians(tilt)
+    normal = np.array([np.sin(angle), 0, -np.cos(angle)])
+    to_texels = light_map.directions_of(np.arange(light_map.count)).astype(np.float64)
+    depths = (2 * normal[2] / (to_texels @ normal)).astype(np.float32)  # through (0, 0, 2)
+    points = np.stack([np.linspace(-0.2, 0.2, 101), np.full(101, 0.013), np.zeros(101)], axis=1)
+    points[:, 2] = 2 + points[:, 0] * np.tan(angle)
+    normals, bias = np.tile(normal, (101, 1)), np.full(101, 1e-5)
+    assert box_visibility(light_map, depths, points, normals, bias, size=9).min() == 1
+    behind = points * 1.001
+    assert box_visibility(light_map, depths, behind, normals, bias, size=9).max() == 0

@@ -17,13 +17,16 @@ RADIUS, NEAREST = 0.15, 0.5
 
 @pytest.fixture(scope="module", params=MAPS)
 def seen(request):
-    """A map of noise with holes, and receivers all round: ways, biases, keys."""
+    """A map of noise with holes, and receivers all round: ways, normals, biases, keys."""
     light_map, rng = MAPS[request.param], np.random.default_rng(3)
     depths = rng.uniform(0.6, 1.4, light_map.count).astype(np.float32)
     depths[rng.random(light_map.count) < 0.1] = np.inf
     ways = rng.normal(size=(3000, 3)).astype(np.float32)
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-    return light_map, depths, ways, np.full(len(ways), 0.01, np.float32), rng.permutation(3000)
+    normals = rng.normal(size=(3000, 3)) - 2 * ways  # most face the light, some aslant
+    normals = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).astype(np.float32)
+    receivers = ways, normals, np.full(len(ways), 0.01, np.float32)
+    return light_map, depths, receivers, rng.permutation(3000)
 
 
 def samples_of(light_map, ways, angles, keys, count):
@@ -42,39 +45,46 @@ def samples_of(light_map, ways, angles, keys, count):
     return light_map.texels_of(all_ways).reshape(len(ways), count), whole
 
 
-def hidden(depths, texels, ways, bias):
-    """Which samples hide their receiver, and their depths."""
+def hidden(light_map, depths, texels, receivers):
+    """Which samples lie before their receiver's plane, and their depths."""
+    ways, normals, bias = (one.astype(np.float64) for one in receivers)
     depth = np.where(texels < 0, np.inf, depths[texels])
-    return np.linalg.norm(ways, axis=1)[:, None] - bias[:, None] > depth, depth
+    to_texels = light_map.directions_of(np.maximum(texels, 0).ravel()).astype(np.float64)
+    there = np.einsum("nkj,nj->nk", to_texels.reshape(*texels.shape, 3), normals)
+    ratio = np.clip(there / np.einsum("nj,nj->n", ways, normals)[:, None], 0.5, 2)
+    return 1 / ratio - bias[:, None] > depth, depth
 
 
 @pytest.mark.parametrize("radius", [0.5, 12.0])
 def test_discs_within_a_face_and_over_its_rim(seen, radius):
     """Each a whole number of samples: another at a texel's border, where float32 rounds."""
-    light_map, depths, ways, bias, keys = seen
-    found = disc_visibility(light_map, depths, ways, bias, texels=radius, samples=64, keys=keys)
+    light_map, depths, receivers, keys = seen
+    ways = receivers[0]
+    found = disc_visibility(light_map, depths, *receivers, texels=radius, samples=64, keys=keys)
     angles = np.full(len(ways), radius * 2 * light_map.half / light_map.resolution)
     texels, whole = samples_of(light_map, ways, angles, keys, 64)
-    wrong = found - (1 - hidden(depths, texels, ways, bias)[0].mean(1))
+    wrong = found - (1 - hidden(light_map, depths, texels, receivers)[0].mean(1))
     for some in (whole, ~whole):
         assert some.sum() > 100
-        assert np.mean(np.abs(wrong[some]) > 1e-6) < 0.02
+        # Planes at grazing angles are cut off along the face's axis there, radially here.
+        assert np.mean(np.abs(wrong[some]) > 1e-6) < 0.04
         assert np.abs(wrong[some]).max() < 2.5 / 64
 
 
 def test_blocker_search_within_a_face_and_over_its_rim(seen):
-    light_map, depths, ways, bias, keys = seen
+    light_map, depths, receivers, keys = seen
+    ways = receivers[0]
     told = {"radius": RADIUS, "nearest": NEAREST, "searched": 32, "samples": 64, "keys": keys}
-    found = soft_disc_visibility(light_map, depths, ways, bias, **told)
+    found = soft_disc_visibility(light_map, depths, *receivers, **told)
     distance = np.linalg.norm(ways, axis=1)
     widest = RADIUS * (1 / (NEAREST * distance) - 1 / distance)
     texels, _ = samples_of(light_map, ways, widest, keys, 32)
-    blocks, depth = hidden(depths, texels, ways, bias)
+    blocks, depth = hidden(light_map, depths, texels, receivers)
     blocker = np.where(blocks, depth, 0).sum(1) / np.maximum(blocks.sum(1), 1)
     angles = RADIUS * (distance - blocker) / (distance * np.maximum(blocker, 0.1))
     angles = np.maximum(angles, light_map.half / light_map.resolution)
     texels, whole = samples_of(light_map, ways, angles, keys, 64)
-    lit = np.where(blocks.any(1), 1 - hidden(depths, texels, ways, bias)[0].mean(1), 1)
+    lit = np.where(blocks.any(1), 1 - hidden(light_map, depths, texels, receivers)[0].mean(1), 1)
     assert lit.min() < 0.7 and lit.max() == 1
     for some in (whole, ~whole):
         assert some.sum() > 100

@@ -63,15 +63,18 @@ def test_blocker_search_finds_the_penumbra_of_a_half_plane(name, receivers):
     ways, cosines, keys, x = receivers
     light_map, tracer = MAPS[name], half_plane_scene()
     depths = light_map.depths(tracer)
+    ground = np.tile([0.0, 1.0, 0.0], (len(ways), 1))
     bias = receiver_bias(light_map, ways, cosines, 60.0)
     told = {"radius": RADIUS, "keys": keys}
-    found = soft_disc_visibility(light_map, depths, ways, bias, **told, searched=256, samples=512)
+    found = soft_disc_visibility(
+        light_map, depths, ways, ground, bias, **told, searched=256, samples=512
+    )
     expected = share_seen(x)
     assert expected.min() == 0 and expected.max() == 1
     assert np.abs(found - expected).max() < 0.05
     assert abs((found - expected).mean()) < 0.01
     # A filter of one width has the same shadow's middle, and another width.
-    even = disc_visibility(light_map, depths, ways, bias, texels=4, samples=64, keys=keys)
+    even = disc_visibility(light_map, depths, ways, ground, bias, texels=4, samples=64, keys=keys)
     assert abs(np.interp(0.5, even[::-1], x[::-1])) < 0.01
     assert ((even > 0.05) & (even < 0.95)).sum() < ((found > 0.05) & (found < 0.95)).sum() / 2
 
@@ -81,6 +84,24 @@ def test_a_point_light_has_no_penumbra(receivers):
     light_map, tracer = MAPS["cube"], half_plane_scene()
     depths = light_map.depths(tracer)
     bias = receiver_bias(light_map, ways, cosines, 60.0)
-    soft = soft_disc_visibility(light_map, depths, ways, bias, radius=0.0, keys=keys)
+    ground = np.tile([0.0, 1.0, 0.0], (len(ways), 1))
+    soft = soft_disc_visibility(light_map, depths, ways, ground, bias, radius=0.0, keys=keys)
     hard = hard_visibility(light_map, depths, ways, bias)
     assert np.mean(np.abs(soft - hard) > 0.6) < 0.01  # a texel is its least width
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_slanted_ground_is_lit_by_a_wide_light(name):
+    """Discs as wide as a metre of ground aslant: none of it lies before its own plane."""
+    light_map, tracer = MAPS[name], prepared(sheet(0.0, 30.0))[1]
+    x = np.linspace(-6, 6, 101)
+    ways = np.stack([x, np.zeros_like(x), x / 3], axis=1) - CENTRE
+    ways = ways[light_map.texels_of(ways) >= 0]
+    cosines = -ways[:, 1] / np.linalg.norm(ways, axis=1)
+    assert cosines.min() < 0.75
+    bias = 0.3 * receiver_bias(light_map, ways, cosines, 60.0)
+    ground, keys = np.tile([0.0, 1.0, 0.0], (len(ways), 1)), np.arange(len(ways))
+    depths = light_map.depths(tracer)
+    soft = soft_disc_visibility(light_map, depths, ways, ground, bias, radius=0.8, keys=keys)
+    even = disc_visibility(light_map, depths, ways, ground, bias, texels=40, samples=64, keys=keys)
+    assert soft.min() == 1 and even.min() == 1

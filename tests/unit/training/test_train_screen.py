@@ -109,6 +109,7 @@ def test_learns_a_frame_by_heart(tmp_path):
     assert header.items() >= told.items() and network.features == tuple(FEATURES)
 
 
+@pytest.mark.usefixtures("any_format")
 @pytest.mark.parametrize(
     ("network", "optimiser", "precision", "schedule"),
     [

@@ -157,6 +157,7 @@ def test_muon_is_refused_where_nothing_is_hidden():
         TrainingRun(network, settings)
 
 
+@pytest.mark.usefixtures("any_format")
 def test_the_loss_scale_keeps_small_gradients_in_float16():
     """One ray of 100,000 has a loss: its gradient, 1e-6, is next to float16's end at 6e-8."""
     parts = [part[:1].expand(100_000, *part.shape[1:]).clone() for part in RAYS]

@@ -15,5 +15,6 @@ class Compute(Model):
     )
     threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")
     precision: Literal["auto", "float32", "bfloat16", "float16"] = Field(
-        "auto", description="of matrix products; `auto`: bfloat16 where the processor has it"
+        "auto",
+        description="of matrix products, one that the processor has; `auto`: bfloat16, or float32",
     )

@@ -1,5 +1,6 @@
 """`frame_sets`: frames with buffers and exact soft shadows, to train on and to measure on."""
 
+from itertools import combinations
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import (
@@ -13,6 +14,7 @@ from pydantic import (
 
 from neural_shadows.config.base import Model, Name, PowerOfTwo, by_kind, name_in
 from neural_shadows.config.own_frames import OwnFrames, own_parts, own_settings
+from neural_shadows.config.soft_scenes import layout_seed
 from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED
 
 if TYPE_CHECKING:
@@ -176,6 +178,7 @@ def check(config: "Config") -> None:
                     f"frame_sets.{name}.scenes: {scene!r} is a {one.generate}, which no network "
                     f"may train on; put it among `unseen` (for training: {', '.join(TRAINED)})"
                 )
+        # Another seed moves what stands in a trained generator's scene by 15 cm: nothing new.
         generators = {one.generate for one in trained}
         objects = {inserted for one in trained for inserted in one.inserted}
         for scene in frames.unseen:
@@ -186,6 +189,18 @@ def check(config: "Config") -> None:
                     "on here, and nothing in it is new to them; let another object stand in it "
                     "(`inserted`)"
                 )
+        for scene, twin in combinations(measured_scenes(frames), 2):
+            if _drawn_from(config, scene) == _drawn_from(config, twin):
+                raise ValueError(
+                    f"frame_sets.{name}: {scene!r} and {twin!r} are one scene and would count twice; "
+                    "give one of them another `seed`"
+                )
+
+
+def _drawn_from(config: "Config", scene: str) -> tuple[Any, ...]:
+    """All that a scene depends on: of one generator another seed is another layout."""
+    one = config.soft_scenes[scene]
+    return one.generate, layout_seed(config, scene), set(one.inserted), one.penumbra
 
 
 def as_settings(config: "Config", name: str) -> dict[str, Any]:

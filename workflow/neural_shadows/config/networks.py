@@ -34,6 +34,11 @@ class FrequencyNetwork(NetworkModel):
 
 
 Stored = Literal["float32", "float16", "int8"]
+Surface = Literal["auto", "solid", "sheet"]
+SURFACE = (
+    "`solid`: the object has an inside; `sheet`: one open surface; `auto`: a sheet where the mesh is "
+    "open and thin, else a solid"
+)
 
 
 class RayGrid(NetworkModel):
@@ -80,9 +85,7 @@ class OccupancyField(NetworkModel):
         description="inside or outside, without a direction"
     )
     resolution: int = Field(256, ge=8, le=1024, multiple_of=4, description="cells of an axis")
-    surface: Literal["solid", "sheet"] = Field(
-        "solid", description="`solid`: the object has an inside; `sheet`: one open surface"
-    )
+    surface: Surface = Field("auto", description=SURFACE)
     start: Literal["undecided", "distances", "fitted"] = Field(
         "undecided",
         description="the first logits: next to zero, or signed distances to the mesh, as they are or "
@@ -104,7 +107,7 @@ class OccupancyField(NetworkModel):
         if self.start != "undecided" and self.surface == "sheet":
             raise ValueError(
                 f"start: {self.start} needs an inside, which surface: sheet has not; "
-                "set start: undecided or surface: solid"
+                "set start: undecided, or leave the surface out"
             )
         return self
 
@@ -128,8 +131,8 @@ class VoxelDag(NetworkModel):
     needs_mesh: ClassVar[bool] = True
     encoding: Literal["voxel_dag"] = Field(description="`voxel_dag`: voxels, not trained")
     resolution: PowerOfTwo = Field(1024, ge=8, le=4096, description="voxels of an axis")
-    surface: Literal["solid", "sheet"] = Field(
-        "solid", description="the voxels inside the object, or for an open surface those it touches"
+    surface: Surface = Field(
+        "auto", description=f"{SURFACE}. Voxels inside the object, or those that a sheet touches"
     )
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from neural_shadows.config.base import Model, Text, name_in
+from neural_shadows.config.screen_experiments import check_method_name
 
 if TYPE_CHECKING:
     from neural_shadows.config.whole import Config
@@ -24,6 +25,7 @@ def check(config: "Config") -> None:
     """Check that no scene has two networks, and that no other method has the name."""
     for name, section in config.networks_by_scene.items():
         key = f"networks_by_scene.{name}"
+        check_method_name(key, name)
         if name in config.screen_experiments:
             raise ValueError(
                 f"{key}: an entry of `screen_experiments` has this name; choose another"

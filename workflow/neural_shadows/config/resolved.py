@@ -16,6 +16,7 @@ from neural_shadows.config.figures import (
 from neural_shadows.config.frame_sets import as_settings
 from neural_shadows.config.learning_curves import points_of
 from neural_shadows.config.scenes import mesh_name
+from neural_shadows.config.soft_scenes import layout_seed
 from neural_shadows.config.tables import rows_of
 from neural_shadows.config.viewers import networks_of
 
@@ -86,9 +87,8 @@ def _soft_scene(config: "Config", name: str) -> Section:
     """What `SoftScene` takes beside the meshes, of whose names it has the axes that point up."""
     scene = config.soft_scenes[name]
     ups = {inserted: config.scenes[inserted].up for inserted in scene.inserted}
-    return {"generate": scene.generate, "seed": config.seed, "inserted": ups} | {
-        "penumbra": scene.penumbra
-    }
+    drawn = {"generate": scene.generate, "seed": layout_seed(config, name)}
+    return drawn | {"inserted": ups, "penumbra": scene.penumbra}
 
 
 def _experiment(config: "Config", name: str) -> Section:

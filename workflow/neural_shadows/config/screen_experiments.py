@@ -8,6 +8,7 @@ from neural_shadows.config.base import Model, Seed, Text, check_among, name_in, 
 from neural_shadows.config.own_frames import OwnFrames, own_parts
 from neural_shadows.config.screen_networks import ScreenNetwork
 from neural_shadows.config.screen_trainings import ScreenTraining
+from neural_shadows.evaluation.soft_method_names import FORMATS, LABELS, in_format
 from neural_shadows.networks.screen_space.kernel_widths import KERNEL_FORMS, layers_of
 
 if TYPE_CHECKING:
@@ -77,11 +78,23 @@ def differences(config: "Config", one: str, other: str) -> list[str]:
     return [key for key in first if key not in ("seed", "label") and first[key] != second[key]]
 
 
+def check_method_name(key: str, name: str) -> None:
+    """Check that a trained method is not called as another one of soft tables is."""
+    if name in LABELS:
+        raise ValueError(f"{key}: a method of soft tables has this name; choose another")
+    for ending in (in_format("", one) for one in FORMATS):
+        if name.endswith(ending):
+            raise ValueError(
+                f"{key}: {ending!r} ends the name of a network in that number format; leave it out"
+            )
+
+
 def check(config: "Config") -> None:
     """Check that each network has frames to learn from, and crops that it can take."""
     trained: dict[str, str] = {}
     for name, experiment in config.screen_experiments.items():
         key = f"screen_experiments.{name}"
+        check_method_name(key, name)
         if name in config.experiments:
             raise ValueError(f"{key}: an entry of `experiments` has this name; choose another")
         same = trained.setdefault(experiment.model_dump_json(exclude={"label"}), name)

@@ -11,3 +11,6 @@ class ScreenProfiles(Model):
     width: int = Field(2048, ge=16, le=8192, description="pixels")
     height: int = Field(1024, ge=16, le=8192, description="pixels")
     repeats: int = Field(10, ge=3, le=10_000, description="timed frames, after three to warm up")
+    product_size: int = Field(
+        2048, ge=16, le=8192, description="rows of the square matrices whose product is the ceiling"
+    )

@@ -20,6 +20,9 @@ class SoftScene(Model):
     inserted: list[name_in("scenes")] = Field(
         [], description="names in `scenes`, whose meshes stand on the scene's spots in this order"
     )
+    seed: int | None = Field(
+        None, ge=0, description="that its layout is drawn from; default: the run's"
+    )
     penumbra: float | None = Field(
         None,
         gt=0,
@@ -27,6 +30,12 @@ class SoftScene(Model):
         description="of a plate: the 95th percentile of its penumbrae's widths in pixels of a frame "
         "of 512² at 45°, lit by 0.25 m, by Neural Shadow Mapping's model; its object is as high",
     )
+
+
+def layout_seed(config: "Config", name: str) -> int:
+    """The seed that a scene's layout is drawn from."""
+    seed = config.soft_scenes[name].seed
+    return config.seed if seed is None else seed
 
 
 def check(config: "Config") -> None:

@@ -41,6 +41,7 @@ def evaluate_soft(
     occluders: list[Path],
     method: str,
     precision: str = "auto",
+    by_scene: bool = False,
     threads: int = 1,
 ) -> None:
     """Measure a method on all radii of each test frame, and how much it flickers in sequences.
@@ -52,17 +53,18 @@ def evaluate_soft(
         parts: of test frames. sequences: parts of consecutive frames; may be none.
         meshes: see `measured_frames`.
         constants_json: what `tune_soft_method` wrote; None for a method without constants.
-        weights: of a network, or of several, each of which answers the scenes that it learned, and
-            nothing of others; none for any other method.
+        weights: of a network; none for any other method.
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
         occluders: what `measure_occluders` wrote of each part; none for a method whose errors are
             not told by what blocks the light.
         precision: that a network computes in, see `choose_dtype`.
+        by_scene: whether `weights` are of networks each of which answers the scenes that it
+            learned, and nothing of others.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    method_of = soft_methods_by_scene(method, weights, precision)
+    method_of = soft_methods_by_scene(method, weights, precision, by_scene)
     constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
     quick = {"ssim": ssim}
     # 0.22 s of an image of 512 × 256, where the errors take 0.01: of each part's first frame alone.

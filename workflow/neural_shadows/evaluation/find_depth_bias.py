@@ -22,6 +22,7 @@ from neural_shadows.evaluation.shadow_methods import (
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.metrics.shadow_error import shadow_error
 from neural_shadows.rendering.gbuffer import GBuffer
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
@@ -90,7 +91,7 @@ def find_depth_bias(
     for key in ends:
         print(f"warning: {method}: the best {key.replace('_', ' ')}, {found[key]}, ends the search")
     found |= {"at_end": bool(ends), "views": len(batch), "errors": errors}
-    write_json(depth_bias_json, found)
+    write_json(depth_bias_json, found | describe_origin())
 
 
 def _rank(error: Mapping[str, float]) -> tuple[float, float, float]:

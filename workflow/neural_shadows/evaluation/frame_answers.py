@@ -35,7 +35,7 @@ def errors_of(
     picture = np.where(valid, found, target[k])
     hard = target[0] if measured.part.radii[0] == 0 else None
     return {
-        **visibility_errors(found, target[k], valid, hard),
+        **visibility_errors(found, target[k], valid, hard, measured.off_edges),
         **_widths({"": found, "_reference": target[k]}, valid, hard),
         **{name: metric(picture, target[k]) for name, metric in images.items()},
     }

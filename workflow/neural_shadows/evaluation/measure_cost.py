@@ -11,7 +11,7 @@ from typing import Any
 from neural_shadows.evaluation.cost_stages import NEEDED
 from neural_shadows.evaluation.costs import STAGES
 from neural_shadows.files.whole_files import write_json
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 
 # What stays as it is while one of them grows; 81,920 triangles.
@@ -54,7 +54,7 @@ def measure_cost(
     shutil.rmtree(folder)
     stages = [{"stage": stage, **costs[stage]} for stage in STAGES[over]]
     name, size = size_of(over, value)
-    made = {"machine": describe_machine(), **settings}
+    made = {**describe_origin(), **settings}
     write_json(cost_json, {"over": name, "size": size, "stages": stages, **made})
 
 

@@ -20,7 +20,7 @@ from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import Scene, open_scene
@@ -153,7 +153,7 @@ def measure_frame_times(
             "warm_up": WARM_UP,
             "device": chosen.type,
             "precision": str(choose_dtype(precision, chosen)).removeprefix("torch."),
-            "machine": describe_machine(),
+            **describe_origin(),
             "sphere_rays": float(np.median(rays)),  # those that a network answers
             "methods": {
                 name: {

@@ -12,6 +12,7 @@ from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import light_size
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -72,7 +73,7 @@ def measure_sensitivity(
         for name, s, p in zip(names, sensitivity, printed)
     }
     about = {"frames": len(images), "repeats": repeats, "noise": NOISE, "seed": seed}
-    write_json(sensitivity_json, {"features": found, **about})
+    write_json(sensitivity_json, {"features": found, **about, **describe_origin()})
 
 
 def _features(

@@ -72,6 +72,12 @@ class MeasuredFrame:
         """Which pixels count, bool."""
         return self.part.valid[self.number, 0]
 
+    @property
+    def off_edges(self) -> np.ndarray | None:
+        """Which of them are off the geometry's edges, bool; None where those are not at hand."""
+        edges = self.part.edges
+        return None if edges is None else self.valid & ~edges[self.number]
+
     def picture(self, channel: str) -> np.ndarray:
         """One of its buffers, (height, width) float32.
 

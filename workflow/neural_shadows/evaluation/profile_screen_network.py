@@ -12,19 +12,18 @@ import torch
 
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.networks.compute import choose_device
+from neural_shadows.networks.compute import choose_device, is_native
 from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.kernel_widths import layers_of
 from neural_shadows.networks.screen_space.screen_networks import ScreenNetwork, make_screen_network
 from neural_shadows.networks.screen_space.widths import by_level
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
 WARM_UP = 3
 # A slow network is timed less often: the paper's original in float32 takes 5 s a frame on a core.
 MOST_SECONDS, LEAST = 60, WARM_UP + 3
-PRODUCT = 2048  # rows and columns of the matrices whose product is the rate to reach
 PRECISIONS = (torch.float32, torch.bfloat16)
 
 Place = tuple[int, str]  # a level and a part of `ScreenNetwork.parts`
@@ -40,14 +39,16 @@ def profile_screen_network(
 ) -> None:
     """Time a network's answer to one frame, untrained: its times do not depend on its weights.
 
-    Frames, frames by part and matrix products take turns; of each the median counts.
+    Frames, frames by part and matrix products take turns; of each the median counts. A number format
+    that a device would emulate is not timed on it: bfloat16 takes 50 times as long with AVX2 alone.
 
     Args:
         profile_json: `levels`: `weights` (without biases), and for a pixel of the frame `macs` and
-            `storage` of each; `runs`, in float32 and bfloat16, on one thread, on all, and on a GPU if
-            there is one: `whole_ms`, `parts` (`level`, `part`, `ms`), and `product_macs`, multiply-adds
-            a second of a product of square matrices.
-        profile: `width`, `height` (pixels) and `repeats`.
+            `storage` of each; `runs`, in float32 and bfloat16 (see `is_native`), on one thread, on
+            all, and on a GPU if there is one: `whole_ms`, `parts` (`level`, `part`, `ms`), and
+            `product_macs`, multiply-adds a second of a product of square matrices.
+        profile: `width`, `height` (pixels), `repeats`, and `product_size`, rows and columns of the
+            matrices whose product is the rate to reach.
 
     Raises:
         InputError: `device` is cuda, and there is none.
@@ -55,29 +56,28 @@ def profile_screen_network(
     chosen = choose_device(device)
     places = [(torch.device("cpu"), count) for count in sorted({1, threads})]
     places += [(chosen, threads)] * (chosen.type == "cuda")
+    planned = [(*place, one) for place in places for one in PRECISIONS if is_native(one, place[0])]
     runs = []
-    with progress_bar(len(places) * len(PRECISIONS), "runs", "profile") as bar:
-        for place, count in places:
-            for precision in PRECISIONS:
-                torch.set_num_threads(count)
-                made = make_screen_network(network)
-                if isinstance(made, KernelUnet):
-                    made = made.folded()  # as it answers
-                made = made.to(place, precision, memory_format=torch.channels_last)
-                found = _timed(made, profile)
-                name = str(precision).removeprefix("torch.")
-                runs.append({"device": place.type, "threads": count, "precision": name} | found)
-                bar.update()
+    with progress_bar(len(planned), "runs", "profile") as bar:
+        for place, count, precision in planned:
+            torch.set_num_threads(count)
+            made = make_screen_network(network)
+            if isinstance(made, KernelUnet):
+                made = made.folded()  # as it answers
+            made = made.to(place, precision, memory_format=torch.channels_last)
+            times = _timed(made, profile)
+            name = str(precision).removeprefix("torch.")
+            runs.append({"device": place.type, "threads": count, "precision": name} | times)
+            bar.update()
     write_json(
         profile_json,
         {
             "network": network,
             **profile,
             "warm_up": WARM_UP,
-            "product_size": PRODUCT,
             "levels": _counts(network),
             "runs": runs,
-            "machine": describe_machine(),
+            **describe_origin(),
         },
     )
 
@@ -96,7 +96,8 @@ def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]
     generator = torch.Generator().manual_seed(0)
     size = 1, channels, profile["height"], profile["width"]
     x = torch.rand(size, generator=generator).to(**like, memory_format=torch.channels_last)
-    square = torch.rand(PRODUCT, PRODUCT, generator=generator).to(**like)
+    side = profile["product_size"]
+    square = torch.rand(side, side, generator=generator).to(**like)
     times: dict[str, list[float]] = defaultdict(list)
     parts: dict[Place, list[float]] = defaultdict(list)
     clock = _clock(weight.device)
@@ -118,7 +119,7 @@ def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]
     median = {name: float(np.median(each[WARM_UP:])) for name, each in (times | parts).items()}
     return {
         "whole_ms": 1000 * median["whole"],
-        "product_macs": PRODUCT**3 / median["product"],
+        "product_macs": side**3 / median["product"],
         "parts": [
             {"level": place[0], "part": place[1], "ms": 1000 * median[place]} for place in parts
         ],

@@ -111,7 +111,8 @@ def network_method(network: "ShadowNetwork", dtype: "torch.dtype") -> ShadowMeth
 def open_network(
     weights: Path, device: str, threads: int, precision: str = "auto"
 ) -> tuple["ShadowNetwork", "torch.dtype"]:
-    """A network on its device, and the number format of its products there.
+    """A network on its device, and the number format of its products there; float32 of one that is
+    always on the CPU, as it multiplies no matrices.
 
     Args:
         device: `auto`, `cpu` or `cuda`; not asked of a network that is always on the CPU.
@@ -119,7 +120,7 @@ def open_network(
         precision: of its products, see `choose_dtype`.
 
     Raises:
-        InputError: the file cannot be read, or there is no such device.
+        InputError: the file cannot be read, there is no such device, or it lacks the format.
     """
     import torch
 
@@ -128,7 +129,9 @@ def open_network(
 
     torch.set_num_threads(threads)
     network, _ = load_network(weights)
-    chosen = choose_device(device if network.on_gpu else "cpu")
+    if not network.on_gpu:
+        return network, torch.float32
+    chosen = choose_device(device)
     return network.to(chosen), choose_dtype(precision, chosen)
 
 

@@ -8,18 +8,20 @@ from importlib.util import find_spec
 NULL = {"no_shadow": "No shadow", "all_dark": "All dark"}
 BOXES = (3, 5, 9, 15)  # texels of a side
 RAYS = (1, 2, 4, 8, 16, 32, 40, 64)  # of a pixel
+SPREAD_RAYS = (2, 4, 8)  # over as many places of a pixel
 DENOISED_RAYS = (1, 4, 16, 30)
 FIELD_RAYS = (1, 4, 16)  # through occupancy fields
 CONE_WALKS = (1, 4, 8)  # through them, of what neither sees all of the light nor none
 # By channel of a frame's buffers.
 BASES = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
 BASE = "base_"
+EXACT = "exact_centre"
+SPREAD = "_spread"
 OIDN = "_oidn"
 FORMATS = ("float32", "bfloat16")
-# A filter behind a method leaves that its constants, and how far a field's rays start from what
-# they leave does not depend on their number: to choose them anew took 155 and 98 s of a core.
+# How far a field's rays start from what they leave does not depend on their number: to choose it anew
+# took 98 s of a core.
 _TUNED_AS = {
-    "pcss_post": "pcss",
     "field_4": "field_1",
     "field_16": "field_1",
     "cone_4": "cone_1",
@@ -34,11 +36,13 @@ def _rays(count: int) -> str:
 # By key, in the order of tables.
 LABELS = {
     **NULL,
+    EXACT: "Exact at the pixel's centre",
     "hard": "Shadow map",
     **{f"pcf_{size}": f"PCF {size} × {size}" for size in BOXES},
     "pcf_disc": "PCF, disc",
     "pcss": "PCSS",
     "pcss_post": "PCSS, depth-aware filter",
+    "pcss_2048": "PCSS, map of 2048²",
     "vsm_3": "VSM 3 × 3",
     "vsm_9": "VSM 9 × 9",
     "evsm_9": "EVSM 9 × 9",
@@ -46,6 +50,7 @@ LABELS = {
     "msm_9": "MSM 9 × 9",
     "msm_15": "MSM 15 × 15, σ 3",
     **{f"rt_{count}": _rays(count) for count in RAYS},
+    **{f"rt_{count}{SPREAD}": f"{_rays(count)}, spread" for count in SPREAD_RAYS},
     **{f"rt_{count}_svgf": f"{_rays(count)}, SVGF-like" for count in DENOISED_RAYS},
     **{f"rt_{count}{OIDN}": f"{_rays(count)}, OIDN" for count in DENOISED_RAYS},
     **{f"field_{count}": f"{_rays(count)}, fields" for count in FIELD_RAYS},
@@ -75,8 +80,8 @@ def in_format(experiment: str, precision: str) -> str:
 
 def is_tuned(method: str) -> bool:
     """Whether a method has constants, which are chosen on validation frames."""
-    constant = method in NULL or method == "hard" or method.startswith(BASE) or is_network(method)
-    return not constant and not method.endswith(OIDN) and rays_of(method) is None
+    constant = method in (*NULL, EXACT, "hard") or method.startswith(BASE) or is_network(method)
+    return not constant and not method.endswith((OIDN, SPREAD)) and rays_of(method) is None
 
 
 def tuned_as(method: str) -> str:

@@ -12,10 +12,10 @@ import numpy as np
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_method_names import tuned_as
 from neural_shadows.evaluation.soft_methods.registry import soft_method
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
+from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -44,9 +44,9 @@ def time_soft_methods(
         weights: of the methods that are networks, each in a folder of its experiment's name.
         methods: of each the experiment whose weights it has; None of what has none.
         times_json: of each method and radius `ms`, the median over frames of the median over
-            `repeats`, or one of what takes long, of its answer alone; `map_ms` of rasterising the
-            light's map, which those that look at one need before, and of which a window bears its
-            `map_share`; the numbers in a texel, the map's `texels`, and what else is held.
+            `repeats`, or one of what takes long, of its answer alone; the `map` that it looks at, the
+            numbers in a texel, and what else is held. By the texels of a side, `maps`: the `ms` of
+            rasterising it, of which a window bears its `map_share`, and its `texels`.
 
     Raises:
         InputError: an input file cannot be read.
@@ -62,17 +62,22 @@ def time_soft_methods(
     asked = {name: soft_method(name, trained.get(network)) for name, network in methods.items()}
     timed = {name: method for name, method in asked.items() if method.answer}
     taken = {name: np.zeros((len(frames), len(radii))) for name in timed}
-    maps: list[float] = []
+    own = frames[0].frame.light_map.resolution
+    sides = {name: method.resolution or own for name, method in timed.items()}
+    maps: dict[int, list[float]] = {side: [] for side in sorted({own, *sides.values()})}
     shares: list[float] = []
     with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
         for number, measured in enumerate(frames):
-            frame = _prepared(measured)
+            frame = _prepared(measured.frame)
             shares.append(_share(frame))
-            maps.append(shares[-1] * medians({"map": partial(_rasterised, frame)}, repeats)["map"])
+            for side, times in maps.items():
+                seen = _prepared(frame.with_map_of(side))
+                work = partial(_rasterised, seen)
+                times.append(shares[-1] * medians({"map": work}, repeats)["map"])
             for k in radii:
                 radius = measured.part.radii[k]
                 works = {
-                    name: partial(method.answer, frame, radius, **chosen[name][k])
+                    name: partial(visibility, method, frame, radius, chosen[name][k])
                     for name, method in timed.items()
                     if method.asked_again(chosen[name], k)
                 }
@@ -90,18 +95,24 @@ def time_soft_methods(
             "frames": len(frames),
             "repeats": repeats,
             "once_above_ms": _LONG,
-            "map_ms": float(np.median(maps)),
+            "maps": {
+                str(side): {
+                    "ms": float(np.median(times)),
+                    "texels": frames[0].frame.with_map_of(side).light_map.count,
+                }
+                for side, times in maps.items()
+            },
             "map_share": float(np.median(shares)),
-            "texels": frames[0].frame.light_map.count,
             "methods": {
                 name: {
                     "ms": np.median(each, axis=0).tolist(),
+                    "map": str(sides[name]) if timed[name].texel_floats else None,
                     "texel_floats": timed[name].texel_floats,
                     "held_bytes": _held(timed[name], frames),
                 }
                 for name, each in taken.items()
             },
-            "machine": describe_machine(),
+            **describe_origin(),
         },
     )
 
@@ -119,9 +130,8 @@ def _held(method: SoftMethod, frames: Sequence[MeasuredFrame]) -> float:
     return float(np.median([method.held(one.frame) for one in frames])) if method.held else 0.0
 
 
-def _prepared(measured: MeasuredFrame) -> SoftFrame:
+def _prepared(frame: SoftFrame) -> SoftFrame:
     """The frame with what every method is given: points, normals, the map."""
-    frame = measured.frame
     for name in ("ways", "cosines", "bias", "starts", "depths"):
         getattr(frame, name)
     return frame

@@ -10,6 +10,7 @@ from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -43,7 +44,8 @@ def tune_soft_method(
             if _at_end(values, each, best):
                 one["at_end"] = [*one["at_end"], name]
     tried = {name: list(values) for name, values in asked.constants.items()}
-    write_json(constants_json, {"method": method, "tried": tried, "radii": found})
+    chosen = {"method": method, "tried": tried, "radii": found}
+    write_json(constants_json, chosen | describe_origin())
 
 
 def _errors(
@@ -53,7 +55,7 @@ def _errors(
     meshes: Sequence[Path],
     title: str,
 ) -> np.ndarray:
-    """Mean squared error, (radii, settings).
+    """Mean squared error off the geometry's edges, (radii, settings): what shadows are judged by.
 
     Args:
         tried: the settings of each radius, as many for each.
@@ -61,8 +63,10 @@ def _errors(
     squares, pixels = np.zeros((len(tried), len(tried[0]))), 0
     with progress_bar(sum(len(FrameSetPart(path)) for path in parts), "frames", title) as bar:
         for frame in measured_frames(parts, meshes):
-            valid, target = frame.valid, frame.target
-            pixels += valid.sum()
+            target, measured = frame.target, frame.off_edges
+            if measured is None:
+                measured = frame.valid
+            pixels += measured.sum()
             answers: dict[str, np.ndarray] = {}  # of a method that does not ask for the radius
             for k, settings in enumerate(tried):
                 for number, constants in enumerate(settings):
@@ -71,7 +75,7 @@ def _errors(
                         answer = frame.answered(method, frame.part.radii[k], constants)
                     if not method.of_radius:
                         answers[str(constants)] = answer
-                    squares[k, number] += np.square(answer - target[k])[valid].sum()
+                    squares[k, number] += np.square(answer - target[k])[measured].sum()
             bar.update()
     return squares / pixels
 

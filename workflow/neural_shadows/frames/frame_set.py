@@ -6,10 +6,12 @@ Of F frames with T twins each, C channels, K radii:
   `size` (metres), how it was drawn (`seed`), and units;
 - `NAME.buffers.npy`: (F, 1 + T, C, H, W) float16, of a frame and of its twins, see `buffers`;
 - `NAME.targets.npy`: (F, K, H, W) float16, the exact soft shadow of the frame itself;
-- `NAME.valid.npy`: (F, 1 + T, H, W) bool, whether a pixel shows a surface inside the light's map.
+- `NAME.valid.npy`: (F, 1 + T, H, W) bool, whether a pixel shows a surface inside the light's map;
+- `NAME.edges.npy`: (F, H, W) bool, whether a pixel of the frame itself is at an edge of the geometry,
+  see `geometry_edges`.
 
 A frame set of a user's own has the same files; of `channels` it may have some, and of an engine's
-frames no targets (`targets` is false, K 0) and of their setting only the camera's lens.
+frames no targets (`targets` is false, K 0), no edges, and of their setting only the camera's lens.
 """
 
 from collections.abc import Mapping
@@ -141,6 +143,11 @@ class FrameSetPart:
     def valid(self) -> np.ndarray:
         """(F, 1 + T, H, W) bool."""
         return self._open("valid", np.bool_, self.buffers.shape[1])
+
+    @cached_property
+    def edges(self) -> np.ndarray | None:
+        """(F, H, W) bool; None of a user's own frames, whose geometry is not at hand."""
+        return self._open("edges", np.bool_) if self.about.get("edges") else None
 
     def _open(self, stem: str, kind: type, *inner: int) -> np.ndarray:
         path = self.frames_json.with_suffix(f".{stem}.npy")

@@ -4,13 +4,14 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
+from scipy.ndimage import binary_dilation, gaussian_filter
 
 from neural_shadows.frames.buffers import buffers_of
 from neural_shadows.frames.draw_settings import FrameKind, light_map_of
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.rendering.soft_shadows import soft_visibility
+from neural_shadows.rendering.geometry_edges import geometry_edges
+from neural_shadows.rendering.soft_shadows import CENTRE, PLACES, see_places, soft_visibility
 from neural_shadows.rendering.surface import see_surface
 
 
@@ -40,25 +41,29 @@ def render_target(
     samples: int,
     blur: float,
     pool: Executor | None = None,
-) -> np.ndarray:
-    """The exact soft shadow for each radius, (radii, height, width) float32.
+) -> tuple[np.ndarray, np.ndarray]:
+    """The exact soft shadow for each radius, (radii, height, width) float32, and which pixels are at
+    edges of the geometry, (height, width) bool: with a blur of the soft shadows, or beside one.
 
     Args:
         radii, samples: see `soft_visibility`. blur: σ in pixels of a Gaussian over all but a point
             light's (Datta et al. 2022, 3.1); 0 for none.
     """
-    opened = scene.moved(setting.motion)
+    opened, seen = scene.moved(setting.motion), (setting.camera, kind.width, kind.height)
+    middle, *surfaces = see_places(opened, *seen, places=(CENTRE, *PLACES), pool=pool)
     target = soft_visibility(
         opened,
-        setting.camera,
-        kind.width,
-        kind.height,
+        *seen,
         centre=setting.centre,
         radii=radii,
         samples=samples,
         pool=pool,
+        surfaces=surfaces,
     )
+    edges = geometry_edges([middle, *surfaces])
+    if blur:
+        edges = binary_dilation(edges, np.ones((3, 3), bool))
     for image, radius in zip(target, radii):
         if blur and radius:
             image[:] = gaussian_filter(image, blur, mode="nearest", radius=1)
-    return target
+    return target, edges

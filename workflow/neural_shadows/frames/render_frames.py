@@ -31,8 +31,11 @@ def render_frames(
     buffers_npy: Path,
     targets_npy: Path,
     valid_npy: Path,
+    edges_npy: Path,
     *,
     scene: Mapping[str, Any],
+    name: str,
+    seed: int,
     frames: Mapping[str, Any],
     use: str,
     first: int,
@@ -43,11 +46,13 @@ def render_frames(
 ) -> None:
     """Render frames `first` to `last` (exclusive) of a scene, see `FrameSetPart`.
 
-    What a frame shows depends on the seed, its use and its number alone.
+    Its camera and light depend on the seed, its scene's name, its use and its number alone: scenes of
+    one layout have settings of their own, and frame sets that share a scene share its settings.
 
     Args:
         meshes: prepared, of the objects that are inserted.
-        scene: see `SoftScene`.
+        scene: see `SoftScene`. name: its, in the configuration.
+        seed: of the run; the scene's layout has its own.
         frames: `width`, `height`, `fov`, `of`, `light_map`, `radii` and `radius_unit`, `blur`, and
             `twins`, the amplitudes of `twin_of`.
         use: `train`, `validation`, `test`, or what moves in a sequence.
@@ -61,21 +66,22 @@ def render_frames(
     size = opened.at_rest.size
     unit = {"metres": 1.0, "scene_sizes": size}[frames["radius_unit"]]
     radii = [unit * radius for radius in frames["radii"]]
-    seed = scene["seed"], crc32(scene["generate"].encode())  # each scene's draws are its own
+    streams = seed, crc32(name.encode())  # each scene's draws are its own
     shared = {key: frames[key] for key in ("width", "height", "fov", "of", "light_map")}
     kind = FrameKind(**shared, radius=max(radii))
-    settings = draw(opened, kind, use, first, last, seed)
+    settings = draw(opened, kind, use, first, last, streams)
     changed = [
         [twin_of(opened, kind, one, frames["twins"], rng) for _ in range(twins)]
         for number, one in enumerate(settings, first)
-        for rng in [np.random.default_rng((*seed, _TWINS, USES.index(use), number))]
+        for rng in [np.random.default_rng((*streams, _TWINS, USES.index(use), number))]
     ]
     versions, image = 1 + twins, (kind.height, kind.width)
-    count, title = len(settings), f"frames of {scene['generate']}, {use}"
+    count, title = len(settings), f"frames of {name}, {use}"
     with (
         new_array(buffers_npy, (count, versions, len(CHANNELS), *image), np.float16) as buffers,
         new_array(targets_npy, (count, len(radii), *image), np.float16) as targets,
         new_array(valid_npy, (count, versions, *image), np.bool_) as valid,
+        new_array(edges_npy, (count, *image), np.bool_) as edges,
         ThreadPoolExecutor(threads) as pool,
         progress_bar(count, "frames", title) as bar,
     ):
@@ -87,7 +93,7 @@ def render_frames(
                 [setting, *changed[number]],
             )
             buffers[number], valid[number] = map(np.stack, zip(*found))
-            targets[number] = render_target(
+            targets[number], edges[number] = render_target(
                 opened,
                 kind,
                 setting,
@@ -101,10 +107,10 @@ def render_frames(
         {"setting": one.as_json(), "twins": [twin.as_json() for twin in its]}
         for one, its in zip(settings, changed)
     ]
-    about = {"use": use, "first": first, "seed": scene["seed"], "scene": opened.settings}
+    about = {"use": use, "first": first, "seed": seed, "scene": opened.settings}
     about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
     about |= {"given_radii": frames["radii"], "radius_unit": frames["radius_unit"]}
-    about |= {"samples": samples, "blur": frames["blur"]}
+    about |= {"samples": samples, "blur": frames["blur"], "edges": True}
     about |= {
         "light_map": kind.light_map,
         "channels": CHANNELS,
@@ -115,14 +121,18 @@ def render_frames(
 
 
 def draw(
-    scene: SoftScene, kind: FrameKind, use: str, first: int, last: int, seed: tuple[int, ...]
+    scene: SoftScene, kind: FrameKind, use: str, first: int, last: int, streams: tuple[int, ...]
 ) -> list[Setting]:
-    """The settings of frames `first` to `last` (exclusive), of a sequence all."""
+    """The settings of frames `first` to `last` (exclusive), of a sequence all.
+
+    Args:
+        streams: what the scene's random streams begin with.
+    """
     stream = USES.index(use)
     if use in SEQUENCES:
-        return draw_sequence(scene, kind, use, last, np.random.default_rng((*seed, stream)))
+        return draw_sequence(scene, kind, use, last, np.random.default_rng((*streams, stream)))
     return [
-        draw_setting(scene, kind, np.random.default_rng((*seed, stream, number)))
+        draw_setting(scene, kind, np.random.default_rng((*streams, stream, number)))
         for number in range(first, last)
     ]
 

@@ -1,12 +1,12 @@
 """One frame as the methods for soft shadows are given it: surface points, a light, its map."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from neural_shadows.rendering.soft_shadows import OFFSET
-from neural_shadows.rendering.surface import Surface
+from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.shadow_maps.light_filters import receiver_bias
 from neural_shadows.shadow_maps.light_map import LightMap, distances_of
@@ -53,3 +53,31 @@ class SoftFrame:
     def starts(self) -> np.ndarray:
         """Where rays start, (n, 3) float32: a little off the surface, on the side that is seen."""
         return self.surface.p + np.float32(OFFSET * self.scene.size) * self.surface.n_g
+
+    def with_map_of(self, resolution: int) -> "SoftFrame":
+        """The same frame by a map of another number of texels a side, made once."""
+        if resolution not in self._by_resolution:
+            finer = replace(self.light_map, resolution=resolution)
+            self._by_resolution[resolution] = replace(self, light_map=finer)
+        return self._by_resolution[resolution]
+
+    @cached_property
+    def _by_resolution(self) -> "dict[int, SoftFrame]":
+        return {self.light_map.resolution: self}
+
+    def at_places(self, places: "tuple[tuple[float, float], ...]") -> "list[SoftFrame]":
+        """The same frame seen at other places in its pixels, each made once; each has a number of its
+        own, so that their rays go elsewhere.
+        """
+        if places not in self._by_places:
+            surface, first = self.surface, self.number * len(places)
+            seen = (surface.camera, surface.width, surface.height)
+            self._by_places[places] = [
+                replace(self, surface=see_surface(self.scene, *seen, place), number=first + k)
+                for k, place in enumerate(places)
+            ]
+        return self._by_places[places]
+
+    @cached_property
+    def _by_places(self) -> "dict[tuple[tuple[float, float], ...], list[SoftFrame]]":
+        return {}

@@ -21,6 +21,8 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
     frames["width"] = (settings["train_width"] if train else None) or settings["width"]
     return {
         "scene": layout.entry("soft_scenes", scene),
+        "name": scene,
+        "seed": layout.settings["seed"],
         "frames": frames,
         "use": use,
         "first": first,

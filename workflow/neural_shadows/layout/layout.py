@@ -104,8 +104,10 @@ class Layout:
                 "rays_json": self.paths.rays("rays.json", *names),
                 **self.shards(*names),
             }
+        needed = self.kind(experiment).needs_mesh
         return {
-            "mesh_ply": [self.paths.scene("mesh.ply", names[0])] * self.kind(experiment).needs_mesh,
+            "mesh_ply": [self.paths.scene("mesh.ply", names[0])] * needed,
+            "mesh_json": [self.paths.scene("mesh.json", names[0])] * needed,
             **found,
         }
 

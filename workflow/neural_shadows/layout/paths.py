@@ -67,7 +67,7 @@ class Paths:
         frame_set: str = "{frame_set}",
         part: str = "{part}",
     ) -> str:
-        """`json`, `buffers.npy`, `targets.npy`, `valid.npy` of a part of a frame set."""
+        """`json`, `buffers.npy`, `targets.npy`, `valid.npy`, `edges.npy` of a part of a frame set."""
         return f"{self.results}/frames/{frame_set}/{scene}/{part}.{ending}"
 
     def imported_frames(

@@ -169,6 +169,11 @@ def experiments(layout: Layout, method: str) -> list[str]:
     return [_of_formats(layout).get(method, (method, "auto"))[0]]
 
 
+def by_scene(layout: Layout, method: str) -> bool:
+    """Whether a method is a network for each scene, and has no answer for any other."""
+    return method in layout.settings["networks_by_scene"]
+
+
 def precision(layout: Layout, method: str) -> str:
     """The number format that a network is asked in."""
     return _of_formats(layout).get(method, (method, "auto"))[1]
@@ -177,8 +182,7 @@ def precision(layout: Layout, method: str) -> str:
 def _of_formats(layout: Layout) -> dict[str, tuple[str, str]]:
     """By method the experiment and the number format that it is, of those that name one."""
     known = layout.settings["screen_experiments"]
-    found = {in_format(name, one): (name, one) for name in known for one in FORMATS}
-    return {method: meant for method, meant in found.items() if method not in known}
+    return {in_format(name, one): (name, one) for name in known for one in FORMATS}
 
 
 def timed_methods(layout: Layout, table: str) -> dict[str, str | None]:

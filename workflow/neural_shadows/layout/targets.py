@@ -2,7 +2,7 @@
 
 import re
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -174,7 +174,7 @@ def newest(layout: Layout) -> float:
 def beyond(layout: Layout) -> list[str]:
     """Names of the tables and figures that are not the thesis's: those of other networks."""
     entries = layout.settings["tables"].items()
-    found = [name for name, table in entries if table["kind"] == "networks"]
+    found = [name for name, table in entries if _is_beyond(table)]
     of_soft = soft(layout)
     for name, figure in layout.settings["figures"].items():
         if name in of_soft:
@@ -182,6 +182,12 @@ def beyond(layout: Layout) -> list[str]:
         if not re.fullmatch(r"figure_\d+_\d+", name) and figure["kind"] != "learning_curves":
             found.append(name)
     return found
+
+
+def _is_beyond(table: Mapping[str, Any]) -> bool:
+    """Whether a table is of other networks, or a comparison that the thesis does not have."""
+    kind = table["kind"]
+    return kind == "networks" or (kind == "comparison" and table["published"] is None)
 
 
 def soft(layout: Layout) -> list[str]:

@@ -60,8 +60,8 @@ def prepare_mesh(
     }
     if report["sheet"]:
         print(
-            f"mesh {source}: open and thin, without an inside; occupancy fields of it need "
-            "`surface: sheet`",
+            f"mesh {source}: open and thin, without an inside; its occupancy fields are sheets "
+            "unless their `surface` or `start` needs an inside, and unfit then",
             file=progress.TERMINAL,
         )
     with whole_file(mesh_ply) as part:

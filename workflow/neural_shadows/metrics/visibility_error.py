@@ -10,17 +10,22 @@ EDGE_PIXELS = 3  # on each side of an edge of the hard target
 
 
 def visibility_errors(
-    found: np.ndarray, target: np.ndarray, valid: np.ndarray, hard: np.ndarray | None
+    found: np.ndarray,
+    target: np.ndarray,
+    valid: np.ndarray,
+    hard: np.ndarray | None,
+    off_edges: np.ndarray | None = None,
 ) -> Mapping[str, float]:
     """Errors over the valid pixels of a frame: mean square, mean absolute, and parts of the former.
 
     `mse_umbra`, `mse_penumbra` and `mse_lit` are of those pixels by their target, and `mse_edge` of
     those near an edge of the hard shadow; NaN where there are none. `false_shadow` and `light_leak`
-    are means of what is too dark and too bright.
+    are means of what is too dark and too bright. `mse_off_edges` is of valid pixels off the geometry's
+    edges, where no antialiasing of these adds to it.
 
     Args:
         found, target, hard: (H, W) float32 in [0, 1], the last of the light's centre, None if it is
-            not known; valid: bool.
+            not known; valid: bool. off_edges: those of `valid` off edges; None if not known.
 
     Raises:
         ValueError: no pixel is valid.
@@ -35,6 +40,7 @@ def visibility_errors(
         "_penumbra": valid & (target >= UMBRA) & (target <= LIT),
         "_lit": valid & (target > LIT),
         "_edge": valid & (False if hard is None else _near_edges(hard, valid)),
+        **({} if off_edges is None else {"_off_edges": off_edges}),
     }
     errors = {
         f"mse{name}": float(square[part].mean()) if part.any() else float("nan")

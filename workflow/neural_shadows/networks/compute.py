@@ -4,6 +4,12 @@ import torch
 
 from neural_shadows.errors import InputError
 
+# What a CPU's instructions for matrix products of 16 bits are called, of x86-64 and of ARM.
+_INSTRUCTIONS = {
+    torch.bfloat16: ("amx_bf16", "avx512_bf16", "bf16"),
+    torch.float16: ("amx_fp16", "avx512_fp16", "fp16_arith"),
+}
+
 
 def choose_device(device: str) -> torch.device:
     """The torch device for `auto`, `cpu` or `cuda`; `auto` takes a GPU where there is one.
@@ -18,21 +24,49 @@ def choose_device(device: str) -> torch.device:
     return torch.device(device)
 
 
+def is_native(dtype: torch.dtype, device: torch.device) -> bool:
+    """Whether a device multiplies matrices of a number format by instructions of its own.
+
+    Elsewhere the format is emulated: bfloat16 with AVX2 alone at 0.5 to 1.6 GMAC/s of a core, where
+    float32 has 30. Of a CPU both count, what it has and what oneDNN, which multiplies, makes use of.
+    """
+    if dtype == torch.float32:
+        return True
+    if device.type == "cuda":
+        return dtype == torch.float16 or torch.cuda.is_bf16_supported(including_emulation=False)
+    capabilities = torch.cpu.get_capabilities()
+    has = any(capabilities.get(name, False) for name in _INSTRUCTIONS[dtype])
+    return has and _used_by_onednn(dtype)
+
+
+def _used_by_onednn(dtype: torch.dtype) -> bool:
+    """Whether oneDNN would take them: ONEDNN_MAX_CPU_ISA may forbid it, some builds lack oneDNN."""
+    if not torch.backends.mkldnn.is_available():
+        return False
+    if dtype == torch.bfloat16:
+        return torch.ops.mkldnn._is_mkldnn_bf16_supported()
+    return torch.ops.mkldnn._is_mkldnn_fp16_supported()
+
+
 def choose_dtype(precision: str, device: torch.device) -> torch.dtype:
     """The number format of matrix products for `auto`, `float32`, `bfloat16` or `float16`.
 
-    `auto` takes bfloat16 where the processor multiplies it natively (AMX or AVX-512 BF16,
-    4 times as fast as float32, or a GPU that has it) and float32 elsewhere, where bfloat16
-    would be emulated and slower. float16 is the thesis's (tiny-cuda-nn's). On a network of 8
-    million samples bfloat16 moved depths by 0.0014 sphere radii (median) and flipped 0.13 % of the
-    points that face the light, float16 by 0.00015 and 0.016 %
+    `auto` takes bfloat16 where the processor multiplies it natively (4 times as fast as float32 by
+    AMX or AVX-512 BF16, or a GPU that has it) and float32 elsewhere. float16 is the thesis's
+    (tiny-cuda-nn's). On a network of 8 million samples bfloat16 moved depths by 0.0014 sphere radii
+    (median) and flipped 0.13 % of the points that face the light, float16 by 0.00015 and 0.016 %
     (`tests/benchmarks/precision_of_queries.py`).
+
+    Raises:
+        InputError: the device has to emulate the format that was asked for.
     """
-    if precision != "auto":
-        return getattr(torch, precision)
-    if device.type == "cuda":
-        native = torch.cuda.is_bf16_supported(including_emulation=False)
-    else:
-        capabilities = torch.cpu.get_capabilities()
-        native = capabilities.get("amx_bf16", False) or capabilities.get("avx512_bf16", False)
-    return torch.bfloat16 if native else torch.float32
+    if precision == "auto":
+        return torch.bfloat16 if is_native(torch.bfloat16, device) else torch.float32
+    dtype = getattr(torch, precision)
+    if not is_native(dtype, device):
+        raise InputError(
+            f"precision: {precision}: this {'GPU' if device.type == 'cuda' else 'CPU'} has no "
+            "instructions for it, and would emulate it 20 times as slowly as float32; set precision: "
+            "auto or float32"
+        )
+    return dtype

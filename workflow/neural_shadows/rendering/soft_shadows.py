@@ -20,6 +20,7 @@ from neural_shadows.scenes.scene import Scene
 # Eight queens: places in a pixel, in eighths, no two of a row, a column or a diagonal.
 _QUEENS = (0, 4, 7, 5, 2, 6, 1, 3)
 PLACES = tuple(((column + 0.5) / 8, (row + 0.5) / 8) for column, row in enumerate(_QUEENS))
+CENTRE = (0.5, 0.5)
 # Rays start this share of the scene's size off the surface, on the side that is seen.
 OFFSET = 1e-4
 _NEIGHBOURHOOD = 5  # pixels along an axis that must agree with one that is left at its few rays
@@ -37,6 +38,7 @@ def soft_visibility(
     samples: int,
     adaptive: bool = True,
     pool: Executor | None = None,
+    surfaces: Sequence[Surface] | None = None,
 ) -> np.ndarray:
     """How much of a light each pixel sees, for each radius: (radii, height, width) float32.
 
@@ -48,11 +50,12 @@ def soft_visibility(
         adaptive: leave pixels at two rays a place where they and their neighbours agree: less
             than 5e-4 off on average.
         pool: whose threads share the places; Embree and the kernels need no interpreter.
+        surfaces: what the camera sees at the places, if not of `PLACES` or at hand already.
     """
     rings = np.array([radius for radius in radii if radius > 0], np.float64)
     run = pool.map if pool else map
-    places = [*run(lambda place: see_surface(scene, camera, width, height, place), PLACES)]
-    rays = [_Place(scene, surface, index, centre, rings) for index, surface in enumerate(places)]
+    surfaces = surfaces or see_places(scene, camera, width, height, pool=pool)
+    rays = [_Place(scene, surface, index, centre, rings) for index, surface in enumerate(surfaces)]
     hard = np.stack([*run(lambda place: place.hard(), rays)])
     mixed = np.ones((height, width), bool)
     if adaptive:
@@ -64,9 +67,22 @@ def soft_visibility(
     visibility[:] = hard.mean(0)
     if len(rings):
         shares = ring_shares(rings)
-        by_ring = sum(run(lambda place: place.by_ring(mixed, samples), rays)) / len(PLACES)
+        by_ring = sum(run(lambda place: place.by_ring(mixed, samples), rays)) / len(rays)
         visibility[len(radii) - len(rings) :, mixed] = shares @ by_ring
     return visibility
+
+
+def see_places(
+    scene: Scene,
+    camera: Camera,
+    width: int,
+    height: int,
+    places: Sequence[tuple[float, float]] = PLACES,
+    pool: Executor | None = None,
+) -> list[Surface]:
+    """What a camera sees at some places in each pixel, in units of its sides."""
+    run = pool.map if pool else map
+    return [*run(lambda place: see_surface(scene, camera, width, height, place), places)]
 
 
 class _Place:

@@ -32,6 +32,7 @@ def answer_frames(
     *,
     method: str,
     label: str,
+    by_scene: bool = False,
 ) -> None:
     """Answer each frame for all radii of its light.
 
@@ -44,12 +45,12 @@ def answer_frames(
         constants_json: what `tune_soft_method` wrote; None for a method without constants.
         weights: of a network, or of one for each scene; none of any other method.
         answers: the folder of the answers.
-        label: of the method.
+        label: of the method; by_scene: see `evaluate_soft`.
 
     Raises:
         InputError: an input file cannot be read, or the method cannot answer a frame.
     """
-    method_of = soft_methods_by_scene(method, weights)
+    method_of = soft_methods_by_scene(method, weights, by_scene=by_scene)
     constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
     rows: list[Mapping[str, Any]] = []
     total = sum(len(FrameSetPart(path)) for path in parts)

@@ -3,6 +3,7 @@
 import pandas as pd
 from markupsafe import Markup
 
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.tables.quality import with_ends
 
 ALIKE = 1.02  # times the bytes: as many
@@ -11,7 +12,9 @@ CLEAR = 1.2  # times the error: less is told in dB
 
 def size_of(stored: float) -> str:
     """Bytes as KiB or MiB, three digits."""
-    return f"{stored / 2**20:.3g} MiB" if stored >= 1000 * 2**10 else f"{stored / 2**10:.3g} KiB"
+    return (
+        f"{short(stored / 2**20)} MiB" if stored >= 1000 * 2**10 else f"{short(stored / 2**10)} KiB"
+    )
 
 
 def on_scene(scene: str, sentence: Markup) -> Markup:

@@ -16,6 +16,7 @@ from neural_shadows.reports.published import NETWORKS
 
 DIGITS = r"([+-]?\d[\d,]*(?:\.\d+)?)"
 NUMBER = re.compile(rf"{DIGITS}(?: \[{DIGITS}, {DIGITS}\])?")
+MARK = re.compile(r" \(\*\*[^*]+\*\*\)$")  # behind a method's name
 LOGARITHMIC = 20  # times the smallest: values so far apart are drawn so
 DRAWN = 82  # width of a cell's drawing, px
 INCOMPARABLE = "LPIPS"  # with the thesis's, whose network is not known (`describe_lpips`)
@@ -114,7 +115,7 @@ def _part(
                 cell.theirs = text
         elif any(texts):
             columns.append((head, [*map(Cell, texts)]))
-    names = [cell.text.removesuffix(" (**not learned**)") for cell in columns[0][1]]
+    names = [MARK.sub("", cell.text) for cell in columns[0][1]]
     printed = [name in NETWORKS.values() for name in names]
     logarithmic = []
     for head, cells in columns[1:]:

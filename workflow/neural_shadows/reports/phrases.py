@@ -1,10 +1,11 @@
 """Sentences that several reports share, each worded once: equal notes are shown once on the page."""
 
-import datetime
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
+
+from neural_shadows.reports.digits import short
 
 AT_END = "the first or last that was tried: a better one may lie beyond"
 
@@ -31,8 +32,8 @@ def section_of(claim: Mapping[str, str]) -> str:
 
 
 def describe_run(run: Mapping[str, Any]) -> str:
-    """One sentence on scale and date."""
-    return f"Scale: {run['scale']}; made on {datetime.date.today().isoformat()}."
+    """One sentence on the scale; no date, with which the same run would give other bytes."""
+    return f"Scale: {run['scale']}."
 
 
 def describe_frames(run: Mapping[str, Any]) -> str:
@@ -106,8 +107,8 @@ def describe_budgets(records: Sequence[Mapping[str, Any]]) -> list[str]:
     return [
         "The networks of a scene learn from the same labelled rays, but not from the same data: a "
         "field also takes from the mesh which bricks hold a surface, which are solid, and the "
-        f"normals of sheets; it trains on up to {samples['occupancy_field']:.3g} M samples of 8 "
-        f"points each, the thesis's network on {samples['frequency']:.3g} M."
+        f"normals of sheets; it trains on up to {short(samples['occupancy_field'])} M samples of 8 "
+        f"points each, the thesis's network on {short(samples['frequency'])} M."
     ]
 
 

@@ -1,7 +1,5 @@
-"""What a reader must know of a run: scale, meshes, hardware, versions, commit, durations."""
+"""What a reader must know of a run: scale, meshes, hardware, versions, commits, durations."""
 
-import datetime
-import subprocess
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
@@ -12,6 +10,7 @@ import pandas as pd
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.inputs import by_folder
+from neural_shadows.running.origin import CHECKOUT, commit_of
 
 PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
 
@@ -33,42 +32,31 @@ def run_facts(
         facts["networks made on"] = "; ".join(
             dict.fromkeys(_machine(one["machine"]) for one in records)
         )
+        facts["networks made at"] = "; ".join(dict.fromkeys(one["commit"] for one in records))
     if lpips_json:
         lpips = read_json(lpips_json)
         facts["LPIPS"] = f"network {lpips['net']}" if lpips["available"] else "not available"
     facts["seed"] = str(run["seed"])
     packages = ", ".join(f"{package} {version(package)}" for package in PACKAGES)
     facts["versions"] = f"Python {python_version()}, {packages}"
-    facts["commit"] = commit_of(Path.cwd())
+    facts["page made at"] = commit_of(CHECKOUT)
     if spent := by_folder(sorted(benchmarks.glob("*/*.tsv"))):
         facts["durations"] = "; ".join(_duration(*rule) for rule in spent.items())
-    return facts | {"page made on": datetime.date.today().isoformat()}
+    return facts
 
 
 def run_sentence(
     run: Mapping[str, Any], scenes: Mapping[str, Mapping[str, Any]], facts: Mapping[str, str]
 ) -> str:
-    """What was run, on what and when, in one sentence; `facts` as `run_facts` gives them."""
+    """What was run and on what, in one sentence; `facts` as `run_facts` gives them."""
     *first, last = dict.fromkeys(scene["mesh_name"] for scene in scenes.values())
     meshes = f"meshes {', '.join(first)} and {last}" if first else f"mesh {last}"
     networks = facts.get("networks", "No network yet").split(",")[0]
     machines = facts.get("networks made on", "").replace("; ", " and on ")
     return (
         f"{networks} beside shadow maps, on the {meshes} ({run['scale']} scale, frames of "
-        f"{facts['frames']}){machines and f'; networks made on {machines}'}; page made on "
-        f"{facts['page made on']}."
+        f"{facts['frames']}){machines and f'; networks made on {machines}'}."
     )
-
-
-def commit_of(folder: Path) -> str:
-    """The git commit that a folder is checked out at, and whether files differ from it."""
-    git = ["git", "-C", str(folder), "describe", "--always", "--exclude=*", "--abbrev=40"]
-    try:
-        return subprocess.check_output(
-            [*git, "--dirty= with uncommitted changes"], stderr=subprocess.DEVNULL, text=True
-        ).strip()
-    except (OSError, subprocess.CalledProcessError):
-        return "not a git checkout"
 
 
 def _networks(records: Sequence[Mapping[str, Any]]) -> str:

@@ -5,6 +5,8 @@ from typing import Any
 
 import pandas as pd
 
+from neural_shadows.evaluation.soft_method_names import FORMATS
+
 Profile = Mapping[str, Any]
 
 
@@ -21,7 +23,7 @@ def run_name(run: Mapping[str, Any]) -> str:
 
 
 def compared(profile: Profile) -> Mapping[str, Any]:
-    """The run that printed times stand beside: 16 bits, on all that the machine has."""
+    """The run that printed times stand beside: on all that the machine has, in 16 bits if it can."""
     return profile["runs"][-1]
 
 
@@ -41,6 +43,23 @@ def product_share(profile: Profile, run: Mapping[str, Any]) -> float:
     return macs / (run["whole_ms"] / 1000) / run["product_macs"]
 
 
+def not_timed(profile: Profile) -> str:
+    """Which formats have no times, with why, after a space; empty if all have."""
+    devices = dict.fromkeys(run["device"] for run in profile["runs"])
+    timed = {(run["device"], run["precision"]) for run in profile["runs"]}
+    lacking = [
+        f"{precision} on the {'GPU' if device == 'cuda' else 'CPU'}"
+        for device in devices
+        for precision in FORMATS
+        if (device, precision) not in timed
+    ]
+    if not lacking:
+        return ""
+    return (
+        f" Not timed: {', '.join(lacking)}, which has no instructions for it and would emulate it."
+    )
+
+
 def describe(profile: Profile) -> str:
     """What was measured, how and where."""
     machine, size = profile["machine"], profile["product_size"]
@@ -54,4 +73,5 @@ def describe(profile: Profile) -> str:
         f"Ours: frames of {profile['width']} × {profile['height']}, channels last, median of "
         f"{profile['repeats']} after {profile['warm_up']}, on {machine['cpu']}{gpu}. A whole frame, and "
         f"its multiply-adds a second beside those of a product of {size}² matrices: {whole}."
+        f"{not_timed(profile)}"
     )

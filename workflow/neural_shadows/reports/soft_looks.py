@@ -56,6 +56,15 @@ SOFT_LOOKS = {
         "Answers a whole frame from its buffers and the light's map.",
     ),
     "base": Look("what networks begin with", "#000000", "<", "◄", "The map's shadow, as stored."),
+    "exact": Look(
+        "the exact shadow",
+        "#000000",
+        "d",
+        "◈",
+        "What a perfect answer at the middle of each pixel still lacks of the antialiased target.",
+    ),
+    # Of a family that has none of its own here.
+    "other": Look("other methods", RED, "d", "⬧", "A method of this checkout's own."),
     "null": Look("no method", "#777777", "o", "○", "Draws no shadow at all, or all of it."),
 }
 
@@ -68,8 +77,11 @@ def family_of(method: str) -> str:
         return "null"
     first, _, rest = method.partition("_")
     if first == "rt":
-        return rest.partition("_")[2] or "rt"
-    return "moments" if first in ("vsm", "evsm", "msm") else first
+        kind = rest.partition("_")[2]
+        first = "rt" if kind in ("", "spread") else kind
+    if first in ("vsm", "evsm", "msm"):
+        first = "moments"
+    return first if first in SOFT_LOOKS else "other"
 
 
 UNITS = {"metres": "m", "scene_sizes": "S"}

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, get_type_hints
 
 from neural_shadows.errors import InputError
-from neural_shadows.running import progress
+from neural_shadows.running import origin, progress
 
 # What a rule names for Snakemake alone: a digest of the code that a result depends on, what else is
 # to be made when a table is asked for or lies beside an input, and the kind of a table or figure,
@@ -22,7 +22,8 @@ _RULE_ONLY = {"code", "beside", "kind"}
 def run_stage(job: Any, function: Callable[..., None]) -> None:
     """Call a stage's function with a job's files and params by argument name.
 
-    Output goes to the job's log, progress to the terminal as well. On an error the process ends
+    The job's log begins with what makes its results: commit, code and machine. Output goes there,
+    progress to the terminal as well. On an error the process ends
     with status 1 after one line on the terminal; the traceback is in the log.
 
     Args:
@@ -40,6 +41,11 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
         faulthandler.enable()  # where in the job native code crashed
         sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
         progress.TERMINAL = terminal
+        origin.CODE = dict(job.params.items()).get("code")
+        made = origin.describe_origin()
+        print(
+            f"{job.rule}: commit {made['commit']}, code {made['code']}, {made['machine']}", file=log
+        )
         try:
             function(**arguments_of(job, function))
         except Exception as error:

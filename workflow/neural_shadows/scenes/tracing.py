@@ -4,6 +4,8 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
+from neural_shadows.scenes.embree_packets import LIBRARY, EmbreePackets
+
 NEARLY_ALL = 1 - 1e-4  # of a way that ends at a goal
 
 
@@ -19,14 +21,7 @@ class Tracer:
     """
 
     def __init__(self, vertices: np.ndarray, faces: np.ndarray):
-        self._scene = EmbreeScene()
-        TriangleMesh(
-            self._scene,
-            np.ascontiguousarray(vertices, np.float32),
-            np.ascontiguousarray(faces, np.int32),
-        )
-        # Embree builds its tree on the first query; done here, before threads share it.
-        self.occluded(np.zeros((1, 3), np.float32), np.array([[0, 0, 1]], np.float32))
+        self._rays = (EmbreePackets if LIBRARY else EmbreeSingly)(vertices, faces)
 
     def first_hit(self, origins: np.ndarray, directions: np.ndarray):
         """Nearest hit of each ray o + t d, t > 0.
@@ -38,9 +33,8 @@ class Tracer:
             t: (n,) float32, ∞ where nothing is hit.
             face: (n,) int32 index of the triangle, −1 where nothing is hit.
         """
-        hit = self._scene.run(origins, directions, query="INTERSECT", output=1)
-        face = hit["primID"]
-        return np.where(face >= 0, hit["tfar"], np.float32(np.inf)), face
+        t, face, _, _ = self._rays.first_hit(origins, directions)
+        return t, face
 
     def first_hit_barycentric(self, origins: np.ndarray, directions: np.ndarray):
         """Where on its triangle each ray o + t d, t > 0, first hits.
@@ -53,13 +47,12 @@ class Tracer:
             face: (n,) int32 index of the triangle; u, v: (n,) float32, the weights of its
             second and third vertex. Meaningless where nothing is hit.
         """
-        found = self._scene.run(origins, directions, query="INTERSECT", output=1)
-        face = found["primID"]
-        return face >= 0, face, found["u"], found["v"]
+        _, face, u, v = self._rays.first_hit(origins, directions)
+        return face >= 0, face, u, v
 
     def occluded(self, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
         """Whether each ray o + t d, t > 0, hits anything: (n,) bool; inputs (n, 3) float32."""
-        return self._scene.run(origins, directions, query="OCCLUDED") >= 0
+        return self._rays.occluded(origins, directions)
 
     def blocked(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
         """Whether anything lies between each point and where its way leads: (n,) bool.
@@ -68,4 +61,26 @@ class Tracer:
             points, ways: (n, 3) float32; the whole way from a point to its goal, not of unit
                 length. Its last ten thousandth is left out, so that a goal may lie on a surface.
         """
-        return self._scene.run(points, ways, query="OCCLUDED", dists=NEARLY_ALL) >= 0
+        return self._rays.occluded(points, ways, NEARLY_ALL)
+
+
+class EmbreeSingly:
+    """`EmbreePackets` where Embree's library is not beside embreex: rays one by one, same answers."""
+
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray):
+        self._scene = EmbreeScene()
+        TriangleMesh(
+            self._scene,
+            np.ascontiguousarray(vertices, np.float32),
+            np.ascontiguousarray(faces, np.int32),
+        )
+        # Embree builds its tree on the first query; done here, before threads share it.
+        self.occluded(np.zeros((1, 3), np.float32), np.array([[0, 0, 1]], np.float32))
+
+    def occluded(self, origins, directions, end: float | None = None) -> np.ndarray:
+        return self._scene.run(origins, directions, query="OCCLUDED", dists=end) >= 0
+
+    def first_hit(self, origins, directions):
+        hit = self._scene.run(origins, directions, query="INTERSECT", output=1)
+        face = hit["primID"]
+        return np.where(face >= 0, hit["tfar"], np.float32(np.inf)), face, hit["u"], hit["v"]

@@ -16,6 +16,8 @@ from neural_shadows.shadow_maps.light_map import LightMap
 class FaceView:
     """What the m receivers in a face look at, with its margin."""
 
+    face: int
+    corner: tuple[int, int]  # row and column in the face of the first texel; below 0 in the margin
     receivers: np.ndarray  # (m,) int64, indices among all n
     places: np.ndarray  # (m, 2) float64, row and column; the centre of texel i is at i
     depths: np.ndarray  # (H, W) float32
@@ -37,14 +39,15 @@ def face_views(
         if not len(receivers):
             continue
         within = np.take(places, receivers, axis=0)  # seven times as fast as places[receivers]
-        parts = []
+        parts, corner = [], []
         for along in within.T:  # whole columns: numpy is slow along pairs
             along += margin - 0.5
             begin, end = int(along.min()) - kernel // 2, int(along.max()) + kernel // 2 + 2
             along -= begin
             parts.append(slice(begin, end))
+            corner.append(begin - margin)
         whole = _with_margin(light_map, depths, face, margin)
-        yield FaceView(receivers, within, np.ascontiguousarray(whole[*parts]))
+        yield FaceView(face, tuple(corner), receivers, within, np.ascontiguousarray(whole[*parts]))
 
 
 def _with_margin(light_map: LightMap, depths: np.ndarray, face: int, margin: int) -> np.ndarray:

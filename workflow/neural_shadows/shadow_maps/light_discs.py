@@ -4,6 +4,10 @@ Most discs lie within one face of the map: there a sample is one projective look
 branches, in float32, which the compiler does for several samples at once (1 ns each with AVX-512,
 10 ns one by one). Discs that reach over a cube's seams or a picture's rim are looked up by each
 sample's direction.
+
+A texel is compared with the receiver's plane where its centre looks (receiver plane depth bias,
+Isidoro 2006): against the receiver's own distance a slanted receiver hides itself, the wider the disc
+the more.
 """
 
 import numpy as np
@@ -13,6 +17,10 @@ from neural_shadows.shadow_maps.light_map import LightMap, texel_of
 
 _GOLDEN_ANGLE = 2.399963229728653
 _NEW_ORDER = {"reassoc", "contract", "arcp", "nsz"}  # of sums; infinite depths stay what they are
+# The plane is followed up to half and to twice the receiver's distance: past that it is seen at a
+# grazing angle, and what stands there is another surface.
+LEAST_RATIO, MOST_RATIO = 0.5, 2.0
+_GRAZING = 1e-3  # cosine below which a receiver has no plane to speak of
 
 
 def vogel_disc(count: int) -> np.ndarray:
@@ -51,39 +59,89 @@ def across(x, y, z, key):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def blockers(disc, way, u, v, angle, nearest, depths, projections, faces, half, resolution):
-    """How many samples of a disc of directions are nearer to the light than `nearest`, and the sum
-    of their depths.
+def blockers(disc, receiver, u, v, angle, depths, projections, faces, half, resolution):
+    """How many texels of a disc of directions lie before the receiver's plane, and the sum of their
+    depths.
 
     Args:
-        disc: places in a unit disc, (2, samples) float32. way: the direction in the middle, of unit
-            length. u, v: see `across`. angle: the tangent of half the disc's angle.
+        disc: places in a unit disc, (2, samples) float32. u, v: see `across`. angle: the tangent of
+            half the disc's angle.
+        receiver: the unit direction to it, its distance, the bias by which it may lie behind a texel
+            and still be lit, and its unit normal.
         depths, projections, faces, half, resolution: see `looked_up`, one by one, since numba counts
             a tuple's arrays anew for each receiver; beyond a map's rim there is nothing.
     """
+    way = receiver[0]
     face = _face_of(projections, way)
     if face >= 0:
         column = _along_disc(projections, face, 0, way, u, v, angle)
         row = _along_disc(projections, face, 1, way, u, v, angle)
         w = _along_disc(projections, face, 2, way, u, v, angle)
         if _within(column, w, resolution) and _within(row, w, resolution):
+            plane = plane_in_face(receiver, faces[face], half, resolution)
             begin = face * resolution * resolution
-            return _in_face(disc, column, row, w, np.float32(nearest), depths, begin, resolution)
-    return _anywhere(disc, way, u, v, angle, nearest, depths, faces, half, resolution)
+            return _in_face(disc, column, row, w, plane, depths, begin, resolution, half)
+    return _anywhere(disc, receiver, u, v, angle, depths, faces, half, resolution)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _anywhere(disc, way, u, v, angle, nearest, depths, faces, half, resolution):
+def plane_in_face(receiver, axes, half, resolution):
+    """The receiver's plane as the texels of a face see it.
+
+    Args:
+        receiver: see `blockers`. axes: right, down and forward of the face, (3, 3).
+
+    Returns:
+        The distance of the receiver along the face's forward axis, and `(middle, by column, by row)`:
+        that of the plane in the texel (row, column) is the former over middle + by column · column +
+        by row · row, and as much farther from the light as the texel looks aslant.
+        The bias, last.
+    """
+    way, distance, bias, normal = receiver
+    ahead = way[0] * axes[2, 0] + way[1] * axes[2, 1] + way[2] * axes[2, 2]
+    towards = (normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2]) / ahead
+    if abs(towards) * ahead < _GRAZING:
+        return distance * ahead, (1.0, 0.0, 0.0), bias
+    right = normal[0] * axes[0, 0] + normal[1] * axes[0, 1] + normal[2] * axes[0, 2]
+    down = normal[0] * axes[1, 0] + normal[1] * axes[1, 1] + normal[2] * axes[1, 2]
+    forward = normal[0] * axes[2, 0] + normal[1] * axes[2, 1] + normal[2] * axes[2, 2]
+    texel = 2 * half / resolution
+    corner = texel / 2 - half
+    middle = (forward + corner * (right + down)) / towards
+    return distance * ahead, (middle, texel * right / towards, texel * down / towards), bias
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _anywhere(disc, receiver, u, v, angle, depths, faces, half, resolution):
     """`blockers` of any disc, a sample's direction after the other."""
+    way = receiver[0]
     count, total = 0, np.float32(0)
     for k in range(disc.shape[1]):
         p, q = angle * disc[0, k], angle * disc[1, k]
         x, y = way[0] + p * u[0] + q * v[0], way[1] + p * u[1] + q * v[1]
         texel = texel_of(x, y, way[2] + p * u[2] + q * v[2], faces, half, resolution)
-        if texel >= 0 and depths[texel] < nearest:
+        if texel >= 0 and depths[texel] < _nearest_in(receiver, texel, faces, half, resolution):
             total += depths[texel]
             count += 1
     return count, total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _nearest_in(receiver, texel, faces, half, resolution):
+    """How far from the light what a texel shows must be not to lie before the receiver's plane."""
+    face, place = divmod(texel, resolution * resolution)
+    row, column = divmod(place, resolution)
+    p = ((column + 0.5) / resolution * 2 - 1) * half
+    q = ((row + 0.5) / resolution * 2 - 1) * half
+    axes = faces[face]
+    aslant = np.sqrt(1 + p * p + q * q)
+    way, distance, bias, normal = receiver
+    there = here = 0.0
+    for k in range(3):
+        there += normal[k] * (axes[2, k] + p * axes[0, k] + q * axes[1, k]) / aslant
+        here += normal[k] * way[k]
+    ratio = there / here if abs(here) >= _GRAZING else 1.0
+    return distance / min(max(ratio, LEAST_RATIO), MOST_RATIO) - bias
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -122,22 +180,30 @@ def _within(place, w, resolution):
 
 
 @njit(cache=True, nogil=True, fastmath=_NEW_ORDER, error_model="numpy")
-def _in_face(disc, column, row, w, nearest, depths, begin, resolution):
+def _in_face(disc, column, row, w, plane, depths, begin, resolution, half):
     """`blockers` of a disc that lies within a face, by its homogeneous coordinates there.
 
     Args:
-        begin: of the face's texels in `depths`.
+        plane: see `plane_in_face`. begin: of the face's texels in `depths`.
     """
     c0, cp, cq = np.float32(column[0]), np.float32(column[1]), np.float32(column[2])
     r0, rp, rq = np.float32(row[0]), np.float32(row[1]), np.float32(row[2])
     w0, wp, wq = np.float32(w[0]), np.float32(w[1]), np.float32(w[2])
+    ahead, slopes, bias = np.float32(plane[0]), plane[1], np.float32(plane[2])
+    middle, across_, along = np.float32(slopes[0]), np.float32(slopes[1]), np.float32(slopes[2])
+    texel, corner = np.float32(2 * half / resolution), np.float32(half / resolution - half)
+    least, most, unit = np.float32(LEAST_RATIO), np.float32(MOST_RATIO), np.float32(1)
     begin, width = np.int32(begin), np.int32(resolution)
     count, total = np.float32(0), np.float32(0)
     for k in range(disc.shape[1]):
         p, q = disc[0, k], disc[1, k]
-        one = np.float32(1) / (w0 + p * wp + q * wq)
+        one = unit / (w0 + p * wp + q * wq)
         i = np.int32((c0 + p * cp + q * cq) * one)
         j = np.int32((r0 + p * rp + q * rq) * one)
+        x, y = np.float32(i), np.float32(j)
+        a, b = corner + texel * x, corner + texel * y
+        ratio = min(max(middle + across_ * x + along * y, least), most)
+        nearest = ahead * np.sqrt(unit + a * a + b * b) / ratio - bias
         # Unsigned, since numba looks whether another is from the end.
         depth = depths[np.uint32(np.int32(begin + j * width + i))]
         count += np.float32(depth < nearest)

@@ -15,20 +15,25 @@ MOST_SLOPE = 20.0  # texels
 
 
 def receiver_bias(
-    light_map: LightMap, ways: np.ndarray, cosines: np.ndarray, scene_size: float
+    light_map: LightMap,
+    ways: np.ndarray,
+    cosines: np.ndarray,
+    scene_size: float,
+    reach: float = 0.75,
 ) -> np.ndarray:
     """By how much a receiver may lie behind its texel and still be lit, (n,) float32.
 
-    h · min(0.5 + 0.75 tan θ, 20) + 1e-4 of the scene's size, h the width of a texel at the receiver
+    h · min(0.5 + reach tan θ, 20) + 1e-4 of the scene's size, h the width of a texel at the receiver
     and θ the angle between its geometric normal and the light: as directional maps have it.
 
     Args:
         ways: (n, 3) from the light to receivers; cosines: (n,), of θ.
+        reach: in texels, from the receiver's; of a filtered map the filter's, too (a cone bias).
     """
     distance = distances_of(ways)
     texel = light_map.texel_size(ways / distance[:, None]) * distance
     tangent = np.sqrt(1 / np.clip(cosines, 0.01, 1) ** 2 - 1)
-    slope = np.minimum(0.5 + 0.75 * tangent, MOST_SLOPE)
+    slope = np.minimum(0.5 + reach * tangent, MOST_SLOPE)
     return (texel * slope + 1e-4 * scene_size).astype(np.float32)
 
 
@@ -45,16 +50,22 @@ def disc_visibility(
     light_map: LightMap,
     depths: np.ndarray,
     ways: np.ndarray,
+    normals: np.ndarray,
     bias: np.ndarray,
     *,
     texels: float,
     samples: int,
     keys: np.ndarray,
 ) -> np.ndarray:
-    """Percentage-closer filtering over a disc of so many texels' radius, (n,) float32."""
+    """Percentage-closer filtering over a disc of so many texels' radius, (n,) float32.
+
+    Args:
+        ways: (n, 3) from the light to receivers; normals: (n, 3), geometric; bias: (n,).
+    """
     angle = texels * 2 * light_map.half / light_map.resolution
     found = np.empty(len(ways), np.float32)
-    _fill_even(ways, bias, angle, vogel_disc(samples), keys, *looked_up(light_map, depths), found)
+    disc, seen = vogel_disc(samples), looked_up(light_map, depths)
+    _fill_even(ways, normals, bias, angle, disc, keys, *seen, found)
     return found
 
 
@@ -62,6 +73,7 @@ def soft_disc_visibility(
     light_map: LightMap,
     depths: np.ndarray,
     ways: np.ndarray,
+    normals: np.ndarray,
     bias: np.ndarray,
     *,
     radius: float,
@@ -77,25 +89,26 @@ def soft_disc_visibility(
     seen from the receiver, where it passes z̄.
 
     Args:
+        ways: (n, 3) from the light to receivers; normals: (n, 3), geometric; bias: (n,).
         searched, samples: of the search and of the filter, 64 and 128 (Hu et al. 2025, 6.1).
     """
     discs = vogel_disc(searched), vogel_disc(samples)
     found = np.empty(len(ways), np.float32)
     seen = looked_up(light_map, depths)
-    _fill_soft(ways, bias, float(radius), nearest, discs, keys, *seen, found)
+    _fill_soft(ways, normals, bias, float(radius), nearest, discs, keys, *seen, found)
     return found
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _fill_even(
-    ways, bias, angle, disc, keys, depths, projections, faces, half, resolution, visibility
+    ways, normals, bias, angle, disc, keys, depths, projections, faces, half, resolution, visibility
 ):
     """Share of a disc's directions whose texels do not hide the receiver."""
     for i in range(len(ways)):
-        distance, way = _distance_and_way(ways, i)
-        u, v = across(*way, keys[i])
+        receiver = _receiver(ways, normals, bias, i)
+        u, v = across(*receiver[0], keys[i])
         hidden, _ = blockers(
-            disc, way, u, v, angle, distance - bias[i], depths, projections, faces, half, resolution
+            disc, receiver, u, v, angle, depths, projections, faces, half, resolution
         )
         visibility[i] = 1 - hidden / disc.shape[1]
 
@@ -103,6 +116,7 @@ def _fill_even(
 @njit(cache=True, nogil=True, error_model="numpy")
 def _fill_soft(
     ways,
+    normals,
     bias,
     radius,
     nearest,
@@ -118,12 +132,12 @@ def _fill_soft(
     """The same of discs as wide as the penumbra that the blockers in a first disc make."""
     searched, disc = discs
     for i in range(len(ways)):
-        distance, way = _distance_and_way(ways, i)
-        u, v = across(*way, keys[i])
-        first = distance - bias[i]
+        receiver = _receiver(ways, normals, bias, i)
+        distance = receiver[1]
+        u, v = across(*receiver[0], keys[i])
         widest = radius * (1 / (nearest * distance) - 1 / distance)
         hidden, total = blockers(
-            searched, way, u, v, widest, first, depths, projections, faces, half, resolution
+            searched, receiver, u, v, widest, depths, projections, faces, half, resolution
         )
         if not hidden:
             visibility[i] = 1
@@ -132,14 +146,15 @@ def _fill_soft(
         angle = radius * (distance - blocker) / (distance * blocker)
         angle = max(angle, half / resolution)  # half a texel: no narrower than that
         hidden, _ = blockers(
-            disc, way, u, v, angle, first, depths, projections, faces, half, resolution
+            disc, receiver, u, v, angle, depths, projections, faces, half, resolution
         )
         visibility[i] = 1 - hidden / disc.shape[1]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _distance_and_way(ways, i):
-    """A vector's length, and the unit vector along it, in float64."""
+def _receiver(ways, normals, bias, i):
+    """A receiver as `blockers` takes it, in float64."""
     x, y, z = np.float64(ways[i, 0]), np.float64(ways[i, 1]), np.float64(ways[i, 2])
     distance = np.sqrt(x * x + y * y + z * z)
-    return distance, (x / distance, y / distance, z / distance)
+    normal = np.float64(normals[i, 0]), np.float64(normals[i, 1]), np.float64(normals[i, 2])
+    return (x / distance, y / distance, z / distance), distance, np.float64(bias[i]), normal

@@ -16,10 +16,11 @@ from neural_shadows.files.whole_files import read_json, write_json, write_text
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.mesh_surface import is_unfit, with_surface
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import save_network
 from neural_shadows.rays.ray_set import RaySet
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.batches import DeviceRays, batch_indices, batch_source
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
@@ -45,6 +46,7 @@ def train(
     origins: list[Path] = (),
     bounds: list[Path] = (),
     rays_json: Path | None = None,
+    mesh_json: Path | None = None,
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
@@ -60,12 +62,13 @@ def train(
     warning. Its weights are written as they are: that a rate kills a network is a result.
 
     Args:
-        mesh_ply: prepared mesh of the object, for a network that needs it; None for others.
+        mesh_ply, mesh_json: prepared mesh of the object, for a network that needs it, and what
+            `prepare_mesh` says of it; None for others.
         weights: in a folder of the experiment's, with `checkpoints` beside it.
         training_json: gets the settings and what came of them: `samples`, `seconds` (laying out
             included), `final_loss`, `died_at_step` and `no_shadow_loss`, what the loss of
-            answering no shadow at all would be.
-        network: what `make_network` makes it from.
+            answering no shadow at all would be; and `unfit`, see `is_unfit`.
+        network: what `make_network` makes it from; a `surface` of `auto` is the mesh's.
         training: `optimiser` and its rates (`learning_rate`, and muon's `adam_rate`), `steps`,
             `batch_size`, `schedule` (`constant` or `cosine`) and `loss`, the weights of
             `DeadZone`; None for a network that is not trained, which needs no rays.
@@ -78,12 +81,14 @@ def train(
         InputError: a file is missing or damaged, or the optimiser is not for this network.
     """
     torch.set_num_threads(1)  # the pool's threads work side by side
+    mesh = {"sheet": False} if mesh_json is None else read_json(mesh_json)
+    network = with_surface(network, mesh)
     if mesh_ply is not None:
         # Once for nothing, or the seconds of building would be those of compiling kernels and of
         # loading libraries: of a DAG of 1024³ voxels 8.3 s instead of 0.73.
         make_network(network).prepare(mesh_ply)
     started = time.monotonic()  # what is laid out before training counts too
-    header = {"name": experiment, "network": dict(network), "training": None, "data": None}
+    header = {"name": experiment, "network": network, "training": None, "data": None}
     if training is not None:
         chosen = choose_device(device)
         dtype = str(choose_dtype(precision, chosen)).removeprefix("torch.")
@@ -104,9 +109,8 @@ def train(
 
     save_network(weights, model, header)
     write_text(loss_csv, curve)
-    about = {"parameters": model.parameter_count(), **result}
-    machine = {"machine": describe_machine(), "threads": threads}
-    write_json(training_json, {**header, **about, **machine})
+    about = {"parameters": model.parameter_count(), "unfit": is_unfit(network, mesh), **result}
+    write_json(training_json, {**header, **about, **describe_origin(), "threads": threads})
 
 
 def _trained(

@@ -21,7 +21,7 @@ from neural_shadows.networks.screen_space.screen_networks import (
     save_screen_network,
 )
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
 from neural_shadows.training.perceptual import Perceptual
@@ -133,8 +133,7 @@ def train_screen(
     result = _outcome(run) | errors
     about = {"parameters": sum(one.numel() for one in run.weights.values()), **result}
     about |= {"perceptual_factor": loss.factor if perceptual is not None else None}
-    machine = {"machine": describe_machine(), "threads": threads}
-    write_json(training_json, {**header, **about, **machine})
+    write_json(training_json, {**header, **about, **describe_origin(), "threads": threads})
 
 
 def _check_twins(frames: ScreenFrames, train: Sequence[Path], training: Mapping[str, Any]) -> None:

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import torch
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
@@ -12,10 +13,12 @@ from neural_shadows.evaluation.measure_sensitivity import measure_sensitivity
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
 from neural_shadows.evaluation.soft_method_names import is_network, is_tuned
-from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.soft_methods import screen_network
+from neural_shadows.evaluation.soft_methods.registry import soft_method, soft_methods_by_scene
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.evaluation.time_soft_methods import time_soft_methods
 from neural_shadows.frames.render_frames import render_frames
+from neural_shadows.networks import compute
 from neural_shadows.networks.screen_space.screen_networks import (
     make_screen_network,
     save_screen_network,
@@ -46,9 +49,10 @@ def small_answers():
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("results")
     (folder / "blinds").mkdir()
-    told = {"scene": SCENE, "frames": FRAMES, "first": 0, "last": 3, "samples": 4}
+    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES}
+    told |= {"first": 0, "last": 3, "samples": 4}
     for use in ("test", "light"):
-        names = ("json", "buffers.npy", "targets.npy", "valid.npy")
+        names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
         files = (folder / "blinds" / f"{use}_000.{name}" for name in names)
         render_frames([], *files, use=use, **told)
     (folder / "lpips.json").write_text(json.dumps({"available": False}))
@@ -68,6 +72,15 @@ def test_it_answers_by_buffers_what_it_answers_by_the_map(folder):
     timed = frame.frame.surface.image(method.answer(frame.frame, 0.25), 1.0)
     assert np.median(np.abs(timed - asked[2])[frame.valid]) < 2e-3
     assert asked[0].min() >= 0 and asked[0].max() <= 1
+
+
+def test_one_network_by_scene_answers_no_scene_that_it_has_not_learned(folder):
+    weights = folder / "learned.safetensors"
+    header = {"network": NETWORK, "training": {}, "radii": RADII, "scenes": ["atrium"]}
+    save_screen_network(weights, small_answers(), header | {"radius_unit": "metres"})
+    assert soft_methods_by_scene("tiny", [weights])("hall") is not None
+    of_scene = soft_methods_by_scene("tiny", [weights], by_scene=True)
+    assert of_scene("atrium") is not None and of_scene("hall") is None
 
 
 def test_it_answers_in_the_number_format_that_is_asked_for(folder):
@@ -140,9 +153,24 @@ def test_of_several_networks_each_answers_the_scene_that_it_learned(folder, tmp_
         out = tmp_path / "one.csv", tmp_path / "one.npz"
         lpips = folder / "lpips.json"
         parts = [folder / "blinds/test_000.json"]
-        evaluate_soft(parts, [], [], None, files, lpips, *out, occluders=[], method="of_scenes")
+        told = {"occluders": [], "method": "of_scenes", "by_scene": True}
+        evaluate_soft(parts, [], [], None, files, lpips, *out, **told)
         found.append(out[0].read_text())
     assert found[0] == found[1] and found[2].count("\n") == 1  # the headings alone
+
+
+def test_in_a_format_that_the_processor_lacks_it_has_no_answers(folder, tmp_path, monkeypatch):
+    for module in (compute, screen_network):
+        monkeypatch.setattr(module, "is_native", lambda dtype, device: dtype == torch.float32)
+    weights, lpips = [folder / "tiny/weights.safetensors"], folder / "lpips.json"
+    parts, lines = [folder / "blinds/test_000.json"], {}
+    for precision in ("auto", "float32", "bfloat16"):
+        out = tmp_path / "one.csv", tmp_path / "one.npz"
+        told = {"occluders": [], "method": "tiny", "precision": precision}
+        evaluate_soft(parts, [], [], None, weights, lpips, *out, **told)
+        lines[precision] = out[0].read_text()
+    assert lines["auto"] == lines["float32"]
+    assert lines["float32"].count("\n") > 1 and lines["bfloat16"].count("\n") == 1
 
 
 def test_times(folder):

@@ -80,7 +80,7 @@ def test_the_preview_says_the_up_axis_and_a_sheet(tmp_path, capsys):
     write_json(files[1], {"name": "a mesh", "faces": 12, "watertight": False, "sheet": True})
     draw_preview(*files, scene={"up": "z", "ground": True, "light": SPHERE_OF_LIGHTS})
     said = capsys.readouterr().out
-    assert "Up is z:" in said and "`surface: sheet`" in said
+    assert "Up is z:" in said and "so are its occupancy fields" in said
     assert imread(files[2])[..., :3].std() > 0.05
 
 

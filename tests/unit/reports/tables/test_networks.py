@@ -25,14 +25,14 @@ MEANS = {
     "no_shadow": (0.5, 20, 0.7),
 }
 BUILT = samples.TRAINING | {"name": "mesh", "network": {"encoding": "mesh"}, "training": None}
-BUILT |= {"samples": 0, "seconds": 2.0}
+BUILT |= {"samples": 0, "seconds": 2.0, "unfit": True}
 TIMED = {
     "ray_traced": samples.timed([1, 2, 3]),
     "shadow_map_128": samples.timed([3], resident_bytes=4 * 128**2),
     "shadow_map_512": samples.timed([4], resident_bytes=2**20),
     "mesh_biased": samples.timed([2], resident_bytes=5 * 2**20),
     "dragon_biased": samples.timed([5, 9, 7, 8, 6], [1, 2, 3], resident_bytes=2**22),
-    "dragon": samples.timed([1], resident_bytes=2**22),
+    "dragon": samples.timed([1340], [1339.6], resident_bytes=2**22),
     "no_shadow": samples.timed([1]),
 }
 
@@ -112,6 +112,8 @@ def test_rows_keep_their_order_and_have_the_facts_of_their_kind(written):
     assert cells["LPIPS ↓"].startswith("0.2000 [0.1")
     assert (cells["stored KiB ↓"], cells["resident KiB ↓"]) == ("2,175", "4,096")
     assert (cells["own ms ↓"], cells["frame ms ↓"], cells["bias"]) == ("2", "7", "0.01")
+    # 1.34e+03 would be no number to the page.
+    assert samples.cells_of(md, 5)["own ms ↓"] == "1,340"
     assert "Mesh of fence: fence (a procedural stand-in, not the thesis's mesh)" in md.read_text()
     assert [samples.cells_of(md, i)["scene"] for i in (0, 1, 7)] == ["dragon", "", "fence"]
 
@@ -125,6 +127,10 @@ def test_rivals_have_what_networks_have(written):
     assert (mesh["push"], mesh["bias_at_end"]) == (0.05, True)
     assert samples.cells_of(md, 3)["bias"] == "0 †" and "†: the first or last" in md.read_text()
     assert mesh["psnr_difference"] > 0 > mesh["lpips_difference"]
+    # It needs an inside that its mesh does not have.
+    assert mesh["unfit"] and not table["unfit"][4] and np.isnan(table["unfit"][1])
+    assert samples.cells_of(md, 3)["method"] == "Mesh (**unfit**)"
+    assert "**unfit**: it needs an inside" in md.read_text()
     assert table["learned"].isna().tolist() == [True] * 4 + [False] * 2 + [True] * 3
     assert table["learned"][4:6].tolist() == [True, False]
     assert samples.cells_of(md, 5)["method"] == "Network, no bias (**not learned**)"

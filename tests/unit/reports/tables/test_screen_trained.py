@@ -101,7 +101,7 @@ def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
     assert cells["receptive_field"].tolist() == [24, 96, 24, 96]
     assert "| 90 px" in text and "8.0 / 1.0" in text and "table 1 of Datta" in text
     assert "perceptual term: squeeze" in text and "3 levels, 5 levels." in text
-    assert "3 levels 1e+04 after 1, 2.5e+03 after 4, 1.43e+03 after 7, 200 after 10; 5" in text
+    assert "3 levels 10,000 after 1, 2,500 after 4, 1,429 after 7, 200 after 10; 5" in text
 
 
 def test_features_with_their_worth(tmp_path, trained):
@@ -130,27 +130,32 @@ def test_features_with_their_worth(tmp_path, trained):
     assert "5 levels, n: 10.0 %" in outputs[1].read_text(encoding="utf-8")
 
 
-def test_steps(tmp_path, trained):
+STEPS = {
+    "trimmed": {"network": "trimmed", "precision": "float32", "experiment": "five"},
+    "trimmed_half": {"network": "trimmed", "precision": "bfloat16", "experiment": "five"},
+}
+
+
+def trimmed_profile(folder, milliseconds: dict[str, float]):
+    """A profile that has a whole frame's milliseconds in some number formats."""
     run = {"device": "cpu", "threads": 2, "product_macs": 1e12, "parts": []}
-    runs = [
-        run | {"precision": "float32", "whole_ms": 400.0},
-        run | {"precision": "bfloat16", "whole_ms": 100.0},
-    ]
+    runs = [run | {"precision": name, "whole_ms": ms} for name, ms in milliseconds.items()]
     profile = {"width": 2048, "height": 1024, "runs": runs, "machine": {"cpu": "a CPU"}}
     profile |= {"repeats": 10, "warm_up": 3, "product_size": 2048}
     profile |= {"levels": [{"weights": 2**18, "macs": 1e4}]}
-    path = tmp_path / "trimmed.json"
+    path = folder / "trimmed.json"
     path.write_text(json.dumps(profile))
+    return path
+
+
+def test_steps(tmp_path, trained):
+    path = trimmed_profile(tmp_path, {"float32": 400.0, "bfloat16": 100.0})
     values = [
         metrics(tmp_path / f"five_{name}.csv", [{"metric": "mse", "value": value, "frame": 0}])
         for name, value in {"float32": 0.006, "bfloat16": 0.007}.items()
     ]
-    steps = {
-        "trimmed": {"network": "trimmed", "precision": "float32", "experiment": "five"},
-        "trimmed_half": {"network": "trimmed", "precision": "bfloat16", "experiment": "five"},
-    }
     told = {"profiles": [path], "soft_metrics": values, "trainings": trained[1:]}
-    told |= {"published_nsm_csv": PUBLISHED, "steps": steps, "labels": LABELS}
+    told |= {"published_nsm_csv": PUBLISHED, "steps": STEPS, "labels": LABELS}
     table, text = written(screen_steps.write, tmp_path, published="nsm.steps", **told)
     assert table["runtime"].tolist() == [400, 100] and table["printed_runtime"].tolist() == [28, 17]
     assert table["size"].tolist() == [1, 0.5] and table["error"].tolist() == [0.006, 0.007]
@@ -158,6 +163,24 @@ def test_steps(tmp_path, trained):
     assert table["of_printed_size"].all() and " 6.67 |" in text
     table, text = written(screen_steps.write, tmp_path, published=None, **told)
     assert table["printed_runtime"].isna().all() and "Printed" not in text and "400.0" in text
+    assert "Not timed" not in text and "Without an error" not in text
+
+
+def test_steps_in_a_format_that_the_processor_lacks(tmp_path, trained):
+    """Their cells are empty, and notes say why."""
+    profile = trimmed_profile(tmp_path, {"float32": 400.0})
+    values = [
+        metrics(tmp_path / "five_float32.csv", [{"metric": "mse", "value": 0.006, "frame": 0}]),
+        metrics(tmp_path / "five_bfloat16.csv", []),
+    ]
+    told = {"profiles": [profile], "soft_metrics": values, "trainings": trained[1:]}
+    told |= {"published_nsm_csv": PUBLISHED, "steps": STEPS, "labels": LABELS}
+    table, text = written(screen_steps.write, tmp_path, published="nsm.steps", **told)
+    half = table.set_index("row").loc["trimmed_half"]
+    assert half[["runtime", "share", "error", "run"]].isna().all() and half["size"] == 0.5
+    assert table["runtime"][0] == 400 and table["error"][0] == 0.006
+    assert "Not timed: bfloat16 on the CPU, which has no instructions" in text
+    assert "Without an error: trimmed_half." in text
 
 
 def test_what_died_is_named(tmp_path):

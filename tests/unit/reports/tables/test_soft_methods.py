@@ -17,12 +17,12 @@ ABOUT = {"width": 8, "height": 4, "radii": [0, 0.5], "given_radii": [0, 0.25]}
 ABOUT |= {"radius_unit": "scene_sizes"}
 TIMES = {
     **{"frames": 2, "repeats": 3, "once_above_ms": 100},
-    **{"map_ms": 10.0, "map_share": 1.0, "texels": 64, "machine": {"cpu": "a CPU"}},
+    **{"maps": {"8": {"ms": 10.0, "texels": 64}}, "map_share": 1.0, "machine": {"cpu": "a CPU"}},
     "methods": {
-        "hard": {"ms": [1.0, 1.0], "texel_floats": 1, "held_bytes": 0},
-        "rt_4": {"ms": [4.0, 16.0], "texel_floats": 0, "held_bytes": 0},
-        "pcss_post": {"ms": [1.0, 1.0], "texel_floats": 1, "held_bytes": 0},
-        "no_shadow": {"ms": [0.1, 0.1], "texel_floats": 0, "held_bytes": 0},
+        "hard": {"ms": [1.0, 1.0], "map": "8", "texel_floats": 1, "held_bytes": 0},
+        "rt_4": {"ms": [4.0, 16.0], "map": None, "texel_floats": 0, "held_bytes": 0},
+        "pcss_post": {"ms": [1.0, 1.0], "map": "8", "texel_floats": 1, "held_bytes": 0},
+        "no_shadow": {"ms": [0.1, 0.1], "map": None, "texel_floats": 0, "held_bytes": 0},
     },
 }
 RUN = {"scale": "test", "seed": 1}
@@ -53,10 +53,10 @@ def written(tmp_path):
     times.write_text(json.dumps(TIMES))
     frames.write_text(json.dumps(ABOUT))
     lpips.write_text(json.dumps({"available": False}))
-    constants = tmp_path / "pcss.json"
+    constants = tmp_path / "pcss_post.json"
     chosen = {"constants": {"bias": 3}, "at_end": ["bias"], "mse": 0.1}
     constants.write_text(
-        json.dumps({"method": "pcss", "tried": {"bias": [1, 3]}, "radii": [chosen, chosen]})
+        json.dumps({"method": "pcss_post", "tried": {"bias": [1, 3]}, "radii": [chosen, chosen]})
     )
     csv, md = tmp_path / "soft_methods.csv", tmp_path / "soft_methods.md"
     soft_methods.write(
@@ -99,7 +99,6 @@ def test_what_looks_at_a_map_waits_for_it(written):
 
 def test_notes_say_constants_and_where_they_end(written):
     text = written[1].read_text()
-    # PCSS is not in the table, but what has its constants is.
     assert "PCSS, filtered, by radius: bias 3, 3 (bias at an end of what was tried)." in text
     assert (
         "Not to be had on this machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text

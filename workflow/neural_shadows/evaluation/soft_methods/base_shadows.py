@@ -24,7 +24,7 @@ def base_by_map(name: str, frame: SoftFrame) -> np.ndarray:
     if name == "msm":
         found = _MSM.answer(frame, 0.0, bias=1.0, bleeding=0.0)
     elif name == "pcf":
-        found = box_visibility(*looked_up, size=1)
+        found = box_visibility(*looked_up[:3], frame.surface.n_g, frame.bias, size=1)
     else:
         found = hard_visibility(*looked_up)
     return np.where(frame.cosines > 0, found, np.float32(0))

@@ -11,11 +11,13 @@ import numpy as np
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.shadow_maps.filtered_moments import filtered_moments
+from neural_shadows.shadow_maps.light_filters import receiver_bias
 from neural_shadows.shadow_maps.light_map import distances_of
 
-# `bias`: times that of a test against one texel. `bleeding`: visibilities up to it are made 0, and
-# those above it stretched to [0, 1] again (Lauritzen 2007).
-CONSTANTS = {"bias": (0.3, 1.0, 3.0), "bleeding": (0.0, 0.1, 0.3)}
+# `bias`: times a cone's, which grows with the kernel: of a slanted receiver's own texels half lie
+# before it. `bleeding`: visibilities up to it are made 0, and those above it stretched to [0, 1] again
+# (Lauritzen 2007).
+CONSTANTS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0), "bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}
 
 
 def moment_method(
@@ -43,6 +45,14 @@ def _answer(
     moments = filtered_moments(
         frame.light_map, frame.depths, frame.ways, of=of, far=far, kernel=kernel
     )
-    depth = np.maximum(distances - np.float32(bias) * frame.bias, 0) / far
+    reach = 0.75 + _spread(kernel)
+    cone = receiver_bias(frame.light_map, frame.ways, frame.cosines, frame.scene.size, reach)
+    depth = np.maximum(distances - np.float32(bias) * cone, 0) / far
     found = (visibility(moments, depth) - bleeding) / (1 - bleeding)
     return np.maximum(found, 0).astype(np.float32)
+
+
+def _spread(kernel: np.ndarray) -> float:
+    """Standard deviation of a kernel's texels."""
+    places = np.arange(len(kernel)) - len(kernel) // 2
+    return float(np.sqrt(np.sum(kernel * places**2)))

@@ -13,8 +13,8 @@ from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.shadow_maps.box_filter import box_visibility
 from neural_shadows.shadow_maps.light_filters import disc_visibility
 
-# Times the bias of a test against one texel: a wide kernel has texels far before a slanted receiver.
-BIASES = (0.3, 1.0, 3.0)
+# Times the bias of a test against one texel.
+BIASES = (0.1, 0.3, 1.0, 3.0, 10.0)
 _SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
 
 
@@ -26,7 +26,8 @@ def _box_pcf(size: int) -> SoftMethod:
 
 def _box(frame: SoftFrame, radius: float, *, size: int, bias: float) -> np.ndarray:
     biases = np.float32(bias) * frame.bias
-    return box_visibility(frame.light_map, frame.depths, frame.ways, biases, size=size)
+    receivers = frame.ways, frame.surface.n_g, biases
+    return box_visibility(frame.light_map, frame.depths, *receivers, size=size)
 
 
 def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.ndarray:
@@ -34,6 +35,7 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
         frame.light_map,
         frame.depths,
         frame.ways,
+        frame.surface.n_g,
         np.float32(bias) * frame.bias,
         texels=texels,
         samples=_SAMPLES,
@@ -41,7 +43,7 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
     )
 
 
-_DISC = {"texels": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "bias": BIASES}
+_DISC = {"texels": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "bias": BIASES}
 METHODS = {
     **{f"pcf_{size}": _box_pcf(size) for size in (3, 5, 9, 15)},
     "pcf_disc": SoftMethod(_disc, _DISC, of_radius=False),  # but by its constants

@@ -4,6 +4,8 @@ With 64 samples of the search and 128 of the filter (Hu et al. 2025, 6.1). The c
 makes the light larger or smaller than it is; a point light has the four tests round each receiver.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from neural_shadows.evaluation.soft_methods.depth_aware_filter import depth_aware
@@ -14,25 +16,21 @@ from neural_shadows.shadow_maps.light_filters import soft_disc_visibility
 
 
 def _answer(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> np.ndarray:
-    biases = np.float32(bias) * frame.bias
+    receivers = frame.ways, frame.surface.n_g, np.float32(bias) * frame.bias
     if radius == 0:
-        return box_visibility(frame.light_map, frame.depths, frame.ways, biases, size=1)
+        return box_visibility(frame.light_map, frame.depths, *receivers, size=1)
     return soft_disc_visibility(
         frame.light_map,
         frame.depths,
-        frame.ways,
-        biases,
+        *receivers,
         radius=scale * radius,
         keys=frame.surface.pixel,
     )
 
 
-def _filtered(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> np.ndarray:
-    return depth_aware(frame.surface, _answer(frame, radius, scale=scale, bias=bias))
-
-
-_CONSTANTS = {"scale": (0.7, 1.0, 1.4), "bias": (0.3, 1.0, 3.0)}
+_PCSS = SoftMethod(_answer, {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)})
 METHODS = {
-    "pcss": SoftMethod(_answer, _CONSTANTS),
-    "pcss_post": SoftMethod(_filtered, _CONSTANTS),
+    "pcss": _PCSS,
+    "pcss_post": replace(_PCSS, last=depth_aware),
+    "pcss_2048": replace(_PCSS, resolution=2048),
 }

@@ -9,9 +9,17 @@ from numba import njit
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.light_samples import ring_ways
+from neural_shadows.rendering.soft_shadows import PLACES
 
 _RAYS = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
 _SALT = 1 << 26  # more than a frame's pixels
+
+# Places in a pixel: of four a turned grid, of eight those of the targets.
+_SPREAD = {
+    2: ((0.25, 0.25), (0.75, 0.75)),
+    4: ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875)),
+    8: PLACES,
+}
 
 Blocked = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
@@ -78,7 +86,22 @@ def _share_free(blocked, ways, normals):
     return found
 
 
+def spread(frame: SoftFrame, radius: float, *, samples: int) -> np.ndarray:
+    """The same from as many places in each pixel, a ray from each: what a path tracer or a
+    multisampled G-buffer sends. (n,) float32 of the frame's points.
+    """
+    images = [
+        one.surface.image(ray_traced(one, radius, samples=1), 1.0)
+        for one in frame.at_places(_SPREAD[samples])
+    ]
+    return np.mean(images, axis=0, dtype=np.float32).ravel()[frame.surface.pixel]
+
+
+_BY_RAYS = {"texel_floats": 0, "by_rays": True}
 METHODS = {
-    f"rt_{count}": SoftMethod(partial(ray_traced, samples=count), texel_floats=0, by_rays=True)
+    f"rt_{count}": SoftMethod(partial(ray_traced, samples=count), **_BY_RAYS)
     for count in (1, 2, 4, 8, 16, 32, 40, 64)
+} | {
+    f"rt_{count}_spread": SoftMethod(partial(spread, samples=count), **_BY_RAYS)
+    for count in _SPREAD
 }

@@ -26,6 +26,8 @@ _MODULES = {
     "base": "base_shadows",
 }
 
+_NETWORK = "neural_shadows.evaluation.soft_methods.screen_network"
+
 
 def method_module(key: str) -> Path:
     """The module of a method: `pcf.py` for `pcf_9`."""
@@ -44,15 +46,20 @@ def soft_method(key: str, weights: Path | None = None, precision: str = "auto") 
 
 
 def soft_methods_by_scene(
-    key: str, weights: Sequence[Path] = (), precision: str = "auto"
+    key: str, weights: Sequence[Path] = (), precision: str = "auto", by_scene: bool = False
 ) -> "Callable[[str], SoftMethod | None]":
-    """The method of a key, by scene: of several networks the one that learned it, or None."""
-    if len(weights) < 2:
+    """The method of a key, by scene; `by_scene`: of the networks the one that learned it, or None.
+
+    None of all scenes for a network in a number format that the CPU would have to emulate.
+    """
+    network = import_module(_NETWORK) if is_network(key) else None
+    if network and not network.computes_in(precision):
+        return lambda scene: None
+    if not by_scene:
         method = soft_method(key, *weights, precision=precision)
         return lambda scene: method
-    module = import_module("neural_shadows.evaluation.soft_methods.screen_network")
     return {
-        scene: module.screen_method(path, precision)
+        scene: network.screen_method(path, precision)
         for path in weights
-        for scene in module.learned_scenes(path)
+        for scene in network.learned_scenes(path)
     }.get

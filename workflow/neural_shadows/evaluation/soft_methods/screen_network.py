@@ -14,11 +14,13 @@ from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.networks.compute import choose_dtype
+from neural_shadows.networks.compute import choose_dtype, is_native
 from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.networks.weight_file import load_tensors
 from neural_shadows.rendering.gbuffer import Lens, lens_of
+
+_CPU = torch.device("cpu")  # where all methods for soft shadows answer
 
 
 def screen_method(weights: Path, precision: str = "auto") -> SoftMethod:
@@ -28,6 +30,11 @@ def screen_method(weights: Path, precision: str = "auto") -> SoftMethod:
         InputError: the file is damaged, or its weights are of another table of widths.
     """
     return _Answers(weights, precision).method()
+
+
+def computes_in(precision: str) -> bool:
+    """Whether the CPU multiplies in a number format; `auto` is one in which it does."""
+    return precision == "auto" or is_native(getattr(torch, precision), _CPU)
 
 
 def learned_scenes(weights: Path) -> list[str]:
@@ -47,7 +54,7 @@ class _Answers:
         network, self._header = load_screen_network(weights)
         if isinstance(network, KernelUnet):
             network = network.folded()
-        self._network = network.in_format(choose_dtype(precision, torch.device("cpu")))
+        self._network = network.in_format(choose_dtype(precision, _CPU))
 
     def method(self) -> SoftMethod:
         bytes_held = 2 * sum(one.numel() for one in self._network.parameters())  # 16 bits each

@@ -7,6 +7,7 @@ import numpy as np
 
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.surface import Surface
 
 Constants = Mapping[str, float]
 
@@ -33,6 +34,9 @@ class SoftMethod:
         check_own: of a part of a user's own frames, raises an InputError where it cannot answer them.
         channel: of the frame's buffers, if its answer is there already.
         constant: the visibility of all that faces the light, of what knows nothing else.
+        last: a filter of a surface and visibilities (n,) in screen space, after all else: also after
+            what faces away is made dark, whose border would stay aliased.
+        resolution: texels of a side of the light's map, if not the frame set's.
     """
 
     answer: Callable[..., np.ndarray] | None = None
@@ -46,6 +50,8 @@ class SoftMethod:
     check_own: Callable[[FrameSetPart], None] | None = None
     channel: str | None = None
     constant: float | None = None
+    last: Callable[[Surface, np.ndarray], np.ndarray] | None = None
+    resolution: int | None = None
 
     def settings(self) -> list[dict[str, float]]:
         """Every combination of the constants that is tried; one without any, if it has none."""
@@ -67,5 +73,9 @@ def visibility(
     method: SoftMethod, frame: SoftFrame, radius: float, constants: Constants
 ) -> np.ndarray:
     """How much of a light of a radius each of the frame's points sees, (n,) float32."""
-    found = method.answer(frame, radius, **constants)
-    return found if method.by_rays else np.where(frame.cosines > 0, found, np.float32(0))
+    if method.resolution is not None:
+        frame = frame.with_map_of(method.resolution)
+    answer = method.answer(frame, radius, **constants)
+    if not method.by_rays:
+        answer = np.where(frame.cosines > 0, answer, np.float32(0))
+    return answer if method.last is None else method.last(frame.surface, answer)

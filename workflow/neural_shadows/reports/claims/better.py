@@ -13,6 +13,7 @@ from neural_shadows.metrics.power_law import FEWEST_BUDGETS, Curve
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.learning import Learning, followed
 from neural_shadows.reports.claims.measured import NO_SHADOW_ROW, Budget, Measured, Row, labels
+from neural_shadows.reports.digits import short
 
 
 def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
@@ -112,7 +113,7 @@ def _text(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame) ->
 
 
 def _shown(metric: str, error: float) -> str:
-    return f"{value_of(metric, error):.3g}{' dB' if metric == 'psnr' else ''}"
+    return f"{short(value_of(metric, error))}{' dB' if metric == 'psnr' else ''}"
 
 
 def _error_gain(a: float, b: float) -> float:

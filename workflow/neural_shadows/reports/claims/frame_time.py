@@ -8,6 +8,7 @@ from scipy.stats import quantile_test
 
 from neural_shadows.reports.claims.comparison import Comparison, unjudged
 from neural_shadows.reports.claims.measured import Measured, Row, labels
+from neural_shadows.reports.digits import short
 
 
 def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
@@ -35,7 +36,7 @@ def _compared(claim: Mapping[str, Any], pair: Sequence[Row], data: Measured) -> 
     found = [timed[row["method"]] for row in pair]
     own, overhead = [np.array(one["own_ms"]) for one in found], claim["overhead_ms"]
     texts = [
-        f"{label} {np.median(ms):.3g} ms (frame {np.median(one['ms']):.3g} ms)"
+        f"{label} {short(np.median(ms))} ms (frame {short(np.median(one['ms']))} ms)"
         for label, ms, one in zip(labels(pair), own, found)
     ]
     asked = {key: claim[key] for key in ("at_least", "at_most") if claim[key] is not None}
@@ -55,7 +56,7 @@ def _compared(claim: Mapping[str, Any], pair: Sequence[Row], data: Measured) -> 
     above = quantile_test(ratios, q=most, alternative="greater").pvalue
     return Comparison(
         **kept,
-        number=f"ratio {np.median(ratios):.3g} [{low:.3g}, {high:.3g}]",
+        number=f"ratio {short(np.median(ratios))} [{short(low)}, {short(high)}]",
         remark=f"{with_rest} ({limits})",
         supports=bool(low > least and high < most),
         against=min(1.0, 2 * min(below, above)),

@@ -11,6 +11,7 @@ from neural_shadows.metrics.intervals import LEVEL
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES
+from neural_shadows.reports.digits import short
 
 TOWARDS, AWAY, NEITHER = "towards", "away", "neither"
 
@@ -57,8 +58,8 @@ class Learning:
             at, below, above, _ = self.extrapolated
             far, tried = self.steps
             said += (
-                f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}] ({far:.3g} "
-                f"times the largest budget, the hold-out tries {tried:.3g} times)"
+                f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}] ({short(far)} "
+                f"times the largest budget, the hold-out tries {short(tried)} times)"
             )
         return said
 

@@ -10,6 +10,7 @@ from neural_shadows.metrics.power_law import FEWEST_BUDGETS, Curve
 from neural_shadows.reports.claims.comparison import Comparison, judged, unjudged
 from neural_shadows.reports.claims.learning import followed
 from neural_shadows.reports.claims.measured import Measured, Row, labels
+from neural_shadows.reports.digits import short
 
 
 def comparisons(claim: Mapping[str, Any], data: Measured) -> list[Comparison]:
@@ -35,7 +36,7 @@ def _compared(pair: Sequence[Row], data: Measured) -> Comparison:
     return Comparison(
         metric="loss",
         methods=methods,
-        text=f"loss of {first} {a.mean():.3g} against {second} {b.mean():.3g}",
+        text=f"loss of {first} {short(a.mean())} against {second} {short(b.mean())}",
         **judged(*t_interval(b - a)),
         seeds=budgets[-1].seeds,
         samples=budgets[-1].samples,

@@ -9,6 +9,7 @@ import pandas as pd
 from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.reports.claims.comparison import Comparison, unjudged
 from neural_shadows.reports.claims.measured import Measured
+from neural_shadows.reports.digits import short
 
 WITHOUT_TRUNK = "no network with a perceptual loss: it needs a pretrained trunk"
 
@@ -98,8 +99,8 @@ def _number(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, str]:
     """The ratio, of several their geometric mean, and its bounds, in words."""
     bounds = " and ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in limits.items())
     mean, low, high, _ = np.exp(t_interval(_log(ratios)))
-    interval = f" [{low:.3g}, {high:.3g}] over {len(ratios)} seeds" if len(ratios) > 1 else ""
-    return {"number": f"ratio {mean:.3g}{interval}", "remark": f" ({bounds})"}
+    interval = f" [{short(low)}, {short(high)}] over {len(ratios)} seeds" if len(ratios) > 1 else ""
+    return {"number": f"ratio {short(mean)}{interval}", "remark": f" ({bounds})"}
 
 
 def _judged(ratios: np.ndarray, limits: Mapping[str, float]) -> dict[str, Any]:

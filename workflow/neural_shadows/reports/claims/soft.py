@@ -14,6 +14,7 @@ from neural_shadows.metrics.error_scale import error_of
 from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
 from neural_shadows.reports.claims.measured import Measured
+from neural_shadows.reports.digits import short
 
 # What values are multiplied by, as their names in `NAMES` say.
 FACTORS = {"mse": 1e4, "l1": 100, "light_leak": 100, "false_shadow": 100}
@@ -43,7 +44,7 @@ class SoftTable:
         if timed is None:
             return float("nan")
         own = np.mean(timed["ms"]) if radius is None else timed["ms"][radius]
-        return own + self.times["map_ms"] * (timed["texel_floats"] > 0)
+        return own + self.times["maps"].get(timed["map"], {"ms": 0.0})["ms"]
 
     def light(self, radius: int | None) -> str:
         """What a radius is called."""
@@ -131,7 +132,7 @@ def _compared(
     frames = [pd.concat(some, axis=1) for some in errors]
     means = [error_of(metric, one.mean(axis=None)) for one in frames]
     texts = [
-        f"{label} {mean:.3g}{_in_time(table.milliseconds(name, radius))}"
+        f"{label} {short(mean)}{_in_time(table.milliseconds(name, radius))}"
         for label, name, mean in zip(labels, names, means)
     ]
     kept["text"] = f"{NAMES[metric]} at {light} of {' against '.join(texts)}"

@@ -14,6 +14,7 @@ from neural_shadows.reports.claims.measured import (
     compared,
     networks_of_frames,
 )
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.learned import THESIS_METRICS, has_learned, learned
 
 LOSS_MARGIN = 0.02  # of no shadow's loss: what chance does to the end of a curve
@@ -67,7 +68,7 @@ def _by_validation(name: str, data: Measured) -> str:
     if sum(errors) < nulls[least]:
         return ""
     ours, theirs = (1e4 * total / len(errors) for total in (sum(errors), nulls[least]))
-    return f"{name}: MSE {ours:.3g} × 10⁻⁴ on validation frames, {least} {theirs:.3g}"
+    return f"{name}: MSE {short(ours)} × 10⁻⁴ on validation frames, {least} {short(theirs)}"
 
 
 def losers(claim: Mapping[str, Any]) -> set[str]:
@@ -104,5 +105,5 @@ def _by_loss(row: Row, loser: bool, budget: Budget, data: Measured) -> str:
             if not loser:
                 return f"died at step {died:,}"
         elif loss >= (1 - LOSS_MARGIN) * null:
-            return f"loss {loss:.3g}, without shadow {null:.3g} (margin {100 * LOSS_MARGIN:.0f} %)"
+            return f"loss {short(loss)}, without shadow {short(null)} (margin {100 * LOSS_MARGIN:.0f} %)"
     return ""

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter, NullLocator
 
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.figures.chart import saying_points, write_chart
 from neural_shadows.reports.figures.style import COLOURS, GRID, Section, new_figure
 from neural_shadows.reports.tables.cost import cost_table
@@ -38,7 +39,7 @@ def cost_figure(table: pd.DataFrame, *, title: str) -> Figure:
             axes.xaxis.set(major_formatter=EngFormatter(sep=""), minor_locator=NullLocator())
             for stage, part in shown[shown[value] > 0].groupby("stage", sort=False):
                 texts = [
-                    f"{stage}: {row[value]:.3g} {unit} at {row['size']:,}"
+                    f"{stage}: {short(row[value])} {unit} at {row['size']:,}"
                     for _, row in part.iterrows()
                 ]
                 saying_points(axes, part["size"], part[value], texts, color=colours[stage])

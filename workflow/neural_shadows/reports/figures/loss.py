@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.figures.chart import saying_points, write_chart
 from neural_shadows.running.stage import run_stage
@@ -79,7 +80,7 @@ def loss_figure(
         points = curve[POINTS].to_numpy(float).T
         colour = style.COLOURS[i % len(style.COLOURS)]
         step = died[label]
-        end = f"at the end {points[1, -1]:.3g}" if step is None else f"died at step {step:,}"
+        end = f"at the end {short(points[1, -1])}" if step is None else f"died at step {step:,}"
         if not len(curve):  # it died before the first point
             axes.plot([], [], color=colour, label=f"{label} ({end})")
             continue
@@ -90,7 +91,7 @@ def loss_figure(
     axes.set(xscale="log", yscale="log", xlabel="training samples", ylabel="dead-zone loss")
     for i, (label, curve) in enumerate(curves.items()):
         places = means_of(curve)[::-SAYING].to_numpy()
-        texts = [f"{label}: {loss:.3g} at {seen:,.0f} samples" for seen, loss in places]
+        texts = [f"{label}: {short(loss)} at {seen:,.0f} samples" for seen, loss in places]
         look = {"color": style.COLOURS[i % len(style.COLOURS)], "markersize": 3.5}
         saying_points(axes, *places.T, texts, **look)
     # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.figures.point_labels import label_points
@@ -147,9 +148,8 @@ def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
         spread = [[row.value - row.low], [row.high - row.value]]
         look = _drawn(row.look) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
         bar = axes.errorbar(row.cost, row.value, spread, capsize=2, **look)
-        value = f"{row.value:.3g} [{row.low:.3g}, {row.high:.3g}]{'' if errors else ' dB'}"
-        cost = f"{row.cost:,.0f}" if row.cost >= 100 else f"{row.cost:.3g}"
-        say(bar.lines[0], f"{row.method}: {value}; {axes.get_xlabel()}: {cost}")
+        value = f"{short(row.value)} [{short(row.low)}, {short(row.high)}]{'' if errors else ' dB'}"
+        say(bar.lines[0], f"{row.method}: {value}; {axes.get_xlabel()}: {short(row.cost)}")
     _draw_lines(axes, points, methods, errors)
     error = measured["value"].to_numpy() * (1 if errors else -1)
     first = measured.iloc[front(measured["cost"].to_numpy(), error)]

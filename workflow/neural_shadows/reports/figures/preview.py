@@ -51,7 +51,7 @@ def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: Sectio
     right.set(xlim=(-CORNERS, CORNERS), ylim=(-CORNERS, CORNERS))
     closed = "The mesh is watertight." if report["watertight"] else "The mesh is open."
     if report["sheet"]:
-        closed += " It is a sheet: give an occupancy field of it `surface: sheet`."
+        closed += " It is a sheet, without an inside: so are its occupancy fields."
     up = f"Up is {scene['up']}: if the object does not stand as it should, change the scene's `up`."
     notes = f"{up}\n{closed} Orange: its bounding sphere, whose radius is the unit of all lengths."
     note_below(figure, notes)

@@ -6,6 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.figures.style import COLOURS, GRID, Section, legend_below, new_figure
 from neural_shadows.reports.published_nsm import PAPER
@@ -37,7 +38,7 @@ def level_figure(table: pd.DataFrame, *, title: str) -> Figure:
         figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels.items()
     ):
         _draw_levels(axes, table, *columns)
-        axes.set_title(f"{name}: {table[columns[1]].sum():.4g} ms", fontsize=11)
+        axes.set_title(f"{name}: {short(table[columns[1]].sum(), 4)} ms", fontsize=11)
     figure.axes[0].set_ylabel("share of the whole time, %")
     legend_below(figure)
     return figure
@@ -54,12 +55,12 @@ def _draw_levels(axes: Axes, table: pd.DataFrame, share: str, ms: str) -> None:
             bars = axes.bar(levels, heights, bottom=bottom, color=colour, label=label, width=0.7)
             for level, bar in zip(levels, bars):
                 if heights[level]:
-                    say(bar, f"level {level:g}, {label}: {rows[ms][level]:.3g} ms")
+                    say(bar, f"level {level:g}, {label}: {short(rows[ms][level])} ms")
             bottom += heights
     sums = table.groupby("level")[ms].sum()
     for level in levels:
         axes.annotate(
-            f"{sums[level]:.3g} ms",
+            f"{short(sums[level])} ms",
             (level, bottom[level]),
             xytext=(0, 2),
             textcoords="offset points",

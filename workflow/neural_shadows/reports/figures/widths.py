@@ -7,6 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.figures import style
 from neural_shadows.reports.figures.chart import say, write_chart
 from neural_shadows.reports.tables.quality import with_ends
@@ -101,7 +102,9 @@ def _draw_line(axes: Axes, rows: pd.DataFrame, columns: Sequence[str], **look: s
     for row in rows.assign(value=value).itertuples():
         face = "none" if row.learned == "False" else look["color"]
         (point,) = axes.plot(row.width, row.value, "o", color=look["color"], markerfacecolor=face)
-        say(point, f"{row.scene}, {row.method}: {row.value:.3g} ({columns[0].replace('_', ' ')})")
+        say(
+            point, f"{row.scene}, {row.method}: {short(row.value)} ({columns[0].replace('_', ' ')})"
+        )
 
 
 if "snakemake" in globals():

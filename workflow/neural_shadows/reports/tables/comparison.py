@@ -40,7 +40,7 @@ def write(
 ) -> None:
     """Write a comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
 
-    The null predictors come last. CSV: the columns of `scene_quality`, those of `add_printed` and
+    The null predictors come last. CSV: the columns of `scene_quality`, `unfit`, those of `add_printed` and
     `add_printed_maps`, and the context.
 
     Args:
@@ -50,6 +50,8 @@ def write(
     scene, mesh, lpips = scenes[name], read_json(mesh_json), read_json(lpips_json)
     records, printed = [read_json(path) for path in trainings], read_published(published_csv)
     table = quality.scene_quality(metrics, rows, margins(printed), against, run["seed"])
+    unfit = {record["name"]: record["unfit"] for record in records}
+    table["unfit"] = pd.Series([unfit.get(row["experiment"]) for row in rows], dtype=object)
     table = add_printed(table, rows, PRINTED, published, published_csv, {name: mesh})
     table = add_printed_maps(table, rows, printed, published if mesh["thesis_mesh"] else None)
     table = table.assign(**quality.context_columns(mesh, lpips, run, scene["seed"]))

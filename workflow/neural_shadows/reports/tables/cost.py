@@ -9,6 +9,7 @@ import pandas as pd
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -24,7 +25,7 @@ def write(*, costs: list[Path], csv: Path, md: Path, title: str, run: Mapping[st
         "stage": table["stage"],
         "over": table["over"],
         "size": [f"{size:,}" for size in table["size"]],
-        "seconds": number_cells(table["seconds"], "{:.3g}"),
+        "seconds": number_cells(table["seconds"], short),
         "memory MiB": number_cells(table["memory_mib"], "{:,.0f}"),
         "exponent of seconds": number_cells(table["seconds_exponent"], "{:.2f}"),
         "exponent of memory": number_cells(table["memory_mib_exponent"], "{:.2f}"),

@@ -15,6 +15,7 @@ from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.reports import phrases
 from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured, Row
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.inputs import by_folder, read_meshes
 from neural_shadows.reports.published import read_published
 from neural_shadows.reports.tables.quality import values_by_view
@@ -187,7 +188,7 @@ def _describe_steps(table: pd.DataFrame) -> list[str]:
         return []
     tried, asked = steps[0].min(), steps[1].max()
     return [
-        f"The hold-out tries a step of {tried:.3g} times the samples, and that to the thesis's is "
+        f"The hold-out tries a step of {short(tried)} times the samples, and that to the thesis's is "
         f"{asked:,.0f} times: no hold-out sees what bends in between."
     ]
 
@@ -209,7 +210,7 @@ def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
         error = "" if np.isnan(last["error"]) else f"{100 * last['error']:+.1f} %"
         lines.append(
             {"scene": scene, "method": method, "metric": heading}
-            | {f"{n / 1e6:.3g} M samples": a + b for n, a, b in zip(budgets, means, spreads)}
+            | {f"{short(n / 1e6)} M samples": a + b for n, a, b in zip(budgets, means, spreads)}
             | {
                 "exponent": " → ".join(f"{one:.2f}" for one in ends),
                 "largest, as predicted": _interval(last, form),

@@ -11,6 +11,7 @@ from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.inputs import by_folder, read_biases, read_meshes, read_seconds
 from neural_shadows.reports.learned import margins
 from neural_shadows.reports.published import TABLE_OF_SCENE, printed_networks, read_published
@@ -20,7 +21,7 @@ from neural_shadows.running.stage import run_stage
 
 # What a method is, beside its quality; empty where it does not apply.
 FACTS = ("encoding", "parameters", "stored_bytes", "resident_bytes", "build_seconds")
-FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end")
+FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end", "unfit")
 SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
 
 Row = Mapping[str, Any]
@@ -126,6 +127,7 @@ def facts_of(
         facts |= {
             "encoding": record["network"]["encoding"],
             "parameters": record["parameters"],
+            "unfit": record["unfit"],
             "build_seconds": read_seconds(map(Path, durations[row["experiment"]]))
             + record["seconds"],
             "training_seconds": record["seconds"] if record["training"] else np.nan,
@@ -168,7 +170,7 @@ def cells(table: pd.DataFrame) -> dict[str, Iterable[str]]:
         "stored KiB ↓": number_cells(table["stored_bytes"], "{:,.0f}", 1 / 1024),
         "resident KiB ↓": number_cells(table["resident_bytes"], "{:,.0f}", 1 / 1024),
         "build s ↓": number_cells(table["build_seconds"], "{:,.0f}"),
-        "own ms ↓": number_cells(table["own_ms"], "{:.3g}"),
+        "own ms ↓": number_cells(table["own_ms"], short),
         "frame ms ↓": number_cells(table["frame_ms"], "{:.0f}"),
         "bias": [f"{bias}{end}" for bias, end in zip(biases, ends)],
     }

@@ -26,6 +26,7 @@ def describe_quality(table: pd.DataFrame, against: str | None) -> list[str]:
         "agreement) do not drive as they do the mean; "
         + (f"a method has up to {most:.0f} of them." if most else "there are none here."),
         *describe_learned(table),
+        *describe_unfit(table),
     ]
     if table["map_psnr"].fillna("").any():
         notes.append(
@@ -48,12 +49,23 @@ def describe_learned(table: pd.DataFrame) -> list[str]:
     ]
 
 
-def method_cells(table: pd.DataFrame) -> list[str]:
-    """The Markdown's names of methods, of a network with whether it has learned nothing."""
+def describe_unfit(table: pd.DataFrame) -> list[str]:
+    """One sentence on what it is to be unfit, if a network is."""
+    if not table["unfit"].eq(True).any():
+        return []
     return [
-        f"{name} (**not learned**)" if found is False else name
-        for name, found in zip(table["method"], table["learned"])
+        "**unfit**: it needs an inside, which this open and thin mesh does not have; leave out its "
+        "`start` and `surface`, and it is trained as a sheet."
     ]
+
+
+def method_cells(table: pd.DataFrame) -> list[str]:
+    """The Markdown's names of methods, of a network with whether it is unfit or has learned nothing."""
+    marks = pd.Series("", table.index)
+    marks[table["learned"].eq(False)] = " (**not learned**)"
+    if "unfit" in table:
+        marks[table["unfit"].eq(True)] = " (**unfit**)"
+    return [*table["method"] + marks]
 
 
 def difference_cells(table: pd.DataFrame) -> list[str]:

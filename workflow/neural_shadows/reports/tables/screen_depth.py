@@ -10,6 +10,7 @@ import pandas as pd
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.published_nsm import read_published_nsm, titled
 from neural_shadows.reports.tables.screen_rows import (
     describe_trainings,
@@ -121,7 +122,7 @@ def _describe_learning(records: Mapping[str, Mapping[str, Any]], labels: Mapping
         found = [*record["validations"], end]
         quarters = np.linspace(0, len(found) - 1, 4).round().astype(int)
         shown = [found[number] for number in dict.fromkeys(quarters)]
-        errors = number_cells([np.mean(one["mse"], dtype=float) for one in shown], "{:.3g}", 1e4)
+        errors = number_cells([np.mean(one["mse"], dtype=float) for one in shown], short, 1e4)
         after = [f"{error} after {one['step']:,}" for error, one in zip(errors, shown)]
         told.append(f"{labels.get(name, name)} {', '.join(after)}")
     return (

@@ -1,6 +1,7 @@
 """A network of whole frames by level: time, multiply-adds, weights, storage (NSM, table S2)."""
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pandas as pd
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases, screen_profiles
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.published_nsm import (
     beside,
     printed,
@@ -49,7 +51,9 @@ def write(
     shown = {"level": [*map(str, table["level"])]}
     for one in profile["runs"]:
         key = screen_profiles.run_key(one)
-        shown[f"ms, {screen_profiles.run_name(one)}"] = number_cells(table[f"ms_{key}"], "{:.4g}")
+        shown[f"ms, {screen_profiles.run_name(one)}"] = number_cells(
+            table[f"ms_{key}"], partial(short, digits=4)
+        )
     shown["% of the product's rate"] = number_cells(table["product_share"], "{:.0f}", 100)
     for name, (unit, form) in COLUMNS.items():
         if name != "runtime":

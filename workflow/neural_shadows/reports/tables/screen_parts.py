@@ -1,6 +1,7 @@
 """The time of a network of whole frames by level and part (NSM, table S3)."""
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pandas as pd
 
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports import phrases, screen_profiles
+from neural_shadows.reports.digits import short
 from neural_shadows.reports.published_nsm import (
     beside,
     printed,
@@ -53,7 +55,9 @@ def write(
     }
     for one in profile["runs"]:
         key = screen_profiles.run_key(one)
-        shown[f"ms, {screen_profiles.run_name(one)}"] = number_cells(table[f"ms_{key}"], "{:.4g}")
+        shown[f"ms, {screen_profiles.run_name(one)}"] = number_cells(
+            table[f"ms_{key}"], partial(short, digits=4)
+        )
     shown["%"] = number_cells(table["share"], "{:.1f}", 100)
     shown["printed ms"] = number_cells(table["printed_ms"], "{:.2f}")
     shown["printed %"] = number_cells(table["printed_share"], "{:.1f}", 100)

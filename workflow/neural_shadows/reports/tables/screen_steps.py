@@ -87,6 +87,7 @@ def write(
         "Errors: mean over test frames and all lights, in the step's format [95 % bootstrap interval "
         "over frames].",
         *(describe(profile) for profile in list(profiled.values())[:1]),
+        *_without_errors(table, steps),
         *describe_trainings(records, labels),
         phrases.describe_run(run),
     ]
@@ -104,25 +105,42 @@ def steps_table(
 
     Columns: `row`, `network`, `precision`, `runtime` (ms of a frame on all of the machine's threads, or
     its GPU, see `run` and `device`), `share` of a matrix product's rate, `size` (MiB of weights and biases not
-    counted), `error` (mean squared) with the ends of its interval, NaN of what is not trained.
+    counted), `error` (mean squared) with the ends of its interval, NaN of what is not trained. Times
+    and errors are NaN, too, in a number format that the machine would emulate.
     """
     rows = []
     for name, step in steps.items():
         profile = profiles[step["network"]]
-        timed = [one for one in profile["runs"] if one["precision"] == step["precision"]][-1]
+        timed = [one for one in profile["runs"] if one["precision"] == step["precision"]]
         weights = sum(level["weights"] for level in profile["levels"])
         row = {"row": name, "network": step["network"], "precision": step["precision"]}
-        row |= {"run": run_name(timed), "device": timed["device"], "runtime": timed["whole_ms"]}
-        row |= {"share": product_share(profile, timed)}
+        row |= {"run": "", "device": "", "runtime": np.nan, "share": np.nan}
+        if timed:
+            last = timed[-1]
+            row |= {"run": run_name(last), "device": last["device"], "runtime": last["whole_ms"]}
+            row |= {"share": product_share(profile, last)}
         row |= {"size": weights * BYTES[step["precision"]] / 2**20}
         row |= dict.fromkeys(("error", "error_low", "error_high"), np.nan)
         if step["experiment"]:
             method = in_format(step["experiment"], step["precision"])
             mine = found[(found["metric"] == "mse") & (found["method"] == method)]
             values = mine.groupby(["scene", "part", "frame"])["value"].mean()
-            row |= mean_with_interval(values, "error", seed)
+            row |= mean_with_interval(values, "error", seed) if len(values) else {}
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def _without_errors(table: pd.DataFrame, steps: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """A note on the steps that are trained and yet have no error; none if all have one."""
+    trained = table["row"].map(lambda name: bool(steps[name]["experiment"]))
+    lacking = table[table["error"].isna() & trained]
+    if lacking.empty:
+        return []
+    names, formats = (", ".join(dict.fromkeys(lacking[name])) for name in ("row", "precision"))
+    return [
+        f"Without an error: {names}. Errors are measured on the CPU, which has no instructions for "
+        f"{formats} and would emulate it."
+    ]
 
 
 def _printed(table: pd.DataFrame, name: str, form: str) -> list[str]:

@@ -11,9 +11,9 @@ def cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float]
     if method not in times["methods"]:
         return dict.fromkeys(("own_ms", "map_ms", "ms", "bytes"), np.nan)
     timed = times["methods"][method]
-    own, floats = timed["ms"][number], timed["texel_floats"]
-    made = times["map_ms"] * (floats > 0)
-    held = 4 * floats * times["texels"] + timed["held_bytes"]
+    light_map = times["maps"].get(timed["map"], {"ms": 0.0, "texels": 0})
+    own, made = timed["ms"][number], light_map["ms"]
+    held = 4 * timed["texel_floats"] * light_map["texels"] + timed["held_bytes"]
     return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": held}
 
 
@@ -22,11 +22,12 @@ def describe_times(times: Mapping[str, Any]) -> list[str]:
     if not times["methods"]:
         return []
     share = times["map_share"]
+    maps = ", ".join(f"{one['ms']:.1f} of {side}²" for side, one in times["maps"].items())
     part = f": {share:.1%} of a whole frame's, of which it is a window" if share < 1 else ""
     return [
         f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
         f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; methods that look at a "
-        f"map have {times['map_ms']:.1f} ms of rasterising it in theirs{part}."
+        f"map have the ms of rasterising it in theirs ({maps}){part}."
     ]
 
 

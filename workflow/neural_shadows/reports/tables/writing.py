@@ -1,6 +1,6 @@
 """Tables as CSV and Markdown."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -45,7 +45,7 @@ def write_twins(
     """
     write_text(csv, frame.to_csv(index=False, float_format="%.6g"))
     table = tabulate(
-        {heading: list(cells) for heading, cells in columns.items()},
+        {_escaped(heading): [*map(_escaped, cells)] for heading, cells in columns.items()},
         headers="keys",
         tablefmt="pipe",
         disable_numparse=True,
@@ -56,9 +56,17 @@ def write_twins(
     write_text(md, "\n\n".join(part for part in parts if part) + "\n")
 
 
-def number_cells(values: Iterable[float], form: str, factor: float = 1) -> list[str]:
-    """Cells of numbers in a format, `{:.2f}`; empty for NaN."""
-    return ["" if np.isnan(value) else form.format(value * factor) for value in values]
+def _escaped(cell: str) -> str:
+    """A cell as Markdown has it: a bar of its text would end it."""
+    return cell.replace("|", "\\|")
+
+
+def number_cells(
+    values: Iterable[float], form: str | Callable[[float], str], factor: float = 1
+) -> list[str]:
+    """Cells of numbers in a format, `{:.2f}`, or by a function; empty for NaN."""
+    text = form.format if isinstance(form, str) else form
+    return ["" if np.isnan(value) else text(value * factor) for value in values]
 
 
 def interval_cells(

@@ -6,14 +6,10 @@ from neural_shadows.meshes.fence import make_fence
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
 from neural_shadows.scenes.generators.building import floor
 from neural_shadows.scenes.generators.furniture import bench, grille, plant
+from neural_shadows.scenes.generators.outdoors import pergola, stones
 from neural_shadows.scenes.generators.shapes import (
     Shape,
     at,
-    beams,
-    boxes,
-    copies,
-    joined,
-    lathe,
     leaves,
     placed,
 )
@@ -37,10 +33,10 @@ def arrange(rng: np.random.Generator) -> Arrangement:
             placed(f"plant {k + 1}", at(plant(rng, rng.uniform(0.9, 1.7), 110), place))
             for k, place in enumerate(places)
         ),
-        placed("pergola", at(_pergola(), (-1.7, 0, 0))),
+        placed("pergola", at(pergola(2.6, 2.2, PERGOLA, 18), (-1.7, 0, 0))),
         placed("bench", at(bench(1.6), (-1.7, 0, -0.9))),
         placed("grass", _grass(rng, 700)),
-        placed("stones", _stones(rng)),
+        placed("stones", stones(rng, np.linspace([2.8, 0, 2.8], [-0.9, 0, 0.6], 9))),
     )
     spots = (
         Spot(np.array([-1.7, 0.0, 0.2]), 0.9, rng.uniform(0, 2 * np.pi)),
@@ -63,19 +59,6 @@ def _panel() -> Shape:
     return Shape(vertices * PANEL, faces, process=False)
 
 
-def _pergola() -> Shape:
-    """Four posts, two beams and slats across them."""
-    posts = np.array([[x, 0, z] for x in (-1.3, 1.3) for z in (-1.1, 1.1)])
-    under = PERGOLA - 0.12
-    starts = np.array([[-1.5, under + 0.06, z] for z in (-1.1, 1.1)])
-    slats = np.linspace(-1.4, 1.4, 18)[:, None] * [1, 0, 0] + [0, PERGOLA + 0.03, -1.35]
-    return joined(
-        boxes(posts - [0.05, 0, 0.05], posts + [0.05, under, 0.05]),
-        beams(starts, starts * [-1, 1, 1], 0.06, 0.12),
-        beams(slats, slats + [0, 0, 2.7], 0.035, 0.06),
-    )
-
-
 def _grass(rng: np.random.Generator, blades: int) -> Shape:
     """Blades in tufts over the lawn's right half."""
     tufts = rng.uniform([0.3, -2.0], [3.4, 2.4], (50, 2))
@@ -84,12 +67,3 @@ def _grass(rng: np.random.Generator, blades: int) -> Shape:
     feet = np.stack([feet[:, 0], np.full(blades, 1e-3), feet[:, 1]], axis=1)
     bent = rng.normal(0, 0.06, (blades, 3)) * [1, 0, 1]
     return leaves(feet, feet + bent + rng.uniform(0.1, 0.3, (blades, 1)) * [0, 1, 0], 0.012)
-
-
-def _stones(rng: np.random.Generator) -> Shape:
-    """Flat round stones as a path to the bench."""
-    stone = lathe([(0, 0), (1, 0), (0.97, 0.1), (0.85, 0.17), (0, 0.19)], 16)
-    ways = np.linspace([2.8, 0, 2.8], [-0.9, 0, 0.6], 9)
-    transforms = rng.uniform(0.13, 0.19, (9, 1, 1)) * np.eye(4)
-    transforms[:, :3, 3], transforms[:, 3, 3] = ways, 1
-    return copies(stone, transforms)

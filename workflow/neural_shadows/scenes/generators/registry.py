@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # the graph asks for names alone
     from neural_shadows.scenes.arrangement import Arrangement
 
 TRAINED = ("room", "atrium", "hall", "classroom", "gallery", "plate")
-UNTRAINED = ("garden", "workshop", "stairs", "blinds", "tree")
+UNTRAINED = ("garden", "workshop", "stairs", "blinds", "tree", "interior", "court")
 
 
 def generator_module(name: str) -> Path:

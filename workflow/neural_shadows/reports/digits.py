@@ -1,0 +1,11 @@
+"""Numbers of so many digits, as people write them."""
+
+
+def short(value: float, digits: int = 3) -> str:
+    """A number rounded to so many digits, of a whole part all: "0.0123", "1,340", never "1.34e+03".
+
+    A page reads its tables' numbers, and readers compare them by their length.
+    """
+    if abs(value) >= 10 ** (digits - 1):
+        return f"{value:,.0f}"
+    return f"{value:.{digits}g}"
