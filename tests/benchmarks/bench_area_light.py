@@ -26,7 +26,7 @@ from neural_shadows.rendering.surface import see_surface
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.scenes.cameras import VIEW_SETS, Camera
 from neural_shadows.scenes.scene import make_scene
-from neural_shadows.scenes.tracing import NEARLY_ALL, Tracer
+from neural_shadows.scenes.tracing import NEARLY_ALL, EmbreeSingly, Tracer
 
 DEGREES = (1.0, 2.5, 5.0)  # the sun's angular radius
 RAYS = (1, 2, 4, 8, 16, 32)
@@ -67,7 +67,8 @@ def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
     tracer = Tracer(mesh.vertices, mesh.faces)
     embree = EmbreeTriangles(mesh.vertices, mesh.faces)
     packets = partial(embree.packets, end=NEARLY_ALL)
-    forms = {"rt_{}": tracer.blocked, "packets_{}": packets}
+    singly = partial(EmbreeSingly(mesh.vertices, mesh.faces).occluded, end=NEARLY_ALL)
+    forms = {"rt_{}": singly, "packets_{}": packets}
     forms["packets_{}" + INCOHERENT] = partial(packets, coherent=False)
     frames, others = (_frames(mesh, seed, count, size) for seed in (SEED, OTHER))
     found = []

@@ -62,7 +62,7 @@ def rows(source: Path, mesh_ply: Path, weights: list[Path], quick: bool) -> list
     views = draw_viewpoints(scene, VIEW_SETS, VIEWS, WIDTH / HEIGHT, SEED)
     frames = _frames(scene, views)
     (mesh,) = scene.objects
-    triangles = Triangles(mesh.vertices, mesh.faces, scene.tracer)
+    triangles = Triangles(mesh.vertices, mesh.faces)
     result, rounds = [], 3 if quick else 5
     for name, network in _fields(mesh_ply, weights):
         result += _frame_rows(name, network, triangles, frames, rounds)
@@ -230,9 +230,8 @@ def _detail_rows(
     """One surface with detail in ever more triangles, the first one's field, and where they are even."""
     network, result, counts, ratios = None, [], [], []
     for vertices, faces in meshes:
-        whole = _with_detail(scene, vertices, faces)
-        frames = _frames(whole, views)
-        triangles = Triangles(vertices, faces, whole.tracer)
+        frames = _frames(_with_detail(scene, vertices, faces), views)
+        triangles = Triangles(vertices, faces)
         if first := network is None:
             network = _fitted_to(vertices, faces)
         error = sum(wrong_shares(network, triangles, frames))

@@ -1,13 +1,16 @@
 """Four rays a pixel of a soft shadow, to Embree by packages and from C; all on one thread.
 
-A room with an object, 512 × 256, in the order in which `ray_traced` sends them. embreex, which the
-pipeline uses, sends single rays. Open3D sends single rays too, Mitsuba packets as wide as the
-processor's vectors. `rtcOccluded8` is what embreex's own library does when it is sent packets.
+A room with an object, 512 × 256, in the order in which `ray_traced` sends them. The pipeline's
+own rays are packets of eight, compiled by numba (`embree_packets.py`). embreex sends single rays, and
+so does Open3D; Mitsuba sends packets as wide as the processor's vectors. From C it is embreex's own
+library, with and without the flag ROBUST that embreex sets: without it a ray may slip between two
+triangles.
 Processor time of the whole process, from arrays in memory to a bool for each ray; what a package must
 have done to the arrays first is in its time, and in a row of its own is not.
 """
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +30,7 @@ KIND = FrameKind(
     512, 256, 55, None, {"kind": "perspective", "fov": 120, "resolution": 512}, radius=0.25
 )
 RADIUS, SAMPLES = 0.125, 4  # metres, rays a pixel
-EMBREEX, BEFORE = "embreex", "arrays converted before"
+EMBREEX, OWN, BEFORE = "embreex", "packets, as the pipeline sends them", "arrays converted before"
 
 Works = dict[str, Callable[[], np.ndarray]]
 
@@ -37,15 +40,18 @@ def rows(mesh_ply: Path, quick: bool) -> list[Row]:
     check_compiled()
     scene = SoftScene(SCENE, [mesh_ply])
     points, ways = _rays(scene)
-    mesh, tracer = scene.at_rest.joined, scene.at_rest.tracer
-    singly = EmbreeSingly(mesh.vertices, mesh.faces)
-    embree = EmbreeTriangles(mesh.vertices, mesh.faces)
+    mesh, rays = scene.at_rest.joined, (points, ways, NEARLY_ALL)
     works: Works = {
-        EMBREEX: lambda: singly.occluded(points, ways, NEARLY_ALL),
-        "packets, as the pipeline sends them": lambda: tracer.blocked(points, ways),
-        SINGLE: lambda: embree.single(points, ways, NEARLY_ALL),
-        **embree.packet_forms(points, ways, NEARLY_ALL),
+        EMBREEX: partial(EmbreeSingly(mesh.vertices, mesh.faces).occluded, *rays),
+        OWN: partial(scene.at_rest.tracer.blocked, points, ways),
     }
+    notes = {"": False, ", robust": True}
+    embrees = [
+        EmbreeTriangles(mesh.vertices, mesh.faces, robust=robust) for robust in notes.values()
+    ]
+    for embree, note in zip(embrees, notes):
+        forms = {SINGLE: partial(embree.single, *rays), **embree.packet_forms(*rays)}
+        works |= {name + note: work for name, work in forms.items()}
     for package, others in (("open3d", _by_open3d), ("mitsuba", _by_mitsuba)):
         try:
             works |= dict(others(mesh, points, ways))
@@ -54,7 +60,8 @@ def rows(mesh_ply: Path, quick: bool) -> list[Row]:
     exact = works[EMBREEX]()
     differ = {name: np.count_nonzero(work() != exact) for name, work in works.items()}
     seconds = median_seconds(works, 5 if quick else 15, "process_time")
-    embree.close()
+    for embree in embrees:
+        embree.close()
     rate = {name: len(points) / value for name, value in seconds.items()}
     stage = f"{len(points):,} rays, {len(mesh.faces):,} triangles"
     return [

@@ -19,10 +19,12 @@ from neural_shadows.errors import InputError
 
 SOURCE = Path(__file__).with_suffix(".c")
 SINGLE, PACKETS, WIDE = (f"rtcOccluded{width} from C" for width in (1, 8, 16))
-# Of Embree 4's headers rtcore_common.h, rtcore_buffer.h and rtcore_geometry.h.
+# Of Embree 4's headers rtcore_common.h, rtcore_buffer.h, rtcore_scene.h and
+# rtcore_geometry.h.
 TRIANGLES = 0
 INDICES, VERTICES = 0, 1
 UINT3, FLOAT3 = 0x5003, 0x9003
+ROBUST = 4
 ADDRESS = ctypes.c_size_t
 INCOHERENT = ", not coherent"
 _COUNTED = ctypes.CFUNCTYPE(ctypes.c_bool, ctypes.c_void_p, ctypes.c_ssize_t, ctypes.c_bool)
@@ -45,6 +47,7 @@ def embree() -> ctypes.CDLL:
     library.rtcGetDeviceError.argtypes = [ADDRESS]
     library.rtcNewGeometry.argtypes = [ADDRESS, ctypes.c_int]
     library.rtcAttachGeometry.argtypes = [ADDRESS, ADDRESS]
+    library.rtcSetSceneFlags.argtypes = [ADDRESS, ctypes.c_int]
     library.rtcSetSharedGeometryBuffer.argtypes = [
         ADDRESS, ctypes.c_int, ctypes.c_uint, ctypes.c_int, *[ADDRESS] * 4,
     ]  # fmt: skip
@@ -183,10 +186,16 @@ class EmbreeScene:
 
 
 class EmbreeTriangles(EmbreeScene):
-    """A tree over triangles: vertices (V, 3) and faces (F, 3)."""
+    """A tree over triangles.
 
-    def __init__(self, vertices: np.ndarray, faces: np.ndarray):
+    Args:
+        vertices: (V, 3). faces: (F, 3).
+        robust: whether no ray may slip between two triangles; embreex sets it, Embree does not.
+    """
+
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray, *, robust: bool = False):
         super().__init__()
+        embree().rtcSetSceneFlags(self.scene, ROBUST if robust else 0)
         geometry = self.new_triangles(vertices, faces)
         embree().rtcAttachGeometry(self.scene, geometry)
         embree().rtcReleaseGeometry(geometry)  # the scene holds it

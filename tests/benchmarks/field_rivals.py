@@ -18,7 +18,7 @@ from neural_shadows.networks.object_space.occupancy_field_network import Occupan
 from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 from neural_shadows.networks.object_space.sphere_rays import SphereRays, sphere_rays
 from neural_shadows.rendering.gbuffer import GBuffer
-from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.scenes.tracing import EmbreeSingly
 
 FIELD, QUERY, EMBREEX = "field, from points to answers", "field, query alone", "embreex"
 TRIANGLES = (EMBREEX, SINGLE, PACKETS, WIDE)
@@ -58,14 +58,14 @@ class ShadowRays:
 class Triangles:
     """A mesh as embreex has it and as C has it."""
 
-    def __init__(self, vertices: np.ndarray, faces: np.ndarray, tracer: Tracer | None = None):
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray):
         self.vertices, self.faces, self.count = vertices, faces, len(faces)
-        self.tracer = tracer or Tracer(vertices, faces)
+        self.embreex = EmbreeSingly(vertices, faces)
         self.scene = EmbreeTriangles(vertices, faces)
 
     def occluded(self, frame: ShadowRays) -> np.ndarray:
         """Whether each of its points is in shadow, (k,) bool."""
-        return self.tracer.occluded(frame.points, frame.to_light)
+        return self.embreex.occluded(frame.points, frame.to_light)
 
     def unlike(self, frames: Sequence[ShadowRays]) -> dict[str, int]:
         """How many answers to C are not embreex's."""

@@ -17,7 +17,7 @@ from detailed_mesh import detailed_meshes
 from measurement import COLUMNS, Row, median_seconds, table
 
 from neural_shadows.errors import InputError
-from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.scenes.tracing import EmbreeSingly
 
 
 def test_shares_and_ratios():
@@ -84,15 +84,14 @@ def test_from_how_many_triangles_on_a_field_is_faster(ratios, said):
 def test_rays_from_c_meet_what_those_of_embreex_meet(count, end):
     """Packets that are not full, one way for all, and ways that end before anything."""
     sphere = trimesh.creation.icosphere(3)
-    tracer = Tracer(sphere.vertices, sphere.faces)
-    scene = embree_rays.EmbreeTriangles(sphere.vertices, sphere.faces)
+    embreex = EmbreeSingly(sphere.vertices, sphere.faces)
+    scene = embree_rays.EmbreeTriangles(sphere.vertices, sphere.faces, robust=True)
     rng = np.random.default_rng(count)
     points = rng.uniform(-3, 3, (count, 3)).astype(np.float32)
     ways = rng.uniform(-3, 3, (count, 3)).astype(np.float32)
     for directions in (ways, np.float32([1, 3, 0.7])):
         along = np.ascontiguousarray(np.broadcast_to(directions, points.shape))
-        exact = tracer.occluded if end == np.inf else tracer.blocked
-        expected = exact(points, along) if count else np.zeros(0, bool)
+        expected = embreex.occluded(points, along, end) if count else np.zeros(0, bool)
         if count > 1000:
             assert 0.05 < expected.mean() < 0.95
         rays = points, directions, end
