@@ -23,7 +23,7 @@ from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.rendering.shading import shade
-from neural_shadows.running.hardware import describe_machine
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.training.train import outcome, ray_points
 from neural_shadows.training.training_run import TrainingRun
 
@@ -92,7 +92,7 @@ def run_curves(
             shutil.copy(data.mesh(scene).with_suffix(".json"), part)
         write_text(out / paths.network("loss.csv", key), run.curve_csv())
         # Last, for it says that all else is there.
-        about = {"parameters": run.network.parameter_count(), "machine": describe_machine()}
+        about = {"parameters": run.network.parameter_count(), "unfit": False, **describe_origin()}
         about |= outcome(run, rays) | {"threads": data.threads}
         write_json(record(key), header | about)
         state.unlink(missing_ok=True)
@@ -106,12 +106,13 @@ def _opened(key: str, experiment: Mapping[str, Any], device: torch.device, data:
     dtype = choose_dtype(data.settings["compute"]["precision"], device)
     made = {"device": device.type, "precision": str(dtype).removeprefix("torch.")}
     training = experiment["training"] | {"seed": experiment["seed"]} | made
-    network = make_network(with_surface(experiment["network"], {"sheet": False}))
+    settings = with_surface(experiment["network"], {"sheet": False})
+    network = make_network(settings)
     if Layout(data.settings).kind(key).needs_mesh:
         network.prepare(data.mesh(scene))
     network.initialise(experiment["seed"])
     _, rays_json = data.rays(scene, experiment["sampling"])
-    header = {"name": key, "network": experiment["network"], "training": training}
+    header = {"name": key, "network": settings, "training": training}
     return TrainingRun(network, training), header | {"data": read_json(rays_json)}
 
 
