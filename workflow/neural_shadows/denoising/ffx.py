@@ -2,7 +2,7 @@
 
 After AMD's FidelityFX Denoiser for shadows (SDK 1.1). "Like", because a pixel may have any number of
 rays, how far depths may differ is a share of theirs, and the power that ends it is left out: with it
-mean squared errors were 8 % larger. All on one thread.
+mean squared errors were 6 to 8 % larger. All on one thread.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from neural_shadows.denoising.history import History
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
 from neural_shadows.rendering.surface import Surface
 
-SIGMA = 4.0  # how many standard deviations a visibility may differ; 1 in print, for one ray too few
+SIGMA = 4.0  # standard deviations a visibility may differ; 1 in print: twice the error at one ray
 # Of a pixel's own depth, by how much another's may differ: of 0.01 to 1 the least error off edges.
 SIGMA_DEPTH = np.float32(0.02)
 STEPS = (1, 2, 4)  # pixels between the taps of each pass
