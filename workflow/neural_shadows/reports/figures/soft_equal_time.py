@@ -92,9 +92,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         axes.grid(**style.GRID)
         style.plain_numbers(axes.xaxis)
         named.append((axes, methods))
-    panels[0].set_ylabel(
-        f"{name} of visibility, lower is better\n(bars: 95 % intervals)"
-    )
+    panels[0].set_ylabel(f"{name} of visibility, lower is better\n(bars: 95 % intervals)")
     figure.draw_without_rendering()  # names are placed when the layout is done
     for axes, methods in named:
         label_points(axes, methods[["ms", "error"]].to_numpy(), [*methods["label"]], fontsize=7)
