@@ -4,7 +4,9 @@ A room with an object, 512 × 256, in the order in which `ray_traced` sends them
 own rays are packets of eight, compiled by numba (`embree_packets.py`). embreex sends single rays, and
 so does Open3D; Mitsuba sends packets as wide as the processor's vectors. From C it is embreex's own
 library, with and without the flag ROBUST that embreex sets: without it a ray may slip between two
-triangles.
+triangles. On an AMD EPYC with AVX-512, loaded: 5.8 M rays/s by embreex and as many singly from C with
+ROBUST, packets of 8 and 16 then 1.6 and 1.9 times as many, without it 2.0 and 2.4, the pipeline 1.6,
+Open3D 0.91, Mitsuba 2.5.
 Processor time of the whole process, from arrays in memory to a bool for each ray; what a package must
 have done to the arrays first is in its time, and in a row of its own is not.
 """
