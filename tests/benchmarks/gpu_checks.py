@@ -13,6 +13,7 @@ import torch
 from bench_training import RandomRays, new_run
 from torch import Tensor
 
+from neural_shadows.networks.compute import is_native
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.rays.ray_set import RaySet
@@ -65,8 +66,10 @@ def _checks(device, rays, mesh_ply) -> Iterator[tuple[str, float, Callable[[], f
             0.05,
             lambda optimiser=optimiser: _steps(device, rays, optimiser),
         )
-        # In the device's own format, which steps run in; and in the thesis's, with its loss scale.
-        for precision in ("auto", "float16"):
+        # In the device's own format, which steps run in; and in the thesis's, with its loss scale,
+        # where the device has it.
+        own = ["float16"] if is_native(torch.float16, device) else []
+        for precision in ("auto", *own):
             yield (
                 f"recorded steps of {optimiser} in {precision} beside plain ones: weights, over "
                 "their way",

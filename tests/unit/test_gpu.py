@@ -24,6 +24,7 @@ from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.render_references import render_references
 from neural_shadows.files.whole_files import write_text
+from neural_shadows.networks.compute import is_native
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.weight_file import load_tensors
 from neural_shadows.rendering.viewpoints import draw_viewpoints
@@ -82,7 +83,8 @@ def test_goes_on_with_each_call(call, tmp_path, monkeypatch, capsys):
     """Stopped after each training's first point, it comes to the same as undisturbed."""
     whole = call("whole", 5)
     checks = json.loads((whole / "checks.json").read_text())
-    assert len(checks) == 11 and all(check["passed"] for check in checks), checks
+    count = 11 if is_native(torch.float16, torch.device("cpu")) else 9
+    assert len(checks) == count and all(check["passed"] for check in checks), checks
     rates = pd.read_csv(whole / "rates.csv")
     assert len(rates) == 4 and (rates["rate"] > 0).all()
     assert "\n0 trainings of the learning curves are left" in capsys.readouterr().out

@@ -23,6 +23,7 @@ EXAMPLES |= {"viewer": "viewer"}
 # Of the rules for soft shadows.
 SOFT = {"scene": "room_dragon", "frame_set": "frames", "part": "test_000"}
 SOFT |= {"method": "pcss", "table": "soft_methods"}
+OF_FRAMES = ("render_frames", "answer_frames", "measure_occluders", "measure_widths")
 SCREEN = {"network": "nsm", "experiment": "nsm", "frame_set": "nsm"}
 
 # Of a function that does not have the rule's name.
@@ -51,7 +52,7 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
         return [{rule.name: name} for name in settings[f"{rule.name}s"]]
     if rule.name == "import_frame":
         return []  # no shipped configuration has frames of an engine: see test_engine_frames.py
-    if "soft" in rule.name or rule.name in ("render_frames", "answer_frames", "measure_occluders"):
+    if "soft" in rule.name or rule.name in OF_FRAMES:
         return [SOFT]
     if "screen" in rule.name or rule.name == "measure_sensitivity":
         return [SCREEN]

@@ -13,6 +13,7 @@ from neural_shadows.config.reading import check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
+from neural_shadows.evaluation.measure_widths import measure_widths
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.layout import soft_methods, tables
 from neural_shadows.layout.layout import Layout
@@ -86,6 +87,9 @@ def evaluate(layout, method):
 def test_a_table(layout):
     for method in soft_methods.methods(layout, "soft_mine"):
         evaluate(layout, method)
+    (widths,) = soft_methods.widths(layout, "mine")
+    parts = soft_methods.tests(layout, "mine")
+    called(measure_widths, input={"parts": parts}, output={"widths_json": widths})
     called(
         write,
         input=tables.files(layout, "soft_mine"),

@@ -55,7 +55,7 @@ SAID = ["print to stdout", "print to stderr", "native stderr", "from a child"]
 def test_a_log_begins_with_what_makes_the_results(tmp_path):
     """Whatever they are: arrays and tables have no place for it."""
     first = run(tmp_path, "pass")[1].splitlines()[0]
-    assert first.startswith(f"train: commit {commit_of(ROOT)}, code 0123abcd, {{'cpu': ")
+    assert first.startswith(f"Made by commit {commit_of(ROOT)}, code 0123abcd, {{'cpu': ")
 
 
 def run(folder: Path, last_line: str, stderr=subprocess.PIPE):

@@ -43,9 +43,7 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
         progress.TERMINAL = terminal
         origin.CODE = dict(job.params.items()).get("code")
         made = origin.describe_origin()
-        print(
-            f"{job.rule}: commit {made['commit']}, code {made['code']}, {made['machine']}", file=log
-        )
+        print(f"Made by commit {made['commit']}, code {made['code']}, {made['machine']}", file=log)
         try:
             function(**arguments_of(job, function))
         except Exception as error:
