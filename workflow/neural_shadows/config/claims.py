@@ -63,12 +63,17 @@ class Needs(Model):
 class AnyClaim(Model):
     """What all claims have."""
 
-    text: Literal["thesis", "nsm", "kpnsm"] = Field(
+    text: Literal["thesis", "nsm", "kpnsm", "own"] = Field(
         "thesis",
         description="whose claim it is: the thesis's, Neural Shadow Mapping's (Datta et al. 2022), "
-        "Kernel Predicting Neural Shadow Maps' (Hu et al. 2025)",
+        "Kernel Predicting Neural Shadow Maps' (Hu et al. 2025), or this project's own, of methods "
+        "that are not trained",
     )
-    section: str = Field(pattern=r"^S?[1-9](\.[0-9]+)*$", description="of that text, as 4.2.1")
+    section: str = Field(
+        "1",
+        pattern=r"^S?[1-9](\.[0-9]+)*$",
+        description="of that text, as 4.2.1; none of an own one",
+    )
     statement: str = Field(min_length=1, description="one sentence, as the text draws it")
     needs: Needs = Field(Needs(), description="what a run needs to decide it")
 

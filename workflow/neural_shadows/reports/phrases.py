@@ -28,6 +28,8 @@ TEXTS = {"nsm": "Datta et al. 2022", "kpnsm": "Hu et al. 2025"}
 
 def section_of(claim: Mapping[str, str]) -> str:
     """The section that a claim's `text` draws it in; of the thesis the number alone."""
+    if claim["text"] == "own":
+        return "ours"
     return f"{TEXTS.get(claim['text'], '')} {claim['section']}".strip()
 
 

@@ -11,12 +11,14 @@ from neural_shadows.evaluation.method_names import NO_SHADOW
 from neural_shadows.metrics.error_scale import error_of
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
-# What a network of each text was trained on: rays of the thesis, pixels of the papers.
+# What a network of each text was trained on: rays of the thesis, pixels of the papers. Own claims are
+# of methods that are not trained.
 TEXT_SAMPLES = {
     "thesis": THESIS_SAMPLES,
     "nsm": 75 * 400 * 2048 * 1024,  # epochs of up to 400 images [4]
     # Steps of two images; the rate falls last at 40,000, and where it ends is not printed [5, code].
     "kpnsm": 40_000 * 2 * 2048 * 1024,
+    "own": float("nan"),
 }
 LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
 NO_SHADOW_ROW = {
