@@ -125,12 +125,14 @@ def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
 
 BY_KEY = {
     "svgf": Denoiser(_svgf, TemporalFilter, {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0)}),
-    "ffx": Denoiser(_ffx, TemporalFfx, {"sigma": (1.0, 2.0, 4.0, 8.0, 16.0)}),
-    "sigma": Denoiser(_sigma, TemporalSigma, {"reach": (0.25, 0.5, 0.7, 1.0, 1.4, 2.0)}, True),
+    "ffx": Denoiser(_ffx, TemporalFfx, {"sigma": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)}),
+    "sigma": Denoiser(
+        _sigma, TemporalSigma, {"reach": (0.12, 0.25, 0.5, 0.7, 1.0, 1.4, 2.0)}, True
+    ),
     "sigma_ffx": Denoiser(
         _sigma_ffx,
         TemporalSigmaFfx,
-        {"reach": (0.06, 0.12, 0.25, 0.5, 1.0), "sigma": (0.5, 1.0, 2.0, 4.0, 8.0)},
+        {"reach": (0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0), "sigma": (0.5, 1.0, 2.0, 4.0, 8.0)},
         True,
     ),
     "oidn_fast": Denoiser(partial(_oidn, quality="fast")),

@@ -43,7 +43,7 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
     )
 
 
-_DISC = {"texels": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "bias": BIASES}
+_DISC = {"texels": (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "bias": BIASES}
 METHODS = {
     **{f"pcf_{size}": _box_pcf(size) for size in (3, 5, 9, 15)},
     "pcf_disc": SoftMethod(_disc, _DISC, of_radius=False),  # but by its constants
