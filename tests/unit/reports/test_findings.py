@@ -3,6 +3,7 @@
 import pandas as pd
 import pytest
 
+from neural_shadows.reports.finding_rivals import _with_bytes as with_bytes
 from neural_shadows.reports.finding_words import size_of
 from neural_shadows.reports.findings import claims_counted, findings
 from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, TOO_SMALL, VACUOUS
@@ -216,3 +217,16 @@ def test_claims_that_the_thesis_s_tables_decide_are_no_result_of_the_run():
 
 def test_sizes():
     assert [size_of(size) for size in (2**10, 783_360, 2**24)] == ["1 KiB", "765 KiB", "16 MiB"]
+
+
+def test_a_coded_rival_is_measured_between_coded_sizes():
+    """Packed meshes take four times the bytes: between both it would be nothing's quality."""
+    table = pd.DataFrame(
+        [
+            ("mesh", 0, 40e3, 37.0, True),
+            ("mesh", 0, 160e3, 45.0, True),
+            ("mesh", 0, 80e3, 24.0, False),
+        ],
+        columns=["encoding", "samples", "stored_bytes", "psnr_pooled", "coded"],
+    )
+    assert with_bytes(table, table.iloc[0], 80e3) == pytest.approx(41)
