@@ -1,7 +1,5 @@
 """How wide the penumbrae of a frame are: on average along edges of hard shadows, and pixel by pixel."""
 
-from collections.abc import Mapping
-
 import numpy as np
 from scipy.ndimage import gaussian_filter, maximum_filter, minimum_filter
 
@@ -26,22 +24,6 @@ def penumbra_width(visibility: np.ndarray, valid: np.ndarray, hard: np.ndarray) 
     length = LENGTH_OF_A_SIDE * (down.sum() + along.sum())
     area = np.count_nonzero(valid & (visibility > ENDS[0]) & (visibility < ENDS[1]))
     return float(area / (ENDS[1] - ENDS[0]) / length) if length else float("nan")
-
-
-def width_percentiles(
-    visibility: np.ndarray, valid: np.ndarray, edges: np.ndarray
-) -> Mapping[str, float]:
-    """Median and 90th percentile of the penumbra's width over a frame's penumbra pixels.
-
-    `width_median` and `width_wide` in pixels, see `local_widths`; NaN without such a pixel. A mean
-    over shadow edges (`penumbra_width`) hides that a few wide penumbrae lie beside many narrow ones.
-
-    Args:
-        visibility, valid, edges: see `local_widths`.
-    """
-    widths = local_widths(visibility, valid, edges)
-    ends = np.percentile(widths, [50, 90]) if widths.size else [np.nan] * 2
-    return dict(zip(("width_median", "width_wide"), map(float, ends)))
 
 
 def local_widths(visibility: np.ndarray, valid: np.ndarray, edges: np.ndarray) -> np.ndarray:
