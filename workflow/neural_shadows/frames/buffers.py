@@ -8,8 +8,7 @@ Lengths are in shares of the scene's size S, distances are radial. Channels, in 
 - `agreement`: cosine between the point's normal and that of what the map's texel shows;
 - `hard`, `pcf`, `msm`: visibility by that texel, by 2 × 2 of them, and by the four moments of 3 × 3
   (σ 0.55, as the maps of Hu et al. 2025 seem to have), the first two with the bias that all maps have.
-  Moments have none: they take a slope for what it is, and a bias only lets light leak (of MSM 3 × 3 on
-  three scenes the squared error was 153, with that bias 225 × 10⁻⁴);
+  Moments have none: their variance takes a slope for what it is, and a bias lets light leak;
 - `n_x`, `n_y`, `n_z`: the normal, in the scene's axes, on the camera's side;
 - `e_x`, `e_y`, `e_z`: that of what the map's texel shows, on the light's side, in the same axes.
 
