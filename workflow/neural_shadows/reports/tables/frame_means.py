@@ -9,7 +9,7 @@ from neural_shadows.metrics.intervals import FEWEST_SCENES, scenes_interval
 
 OFF_EDGES = "mse_off_edges"
 ABOUT_EDGES = (
-    "off edges: of pixels in which all eight places of the target see one surface. At the others an "
+    "Off edges: of pixels in which all eight places of the target see one surface. At the others an "
     "error is of antialiasing first: the exact shadow of their centres has one, too."
 )
 

@@ -112,7 +112,7 @@ def write(
         "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
         "surface inside the light's map. What faces away from the light's centre is dark for all "
         "methods but rays. FLIP and LPIPS are of the first frame of each part.",
-        *([ABOUT_EDGES[0].upper() + ABOUT_EDGES[1:]] if table[OFF_EDGES].notna().any() else []),
+        *([ABOUT_EDGES] if table[OFF_EDGES].notna().any() else []),
         *_describe_orders(table, radii, unit),
         *_describe_constants(chosen, labels),
         *describe_times(times),

@@ -136,11 +136,7 @@ def _describe_frames(
         f"Mean over {count} frames of {about['width']} × {about['height']} of "
         f"{', '.join(scenes)}, and {len(radii)} radii of the light from {radii[0]:g} to "
         f"{radii[-1]:g} {unit}, all with the same weight [{units}].",
-        *(
-            [ABOUT_EDGES[0].upper() + ABOUT_EDGES[1:]]
-            if (frames["metric"] == OFF_EDGES).any()
-            else []
-        ),
+        *([ABOUT_EDGES] if (frames["metric"] == OFF_EDGES).any() else []),
     ]
 
 
