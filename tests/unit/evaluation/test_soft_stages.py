@@ -122,6 +122,8 @@ def test_metrics_of_methods(folder):
     table = found["rt_64"]
     assert set(table["scene"]) == {"blinds"} and set(table["method"]) == {"rt_64"}
     assert len(table[table["metric"] == "mse"]) == 2 * len(RADII)
+    pictures = table[table["metric"] == "flip"]
+    assert [*zip(pictures["frame"], pictures["radius"])] == [(0, len(RADII) // 2)]
     mse = {method: means(one)["mse"] for method, one in found.items()}
     assert np.all(mse["rt_64"] < mse["hard"]) and np.all(mse["hard"] < mse["no_shadow"])
     nothing = means(found["no_shadow"])

@@ -193,7 +193,8 @@ class SoftBetterClaim(SoftClaim):
         ["mse_off_edges"],
         min_length=1,
         description="in all of which it is to hold; where `mse`, of all pixels, would have another "
-        "verdict than `mse_off_edges`, of those without an edge of a surface, the evidence says so",
+        "verdict than `mse_off_edges`, of those without an edge of a surface, the evidence says so; "
+        "`flip` and `lpips` are measured by the middle light alone",
     )
 
 

@@ -111,7 +111,7 @@ def write(
         "Squared errors: umbra, penumbra and lit by the exact shadow (below 2 %, between, above 98 "
         "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
         "surface inside the light's map. What faces away from the light's centre is dark for all "
-        "methods but rays. FLIP and LPIPS are of the first frame of each part.",
+        "methods but rays. FLIP and LPIPS are of the first frame of each part by the middle light.",
         *([ABOUT_EDGES] if table[OFF_EDGES].notna().any() else []),
         *_describe_orders(table, radii, unit),
         *_describe_constants(chosen, labels),
