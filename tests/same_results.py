@@ -17,7 +17,7 @@ MEASURED = {
     "depth_biases/*/*.json": {"machine"},
     "soft_constants/*/*.json": {"machine"},
     "screen_sensitivities/*/*.json": {"machine"},
-    "frame_times/*/*.json": {"ms", "rays_per_second", "machine"},
+    "frame_times/*/*.json": {"ms", "own_ms", "rays_per_second", "machine"},
     "cost/*.json": {"seconds", "bytes", "peak_bytes", "machine"},
     "screen_networks/*/training.json": {"seconds", "samples_per_second", "machine"},
     "screen_profiles/*.json": {"whole_ms", "product_macs", "ms", "machine"},
