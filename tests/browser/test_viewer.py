@@ -13,8 +13,9 @@ from neural_shadows.rendering.viewpoints import draw_viewpoints
 
 SIZE = 300, 200
 PIXELS = SIZE[0] * SIZE[1]
-# Of all pixels, those that may differ: at outlines, where rounding decides.
-MOST = {"reference": 0.001, "field": 0.001, "map_256": 0.001, "map_1024": 0.001, "thesis": 0.005}
+# Of all pixels, those that may differ: at outlines, where rounding decides. A CPU's field has the
+# values of a cell's corners in eight bits of its own, of the cell's largest: 0.0018 differ.
+MOST = {"reference": 0.001, "field": 0.002, "map_256": 0.001, "map_1024": 0.001, "thesis": 0.005}
 
 
 @pytest.fixture(scope="module")

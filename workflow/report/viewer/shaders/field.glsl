@@ -1,5 +1,6 @@
-// The first crossing of a ray with an occupancy field; see field_marching.py, of which this is a
-// translation. Only the values of bricks that the surface touches are there.
+// Whether an occupancy field blocks a ray; see field_occlusion.py for a solid and field_marching.py
+// for a sheet, of which this is a translation. Only the values of bricks that the surface touches
+// are there.
 uniform isampler3D grid;   // a brick's number; −how many may be skipped; or SOLID
 uniform isampler2D values; // ROW_BRICKS bricks a row, 125 values each
 uniform float level;
@@ -57,9 +58,22 @@ float firstCrossing(vec3 o, vec3 d, float chord) {
   return 4.0;
 }
 
+bool isInside(vec3 p) {
+  int size = textureSize(grid, 0).x;
+  vec3 at = (p + 1.0) * float(size) / 2.0;
+  ivec3 brick = clamp(ivec3(at), 0, size - 1);
+  int found = texelFetch(grid, brick.zyx, 0).x;
+  if (found < 0) return found == SOLID;
+  ivec2 first = ivec2(found % ROW_BRICKS * 125, found / ROW_BRICKS);
+  return value(first, clamp((at - vec3(brick)) * CELLS, 0.0, CELLS)) > level;
+}
+
 float visibility(vec3 p, float cosGeometric) {
   vec3 o;
   float s, chord;
   if (!sphereRay(p, o, s, chord)) return 1.0;
-  return min(s, chord) <= firstCrossing(o, -light, chord) + depthBias ? 1.0 : 0.0;
+  if (sheet) return min(s, chord) <= firstCrossing(o, -light, chord) + depthBias ? 1.0 : 0.0;
+  // Of a solid no depth is needed: a sample before the point lies inside, or the point itself.
+  float end = min(s - depthBias, chord);
+  return end <= 0.0 || firstCrossing(o, -light, end) > end && !isInside(o - light * end) ? 1.0 : 0.0;
 }
