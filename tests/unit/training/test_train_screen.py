@@ -130,12 +130,14 @@ def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, pr
         run(tmp_path / "killed", part, stop_after=4, **told)
     assert [*(tmp_path / "killed").glob("checkpoints/nsm-*/state.safetensors")]
     killed = run(tmp_path / "killed", part, **told)
-    run(tmp_path / "threads", part, threads=2, **told)
+    threads = run(tmp_path / "threads", part, threads=2, **told)
     run(tmp_path / "other", part, seed=2, **told)
     whole = contents(tmp_path / "whole")
     assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
     assert contents(tmp_path / "other") != whole
     assert [one["step"] for one in killed["validations"]] == [1, 2, 3, 4, 5]
+    # In the file too they are the same, key by key.
+    assert json.dumps(killed["validations"]) == json.dumps(threads["validations"])
     bases = ["base_hard"] if network == KERNELS else []  # what it is given is no merit of its own
     assert [*killed["null_mse"]] == ["no_shadow", "hard_map", *bases]
 

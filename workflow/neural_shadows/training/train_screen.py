@@ -165,7 +165,8 @@ def _points(
     for step in curve_points(run, advance, after_step):
         if VALIDATIONS * step // steps > VALIDATIONS * before // steps and step < steps:
             found = mse_by_radius(held_out, network_answer(run, held_out), compute, EVERY)
-            run.validations.append({"step": step, "mse": found})
+            # In the order of the alphabet, in which a checkpoint gives them back.
+            run.validations.append({"mse": found, "step": step})
         before = step
         yield step
 
