@@ -101,11 +101,10 @@ def test_soft_methods_are_measured(smoke):
     filters += ["rt_1_oidn_fast", "rt_1_oidn"]
     asked = ["pcss", "msm_9", "rt_1", *filter(available, filters)]
     assert {*whole.index.unique(0)} == {*asked, "no_shadow", "all_dark"}
-    assert np.isfinite(whole[["mse", "ssim", "flip"]]).all(axis=None)
+    assert np.isfinite(whole[["mse", "ssim"]]).all(axis=None)
     assert np.isfinite(whole.loc[asked, "ms"]).all()
-    assert np.isfinite(whole.xs(1, level=1)[["instability_camera", "instability_object"]]).all(
-        axis=None
-    )
+    middle = whole.xs(1, level=1)  # of the two lights
+    assert np.isfinite(middle[["flip", "instability_camera", "instability_object"]]).all(axis=None)
     assert set(windows["unit"]) == {"S"}
     assert np.isfinite(windows.loc["hard", ["mse", "ms"]]).all(axis=None)
 

@@ -139,4 +139,6 @@ def test_rays_of_one_pass_are_those_of_tensors(light):
     for part in ("origins", "s", "chord"):
         a, b = getattr(one, part), getattr(other, part)
         assert a.dtype == b.dtype == torch.float32
-        assert torch.allclose(a, b, rtol=1e-6, atol=4e-6)  # of two roundings at |p| = 20
+        # Two roundings of |p| = 84, whose last bit is 8e-6; the shorter a chord, the more is left of it.
+        away = (a - b).abs() if a.ndim == 1 else (a - b).abs().amax(1)
+        assert (away * other.chord).max() <= 4e-5
