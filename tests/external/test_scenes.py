@@ -5,8 +5,7 @@ import pytest
 
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.rendering import soft_shadows
-from neural_shadows.rendering.soft_shadows import PLACES, soft_visibility
+from neural_shadows.rendering.soft_shadows import PLACES, see_places, soft_visibility
 
 WIDTH, HEIGHT, RADIUS = 64, 48, 0.25  # the light's in metres
 SAMPLES, THEIRS = 256, 16  # of each of a pixel's eight places
@@ -14,7 +13,7 @@ MAP = {"kind": "perspective", "fov": 120, "resolution": 512}
 
 
 @pytest.mark.parametrize("name", ["room", "stairs", "tree"])
-def test_our_target(name, run_outside, measured, monkeypatch):
+def test_our_target(name, run_outside, measured):
     """In standard errors of their samples, for which eight places' own visibilities are needed."""
     soft = SoftScene({"generate": name, "seed": 2026, "inserted": {}}, [])
     kind = FrameKind(WIDTH, HEIGHT, 55, None, MAP, RADIUS)
@@ -22,13 +21,12 @@ def test_our_target(name, run_outside, measured, monkeypatch):
     camera, mesh = setting.camera, scene.joined
     light = {"centre": setting.centre, "radii": [RADIUS], "samples": SAMPLES}
 
-    def visibility() -> np.ndarray:
-        return soft_visibility(scene, camera, WIDTH, HEIGHT, **light, adaptive=False)[0]
+    def visibility(places) -> np.ndarray:
+        surfaces = see_places(scene, camera, WIDTH, HEIGHT, places)
+        told = light | {"adaptive": False, "surfaces": surfaces}
+        return soft_visibility(scene, camera, WIDTH, HEIGHT, **told)[0]
 
-    target, by_place = visibility(), []
-    for place in PLACES:
-        monkeypatch.setattr(soft_shadows, "PLACES", (place,))
-        by_place.append(visibility())
+    target, by_place = visibility(PLACES), [visibility([place]) for place in PLACES]
     seen = run_outside(
         "mitsuba_visibility.py",
         **{"vertices": mesh.vertices, "faces": mesh.faces, "places": PLACES, "samples": THEIRS},
