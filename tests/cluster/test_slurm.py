@@ -119,11 +119,13 @@ class Submitted:
 
 
 def slow_down(checkout: Checkout, seconds: float) -> None:
-    """Have a training rest so long after each of its 200 steps; its weights stay the same."""
+    """Have a training rest so long at each point of its curve; its weights stay the same."""
     train = checkout.module("training/train.py")
     source = train.read_text()
-    slow = source.replace("run.add_point()", f"time.sleep({seconds}); run.add_point()")
-    assert slow != source
+    points = "yield from curve_points(run, advance, after_step)"
+    rest = "for step in curve_points(run, advance, after_step):"
+    assert points in source
+    slow = source.replace(points, f"{rest} time.sleep({seconds}); yield step")
     train.write_text(slow)
 
 
@@ -141,7 +143,8 @@ def test_killed_jobs(slurm, submit, local, overlays, tmp_path):
     copy = tmp_path / "same measured values"
     assert differing_reports(checkout, local, copy, overlays=overlays) == []
     assert run.output.count("Trying to restart job") == 3
-    assert set(re.findall(r"/group_([a-z]+)_", run.output)) == {"prepare", "rays", "reports"}
+    groups = {"prepare", "rays", "frames", "reports"}
+    assert set(re.findall(r"/group_([a-z]+)_", run.output)) == groups
     # Each job has a log of its own. Small ones are submitted together.
     count = run.output.count("has been submitted with SLURM jobid")
     logs = {row["log-file(s)"] for row in local.summary(overlays=overlays)}
