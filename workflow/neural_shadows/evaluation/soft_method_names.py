@@ -52,6 +52,7 @@ LABELS = {
     "pcss": "PCSS",
     "pcss_post": "PCSS, depth-aware filter",
     "pcss_2048": "PCSS, map of 2048²",
+    "pcss_2048_post": "PCSS, map of 2048², depth-aware filter",
     "vsm_3": "VSM 3 × 3",
     "vsm_9": "VSM 9 × 9",
     "evsm_9": "EVSM 9 × 9",

@@ -33,4 +33,5 @@ METHODS = {
     "pcss": _PCSS,
     "pcss_post": replace(_PCSS, last=depth_aware),
     "pcss_2048": replace(_PCSS, resolution=2048),
+    "pcss_2048_post": replace(_PCSS, resolution=2048, last=depth_aware),
 }
