@@ -28,7 +28,7 @@ NO_JOB = {"download_mesh"}  # of the rules, at the smoke scale
 
 
 def few_jobs(path: Path, steps: int = 200) -> Path:
-    """Write an overlay of the smoke scale that keeps the dragon's network, PCSS and NSM alone.
+    """Write an overlay of the smoke scale that keeps the dragon's network, PCSS, cones and NSM alone.
 
     Beside it a frame of an engine, which it names.
 
@@ -42,7 +42,7 @@ def few_jobs(path: Path, steps: int = 200) -> Path:
     biased = {"method": "dragon", "bias": "held_out", "label": "With its bias"}
     sections["tables"]["table_4_3"] = {"rows": ["shadow_map_512", "dragon", biased], "figures": []}
     sections["tables"]["table_4_6"] = {"rows": {"dragon": ["ray_traced", "dragon"]}}
-    sections["tables"]["soft_methods"] = {"methods": ["pcss"]}
+    sections["tables"]["soft_methods"] = {"methods": ["pcss", "cone_1"]}
     sections["frame_sets"] = {
         "frames": {"unseen": [], "sequence": 0},
         "engine": _engine_frames(path.with_name("engine")),

@@ -16,7 +16,7 @@ from embree_rays import INCOHERENT, PACKETS, EmbreeTriangles, best_of_forms, che
 from measurement import Row, median_seconds
 
 from neural_shadows.evaluation.soft_method_names import CONE_WALKS
-from neural_shadows.evaluation.soft_methods.object_fields import ObjectField
+from neural_shadows.evaluation.soft_methods.object_field import ObjectField, fitted_field
 from neural_shadows.evaluation.soft_methods.ray_traced import Blocked, ray_traced
 from neural_shadows.evaluation.soft_methods.registry import soft_method
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -63,7 +63,7 @@ def rows(mesh_ply: Path, quick: bool) -> list[Row]:
 def errors_and_times(mesh: PreparedMesh, quick: bool) -> pd.DataFrame:
     """By degrees and method: `mse`, `ns` of a pixel, and the columns of `_beside_rays`."""
     size, count, rounds = ((120, 80), 1, 9) if quick else ((600, 400), 2, 3)
-    field = ObjectField(mesh, CELL)
+    field = fitted_field(mesh, CELL)
     tracer = Tracer(mesh.vertices, mesh.faces)
     embree = EmbreeTriangles(mesh.vertices, mesh.faces)
     packets = partial(embree.packets, end=NEARLY_ALL)

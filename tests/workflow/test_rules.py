@@ -23,7 +23,7 @@ EXAMPLES |= {"viewer": "viewer"}
 # Of the rules for soft shadows.
 SOFT = {"scene": "room_dragon", "frame_set": "frames", "part": "test_000"}
 SOFT |= {"method": "pcss", "table": "soft_methods"}
-OF_FRAMES = ("render_frames", "answer_frames", "measure_occluders", "measure_widths")
+OF_FRAMES = ("render_frames", "answer_frames", "measure_occluders", "measure_widths", "fit_fields")
 SCREEN = {"network": "nsm", "experiment": "nsm", "frame_set": "nsm"}
 
 # Of a function that does not have the rule's name.

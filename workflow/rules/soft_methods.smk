@@ -1,9 +1,36 @@
 """Methods for soft shadows: their constants, errors and times."""
 
 
+rule fit_fields:
+    input:
+        parts=of(soft_methods.fitted_parts),
+        beside=of(soft_methods.fitted_arrays),
+        meshes=of(soft_methods.all_meshes),
+    output:
+        fields_npz=PATHS.soft_fields(),
+    log:
+        PATHS.log("fit_fields", "frame_set"),
+    benchmark:
+        PATHS.benchmark("fit_fields", "frame_set")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=60),
+    params:
+        code=lambda wildcards: code(
+            "evaluation/fit_fields",
+            generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
+        ),
+    message:
+        "Fitting fields to the objects of {wildcards.frame_set}"
+    script:
+        "../neural_shadows/evaluation/fit_fields.py"
+
+
 rule tune_soft_method:
     input:
         parts=of(soft_methods.validations),
+        fields=of(soft_methods.fields),
         beside=of(soft_methods.tuned_arrays),
         meshes=of(soft_methods.all_meshes),
     output:
@@ -80,6 +107,7 @@ rule evaluate_soft:
     input:
         parts=of(soft_methods.tests),
         occluders=of(soft_methods.occluders),
+        fields=of(soft_methods.fields),
         beside=of(soft_methods.measured_arrays),
         sequences=of(soft_methods.sequences),
         meshes=of(soft_methods.all_meshes),
@@ -146,6 +174,7 @@ rule time_soft_methods:
         parts=of(soft_methods.timed_parts),
         constants=of(soft_methods.constants),
         weights=of(soft_methods.timed_weights),
+        fields=of(soft_methods.timed_fields),
         meshes=of(soft_methods.timed_meshes),
     output:
         times_json=PATHS.soft_times(),

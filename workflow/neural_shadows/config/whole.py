@@ -50,7 +50,7 @@ RESERVED_SCALES = {
     *("scenes", "rays", "networks", "references", "answers", "evaluations", "depth_biases"),
     *("frame_times", "cost", "logs", "benchmarks", "reference"),
     *("frames", "imported_frames", "occluders", "soft_constants", "soft_evaluations", "soft_times"),
-    *("screen_networks", "screen_profiles", "screen_sensitivities"),
+    *("screen_networks", "screen_profiles", "screen_sensitivities", "soft_fields"),
 }
 
 

@@ -11,7 +11,7 @@ from neural_shadows.evaluation.frame_answers import all_radii, constants_of, err
 from neural_shadows.evaluation.measure_occluders import read_occluders
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, name_of, write_answers
-from neural_shadows.evaluation.soft_methods.registry import soft_methods_by_scene
+from neural_shadows.evaluation.soft_methods.registry import soft_methods_by_scene, take_fields
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
 from neural_shadows.frames.frame_set import FrameSetPart
@@ -39,6 +39,7 @@ def evaluate_soft(
     answers_npz: Path,
     *,
     occluders: list[Path],
+    fields: list[Path] = (),
     method: str,
     precision: str = "auto",
     by_scene: bool = False,
@@ -57,6 +58,7 @@ def evaluate_soft(
         lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
         occluders: what `measure_occluders` wrote of each part; none for a method whose errors are
             not told by what blocks the light.
+        fields: what `fit_fields` wrote, for a method that asks them.
         precision: that a network computes in, see `choose_dtype`.
         by_scene: whether `weights` are of networks each of which answers the scenes that it
             learned, and nothing of others.
@@ -64,6 +66,7 @@ def evaluate_soft(
     Raises:
         InputError: an input file cannot be read.
     """
+    take_fields([method], fields)
     method_of = soft_methods_by_scene(method, weights, precision, by_scene)
     constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
     quick = {"ssim": ssim}

@@ -104,6 +104,11 @@ def is_tuned(method: str) -> bool:
     return not constant and not untuned
 
 
+def asks_fields(method: str) -> bool:
+    """Whether a method asks fields that are fitted to a scene's objects."""
+    return method.startswith(("field_", "cone_"))
+
+
 def tuned_as(method: str) -> str:
     """The method whose constants a method has: itself, but for a few."""
     return _TUNED_AS.get(method, method)

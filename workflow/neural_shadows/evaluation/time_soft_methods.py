@@ -11,7 +11,7 @@ import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_method_names import tuned_as
-from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.soft_methods.registry import soft_method, take_fields
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -32,6 +32,7 @@ def time_soft_methods(
     meshes: list[Path],
     times_json: Path,
     *,
+    fields: list[Path] = (),
     methods: Mapping[str, str | None],
     repeats: int = 3,
 ) -> None:
@@ -44,6 +45,7 @@ def time_soft_methods(
         parts: of test frames, one a scene. constants: of the methods that have some.
         weights: of the methods that are networks, each in a folder of its experiment's name.
         methods: of each the experiment whose weights it has; None of what has none.
+        fields: what `fit_fields` wrote, if one of the methods asks them.
         times_json: of each method and radius `ms`, the median over frames of the median over
             `repeats`, or one of what takes long, of its answer alone; the `map` that it looks at, the
             numbers in a texel, and what else is held. By the texels of a side, `maps`: the `ms` of
@@ -60,6 +62,7 @@ def time_soft_methods(
     }
     chosen = {name: found.get(tuned_as(name), [{}] * len(radii)) for name in methods}
     trained = {path.parent.name: path for path in weights}
+    take_fields(methods, fields)
     asked = {name: soft_method(name, trained.get(network)) for name, network in methods.items()}
     timed = {name: method for name, method in asked.items() if method.answer}
     taken = {name: np.zeros((len(frames), len(radii))) for name in timed}

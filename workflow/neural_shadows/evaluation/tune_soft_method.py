@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.soft_methods.registry import soft_method, take_fields
 from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.frame_set import FrameSetPart
@@ -16,7 +16,12 @@ from neural_shadows.running.stage import run_stage
 
 
 def tune_soft_method(
-    parts: list[Path], meshes: list[Path], constants_json: Path, *, method: str
+    parts: list[Path],
+    meshes: list[Path],
+    constants_json: Path,
+    *,
+    fields: list[Path] = (),
+    method: str,
 ) -> None:
     """Find the constants of least mean squared error for each radius of a frame set.
 
@@ -25,12 +30,14 @@ def tune_soft_method(
 
     Args:
         parts: of validation frames, of all scenes; meshes: see `measured_frames`.
+        fields: what `fit_fields` wrote, for a method that asks them.
         constants_json: by radius in the set's order, `constants` and `mse`; with `tried`, and
             `at_end`, the constants of which a better value may lie beyond those that were tried.
 
     Raises:
         InputError: a part is damaged.
     """
+    take_fields([method], fields)
     asked = soft_method(method)
     middle = {name: values[len(values) // 2] for name, values in asked.constants.items()}
     radii = len(FrameSetPart(parts[0]).radii)

@@ -84,6 +84,10 @@ class Paths:
         """The constants of a method that are best on a frame set's validation frames."""
         return f"{self.results}/soft_constants/{frame_set}/{method}.json"
 
+    def soft_fields(self, frame_set: str = "{frame_set}") -> str:
+        """The fields of the objects in a frame set's scenes."""
+        return f"{self.results}/soft_fields/{frame_set}.npz"
+
     def soft_evaluation(
         self, ending: str, frame_set: str = "{frame_set}", method: str = "{method}"
     ) -> str:

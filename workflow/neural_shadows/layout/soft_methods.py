@@ -4,6 +4,7 @@ from neural_shadows.evaluation.soft_method_names import (
     FORMATS,
     LABELS,
     NULL,
+    asks_fields,
     available,
     in_format,
     is_network,
@@ -56,6 +57,32 @@ def chosen(layout: Layout, frame_set: str, method: str) -> list[str]:
     if not is_tuned(method):
         return []
     return [layout.paths.soft_constants(frame_set, tuned_as(method))]
+
+
+def fields(layout: Layout, frame_set: str, method: str) -> list[str]:
+    """The file of the fields that a method asks; none of another method, or of frames of a user's own,
+    where there is no scene.
+    """
+    own = layout.entry("frame_sets", frame_set)["path"] is not None
+    return [layout.paths.soft_fields(frame_set)] if asks_fields(method) and not own else []
+
+
+def timed_fields(layout: Layout, table: str) -> list[str]:
+    """The same of all methods of a table."""
+    one = frame_set(layout, table)
+    found = (path for method in methods(layout, table) for path in fields(layout, one, method))
+    return list(dict.fromkeys(found))
+
+
+def fitted_parts(layout: Layout, frame_set: str) -> list[str]:
+    """The frames in whose scenes methods may ask fields."""
+    asked = tests(layout, frame_set), validations(layout, frame_set), sequences(layout, frame_set)
+    return [part for parts in asked for part in parts]
+
+
+def fitted_arrays(layout: Layout, frame_set: str) -> list[str]:
+    """Their arrays."""
+    return frame_sets.arrays(fitted_parts(layout, frame_set))
 
 
 def tests(layout: Layout, frame_set: str) -> list[str]:

@@ -5,7 +5,18 @@ import pytest
 import trimesh
 from shapes import prepared, sheet
 
-from neural_shadows.evaluation.soft_methods.object_fields import ObjectField, SceneFields
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.soft_methods import object_fields
+from neural_shadows.evaluation.soft_methods.object_field import (
+    StoredFields,
+    fitted_field,
+    write_fields,
+)
+from neural_shadows.evaluation.soft_methods.object_fields import (
+    SceneFields,
+    fields_in,
+    take_stored,
+)
 from neural_shadows.scenes.scene import make_scene
 
 UP = np.array([0.0, 1.0, 0.0])
@@ -29,7 +40,7 @@ def test_a_field_blocks_what_its_object_does(shape):
     points, ways = some_ways(20_000, 2.5)
     points += np.array([2.0, -1.0, 0.5], np.float32)
     blocked = np.zeros(len(points), bool)
-    ObjectField(mesh, 0.02).block(points, ways, blocked)
+    fitted_field(mesh, 0.02).block(points, ways, blocked)
     exact = tracer.blocked(points, ways)
     assert 0.05 < exact.mean() < 0.9
     assert np.mean(blocked != exact) < 0.01  # those that graze it, or end at it
@@ -40,7 +51,7 @@ def test_convex_edges_are_not_cut_off():
     mesh, tracer = prepared(trimesh.creation.box((1.2, 0.3, 0.8)))
     points, ways = some_ways(50_000, 2.5)
     blocked = np.zeros(len(points), bool)
-    ObjectField(mesh, 0.05).block(points, ways, blocked)
+    fitted_field(mesh, 0.05).block(points, ways, blocked)
     assert np.mean(blocked != tracer.blocked(points, ways)) < 0.0025
 
 
@@ -50,7 +61,7 @@ def test_a_vertex_of_each_face_makes_no_edges():
     apart = trimesh.Trimesh(
         box.triangles.reshape(-1, 3), np.arange(36).reshape(-1, 3), process=False
     )
-    fields = [ObjectField(prepared(shape)[0], 0.05) for shape in (box, apart)]
+    fields = [fitted_field(prepared(shape)[0], 0.05) for shape in (box, apart)]
     assert np.array_equal(fields[0].bricks, fields[1].bricks)
 
 
@@ -58,7 +69,7 @@ def test_what_is_blocked_stays_blocked():
     mesh, _ = prepared(trimesh.creation.icosphere(2))
     points, ways = some_ways(500, 3.0)
     blocked = np.ones(500, bool)
-    ObjectField(mesh, 0.1).block(points, ways, blocked)
+    fitted_field(mesh, 0.1).block(points, ways, blocked)
     assert blocked.all()
 
 
@@ -73,3 +84,32 @@ def test_open_objects_are_traced_as_they_are():
     points, ways = some_ways(5000, 4.0)
     found, exact = fields.blocked(points, ways), scene.tracer.blocked(points, ways)
     assert np.mean(found != exact) < 0.01 and 0.05 < exact.mean() < 0.95
+
+
+@pytest.fixture
+def nothing_kept(monkeypatch):
+    """Neither fields of other tests, nor files."""
+    monkeypatch.setattr(object_fields, "_kept", {})
+    monkeypatch.setattr(object_fields, "_stored", [])
+
+
+def test_stored_fields_are_taken_and_answer_alike(tmp_path, nothing_kept, monkeypatch):
+    mesh, _ = prepared(trimesh.creation.box((1.2, 0.3, 0.8)))
+    scene = make_scene(mesh, prepared(sheet(-2.0, 3.0))[0], up=UP, ground=False, light=None)
+    points, ways = some_ways(5000, 2.5)
+    fitted = SceneFields(scene)
+    write_fields(tmp_path / "fields.npz", fields_in(scene))
+    take_stored([tmp_path / "fields.npz"])
+    object_fields._kept.clear()
+    monkeypatch.setattr(object_fields, "fitted_field", lambda mesh, cell: None)  # of the sheet
+    stored = SceneFields(scene)
+    assert len(stored.fields) == 1
+    assert np.array_equal(stored.fields[0].bricks, fitted.fields[0].bricks)
+    assert np.array_equal(stored.blocked(points, ways), fitted.blocked(points, ways))
+
+
+def test_a_damaged_file_of_fields_names_itself(tmp_path):
+    path = tmp_path / "fields.npz"
+    path.write_bytes(b"PK\x03\x04 no archive")
+    with pytest.raises(InputError, match=r"fields\.npz: damaged .* delete it"):
+        StoredFields(path)

@@ -4,71 +4,29 @@ A field is a sparse grid of signed distances, fitted to the object's convex edge
 round each closed object of a scene; what is open has no inside and is traced as it is.
 """
 
-from functools import cached_property, lru_cache, partial
-from hashlib import sha256
+from collections.abc import Iterable
+from functools import lru_cache, partial
+from pathlib import Path
 
 import numpy as np
-import trimesh
 
+from neural_shadows.evaluation.soft_methods.object_field import (
+    ObjectField,
+    StoredFields,
+    field_key,
+    fitted_field,
+)
 from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
 from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes, with_normals
-from neural_shadows.networks.object_space.brick_distances import signed_distances
-from neural_shadows.networks.object_space.brick_layout import lay_out
-from neural_shadows.networks.object_space.distances_around import distances_around
-from neural_shadows.networks.object_space.field_cones import ConeField
-from neural_shadows.networks.object_space.field_marching import BRICK, blocked_ways
-from neural_shadows.networks.object_space.occupancy import surface_cells
-from neural_shadows.networks.object_space.occupancy_field_network import REACH, SAMPLES_PER_CELL
-from neural_shadows.networks.object_space.surface_fit import fitted_distances
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.scenes.tracing import Tracer
 
-CELL = 0.0005  # of the scene's size: how wide a field's cells are wanted …
-MOST = 256  # … but there are no more along an axis
+CELL = 0.0005  # of the scene's size: how wide a field's cells are wanted
 _MOST_KEPT = 64  # objects, of some 5 MiB each
-_kept: dict[tuple[bytes, float], "ObjectField | None"] = {}
-_MARGIN = 1.02  # of an object's sphere, so that its surface is inside the grid
-
-
-class ObjectField:
-    """The field of one closed object, int8 values in bricks."""
-
-    def __init__(self, mesh: PreparedMesh, cell: float):
-        self.centre = (mesh.vertices.min(0) + mesh.vertices.max(0)).astype(np.float32) / 2
-        away = np.linalg.norm(mesh.vertices - self.centre, axis=1).max()
-        self.radius = np.float32(_MARGIN * away)
-        wanted = int(np.ceil(2 * self.radius / cell / BRICK)) * BRICK
-        self.resolution = int(np.clip(wanted, 8 * BRICK, MOST))
-        merged = _merged(mesh)
-        unit = with_normals((merged.vertices - self.centre) / self.radius, merged.faces)
-        surface = surface_cells(unit.vertices, unit.faces, self.resolution // BRICK)
-        layout = lay_out(surface, solid=True)
-        distances = signed_distances(unit, layout, REACH)  # in cells, positive inside
-        # As they are, they cut off convex edges. Eight cones of a sun of 1° past the Stanford dragon
-        # then had 2.3 times the squared error, that of 5.3 rays instead of 9.2.
-        distances = fitted_distances(unit, layout, distances).clip(-REACH, REACH)
-        values = np.round(127 / REACH * distances).astype(np.int8)
-        self.grid, self.bricks = layout.grid, values[layout.table]
-
-    def block(self, points: np.ndarray, ways: np.ndarray, blocked: np.ndarray) -> None:
-        """Mark the ways that it blocks, see `blocked_ways`."""
-        steps = SAMPLES_PER_CELL * self.resolution
-        told = self.grid, self.bricks, steps, np.float32(0)
-        blocked_ways(points, ways, self.centre, self.radius, *told, blocked)
-
-    @cached_property
-    def cone_field(self) -> ConeField:
-        """What cones walk through: its values, and distances where they end."""
-        unit = np.float32(REACH / 127 * 2 / self.resolution)
-        around = distances_around(self.grid, self.bricks).ravel()
-        return ConeField(self.grid, self.bricks, unit, around)
-
-    @property
-    def bytes(self) -> int:
-        """In memory while it answers rays."""
-        return self.grid.nbytes + self.bricks.nbytes
+_kept: dict[str, ObjectField | None] = {}
+_stored: list[StoredFields] = []
 
 
 class SceneFields:
@@ -97,22 +55,29 @@ def _field_of(mesh: PreparedMesh, cell: float) -> ObjectField | None:
 
     Of a sequence in which one object moves, all others are made once.
     """
-    key = sha256(mesh.vertices.tobytes() + mesh.faces.tobytes()).digest(), cell
+    key = field_key(mesh, cell)
     if key not in _kept:
         if len(_kept) >= _MOST_KEPT:
             _kept.clear()
-        _kept[key] = ObjectField(mesh, cell) if _is_closed(mesh) else None
+        stored = (one.get(key) for one in _stored)
+        _kept[key] = next(filter(None, stored), None) or fitted_field(mesh, cell)
     return _kept[key]
 
 
-def _merged(mesh: PreparedMesh) -> trimesh.Trimesh:
-    """With each vertex once: generated objects have one for each face, and edges are of vertices."""
-    return trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
+def take_stored(paths: Iterable[Path]) -> None:
+    """From now on take fields from files of `write_fields`; those that no file has are fitted.
+
+    Raises:
+        InputError: a file is missing or damaged.
+    """
+    _stored[:] = map(StoredFields, paths)
 
 
-def _is_closed(mesh: PreparedMesh) -> bool:
-    """Whether each edge has an even number of faces: 4 where two parts of an object touch."""
-    return bool(np.all(np.bincount(_merged(mesh).edges_unique_inverse) % 2 == 0))
+def fields_in(scene: Scene) -> dict[str, ObjectField]:
+    """The fields of a scene's closed objects by `field_key`."""
+    cell = CELL * scene.size
+    found = {field_key(mesh, cell): _field_of(mesh, cell) for mesh in scene.objects}
+    return {key: field for key, field in found.items() if field is not None}
 
 
 def field_traced(frame: SoftFrame, radius: float, *, samples: int, cells: float) -> np.ndarray:

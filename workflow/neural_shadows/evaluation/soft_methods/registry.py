@@ -5,12 +5,12 @@ key, so that a result depends on the modules of its own methods alone, as networ
 Any other key is that of a trained network, which its file of weights tells.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from neural_shadows.evaluation.soft_method_names import denoiser_of, is_network
+from neural_shadows.evaluation.soft_method_names import asks_fields, denoiser_of, is_network
 
 if TYPE_CHECKING:  # the graph asks for modules alone
     from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
@@ -26,6 +26,7 @@ _MODULES = {
     "base": "base_shadows",
 }
 
+_FIELDS = "neural_shadows.evaluation.soft_methods.object_fields"
 _NETWORK = "neural_shadows.evaluation.soft_methods.screen_network"
 
 
@@ -42,6 +43,16 @@ def soft_method(key: str, weights: Path | None = None, precision: str = "auto") 
     """The method of a key, if it is a network, with its weights, in a number format."""
     module = import_module(f"neural_shadows.evaluation.soft_methods.{method_module(key).stem}")
     return module.screen_method(weights, precision) if is_network(key) else module.METHODS[key]
+
+
+def take_fields(keys: Iterable[str], paths: Iterable[Path]) -> None:
+    """Let those of some methods that ask fields take them from files of `fit_fields`.
+
+    Raises:
+        InputError: a file is missing or damaged.
+    """
+    if any(map(asks_fields, keys)):
+        import_module(_FIELDS).take_stored(paths)
 
 
 def soft_methods_by_scene(

@@ -1,0 +1,34 @@
+"""The stage that fits the fields of the objects in a frame set's scenes, once for all methods."""
+
+from pathlib import Path
+
+from neural_shadows.evaluation.measured_frames import measured_frames
+from neural_shadows.evaluation.soft_methods.object_field import ObjectField, write_fields
+from neural_shadows.evaluation.soft_methods.object_fields import fields_in
+from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.stage import run_stage
+
+
+def fit_fields(parts: list[Path], meshes: list[Path], fields_npz: Path) -> None:
+    """Fit a field to each closed object, wherever it stands in a frame, and write them all.
+
+    Args:
+        parts: of test, validation and sequence frames. meshes: see `measured_frames`.
+        fields_npz: see `write_fields`.
+
+    Raises:
+        InputError: an input file cannot be read.
+    """
+    found: dict[str, ObjectField] = {}
+    total = sum(len(FrameSetPart(path)) for path in parts)
+    with progress_bar(total, "frames", "fit fields") as bar:
+        for measured in measured_frames(parts, meshes):
+            motion = measured.part.setting(measured.number).motion
+            found |= fields_in(measured.scene.moved(motion))
+            bar.update()
+    write_fields(fields_npz, found)
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, fit_fields)
