@@ -26,6 +26,18 @@ def test_automatic_choices(monkeypatch, native):
         assert choose_dtype("auto", torch.device(device)) == wanted
 
 
+@pytest.mark.parametrize(
+    ("name", "wanted"), [("znver4", torch.bfloat16), ("emeraldrapids", torch.float32)]
+)
+def test_a_format_that_is_slower_than_float32_is_not_chosen(monkeypatch, name, wanted):
+    """Where AMX is hidden; who asks for it gets it."""
+    monkeypatch.setattr(torch.cpu, "get_capabilities", lambda: {"avx512_bf16": True})
+    monkeypatch.setattr(compute, "_used_by_onednn", lambda dtype: True)
+    monkeypatch.setattr(compute, "get_host_cpu_name", lambda: name)
+    assert choose_dtype("auto", CPU) == wanted
+    assert choose_dtype("bfloat16", CPU) == torch.bfloat16
+
+
 CPU, FORMATS = torch.device("cpu"), ("float32", "bfloat16", "float16")
 ASKED = f"""
 import torch

@@ -1,6 +1,7 @@
 """Which device and number format the networks compute in."""
 
 import torch
+from llvmlite.binding import get_host_cpu_name
 
 from neural_shadows.errors import InputError
 
@@ -48,20 +49,34 @@ def _used_by_onednn(dtype: torch.dtype) -> bool:
     return torch.ops.mkldnn._is_mkldnn_fp16_supported()
 
 
+def _is_faster(device: torch.device) -> bool:
+    """Whether a device multiplies in bfloat16, which it has, faster than in float32.
+
+    A GPU does, and so do AMX and, by AVX-512 BF16, AMD's processors (4 times as fast). Intel's whose
+    AMX a virtual machine hides have AVX-512 BF16 as well and are half as fast by it: 26 and 50 GMAC/s
+    of a core, a step of training 1.45 times as long. It goes by names: to time two products beside
+    other work told either, and a training that goes on must have the format that it began with.
+    """
+    has = torch.cpu.get_capabilities()
+    slow = has.get("avx512_bf16") and not has.get("amx_bf16")
+    return device.type == "cuda" or not slow or get_host_cpu_name().startswith("znver")
+
+
 def choose_dtype(precision: str, device: torch.device) -> torch.dtype:
     """The number format of matrix products for `auto`, `float32`, `bfloat16` or `float16`.
 
-    `auto` takes bfloat16 where the processor multiplies it natively (4 times as fast as float32 by
-    AMX or AVX-512 BF16, or a GPU that has it) and float32 elsewhere. float16 is the thesis's
-    (tiny-cuda-nn's). On a network of 8 million samples bfloat16 moved depths by 0.0014 sphere radii
-    (median) and flipped 0.13 % of the points that face the light, float16 by 0.00015 and 0.016 %
-    (`tests/benchmarks/precision_of_queries.py`).
+    `auto` takes bfloat16 where the processor has it and is faster by it than by float32, which it
+    takes elsewhere. float16 is the thesis's (tiny-cuda-nn's). On a network of 8 million samples
+    bfloat16 moved depths by 0.0014 sphere radii (median) and flipped 0.13 % of the points that face
+    the light, float16 by 0.00015 and 0.016 % (`tests/benchmarks/precision_of_queries.py`).
 
     Raises:
         InputError: the device has to emulate the format that was asked for.
     """
     if precision == "auto":
-        return torch.bfloat16 if is_native(torch.bfloat16, device) else torch.float32
+        wanted = torch.bfloat16
+        faster = is_native(wanted, device) and _is_faster(device)
+        return wanted if faster else torch.float32
     dtype = getattr(torch, precision)
     if not is_native(dtype, device):
         raise InputError(
