@@ -4,13 +4,13 @@ import numpy as np
 import trimesh
 from shapes import prepared
 
-from neural_shadows.evaluation.soft_methods.object_fields import ObjectField
+from neural_shadows.evaluation.soft_methods.object_field import fitted_field
 from neural_shadows.networks.object_space.distances_around import distances_around
 from neural_shadows.networks.object_space.field_marching import SOLID
 
 
 def test_of_a_sphere():
-    field = ObjectField(prepared(trimesh.creation.icosphere(5))[0], 0.04)
+    field = fitted_field(prepared(trimesh.creation.icosphere(5))[0], 0.04)
     around = distances_around(field.grid, field.bricks)
     size = len(field.grid)
     places = (np.indices((size + 1,) * 3) * (2 / size) - 1).reshape(3, -1)
@@ -22,7 +22,7 @@ def test_of_a_sphere():
 
 def test_a_wall_on_the_border_of_bricks():
     """Its bricks hold nothing but what is inside; those beyond are empty, or enclosed by others."""
-    field = ObjectField(prepared(trimesh.creation.box((2, 2, 2)))[0], 0.1)
+    field = fitted_field(prepared(trimesh.creation.box((2, 2, 2)))[0], 0.1)
     grid, bricks = field.grid.copy(), field.bricks.copy()
     size = len(grid)
     grid[:], bricks[:] = -1, 100

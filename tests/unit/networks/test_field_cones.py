@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from shapes import prepared
 
-from neural_shadows.evaluation.soft_methods.object_fields import ObjectField
+from neural_shadows.evaluation.soft_methods.object_field import fitted_field
 from neural_shadows.networks.object_space.field_cones import (
     above_plane,
     dim_by_field,
@@ -50,7 +50,7 @@ SLAB = trimesh.creation.box((3, 3, 0.2)), past_slab
 
 
 def walked(shape, x, walks, push=0.0, cell=0.04):
-    field = ObjectField(prepared(shape)[0], cell)
+    field = fitted_field(prepared(shape)[0], cell)
     points = points_below(x)
     ways, normals = np.tile(FAR * UP, (len(x), 1)), np.tile(UP, (len(x), 1))
     visible = above_plane(normals, ways, np.float32(SLOPE * FAR))
@@ -97,7 +97,7 @@ def test_a_plane_hides_its_side_of_the_light_once():
     visible = above_plane(normals, ways, size)
     exact = [0, 0.1955, 0.5, 0.8045, 1]  # segments of a disc
     np.testing.assert_allclose(visible, exact, atol=1e-3)
-    field = ObjectField(prepared(trimesh.creation.box((1, 1, 1)))[0], 0.01)
+    field = fitted_field(prepared(trimesh.creation.box((1, 1, 1)))[0], 0.01)
     points = np.tile(np.array([5, 5, 0], np.float32), (5, 1))
     told = field.centre, field.radius, field.cone_field, split_disc(1), np.float32(0)
     dim_by_field(points, normals, ways, size, *told, visible)
