@@ -1,7 +1,7 @@
 """A scene in metres, opened from its settings, with its mover at any place."""
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -30,9 +30,7 @@ class SoftScene:
 
     def __init__(self, scene: Mapping[str, Any], meshes: Sequence[Path]):
         ups = scene["inserted"].items()
-        self._inserted = {
-            name: _upright(read_prepared(path), up) for (name, up), path in zip(ups, meshes)
-        }
+        self._inserted = {name: _upright(path, up) for (name, up), path in zip(ups, meshes)}
         self.settings = dict(scene)  # as the scene can be opened again: with the height found
         if scene.get("penumbra") is None:
             self.arrangement: Arrangement = arrange(scene["generate"], scene["seed"])
@@ -67,7 +65,10 @@ class SoftScene:
         return was
 
 
-def _upright(mesh: PreparedMesh, up: str) -> PreparedMesh:
+# Of 18 scenes that insert the same two meshes, each would read them anew: 0.25 s of 0.45.
+@lru_cache(maxsize=4)
+def _upright(mesh_ply: Path, up: str) -> PreparedMesh:
     """The mesh turned so that its axis `up` becomes y."""
+    mesh = read_prepared(mesh_ply)
     turn = np.roll(np.eye(3, dtype=np.float32), 1 - "xyz".index(up), axis=0)
     return with_normals(mesh.vertices @ turn.T, mesh.faces)

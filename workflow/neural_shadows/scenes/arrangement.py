@@ -10,7 +10,7 @@ import numpy as np
 from trimesh.transformations import rotation_matrix
 
 from neural_shadows.errors import InputError
-from neural_shadows.meshes.prepared_mesh import PreparedMesh, with_normals
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, all_with_normals
 from neural_shadows.scenes.scene import Scene, make_scene
 
 UP = np.array([0.0, 1.0, 0.0])
@@ -85,10 +85,10 @@ def scene_of(
     for part in arrangement.objects:
         motion = motions.get(part.name)
         vertices = part.vertices if motion is None else _carried(part.vertices, motion)
-        meshes.append(with_normals(vertices, part.faces))
+        meshes.append((vertices, part.faces))
     for mesh, spot in zip(inserted.values(), arrangement.spots):
-        meshes.append(_stood(mesh, spot))
-    return make_scene(*meshes, up=UP, ground=False, light=None)
+        meshes.append((_stood(mesh, spot), mesh.faces))
+    return make_scene(*all_with_normals(meshes), up=UP, ground=False, light=None)
 
 
 def _carried(vertices: np.ndarray, motion: np.ndarray) -> np.ndarray:
@@ -96,8 +96,10 @@ def _carried(vertices: np.ndarray, motion: np.ndarray) -> np.ndarray:
     return (vertices @ motion[:3, :3].T + motion[:3, 3]).astype(np.float32)
 
 
-def _stood(mesh: PreparedMesh, spot: Spot) -> PreparedMesh:
-    """A mesh from its unit sphere on a spot: the sphere becomes as high as the spot allows."""
+def _stood(mesh: PreparedMesh, spot: Spot) -> np.ndarray:
+    """Vertices of a mesh from its unit sphere on a spot, (V, 3) float32: the sphere becomes as high as
+    the spot allows.
+    """
     turned = _carried(mesh.vertices, rotation_matrix(spot.turn, UP)) * (spot.height / 2)
     turned[:, 1] -= turned[:, 1].min()
-    return with_normals((turned + spot.place).astype(np.float32), mesh.faces)
+    return (turned + spot.place).astype(np.float32)
