@@ -15,6 +15,9 @@ MEASURED = {
     # On a cluster the machine too: cores are those of the job.
     "networks/*/training.json": {"seconds", "samples_per_second", "machine"},
     "depth_biases/*/*.json": {"machine"},
+    "scenes/*/mesh.json": {"machine"},
+    "frames/*/*/*.json": {"machine"},
+    "penumbra_widths/*.json": {"machine"},
     "soft_constants/*/*.json": {"machine"},
     "screen_sensitivities/*/*.json": {"machine"},
     "frame_times/*/*.json": {"ms", "own_ms", "rays_per_second", "machine"},

@@ -79,7 +79,7 @@ def test_noise_and_few_frames_decide_nothing():
 def test_as_many_rays_as_fit_into_the_time():
     """PCSS takes 35 and 45 ms: one ray at the first radius, four at the second."""
     found = judge(claim("soft_equal_time", methods=["pcss"]), data())
-    first, second = found["evidence"].split("; ")
+    first, second = found["evidence"].split("\n")
     assert "1 ray" in first and "(10 ms) against PCSS" in first
     assert "4 rays" in second and "SVGF" not in found["evidence"]
     assert found["verdict"] == verdicts.CONTRADICTED  # at the first radius one ray is worse

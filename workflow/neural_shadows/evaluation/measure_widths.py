@@ -8,6 +8,7 @@ import numpy as np
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.metrics.penumbra_width import WIDEST, local_widths
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -43,7 +44,7 @@ def measure_widths(parts: list[Path], widths_json: Path) -> None:
     by_scene = {
         scene: [_percentiles(np.concatenate(widths[scene, k])) for k in radii] for scene in scenes
     }
-    write_json(widths_json, {"widest": WIDEST, "scenes": by_scene})
+    write_json(widths_json, {"widest": WIDEST, "scenes": by_scene, **describe_origin()})
 
 
 def _percentiles(widths: np.ndarray) -> list[float] | None:

@@ -19,6 +19,7 @@ from neural_shadows.frames.render_frame import render_buffers, render_target
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.frames.uses import SEQUENCES, USES
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -116,6 +117,7 @@ def render_frames(
         "channels": CHANNELS,
         "units": UNITS,
         "frames": described,
+        **describe_origin(),
     }
     write_json(frames_json, about)
 

@@ -15,6 +15,7 @@ from neural_shadows.meshes.open_sides import is_sheet
 from neural_shadows.meshes.reading import mesh_bytes, read_mesh
 from neural_shadows.meshes.thesis_meshes import is_thesis_mesh
 from neural_shadows.running import progress
+from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 
 _DROPPED = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "duplicate_faces")
@@ -66,7 +67,7 @@ def prepare_mesh(
         )
     with whole_file(mesh_ply) as part:
         part.write_bytes(trimesh.Trimesh(normalised, faces, process=False).export(file_type="ply"))
-        write_json(mesh_json, report)
+        write_json(mesh_json, report | describe_origin())
 
 
 if "snakemake" in globals():

@@ -69,7 +69,7 @@ def read_cards(csv: Path) -> list[Card]:
     claims = claims.reindex(columns=COLUMNS, fill_value="")
     cards = []
     for claim in claims.itertuples():
-        evidence = claim.evidence.split("; ")
+        evidence = claim.evidence.split("\n")
         number = number_text(claim.number_of, claim.number, len(evidence))
         section = section_of({"text": claim.text, "section": claim.section})
         texts = claim.claim, claim.statement, section

@@ -22,6 +22,7 @@ DRAWN = 82  # width of a cell's drawing, px
 INCOMPARABLE = "LPIPS"  # with the thesis's, whose network is not known (`describe_lpips`)
 UNRIVALLED = (*NETWORKS.values(), *NULL.values())  # cannot be a column's best
 PARTED = ("scene", "light")  # first columns: a table is in parts by them
+ORIGIN = "<!--"  # what the last line begins with, of what the table was written by
 MARKDOWN = MarkdownIt("commonmark", {"html": False}).enable("table")
 
 
@@ -75,6 +76,7 @@ def table_block(path: Path, looks: Mapping[str, Look]) -> Block:
     title, kinds = tokens[1].content, [token.type for token in tokens]
     start, end = kinds.index("table_open"), kinds.index("table_close") + 1
     texts = [token.content for token in tokens[start:end] if token.type == "inline"]
+    after = [token.content for token in tokens[end:] if token.type == "inline"]
     count = kinds.count("th_open")
     heads, *rows = (texts[i : i + count] for i in range(0, len(texts), count))
     return Block(
@@ -82,7 +84,7 @@ def table_block(path: Path, looks: Mapping[str, Look]) -> Block:
         path.stem,
         title,
         parts=[_part(scene, *found, looks) for scene, found in _by_scene(heads, rows).items()],
-        notes=tuple(inline(token.content) for token in tokens[end:] if token.type == "inline"),
+        notes=tuple(inline(text) for text in after if not text.startswith(ORIGIN)),
         files=csv_file(path.with_suffix(".csv")),
     )
 

@@ -91,7 +91,7 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
     verdict, reason = next((verdict, reason) for verdict, reason in gates.items() if reason)
     samples = [one.samples for one in found if one.samples is not None]
     shown = most_against(final)
-    evidence = "; ".join(one.evidence for one in found)
+    evidence = "\n".join(one.evidence for one in found)
     if (other := by_all_pixels(claim)) and (unlike := judge(other, data)["verdict"]) != verdict:
         evidence += f". By the error of all pixels, edges of surfaces among them: {unlike}"
     return {

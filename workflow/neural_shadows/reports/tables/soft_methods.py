@@ -197,8 +197,8 @@ def _describe_flicker(
         f"E: mean of exp(3 |change|) − 1 along a point's way (Datta et al. 2022), over sequences of "
         f"{', '.join(parts['scene'].unique())} in which moves: {kinds} (the CSV has each); at a "
         f"radius of {radii[int(shown['number'].iloc[0])]:.3g} {unit}. Of the exact shadow itself "
-        f"{shown['instability_reference'].iloc[0]:.3f}. In sequences the SVGF-like filter has its "
-        "history, all else in this table is of single frames."
+        f"{shown['instability_reference'].iloc[0]:.3f}. In sequences the SVGF-, FFX- and "
+        "SIGMA-like filters have their history; all else in this table is of single frames."
     ]
 
 

@@ -9,6 +9,7 @@ from tabulate import tabulate
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_text
+from neural_shadows.running.origin import describe_origin
 
 
 def read_table(path: Path, texts: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
@@ -52,7 +53,10 @@ def write_twins(
         colalign=["left"] * text_columns + ["right"] * (len(columns) - text_columns),
     )
     items = "\n".join(f"- {note}" for note in notes)
-    parts = [f"# {title}", lead, table, items]
+    origin = describe_origin()
+    # Not a note: of each table on the page it would be another.
+    made = f"<!-- commit {origin['commit']}, code {origin['code']}, {origin['machine']['cpu']} -->"
+    parts = [f"# {title}", lead, table, items, made]
     write_text(md, "\n\n".join(part for part in parts if part) + "\n")
 
 
