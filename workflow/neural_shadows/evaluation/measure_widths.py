@@ -19,7 +19,8 @@ def measure_widths(parts: list[Path], widths_json: Path) -> None:
     """Write the median and the 90th percentile of the widths, in pixels, of each scene and light.
 
     Over the penumbra pixels of a scene's frames, see `local_widths`. The JSON has by scene, as
-    `scenes`, a pair by radius, None of a light without a penumbra; `widest`: see `WIDEST`.
+    `scenes`, a pair by radius, None of a light without a penumbra; `radii` as they are configured, in
+    `radius_unit`; `widest`: see `WIDEST`.
 
     Args:
         parts: of test frames with their exact shadows.
@@ -44,7 +45,11 @@ def measure_widths(parts: list[Path], widths_json: Path) -> None:
     by_scene = {
         scene: [_percentiles(np.concatenate(widths[scene, k])) for k in radii] for scene in scenes
     }
-    write_json(widths_json, {"widest": WIDEST, "scenes": by_scene, **describe_origin()})
+    about = opened[0].about
+    lights = {"radii": about.get("given_radii", about["radii"])}
+    lights["radius_unit"] = about.get("radius_unit", "metres")
+    found = {"widest": WIDEST, **lights, "scenes": by_scene}
+    write_json(widths_json, found | describe_origin())
 
 
 def _percentiles(widths: np.ndarray) -> list[float] | None:

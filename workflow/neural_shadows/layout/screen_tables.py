@@ -40,6 +40,7 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "sensitivities": [paths.screen_sensitivity(frame_set, name) for name in networks],
         "profiles": _profiles(layout, table),
         "frames_json": soft_methods.tests(layout, frame_set)[0],
+        "widths_json": soft_methods.widths(layout, frame_set) if asked else [],
     }
 
 

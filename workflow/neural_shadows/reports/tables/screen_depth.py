@@ -20,6 +20,7 @@ from neural_shadows.reports.tables.screen_rows import (
     nulls_in,
     with_printed,
 )
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -32,6 +33,7 @@ def write(
     trainings: list[Path],
     frames_json: Path,
     published_nsm_csv: Path,
+    widths_json: Path | None = None,
     csv: Path,
     md: Path,
     title: str,
@@ -45,6 +47,7 @@ def write(
     CSV: those of `depth_table`, printed numbers and differences, and the scale.
 
     Args:
+        widths_json: what `measure_widths` wrote of its test frames, for a note.
         soft_metrics: of each network on the frame set; trainings: training.json of each.
         frames_json: a part of its test frames.
         published: the paper's number of the table; None for one that it only draws.
@@ -82,6 +85,7 @@ def write(
         ABOUT_NULLS,
         _describe_learning(records, labels),
         *describe_trainings(records, labels),
+        *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
     parts = {name: cells for name, cells in parts.items() if any(cells)}

@@ -19,6 +19,7 @@ from neural_shadows.reports.tables.screen_rows import (
     learned_rows,
     nulls_in,
 )
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -34,6 +35,7 @@ def write(
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
+    widths_json: Path | None = None,
     csv: Path,
     md: Path,
     title: str,
@@ -45,6 +47,7 @@ def write(
     CSV: those of `errors_table`, and the scale.
 
     Args:
+        widths_json: what `measure_widths` wrote of its test frames, for a note.
         soft_metrics: of each network on the frame set; trainings: training.json of each.
         frames_json: a part of its test frames.
         labels: by experiment, in the table's order.
@@ -64,6 +67,7 @@ def write(
         *_describe_training("× training" in columns),
         ABOUT_NULLS,
         *describe_trainings(records, labels),
+        *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
     write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=3)

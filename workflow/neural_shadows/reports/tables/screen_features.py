@@ -24,6 +24,7 @@ from neural_shadows.reports.tables.screen_rows import (
     nulls_in,
     with_printed,
 )
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -36,6 +37,7 @@ def write(
     trainings: list[Path],
     sensitivities: list[Path],
     published_nsm_csv: Path,
+    widths_json: Path | None = None,
     csv: Path,
     md: Path,
     title: str,
@@ -49,6 +51,7 @@ def write(
     CSV: those of `features_table`, printed errors and differences, and the scale.
 
     Args:
+        widths_json: what `measure_widths` wrote of its test frames, for a note.
         soft_metrics: of each network on the frame set; trainings: training.json of each.
         sensitivities: what `measure_sensitivity` wrote of each.
         published: the paper's number of the table.
@@ -87,6 +90,7 @@ def write(
         f"{100 * LEAST_SHARE:g} %.",
         ABOUT_NULLS,
         *describe_trainings(records, labels),
+        *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
     cells = {name: column for name, column in cells.items() if any(column)}

@@ -17,6 +17,7 @@ from neural_shadows.reports.tables.screen_rows import (
     learned_rows,
     nulls_in,
 )
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -26,6 +27,7 @@ def write(
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
+    widths_json: Path | None = None,
     csv: Path,
     md: Path,
     title: str,
@@ -37,6 +39,7 @@ def write(
     CSV: those of `solids_table`, and the scale.
 
     Args:
+        widths_json: what `measure_widths` wrote of its test frames, for a note.
         soft_metrics: of each network on a frame set; trainings: training.json of each.
         frames_json: a part of its test frames.
         labels: by experiment, in the table's order.
@@ -64,6 +67,7 @@ def write(
         "pixels over their numbers of solids, mean over frames; the line: that through their means.",
         ABOUT_NULLS,
         *describe_trainings(records, labels),
+        *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
     write_twins(whole, columns, csv, md, title=title, notes=notes, text_columns=2)

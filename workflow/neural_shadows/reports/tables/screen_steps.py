@@ -28,6 +28,7 @@ from neural_shadows.reports.tables.screen_rows import (
     nulls_in,
     with_printed,
 )
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -45,6 +46,7 @@ def write(
     soft_metrics: list[Path],
     trainings: list[Path],
     published_nsm_csv: Path,
+    widths_json: Path | None = None,
     csv: Path,
     md: Path,
     title: str,
@@ -59,6 +61,7 @@ def write(
     timed that have the paper's, and the scale.
 
     Args:
+        widths_json: what `measure_widths` wrote of its test frames, for a note.
         profiles: what `profile_screen_network` wrote of the steps' networks.
         soft_metrics: of the steps' experiments in their number formats; trainings: theirs.
         published: `nsm.steps`; None for steps that the paper does not print.
@@ -103,6 +106,7 @@ def write(
         *(describe(profile) for profile in list(profiled.values())[:1]),
         *_without_errors(table, steps),
         *describe_trainings(records, labels),
+        *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
     heading = f"{title} ({PAPER}, 3.5)" if published else title

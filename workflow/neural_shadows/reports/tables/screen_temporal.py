@@ -15,6 +15,7 @@ from neural_shadows.reports.tables.screen_rows import (
     learned_rows,
     nulls_in,
 )
+from neural_shadows.reports.tables.width_notes import describe_widths
 from neural_shadows.reports.tables.writing import number_cells, write_twins
 from neural_shadows.running.stage import run_stage
 
@@ -24,6 +25,7 @@ def write(
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
+    widths_json: Path | None = None,
     csv: Path,
     md: Path,
     title: str,
@@ -35,6 +37,7 @@ def write(
     CSV: those of `temporal_table`, and the scale.
 
     Args:
+        widths_json: what `measure_widths` wrote of its test frames, for a note.
         soft_metrics: of each method on the frame set; trainings: training.json of the networks.
         frames_json: a part of its test frames.
         labels: what each method is called, in the table's order.
@@ -61,6 +64,7 @@ def write(
         "test frames, of all lights.",
         ABOUT_NULLS,
         *describe_trainings(records, labels),
+        *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
     write_twins(whole, columns, csv, md, title=title, notes=notes)

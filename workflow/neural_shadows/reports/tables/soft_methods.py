@@ -107,7 +107,7 @@ def write(
     notes = [
         f"{parts}unseen scenes: {', '.join(unseen) or 'none'}. The exact soft shadow is by rays from "
         "eight places a pixel.",
-        *describe_widths(widths_json, scenes, [light_name(radius, unit) for radius in radii]),
+        *describe_widths(widths_json, scenes),
         "Squared errors: umbra, penumbra and lit by the exact shadow (below 2 %, between, above 98 "
         "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
         "surface inside the light's map. What faces away from the light's centre is dark for all "

@@ -77,7 +77,7 @@ def write(
         *_describe_frames(
             found[found["scene"].isin(measured)], metrics, about, radii, unit, by == "scene"
         ),
-        *describe_widths(widths_json, measured, [light_name(one, unit) for one in radii]),
+        *describe_widths(widths_json, measured),
         *([_describe_sequences(found)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),

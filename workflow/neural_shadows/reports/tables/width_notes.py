@@ -6,24 +6,24 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.soft_looks import light_names
 
 
-def describe_widths(
-    widths_json: Path | None, scenes: Sequence[str], lights: Sequence[str]
-) -> list[str]:
+def describe_widths(widths_json: Path | None, scenes: Sequence[str] | None = None) -> list[str]:
     """One sentence: by light the median and the 90th percentile of a scene's penumbra pixels.
 
     Each is the median over `scenes`, of the former also the least and the most. Nothing of a point
     light, whose penumbrae are the antialiasing's, or without a file.
 
     Args:
-        scenes: those that the table is of. lights: what each is called, in the file's order.
+        scenes: those that the table is of; without them all of the frame set.
     """
     if widths_json is None:
         return []
     record = read_json(widths_json)
+    scenes = [*record["scenes"]] if scenes is None else scenes
     parts = []
-    for k, light in enumerate(lights):
+    for k, light in enumerate(light_names(record)):
         known = [record["scenes"][scene][k] for scene in scenes if record["scenes"][scene][k]]
         if light == "point light" or not known:
             continue
