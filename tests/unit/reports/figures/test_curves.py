@@ -155,6 +155,7 @@ def written_fronts(folder):
     )
     table.loc[len(table) - 1, "psnr_pooled"] = NAN
     table["learned"] = [{"Field": True, "Thesis": False}.get(name) for name in table["method"]]
+    table["coded"] = table["method"] == "Field"
     for metric in ("lpips", "flip", "psnr_pooled"):
         for end, factor in (("", 1), ("_low", 0.9), ("_high", 1.2)):
             table[metric + end] = factor * table.get(metric, NAN)
@@ -206,8 +207,10 @@ def test_panels_name_points_and_what_costs_nothing(drawn):
     ]
     assert [line.get_xdata().tolist() for line in hollow] == [[2e6 / 1024]]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert legend[0] == "shadow map" and legend[-1] == "not learned"
-    assert legend[-2] == "the best quality at each cost"  # what the grey line says
+    assert legend[0] == "shadow map" and legend[-2:] == ["not learned", "coded"]
+    assert legend[-3] == "the best quality at each cost"  # what the grey line says
+    half = [line for line in stored.lines if line.get_fillstyle() == "bottom"]
+    assert [line.get_ydata().tolist() for line in half] == [[METHODS["field_biased"][3]]]
     assert "exact shadow" not in legend and "no method" not in legend
 
 

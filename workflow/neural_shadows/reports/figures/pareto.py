@@ -37,6 +37,8 @@ LINES = {NO_SHADOW: ":", PRINTED: "--"}  # what has a quality and no cost here
 NOT_SHOWN = "all_dark"
 PRINTED_NOTES = {True: " (of another LPIPS network)", False: " (mean, not pooled)"}
 GREY = "#777777"
+HALF = {"fillstyle": "bottom", "markerfacecoloralt": "white"}
+CODED = {"color": "#555555", "marker": "o", "linestyle": ""} | HALF
 FRONT = {"color": "#bbbbbb", "linewidth": 1}
 MOST_IN_LINE = 2  # of the legend below a panel
 PANEL = 4.75, 3.8  # inches: 342 points, so that one panel fits a phone's 375 px
@@ -64,7 +66,7 @@ def draw(
         InputError: the table is missing or not whole.
     """
     numbers = (*with_ends("lpips"), *with_ends("flip"), "psnr", *with_ends("psnr_pooled"))
-    found = read_table(table, ("scene", "method", "learned"), (*numbers, *COSTS))
+    found = read_table(table, ("scene", "method", "learned", "coded"), (*numbers, *COSTS))
     found = found[found["scene"] == scene].set_index("method", drop=False)
     methods = found.loc[[row["label"] for row in rows]]
     methods = methods.assign(key=[row["method"] for row in rows], look=[*map(look_of, rows)])
@@ -85,7 +87,7 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> F
     """Draw a scene's methods, a line of panels for each cost.
 
     On the left LPIPS, or FLIP where there is none; on the right pooled PSNR, upwards better.
-    Networks that have not learned are hollow. What costs nothing there, and what the thesis
+    Networks that have not learned are hollow, what is coded by entropy is half filled. What costs nothing there, and what the thesis
     prints, is a line.
 
     Args:
@@ -105,6 +107,7 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> F
     entries += [
         Line2D([], [], label="the best quality at each cost", **FRONT),
         *style.hollow(table),
+        *([Line2D([], [], label="coded", **CODED)] if table["coded"].eq("True").any() else []),
     ]
     style.legend_below(figure, entries, MOST_IN_LINE * len(metrics))
     named = []
@@ -147,6 +150,7 @@ def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
     for row in measured.itertuples():
         spread = [[row.value - row.low], [row.high - row.value]]
         look = _drawn(row.look) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
+        look |= HALF if row.coded == "True" else {}
         bar = axes.errorbar(row.cost, row.value, spread, capsize=2, **look)
         value = f"{short(row.value)} [{short(row.low)}, {short(row.high)}]{'' if errors else ' dB'}"
         say(bar.lines[0], f"{row.method}: {value}; {axes.get_xlabel()}: {short(row.cost)}")
