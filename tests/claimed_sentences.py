@@ -30,14 +30,14 @@ END = re.compile(rf"(?<=[.!?])\**(?:\s*{MARK}\d+)*\s+(?!{MARK})(?=[A-Z0-9*\[`(])
 ABBREVIATED = re.compile(r"\b(et al|e\.g|i\.e|vs|cf)\.")
 
 
-def read_verdicts(paths: Iterable[Path]) -> dict[str, set[str]]:
-    """Of each claim in files of claims its verdicts; also by `FOLDER/claim`."""
+def read_claims(paths: Iterable[Path], column: str = "verdict") -> dict[str, set[str]]:
+    """Of each claim in files of claims its verdicts, or another column; also by `FOLDER/claim`."""
     found: dict[str, set[str]] = {}
     for path in paths:
         with path.open(encoding="utf-8", newline="") as file:
             for row in csv.DictReader(file):
                 for name in (row["claim"], f"{path.parent.name}/{row['claim']}"):
-                    found.setdefault(name, set()).add(row["verdict"])
+                    found.setdefault(name, set()).add(row[column])
     return found
 
 

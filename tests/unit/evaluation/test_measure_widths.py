@@ -19,6 +19,7 @@ def test_the_width_of_one_straight_edge(tmp_path):
     assert np.allclose(soft, 8 * 4 / np.pi, rtol=0.2)
     (note,) = describe_widths(out)
     assert (
-        "of 1 scenes the median (least to most): light of 0.25 m radius 10 (10 to 10) and 10." in note
+        "of 1 scenes the median (least to most): light of 0.25 m radius 10 (10 to 10) and 10."
+        in note
     )
     assert describe_widths(None) == []

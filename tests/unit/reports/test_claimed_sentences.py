@@ -2,7 +2,8 @@
 
 import pytest
 from checkout import ROOT
-from claimed_sentences import findings_mistakes, mistakes, read_verdicts, sentences
+from claimed_sentences import findings_mistakes, mistakes, read_claims, sentences
+from shipped import shipped
 
 REFERENCE = ROOT / "reports" / "reference"
 VERDICTS = {
@@ -83,8 +84,22 @@ def test_the_page_s_findings_have_no_claims_to_name():
 @pytest.mark.parametrize("name", ["README.md", "reports/reference/README.md"])
 def test_our_sentences_say_what_their_claims_say(name):
     text = (ROOT / name).read_text(encoding="utf-8")
-    assert mistakes(text, read_verdicts(REFERENCE.glob("*/claims.csv"))) == []
+    assert mistakes(text, read_claims(REFERENCE.glob("*/claims.csv"))) == []
     assert any(in_part for _, _, in_part in sentences(text)) or name == "README.md"
+
+
+@pytest.mark.parametrize("name", ["README.md", "reports/reference/README.md"])
+def test_claims_that_our_sentences_name_are_those_that_are_judged_today(name):
+    """A claim whose rivals have changed since has another statement, and its verdict is of the former."""
+    judged = read_claims(REFERENCE.glob("*/claims.csv"), "statement")
+    today = shipped()["claims"]
+    named = {
+        claim.rpartition("/")[2]
+        for _, claims, _ in sentences((ROOT / name).read_text(encoding="utf-8"))
+        for claim, _ in claims
+    }
+    assert named
+    assert {one: judged[one] for one in named} == {one: {today[one]["statement"]} for one in named}
 
 
 @pytest.mark.parametrize(
