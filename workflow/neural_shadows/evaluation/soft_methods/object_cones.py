@@ -49,7 +49,7 @@ def cone_bytes(frame: SoftFrame) -> int:
 
 
 def _by_cones(walks: int) -> SoftMethod:
-    answer, tried = partial(cone_traced, walks=walks), {"push": (0.0, 0.15, 0.3, 0.6)}
+    answer, tried = partial(cone_traced, walks=walks), {"push": (0.0, 0.15, 0.3, 0.6, 1.2, 2.4)}
     return SoftMethod(answer, tried, held=cone_bytes, texel_floats=0, by_rays=True)
 
 

@@ -105,7 +105,7 @@ def fields_of(scene: Scene) -> SceneFields:
 
 
 def _by_fields(count: int) -> SoftMethod:
-    answer, tried = partial(field_traced, samples=count), {"cells": (0.5, 1.0, 2.0, 4.0)}
+    answer, tried = partial(field_traced, samples=count), {"cells": (0.25, 0.5, 1.0, 2.0, 4.0)}
     return SoftMethod(answer, tried, held=field_bytes, texel_floats=0, by_rays=True)
 
 
