@@ -61,8 +61,8 @@ def write_twins(
 
 
 def _escaped(cell: str) -> str:
-    """A cell as Markdown has it: a bar of its text would end it."""
-    return cell.replace("|", "\\|")
+    """A cell as Markdown has it: a bar of its text would end it, a line's end its row."""
+    return cell.replace("|", "\\|").replace("\n", "; ")
 
 
 def number_cells(
