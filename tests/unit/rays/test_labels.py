@@ -128,7 +128,8 @@ def test_a_vertex_on_the_sphere():
     vertices = np.array(AXES, np.float32)
     t_lb, t_ub = checked_bounds(tracer, vertices, -vertices)
     assert ((0 < t_lb) & (t_lb < 2e-7)).all()
-    assert (t_ub == 2).all()
+    # Embree's code for AVX2 alone is a last digit off.
+    assert ((2 - 2e-7 < t_ub) & (t_ub <= 2)).all()
 
 
 @pytest.mark.parametrize("bad", [(0, 0), (1, 0.999), (2.000001, np.inf), (0.5, np.nan)])

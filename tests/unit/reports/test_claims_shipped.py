@@ -175,7 +175,8 @@ def with_taa(labels):
 def numbers_of(name):
     """A table as its settings say, or as a reference has it."""
     layout = of_all_seeds()
-    table, made = layout.entry("tables", name), [*REFERENCE.glob(f"*/{name}.csv")]
+    table = layout.entry("tables", name)
+    made = [path for where in ("*", "earlier/*") for path in REFERENCE.glob(f"{where}/{name}.csv")]
     match table["kind"]:
         case "screen_steps":
             return pd.DataFrame({"row": [*table["steps"]]}).assign(

@@ -7,7 +7,11 @@ from neural_shadows.reports.tables.writing import number_cells, write_twins
 
 
 def test_a_bar_or_a_line_s_end_in_a_label_shifts_no_cell(tmp_path):
-    columns = {"method": ["width 8|16", "plain\nand more"], "PSNR ↑": ["30.0", "5.0"], "a|b": ["1", "2"]}
+    columns = {
+        "method": ["width 8|16", "plain\nand more"],
+        "PSNR ↑": ["30.0", "5.0"],
+        "a|b": ["1", "2"],
+    }
     files = tmp_path / "table.csv", tmp_path / "table.md"
     write_twins(pd.DataFrame({"a": [1]}), columns, *files, title="A table", notes=["A note."])
     (part,) = table_block(files[1], {}).parts
