@@ -6,7 +6,11 @@ min_version("9.10")
 
 
 configfile: "config/config.yaml"
-configfile: "config/reports.yaml"
+configfile: "config/spanhoff_2026.yaml"
+configfile: "config/extensions.yaml"
+configfile: "config/soft_shadows.yaml"
+configfile: "config/datta_2022.yaml"
+configfile: "config/hu_2025.yaml"
 
 
 report: "workflow/report/workflow.rst"

@@ -1,14 +1,15 @@
-"""Measured values whose truth is known, for the tests of claims."""
+"""Measured values with a given truth, for claims' tests."""
 
 import numpy as np
 import pandas as pd
 from report_samples import PUBLISHED, row
 
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured
-from neural_shadows.reports.claims.violations import LOWER, UPPER
-from neural_shadows.reports.learned import margins
-from neural_shadows.reports.published import read_published
+from neural_shadows.reports.claims.kinds.violations import LOWER, UPPER
+from neural_shadows.reports.claims.measured import Measured
+from neural_shadows.reports.data.learned import margins
+from neural_shadows.reports.data.published import read_published
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
 VIEWS = 24
 # What views have in common is far larger than what methods differ by.
@@ -18,41 +19,42 @@ INDEX = pd.MultiIndex.from_arrays(
 ).swaplevel()
 PRINTED = pd.read_csv(PUBLISHED, dtype={"table": str})
 MARGINS = margins(read_published(PUBLISHED))
-# Of drawing no shadow, and of a method of which a test says no more.
+# Of drawing no shadow, and of a method without values of its own.
 WORST = {"lpips": 0.3, "psnr": 10.0, "ssim": 0.5}
 FAIR = {"lpips": 0.1, "psnr": 30.0, "ssim": 0.9}
 
 
 def views(mean, spread=0.002, seed=0):
-    """Values of a metric by view (V,), with this mean exactly."""
+    """Values of a metric by view (V,) with this mean."""
     noise = np.random.default_rng(seed).normal(0, spread, VIEWS)
     return mean + VIEW_LEVEL + noise - noise.mean()
 
 
 def scene(methods, null=WORST):
-    """Metrics of a scene from {method: {metric: a mean, or values by view}}.
+    """Metrics of a scene.
 
-    Of the thesis's metrics each has `FAIR` values, no shadow the `WORST`, where none are given.
+    `methods`: {method: {metric: a mean, or values by view}}. Of the thesis's metrics each has `FAIR`
+    values, no shadow the `WORST`, where none are given.
     """
-    known = {method: FAIR | means for method, means in methods.items()}
+    methods = {method: FAIR | means for method, means in methods.items()}
     values = {
         (method, metric): given if np.ndim(given) else views(given, seed=(i, j))
-        for i, (method, means) in enumerate({**known, "no_shadow": WORST | null}.items())
+        for i, (method, means) in enumerate({**methods, "no_shadow": WORST | null}.items())
         for j, (metric, given) in enumerate(means.items())
     }
     return pd.DataFrame(values, index=INDEX)
 
 
 def loss_curve(end, start=1.0, points=100):
-    """A loss that falls to its end at nine tenths of the training, and stays there."""
+    """A loss curve, flat in its last tenth."""
     return pd.DataFrame({"loss": np.interp(np.arange(points), [0, 0.9 * points], [start, end])})
 
 
 def record(samples=THESIS_SAMPLES, seed=0, **changes):
-    """What claims read of a training.json."""
+    """The part of a training.json for claims."""
     training = {"steps": samples // 1000, "batch_size": 1000, "seed": seed}
-    known = {"samples": samples, "training": training, "no_shadow_loss": 0.5, "died_at_step": None}
-    return {**known, **changes}
+    made = {"samples": samples, "training": training, "no_shadow_loss": 0.5, "died_at_step": None}
+    return made | changes
 
 
 def points(name, budgets, seeds):
@@ -65,13 +67,13 @@ def points(name, budgets, seeds):
 
 
 def measured(scenes=None, curves=None, **changes):
-    """Everything that claims are tested on; the experiments are the curves' and `trainings`."""
+    """All measured values; the experiments are the curves' and `trainings`."""
     curves = curves or {}
-    known = {point["experiment"]: record() for some in curves.values() for point in some}
+    trainings = {point["experiment"]: record() for some in curves.values() for point in some}
     given = {
         "metrics": scenes or {},
         "losses": {},
-        "trainings": known | changes.pop("trainings", {}),
+        "trainings": trainings | changes.pop("trainings", {}),
         "times": {},
         "meshes": dict.fromkeys(scenes or (), {"thesis_mesh": True}),
         "scenes": dict.fromkeys(scenes or (), {"procedural": False}),
@@ -84,9 +86,9 @@ def measured(scenes=None, curves=None, **changes):
 
 
 def violated(false, leak):
-    """Counts by view of bounds violated at 100 points that are lit, and at 500 that are not.
+    """Counts of violated bounds by view.
 
-    `false` and `leak`: at how many of each 100 that shows.
+    At 100 lit points and at 500 others; `false` and `leak`: at how many of each 100 that shows.
     """
     rng = np.random.default_rng(4)
     counts = dict(zip((*LOWER, *UPPER), (200, 100, 0, 5000, 500, 0)))
@@ -97,7 +99,10 @@ def violated(false, leak):
 
 
 def pairs(*named, scenes=None, built=()):
-    """Pairs of rows; `scenes` by method where not the dragon; `built`: those without training."""
+    """Pairs of rows.
+
+    `scenes`: by method where not the dragon; `built`: those without training.
+    """
     scenes = scenes or {}
     return [
         [row(name, scene=scenes.get(name, "dragon"), trained=name not in built) for name in pair]
@@ -107,8 +112,8 @@ def pairs(*named, scenes=None, built=()):
 
 def better(*named, metrics=("lpips",), scenes=None, built=(), **needs):
     """A claim on pairs of methods."""
-    found = pairs(*named, scenes=scenes, built=built)
-    return {"kind": "better", "pairs": found, "metrics": list(metrics), "needs": needs}
+    rows = pairs(*named, scenes=scenes, built=built)
+    return {"kind": "better", "pairs": rows, "metrics": list(metrics), "needs": needs}
 
 
 def verdict(claim, data):

@@ -6,7 +6,6 @@ A sentence names its claims in a comment behind it: `<!-- claim: NAME VERDICT, N
 import csv
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from html import unescape
 from pathlib import Path
 
 DECIDED = ("supported", "contradicted")
@@ -51,13 +50,6 @@ def mistakes(text: str, verdicts: Mapping[str, set[str]]) -> list[str]:
             wrong.append("states a direction and names no claim")
         found += [f"{fault}: {sentence}" for fault in wrong]
     return found
-
-
-def findings_mistakes(html: str) -> list[str]:
-    """Findings of a page that state a direction on soft shadows: they have no claims to name."""
-    items = re.findall(r'<ul class="findings">(.*?)</ul>', html, re.S)
-    texts = [unescape(re.sub("<[^>]+>", "", one)) for ul in items for one in ul.split("</li>")]
-    return [text for text in texts if _directed(text)]
 
 
 def sentences(text: str) -> Iterator[tuple[str, list[tuple[str, str]], bool]]:

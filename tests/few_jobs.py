@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import yaml
-from checkout import ROOT, Checkout, write_overlay
+from checkout import Checkout, write_overlay
 from engine_frames import NAMES, write_npz
+from shipped import shipped
 
 KEPT = {
     "tables": {
-        *("table_4_3", "table_4_6", "soft_methods", "cost"),
+        *("table_4_3", "table_4_6", "soft_methods"),
         *("nsm_table_s1", "nsm_table_s2"),  # a network of whole frames, and a profile of one
     },
     "figures": {"figure_4_4", "figure_3_1"},
@@ -20,7 +20,6 @@ KEPT = {
 }
 TARGETS = [
     "all",
-    "results/smoke/cost/samples.10000.json",
     "results/smoke/networks/dragon/network.onnx",
     "reports/smoke/answers/engine/base_hard.csv",
 ]
@@ -35,7 +34,7 @@ def few_jobs(path: Path, steps: int = 200) -> Path:
     Args:
         steps: of its training.
     """
-    reports = yaml.safe_load((ROOT / "config/reports.yaml").read_text(encoding="utf-8"))
+    reports = shipped()
     sections = {
         section: dict.fromkeys(reports[section].keys() - kept) for section, kept in KEPT.items()
     }

@@ -1,29 +1,22 @@
 """A small page for the tests of the report's page."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import report_samples as samples
 from frame_samples import write_frames
 from matplotlib.figure import Figure
 from PIL import Image
 
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.page import write_page
+from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.page.page import write_page
 
 TEMPLATE = sorted((Path(__file__).parents[1] / "workflow" / "report" / "page").iterdir())
 HOSTILE = "<script>alert('x')</script> & \"quotes\""
 SHARED = "A note to several tables."
-TABLE = f"""# Networks and shadow maps (table 4.3 of the thesis)
-
-| method           |            LPIPS ↓ |   thesis LPIPS | verdict       |
-|:-----------------|-------------------:|---------------:|:--------------|
-| 512² shadow map  | 0.01 [0.005, 0.02] |         0.0329 | **supported** |
-| A <b>network</b> | 0.07 [0.065, 0.08] |         0.0379 | by nobody     |
-
-- Mean over 24 views; *thesis*: printed.
-- {SHARED}
-"""
 CLAIMS = (
     "claim,section,statement,verdict,reason,evidence,samples,thesis_samples\n"
     f'less,4.3,"{HOSTILE.replace(chr(34), chr(34) * 2)}",supported,all,"PSNR of A 3 against B 2: +1 [+0.5, +2]",10,1000\n'
@@ -35,6 +28,20 @@ addEventListener("message", ({ data }) => { document.getElementById("said").text
 parent.postMessage({ viewer: "left=map_64" }, "*");</script>"""
 POINTS = "second", "third"
 LABELS = {"shadow_map_128": "128² map", "shadow_map_512": "512² map", "dragon": "Network"}
+
+
+def table() -> Table:
+    """Two methods beside printed numbers."""
+    frame = pd.DataFrame({"value": [0.01, 0.07], "low": [0.005, 0.065], "high": [0.02, 0.08]})
+    columns = {
+        "method": ["512² shadow map", "A <b>network</b>"],
+        "LPIPS ↓": replace(intervals(frame, [*frame], 3), comparable=False),
+        "thesis LPIPS": numbers([0.0329, 0.0379], "{:.4f}", printed_of="LPIPS ↓"),
+        "verdict": ["**supported**", "by nobody"],
+    }
+    notes = ["Mean over 24 views; *thesis*: printed.", SHARED]
+    data = pd.DataFrame({"a": [1]})
+    return Table("Networks and shadow maps (table 4.3 of the thesis)", data, columns, notes)
 
 
 def seen_frames() -> dict[str, dict[tuple[str, int], np.ndarray]]:
@@ -58,9 +65,9 @@ def write_evaluated(folder: Path) -> dict[str, list[Path]]:
 
 def make_page(folder: Path, **changes) -> Path:
     """Write a page with one of each part, or with those that `changes` leave, and give its path."""
-    tables = [folder / f"{name}.md" for name in ("table_4_3", "tables", "beyond", "claims")]
+    tables = [folder / f"{name}.json" for name in ("table_4_3", "tables", "beyond", "claims")]
     for path in tables:
-        path.write_text(TABLE)
+        write_table(table(), path.with_suffix(".csv"), path.with_suffix(".md"), path)
         path.with_suffix(".csv").write_text(CLAIMS if path.stem == "claims" else "method,a\nb,1\n")
     figure = folder / "figure_4_1.png"
     Image.new("RGB", (9, 9)).save(figure)
@@ -80,7 +87,7 @@ def make_page(folder: Path, **changes) -> Path:
         "tables": tables[:3],
         "figures": [figure, drawing],
         "viewers": [viewer, folder / "viewer_fence.html"],
-        "claims_md": tables[3],
+        "claims_json": tables[3],
         **write_evaluated(folder),
         "meshes": [samples.write_mesh(folder, name=HOSTILE)],
         "trainings": [samples.write_record(folder / "training.json", samples.TRAINING)],
@@ -88,8 +95,10 @@ def make_page(folder: Path, **changes) -> Path:
         "titles": {"figure_4_1": HOSTILE},
         "front": "figure_front",
         "data": {"figure_front": "beyond"},
-        "beyond": ["beyond"],
-        "soft": [],
+        "chapters": {
+            **dict.fromkeys(("table_4_3", "tables", "figure_4_1", "figure_front"), "thesis"),
+            "beyond": "extensions",
+        },
         "networks": [],
         "soft_parts": [],
         "soft_answers": [],

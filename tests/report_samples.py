@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from neural_shadows.reports.data.table import write_table
+
 PUBLISHED = Path(__file__).parents[1] / "config" / "published.csv"
 RUN = {"scale": "test", "seed": 1, "width": 60, "height": 40, "reference": "exact"}
 SCENES = {
@@ -100,8 +102,8 @@ def write_mesh(folder, scene="dragon", **changes):
     return write_record(folder / scene / "mesh.json", {**record, "thesis_mesh": False, **changes})
 
 
-def written_table(write, folder, **given):
-    """The table (CSV as a frame, and the Markdown's path) that a kind's `write` makes.
+def written_table(make, folder, **given):
+    """The table (CSV as a frame, and the Markdown's path) that a kind's function makes.
 
     What is not given is of a scene with one network, `dragon`, which has the thesis's bytes.
     """
@@ -111,8 +113,6 @@ def written_table(write, folder, **given):
         "lpips_json": write_record(folder / "lpips.json", LPIPS),
         "weights": [weights],
         "published_csv": PUBLISHED,
-        "csv": folder / "table.csv",
-        "md": folder / "table.md",
         "title": "Title",
         "published": None,
         "tables": [],
@@ -123,8 +123,16 @@ def written_table(write, folder, **given):
         "scenes": SCENES,
     } | given
     weights.write_bytes(bytes(8 + 2_227_200))  # the length of an empty header, and the weights
-    write(**{name: settings[name] for name in inspect.signature(write).parameters})
-    return pd.read_csv(folder / "table.csv"), folder / "table.md"
+    return written(
+        make(**{name: settings[name] for name in inspect.signature(make).parameters}), folder
+    )
+
+
+def written(table, folder):
+    """The CSV of a table as a frame, and the path of its Markdown."""
+    csv, md, json = (folder / f"table.{ending}" for ending in ("csv", "md", "json"))
+    write_table(table, csv, md, json)
+    return pd.read_csv(csv), md
 
 
 def cells_of(md, line):

@@ -21,7 +21,6 @@ MEASURED = {
     "soft_constants/*/*.json": {"machine"},
     "screen_sensitivities/*/*.json": {"machine"},
     "frame_times/*/*.json": {"ms", "own_ms", "rays_per_second", "machine"},
-    "cost/*.json": {"seconds", "bytes", "peak_bytes", "machine"},
     "screen_networks/*/training.json": {"seconds", "samples_per_second", "machine"},
     "screen_profiles/*.json": {"whole_ms", "product_macs", "ms", "machine"},
     "soft_times/*.json": {"ms", "machine"},

@@ -33,10 +33,10 @@ from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.occupancy_field_network import OccupancyFieldNetwork
-from neural_shadows.networks.untrained.decimation import decimated
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.scenes.cameras import Viewpoint
 from neural_shadows.scenes.scene import Scene, open_scene
 from neural_shadows.scenes.tracing import Tracer

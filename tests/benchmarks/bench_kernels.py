@@ -78,7 +78,7 @@ def _mebibytes(way: str) -> float:
 
 def _frames(rounds: int) -> list[Row]:
     dtype = choose_dtype("auto", torch.device("cpu"))
-    network = KernelUnet("kernels", WIDTHS, FEATURES, FILTERS).folded().in_format(dtype)
+    network = KernelUnet("kernels", WIDTHS, FEATURES, FILTERS).for_inference().in_format(dtype)
     frame = torch.rand(1, len(FEATURES), 1024, 2048).contiguous(memory_format=torch.channels_last)
     macs = total(kernel_convolutions("kernels", WIDTHS, len(FEATURES), FILTERS), "macs")
     macs *= frame[0, 0].numel()

@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 from measurement import Row, median_seconds
 
-from neural_shadows.evaluation.soft_method_names import DENOISERS, LABELS
-from neural_shadows.evaluation.soft_methods.denoised import BY_KEY
-from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.method_parts.denoisers import BY_KEY
+from neural_shadows.evaluation.soft_methods.denoised import DENOISERS
+from neural_shadows.evaluation.soft_registry import LABELS, soft_method
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting, light_map_of
 from neural_shadows.frames.draw_twins import twin_of
 from neural_shadows.frames.render_frame import render_buffers, render_target
@@ -87,7 +87,7 @@ def filters(frame: SoftFrame, rounds: int) -> list[Row]:
     size, found = f"{frame.surface.width} x {frame.surface.height}", []
     for key, value in rate.items():
         peer = "oidn" if key.startswith("oidn") else "svgf"
-        stage, named = (f"filter of {size}: {DENOISERS[one][0]}" for one in (key, peer))
+        stage, named = (f"filter of {size}: {DENOISERS[one].label}" for one in (key, peer))
         told = {} if key == peer else {"peer": named, "peer_rate": rate[peer]}
         found.append(Row(stage, "cpu x1", value, "frames/s", **told))
     return found

@@ -75,7 +75,7 @@ def _compiled() -> ctypes.CDLL:
     if shutil.which("gcc") is None:
         raise InputError(
             f"gcc: not found: {SOURCE.name} is built with it, which sends rays to Embree as C does. "
-            "Install it, or leave out the stages field, forest, area and rays (--only)"
+            "Install it, or leave out the stages field and peers (--only)"
         )
     with TemporaryDirectory() as folder:
         built, path = Path(folder) / "embree_rays.so", _path()

@@ -1,12 +1,12 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only rays labels training queries field forest viewpoint soft area peers screen kernels default]
+        [--only rays labels training queries field viewpoint soft peers screen kernels default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
 Prints the table and writes it to reports/benchmarks.csv. Peers of the ray stages beyond trimesh
-come from envs/benchmarks.txt; field, forest, area and peers need gcc, see embree_rays.py. Where there is a GPU, its rows are added. `--quick` takes fewer
+come from envs/benchmarks.txt; field and peers need gcc, see embree_rays.py. `--quick` takes fewer
 rounds and leaves the default main job out: under five minutes on two cores.
 """
 
@@ -15,10 +15,8 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-import bench_area_light
 import bench_default
 import bench_field
-import bench_forest
 import bench_kernels
 import bench_labels
 import bench_queries
@@ -43,10 +41,8 @@ STAGES = (
     "training",
     "queries",
     "field",
-    "forest",
     "viewpoint",
     "soft",
-    "area",
     "peers",
     "screen",
     "kernels",
@@ -64,10 +60,8 @@ def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iter
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
         "field": lambda: bench_field.rows(source, mesh_ply, arguments.weights, quick),
-        "forest": lambda: bench_forest.rows(mesh_ply, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
-        "area": lambda: bench_area_light.rows(mesh_ply, quick),
         "peers": lambda: bench_ray_peers.rows(mesh_ply, quick),
         "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),
         "kernels": lambda: bench_kernels.rows(quick),

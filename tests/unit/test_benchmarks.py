@@ -4,14 +4,10 @@ import shutil
 from itertools import islice
 from types import SimpleNamespace
 
-import bench_area_light
 import bench_field
 import embree_rays
 import numpy as np
-import pandas as pd
-import precision_of_queries
 import pytest
-import torch
 import trimesh
 from detailed_mesh import detailed_meshes
 from measurement import COLUMNS, Row, median_seconds, table
@@ -44,25 +40,6 @@ def test_works_are_done_in_turn_and_the_first_round_does_not_count(monkeypatch):
     found = median_seconds({"a": lambda: work("a"), "b": lambda: work("b")}, 3)
     assert done == ["a", "b"] * 4
     assert found == {"a": pytest.approx(2), "b": pytest.approx(4)}
-
-
-def test_what_a_coarser_format_costs_is_counted():
-    """Depths off by 0.01 and −0.02: of 11 points, those within that of the depth 1 flip."""
-
-    def depths(origins, d, dtype):
-        error = {torch.float32: 0.0, torch.bfloat16: 0.01, torch.float16: -0.02}[dtype]
-        return torch.full((len(origins),), 1.0 + error)
-
-    network = SimpleNamespace(depths=depths, device=torch.device("cpu"))
-    # On the sphere's axis towards the light a point at height z has s = 1 − z; the last is culled.
-    s = np.array([0.5, 0.975, 0.985, 0.995, 1.002, 1.005, 1.015, 1.03, 1.5, 1.6, -1.0])
-    p = np.stack([0 * s, 1 - s, 0 * s], axis=1).astype(np.float32)
-    view = SimpleNamespace(light=np.array([0.0, 1.0, 0.0]))
-    found = precision_of_queries.differences(network, [SimpleNamespace(p=p, view=view)])
-    assert found["precision"].tolist() == ["bfloat16", "float16"]
-    for column in ("median", "share_90", "rms"):
-        assert found[column].tolist() == pytest.approx([0.01, 0.02], abs=1e-6)
-    assert found["flipped"].tolist() == [2 / 11, 2 / 11]
 
 
 @pytest.mark.parametrize(
@@ -158,18 +135,3 @@ def test_the_smallest_mesh_of_an_error(monkeypatch):
     assert 20_000 <= best.count <= 20_000 / (1 - bench_field.NEAR)
     assert share == tried[best.count] <= 2.5
     assert min(tried) < 20_000
-
-
-def test_rays_of_the_same_error_and_of_the_same_time():
-    """Of rays whose error halves with twice as many; packets take half of the time."""
-    count = np.array(bench_area_light.RAYS)
-    parts = {"rt": (1 / count, 10.0 * count), "packets": (1 / count, 5.0 * count)}
-    rays = [
-        pd.DataFrame({"method": [f"{form}_{n}" for n in count], "mse": mse, "ns": ns})
-        for form, (mse, ns) in parts.items()
-    ]
-    cone = pd.DataFrame({"method": ["cone_1"], "mse": [1 / 6], "ns": [40.0]})
-    row = bench_area_light._beside_rays(pd.concat([*rays, cone])).iloc[-1]
-    assert row.rays_of_error == pytest.approx(6)
-    assert (row.ns_of_error_rt, row.ns_of_error_packets) == pytest.approx((60, 30))
-    assert (row.rays_of_time_rt, row.rays_of_time_packets) == pytest.approx((4, 8))

@@ -9,6 +9,7 @@ from checkout import SMOKE, write_overlay
 SHOWN = {"table", "figure", "claims", "page"}
 ANSWERED = SHOWN | {"query_network", "evaluate"}
 TRAINED = ANSWERED | {"find_depth_bias", "measure_frame_times"}
+MAPPED = SHOWN | {"find_depth_bias", "evaluate", "measure_frame_times"}  # of the methods by maps
 SOFT = SHOWN | {"tune_soft_method", "evaluate_soft", "time_soft_methods"}
 
 
@@ -21,7 +22,8 @@ SOFT = SHOWN | {"tune_soft_method", "evaluate_soft", "time_soft_methods"}
         ("reports/figures/preview.py", {"preview_scene", "table", "page"}),
         ("evaluation/evaluate.py", SHOWN | {"evaluate"}),
         ("evaluation/query_network.py", ANSWERED),
-        ("shadow_maps/shadow_map.py", TRAINED | {"render_references", "viewer"}),
+        ("shadow_maps/shadow_map.py", MAPPED),
+        ("evaluation/hard_methods/shadow_map.py", MAPPED),
         ("training/training_run.py", TRAINED | {"train", "viewer"}),
         ("metrics/flip.py", SHOWN | {"evaluate", "evaluate_soft"}),
         ("running/stage.py", set()),
@@ -39,6 +41,16 @@ def test_edited_kind_of_network(finished):
         file.write("\nEDITED = True\n")
     networks = [path for path, rule in finished.pending().items() if rule == "train"]
     assert networks and all("hash_grid" in path for path in networks)
+
+
+def test_edited_form_of_network(finished):
+    """Of networks of whole frames likewise, and of methods only these are measured again."""
+    with finished.module("networks/screen_space/kernel_unet.py").open("a") as file:
+        file.write("\nEDITED = True\n")
+    pending = finished.pending().items()
+    for rule in ("train_screen", "evaluate_soft"):
+        paths = [path for path, name in pending if name == rule]
+        assert paths and all("kpnsm" in path for path in paths)
 
 
 def test_edited_soft_method(finished):

@@ -15,7 +15,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.iocontainers import Wildcards
 from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
-from neural_shadows.reports.figures import opengl
+from neural_shadows.reports.drawing import opengl
 
 EXAMPLES = {"scene": "dragon", "sampling": "poisson_quadtree", "over": "width", "value": "64"}
 EXAMPLES |= dict(experiment="dragon_field", method="dragon_field", batch="000", shard="000")

@@ -9,8 +9,9 @@ import numpy as np
 import onnxruntime
 import pandas as pd
 from checkout import SECRET
+from shipped import DEFAULT
 
-from neural_shadows.evaluation.soft_method_names import available
+from neural_shadows.evaluation.soft_registry import available
 
 METRICS = ["psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak"]
 
@@ -147,9 +148,7 @@ def test_the_workflow_is_a_module_of_another(fresh, tmp_path):
     """As `snakedeploy` sets it up: the configuration is the user's, in a folder of their own."""
     shutil.copytree(fresh.folder / "config", tmp_path / "config")
     (tmp_path / "Snakefile").write_text(
-        'configfile: "config/config.yaml"\n'
-        'configfile: "config/reports.yaml"\n'
-        "module shadows:\n"
+        +"".join(f'configfile: "config/{name}.yaml"\n' for name in DEFAULT) + "module shadows:\n"
         f'    snakefile: "{fresh.folder}/workflow/Snakefile"\n'
         "    config: config\n"
         "use rule * from shadows\n"

@@ -9,7 +9,8 @@ shadow_maps   depth seen from the light, and the test against it
 denoising     a smooth picture of few shadow rays a pixel
 rays          training rays: directions, silhouettes, quadtrees, labels, ray sets on disk
 frames        frames for screen-space methods: settings, buffers, exact soft shadows
-networks      what is trained: kinds of network, weight files, quantisation
+representations  distance bricks, voxels, heights, coded meshes, and rays that meet them
+networks      kinds of networks, trained or not: settings, weight files, quantisation
 training      Adam on a network's loss: resumable, reproducible
 metrics       PSNR, SSIM, FLIP, LPIPS, shadow error, intervals
 evaluation    every method on the same viewpoints: quality, time, memory, cost

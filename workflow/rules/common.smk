@@ -33,12 +33,16 @@ os.environ.setdefault("MALLOC_TRIM_THRESHOLD_", str(256 << 20))
 
 from neural_shadows.config.reading import check_duplicates, check_files, read_config
 from neural_shadows.config.resolved import resolved
+from neural_shadows.config.targets import check_targets
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.soft_methods.registry import method_module
-from neural_shadows.layout import claims, figures, frame_sets, parts, tables, targets
-from neural_shadows.layout import screen_networks, soft_methods, viewers
+from neural_shadows.evaluation.method_names import REFERENCES, hard_modules
+from neural_shadows.evaluation.soft_registry import method_module
+from neural_shadows.layout import frame_sets, kinds, parts, screen_networks, soft_methods
+from neural_shadows.layout import tables, viewers
 from neural_shadows.layout.layout import Layout
-from neural_shadows.networks.kind_module import kind_module
+from neural_shadows.networks.kind_module import form_module, kind_module
+from neural_shadows.reports.claims import inputs as claims
+from neural_shadows.reports.page import targets
 from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.scenes.generators.registry import generator_module
 from neural_shadows.training.checkpoints import remove_finished
@@ -47,6 +51,7 @@ try:
     check_duplicates(workflow.configfiles)
     CONFIG = read_config(config)
     check_files(CONFIG)
+    check_targets(sys.argv[1:], CONFIG, WORKFLOW.parent / "config")
 except InputError as error:
     raise WorkflowError(str(error))
 
@@ -75,8 +80,6 @@ wildcard_constraints:
     experiment="[a-z][a-z0-9_]*",
     method="[a-z][a-z0-9_]*",
     network="[a-z][a-z0-9_]*",
-    over="[a-z_]+",
-    value="[0-9]+",
     shard="[0-9]+",
     batch=f"[0-9]+|{parts.HELD_OUT}",
     frame_set="[a-z][a-z0-9_]*",
@@ -119,18 +122,18 @@ def of(function):
     return answer
 
 
-def code(stage, encodings=(), generators=(), methods=()):
+def code(stage, encodings=(), generators=(), methods=(), forms=(), modules=()):
     """A param: what the package's modules hold that the result of a stage depends on, as a digest.
 
-    A network's module is imported by its kind's name, that of a scene by its generator's, that of
-    a method for soft shadows by its key, so that they are among them only for the jobs that use
-    such a network, such a scene, or such a method.
+    A network's module is imported by its kind's name, of whole frames by its form's, that of a scene by
+    its generator's, that of a method for soft shadows by its key, so that they are among them only for
+    the jobs that use such a network, such a scene, or such a method; other `modules` likewise.
 
     As inputs the modules would be compared by their content as well, and looked at by the scheduler
     before each job: a hundred of them and more for each that is ready.
     """
-    sources = [STAGES / f"{stage}.py", *map(kind_module, sorted(encodings))]
-    sources += [*map(generator_module, generators), *map(method_module, methods)]
+    sources = [STAGES / f"{stage}.py", *map(kind_module, encodings), *map(form_module, forms)]
+    sources += [*map(generator_module, generators), *map(method_module, methods), *modules]
     return digest({module for source in sources for module in modules_of(source)})
 
 

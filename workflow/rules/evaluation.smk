@@ -1,4 +1,4 @@
-"""References, methods and metrics on batches of viewpoints; times and costs [4.1, 4.4]."""
+"""References, methods and metrics on batches of viewpoints; times [4.1, 4.4]."""
 
 
 rule find_lpips:
@@ -37,7 +37,10 @@ rule render_references:
     resources:
         **usual(4000, minutes=120),
     params:
-        code=code("evaluation/render_references"),
+        code=code(
+            "evaluation/render_references",
+            modules=hard_modules([REFERENCES[SETTINGS["rendering"]["reference"]]]),
+        ),
         scene=setting("scenes/{scene}/scene"),
         frames=setting("scenes/{scene}/frames"),
         settings=of(LAYOUT.view_range),
@@ -66,7 +69,9 @@ rule find_depth_bias:
         gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
     params:
         code=lambda wildcards: code(
-            "evaluation/find_depth_bias", LAYOUT.method_encodings(wildcards.method)
+            "evaluation/find_depth_bias",
+            LAYOUT.method_encodings(wildcards.method),
+            modules=hard_modules([wildcards.method]),
         ),
         scene=setting("scenes/{scene}/scene"),
         device=COMPUTE["device"],
@@ -125,7 +130,9 @@ rule evaluate:
     resources:
         **usual(4000, minutes=120),
     params:
-        code=code("evaluation/evaluate"),
+        code=lambda wildcards: code(
+            "evaluation/evaluate", modules=hard_modules([wildcards.method])
+        ),
         scene=setting("scenes/{scene}/scene"),
     message:
         "Evaluating {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
@@ -154,6 +161,9 @@ rule measure_frame_times:
         code=lambda wildcards: code(
             "evaluation/measure_frame_times",
             tables.timed_encodings(LAYOUT, wildcards.table, wildcards.scene),
+            modules=hard_modules(
+                tables.timed_methods(LAYOUT, wildcards.table, wildcards.scene)
+            ),
         ),
         methods=of(tables.timed_methods),
         scene=setting("scenes/{scene}/scene"),
@@ -166,26 +176,3 @@ rule measure_frame_times:
     script:
         "../neural_shadows/evaluation/measure_frame_times.py"
 
-
-rule measure_cost:
-    output:
-        cost_json=PATHS.cost(),
-    log:
-        PATHS.log("measure_cost", "over", "value"),
-    benchmark:
-        PATHS.benchmark("measure_cost", "over", "value")
-    conda:
-        ENVIRONMENT
-    # All that a training takes, so that nothing disturbs it on a small machine.
-    threads: COMPUTE["threads"]
-    resources:
-        **usual(8000, minutes=120),
-        gpu=GPUS,
-    params:
-        code=code("evaluation/measure_cost", ["frequency"]),
-        seed=SETTINGS["seed"],
-        device=COMPUTE["device"],
-    message:
-        "Measuring costs at {wildcards.over} = {wildcards.value}"
-    script:
-        "../neural_shadows/evaluation/measure_cost.py"

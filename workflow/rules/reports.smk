@@ -3,15 +3,16 @@
 
 rule table:
     input:
-        unpack(of(tables.files)),
+        unpack(lambda wildcards: kinds.table_files(LAYOUT, wildcards.table)),
     output:
         csv=report(
             PATHS.report("{table}.csv"),
             caption="../report/table.rst",
             category="Tables",
-            labels=of(tables.labels),
+            labels=lambda wildcards: kinds.table_labels(LAYOUT, wildcards.table),
         ),
         md=PATHS.report("{table}.md"),
+        json=PATHS.report("{table}.json"),
     log:
         PATHS.log("table", "table"),
     conda:
@@ -21,11 +22,13 @@ rule table:
     params:
         code=lambda wildcards: code(
             f"reports/tables/{SETTINGS['tables'][wildcards.table]['kind']}",
-            tables.encodings(LAYOUT, wildcards.table),
-            tables.generators(LAYOUT, wildcards.table),
+            kinds.encodings(LAYOUT, "tables", wildcards.table),
+            kinds.generators(LAYOUT, "tables", wildcards.table),
+            forms=kinds.forms(LAYOUT, "tables", wildcards.table),
+            modules=kinds.method_modules(LAYOUT, "tables", wildcards.table),
         ),
         kind=setting("tables/{table}/kind"),
-        settings=of(tables.arguments),
+        settings=lambda wildcards: kinds.params(LAYOUT, "tables", wildcards.table),
     message:
         "Writing {wildcards.table}"
     script:
@@ -34,13 +37,13 @@ rule table:
 
 rule figure:
     input:
-        unpack(of(figures.files)),
+        unpack(lambda wildcards: kinds.files(LAYOUT, "figures", wildcards.figure)),
     output:
         png=report(
             PATHS.report("{figure}.png"),
             caption="../report/figure.rst",
             category="Figures",
-            labels=of(figures.labels),
+            labels=lambda wildcards: kinds.figure_labels(LAYOUT, wildcards.figure),
         ),
         svg=PATHS.report("{figure}.svg"),
     log:
@@ -49,15 +52,16 @@ rule figure:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=10),
-        gpu=lambda wildcards: GPUS * figures.asks_networks(LAYOUT, wildcards.figure),
+        gpu=lambda wildcards: GPUS * kinds.uses_gpu(LAYOUT, "figures", wildcards.figure),
     params:
         code=lambda wildcards: code(
             f"reports/figures/{SETTINGS['figures'][wildcards.figure]['kind']}",
-            figures.encodings(LAYOUT, wildcards.figure),
-            figures.generators(LAYOUT, wildcards.figure),
+            kinds.encodings(LAYOUT, "figures", wildcards.figure),
+            kinds.generators(LAYOUT, "figures", wildcards.figure),
+            modules=kinds.method_modules(LAYOUT, "figures", wildcards.figure),
         ),
         kind=setting("figures/{figure}/kind"),
-        settings=of(figures.arguments),
+        settings=lambda wildcards: kinds.params(LAYOUT, "figures", wildcards.figure),
     message:
         "Drawing {wildcards.figure}"
     script:
@@ -83,12 +87,12 @@ rule preview_scene:
     resources:
         **usual(4000, minutes=10),
     params:
-        code=code("reports/figures/preview"),
+        code=code("reports/drawing/preview"),
         scene=setting("scenes/{scene}/scene"),
     message:
         "Drawing scene {wildcards.scene}, its sphere and its quadtree"
     script:
-        "../neural_shadows/reports/figures/preview.py"
+        "../neural_shadows/reports/drawing/preview.py"
 
 
 rule claims:
@@ -102,6 +106,7 @@ rule claims:
             labels={"what": "claims of the thesis and their verdicts"},
         ),
         md=PATHS.report("claims.md"),
+        json=PATHS.report("claims.json"),
     log:
         PATHS.log("claims"),
     conda:
@@ -109,7 +114,7 @@ rule claims:
     resources:
         **usual(2000, minutes=10),
     params:
-        code=code("reports/claims/write_claims"),
+        code=code("reports/claims/write_claims", modules=claims.modules(LAYOUT)),
         settings=claims.arguments(LAYOUT),
     message:
         "Testing the thesis's claims"
@@ -135,12 +140,12 @@ rule page:
     resources:
         **usual(4000, minutes=10),
     params:
-        code=code("reports/page"),
+        code=code("reports/page/page", modules=targets.method_modules(LAYOUT)),
         settings=targets.page_arguments(LAYOUT),
     message:
         "Writing the page of the run"
     script:
-        "../neural_shadows/reports/page.py"
+        "../neural_shadows/reports/page/page.py"
 
 
 # What it shows are params, not inputs: nothing is made, or made again, for it.
@@ -152,7 +157,7 @@ use rule page as available with:
     log:
         PATHS.log("available"),
     params:
-        code=code("reports/page"),
+        code=code("reports/page/page", modules=targets.method_modules(LAYOUT)),
         settings=of(targets.available_arguments),
         beside=of(targets.newest),
     message:

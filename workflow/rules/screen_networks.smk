@@ -16,7 +16,10 @@ rule profile_screen_network:
         **usual(8000, minutes=60),
         gpu=GPUS,
     params:
-        code=code("evaluation/profile_screen_network"),
+        code=lambda wildcards: code(
+            "evaluation/profile_screen_network",
+            forms=[SETTINGS["screen_networks"][wildcards.network]["form"]],
+        ),
         network=setting("screen_networks/{network}"),
         profile=SETTINGS["screen_profiles"],
         device=COMPUTE["device"],
@@ -45,7 +48,10 @@ rule train_screen:
         **usual(8000, minutes=600) | {"runtime": 600},
         gpu=GPUS,
     params:
-        code=code("training/train_screen"),
+        code=lambda wildcards: code(
+            "training/train_screen",
+            forms=screen_networks.forms(LAYOUT, [wildcards.experiment]),
+        ),
         settings=of(screen_networks.training_settings),
         device=COMPUTE["device"],
         precision=COMPUTE["precision"],
@@ -71,7 +77,10 @@ rule measure_sensitivity:
     resources:
         **usual(4000, minutes=60),
     params:
-        code=code("evaluation/measure_sensitivity"),
+        code=lambda wildcards: code(
+            "evaluation/measure_sensitivity",
+            forms=screen_networks.forms(LAYOUT, [wildcards.experiment]),
+        ),
         seed=SETTINGS["seed"],
     message:
         "Measuring what each feature is worth to {wildcards.experiment}"

@@ -130,6 +130,7 @@ rule evaluate_soft:
             "evaluation/evaluate_soft",
             generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
             methods=[wildcards.method],
+            forms=soft_methods.forms(LAYOUT, [wildcards.method]),
         ),
         precision=of(soft_methods.precision),
         by_scene=of(soft_methods.by_scene),
@@ -157,16 +158,17 @@ rule answer_frames:
         **usual(4000, minutes=120),
     params:
         code=lambda wildcards: code(
-            "reports/answer_frames",
+            "reports/answers/answer_frames",
             generators=soft_methods.all_generators(LAYOUT, wildcards.frame_set),
             methods=[wildcards.method],
+            forms=soft_methods.forms(LAYOUT, [wildcards.method]),
         ),
         label=of(soft_methods.label),
         by_scene=of(soft_methods.by_scene),
     message:
         "Answering the frames of {wildcards.frame_set} by {wildcards.method}"
     script:
-        "../neural_shadows/reports/answer_frames.py"
+        "../neural_shadows/reports/answers/answer_frames.py"
 
 
 rule time_soft_methods:
@@ -193,6 +195,9 @@ rule time_soft_methods:
             "evaluation/time_soft_methods",
             generators=soft_methods.timed_generators(LAYOUT, wildcards.table),
             methods=soft_methods.methods(LAYOUT, wildcards.table),
+            forms=soft_methods.forms(
+                LAYOUT, soft_methods.methods(LAYOUT, wildcards.table)
+            ),
         ),
         methods=of(soft_methods.timed_methods),
     message:

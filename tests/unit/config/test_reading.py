@@ -7,8 +7,8 @@ import pytest
 from shipped import shipped
 
 from neural_shadows.config.reading import check_duplicates, check_files, read_config
-from neural_shadows.config.scenes import DownloadedMesh, MeshFile, Wyrm
 from neural_shadows.errors import InputError
+from neural_shadows.sections.scenes import DownloadedMesh, MeshFile, Wyrm
 
 
 @pytest.mark.parametrize(

@@ -104,7 +104,7 @@ def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
         ),
         (
             {"tables": {"kpnsm_unseen": {"metrics": ["time"]}}},
-            "tables.kpnsm_unseen.*time is not to be had by scene",
+            "tables.kpnsm_unseen.*time is not available with `by: scene`",
         ),
         (
             {"claims": {"kpnsm_leaks_less": {"again": {"pcss_post": ["kpnsm"]}}}},

@@ -11,10 +11,10 @@ from checkout import ROOT
 from shipped import shipped
 
 from neural_shadows.config.__main__ import json_schema
-from neural_shadows.config.base import Model
-from neural_shadows.config.own_frames import EngineFrames
 from neural_shadows.config.reading import check_duplicates, read_config
 from neural_shadows.config.resolved import resolved
+from neural_shadows.sections.own_frames import EngineFrames
+from neural_shadows.settings.base import Model
 
 FILES = sorted((ROOT / "config").glob("*.yaml"))
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.json"
@@ -47,7 +47,7 @@ def test_every_key_is_of_use_to_a_shipped_file():
     there = [(m, key) for m in subclasses(Model) for key in inspect.get_annotations(m)]
     unused = {key for m, key in there if key in m.model_fields and (m, key) not in used}
     # Given on the command line; frames of a user's own.
-    assert unused == {"trunk", "path", "engine", *EngineFrames.model_fields}
+    assert unused == {"trunk", "path", "up", "engine", *EngineFrames.model_fields}
 
 
 def test_commands_name_their_targets_first():

@@ -15,7 +15,7 @@ from neural_shadows.config.reading import check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.soft_methods.registry import soft_method
+from neural_shadows.evaluation.soft_registry import soft_method
 from neural_shadows.files.frame_images import FrameImages
 from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.engine_channels import CHANNEL_IMAGES
@@ -28,7 +28,7 @@ from neural_shadows.networks.screen_space.screen_networks import (
     make_screen_network,
     save_screen_network,
 )
-from neural_shadows.reports.answer_frames import answer_frames
+from neural_shadows.reports.answers.answer_frames import answer_frames
 from neural_shadows.running.stage import arguments_of
 
 RADII = [0, 0.00625]  # scene sizes

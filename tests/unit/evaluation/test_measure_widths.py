@@ -6,7 +6,7 @@ import numpy as np
 from screen_frames import write_frames
 
 from neural_shadows.evaluation.measure_widths import measure_widths
-from neural_shadows.reports.tables.width_notes import describe_widths
+from neural_shadows.reports.data.width_notes import describe_widths
 
 
 def test_the_width_of_one_straight_edge(tmp_path):

@@ -15,9 +15,10 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
 from neural_shadows.evaluation.measure_widths import measure_widths
 from neural_shadows.frames.buffers import CHANNELS
-from neural_shadows.layout import soft_methods, tables
+from neural_shadows.layout import kinds, soft_methods
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.tables.soft_methods import write
+from neural_shadows.reports.data.table import write_table
+from neural_shadows.reports.tables.soft_methods import table as make_table
 from neural_shadows.running.stage import arguments_of
 
 FRAMES, RADII, HEIGHT, WIDTH = 2, [0.0, 0.5], 12, 16
@@ -60,7 +61,7 @@ def layout(engine):
 def called(function, **job):
     """A stage's function with what a job hands to it."""
     parts = dict.fromkeys(("input", "output", "params", "wildcards"), {})
-    function(**arguments_of(SimpleNamespace(threads=1, **parts | job), function))
+    return function(**arguments_of(SimpleNamespace(threads=1, **parts | job), function))
 
 
 def evaluate(layout, method):
@@ -90,12 +91,12 @@ def test_a_table(layout):
     (widths,) = soft_methods.widths(layout, "mine")
     parts = soft_methods.tests(layout, "mine")
     called(measure_widths, input={"parts": parts}, output={"widths_json": widths})
-    called(
-        write,
-        input=tables.files(layout, "soft_mine"),
-        output={"csv": "mine.csv", "md": "mine.md"},
-        params={"settings": tables.arguments(layout, "soft_mine")},
+    table = called(
+        make_table,
+        input=kinds.table_files(layout, "soft_mine"),
+        params={"settings": kinds.params(layout, "tables", "soft_mine")},
     )
+    write_table(table, *(Path(f"mine.{ending}") for ending in ("csv", "md", "json")))
     table = pd.read_csv("mine.csv").set_index(["method", "radius"])
     share = DARK / WIDTH
     assert table["mse"].to_dict() == pytest.approx(

@@ -13,14 +13,13 @@ from neural_shadows.evaluation import time_soft_methods as timing
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import read_answer
-from neural_shadows.evaluation.soft_method_names import is_tuned
-from neural_shadows.evaluation.soft_methods.registry import soft_method
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
+from neural_shadows.evaluation.soft_method import SoftMethod
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.soft_registry import is_tuned, soft_method
 from neural_shadows.evaluation.time_soft_methods import medians, time_soft_methods
 from neural_shadows.evaluation.tune_soft_method import tune_soft_method
 from neural_shadows.frames.render_frames import render_frames
-from neural_shadows.reports.tables.soft_costs import describe_times
+from neural_shadows.reports.data.soft_costs import describe_times
 
 RADII = [0, 0.1, 0.25]
 FRAMES = {

@@ -6,9 +6,11 @@ from shipped import shipped
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.layout import claims, figures, frame_sets, soft_methods, tables, targets
+from neural_shadows.layout import frame_sets, kinds, soft_methods, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
+from neural_shadows.reports.claims import inputs as claims
+from neural_shadows.reports.page import targets
 
 
 def layout_of(*overlays: str, **values) -> Layout:
@@ -124,7 +126,7 @@ def test_unseen_scenes_may_have_more_test_frames():
 
 
 def test_steps_are_measured_in_their_number_formats(desk):
-    made = tables.files(desk, "nsm_steps")
+    made = kinds.table_files(desk, "nsm_steps")
     assert [path.rsplit("/", 1)[1] for path in made["soft_metrics"]] == [
         *("nsm_trimmed_float32.csv", "nsm_trimmed_bfloat16.csv", "nsm_bfloat16.csv"),
         *("no_shadow.csv", "all_dark.csv", "hard.csv"),  # what learns nothing
@@ -141,7 +143,7 @@ def test_a_network_for_each_scene_is_by_scene(desk):
 
 
 def test_tables_and_claims_are_made_of_their_rows(desk):
-    made = tables.files(desk, "table_4_3")
+    made = kinds.table_files(desk, "table_4_3")
     assert "results/evaluations/dragon/shadow_map_512.001.csv" in made["metrics"]
     networks = ["dragon", "dragon_field"]
     assert made["trainings"] == [f"results/networks/{name}/training.json" for name in networks]
@@ -149,7 +151,7 @@ def test_tables_and_claims_are_made_of_their_rows(desk):
     assert "results/evaluations/dragon/all_dark.000.csv" in made["metrics"]
     assert "reports/scenes/dragon.png" in made["beside"]
     # An edited network's code leaves a table alone that reads none of its files.
-    encodings = [tables.encodings(desk, name) for name in ("table_4_3", "table_4_7")]
+    encodings = [kinds.encodings(desk, "tables", name) for name in ("table_4_3", "table_4_7")]
     assert encodings == [set(), {"frequency"}]
     judged = claims.files(desk)
     assert "results/networks/dragon_high_rate/loss.csv" in judged["losses"]
@@ -161,7 +163,7 @@ def test_tables_and_claims_are_made_of_their_rows(desk):
     assert judged["published_csv"] == "config/published.csv"
     assert claims.arguments(desk)["learning_curves"] == {}
     with pytest.raises(InputError, match="tables: .*did you mean 'table_4_3'"):
-        tables.files(desk, "table_4_33")
+        kinds.table_files(desk, "table_4_33")
 
 
 @pytest.mark.parametrize("name", ["kpnsm_forty_rays_are_better", "kpnsm_rays_at_equal_time"])
@@ -179,7 +181,7 @@ def test_files_of_learning_curves():
     layout = layout_of("claims")
     names = [point["experiment"] for point in layout.settings["learning_curves"]["dragon_uniform"]]
     assert len(names) == 15 and names[-3] == "dragon_uniform"
-    made, judged = tables.files(layout, "learning_sampling"), claims.files(layout)
+    made, judged = kinds.table_files(layout, "learning_sampling"), claims.files(layout)
     for found in (made, judged):
         for name in names:
             assert f"results/claims/evaluations/dragon/{name}.000.csv" in found["metrics"]
@@ -187,23 +189,23 @@ def test_files_of_learning_curves():
         assert "results/claims/evaluations/dragon/no_shadow.000.csv" in found["metrics"]
     for name in names:
         assert f"results/claims/networks/{name}/loss.csv" in made["losses"]
-    told = tables.arguments(layout, "learning_sampling")
+    told = kinds.params(layout, "tables", "learning_sampling")
     assert [*told["curves"]] == [row["method"] for row in told["rows"]]
     assert [*told["curves"]] == ["dragon", "dragon_uniform_quadtree", "dragon_uniform"]
     assert "fence" in claims.arguments(layout)["learning_curves"]
     biased = {**told["rows"][0], "method": "dragon_biased"}
     methods = [row["method"] for row in tables.with_curves(layout, [biased])]
     assert methods[:2] == ["dragon_biased", "dragon_500_steps_seed_2026_biased"]
-    assert figures.files(layout, "figure_learning_fence") == {
+    assert kinds.files(layout, "figures", "figure_learning_fence") == {
         "table": "reports/claims/learning_networks.csv"
     }
-    told = figures.arguments(layout, "figure_learning_fence")
+    told = kinds.params(layout, "figures", "figure_learning_fence")
     assert [row["method"] for row in told["rows"]] == ["fence"]
-    assert "figure_learning_fence" not in targets.beyond(layout)
+    assert targets.chapters(layout)["figure_learning_fence"] == "thesis"
 
 
 def test_durations_are_of_what_comes_before_a_training(desk):
-    told = tables.arguments(desk, "beyond")["durations"]["landscape_field_axis"]
+    told = kinds.params(desk, "tables", "beyond")["durations"]["landscape_field_axis"]
     assert told[:2] == [
         "results/benchmarks/prepare_mesh/landscape.tsv",
         "results/benchmarks/draw_directions/landscape.single_axis.tsv",
@@ -225,8 +227,8 @@ def test_a_page_is_told_its_first_figure_and_every_method_s_kind(desk):
     told = targets.page_arguments(desk)
     assert told["data"]["figure_front"] == "beyond"
     assert told["missing"] == {}
-    kinds = {"Poisson-disk quadtree sampling": "frequency", "No shadow": "null"}
-    assert kinds.items() <= told["kinds"].items()
+    looks = {"Poisson-disk quadtree sampling": "frequency", "No shadow": "no_shadow"}
+    assert looks.items() <= told["kinds"].items()
 
 
 def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
@@ -239,27 +241,27 @@ def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
     assert one["frame_set"] == "nsm" and one["radii"] == [1, 2, 4]
     assert one["labels"]["nsm"] == "Neural Shadow Mapping"
     chosen = layout_of(figures={"figure_nsm_pictures": {"radii": [0, 3]}})
-    assert figures.arguments(chosen, "figure_nsm_pictures")["radii"] == [0, 3]
+    assert kinds.params(chosen, "figures", "figure_nsm_pictures")["radii"] == [0, 3]
 
 
 def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert targets.newest(desk) == 0
-    made = tmp_path / "reports" / "table_4_1.md"
+    made = tmp_path / "reports" / "table_4_1.json"
     made.parent.mkdir()
     made.touch()
     told = targets.available_arguments(desk)
-    assert told["tables"] == ["reports/table_4_1.md"]
+    assert told["tables"] == ["reports/table_4_1.json"]
     assert told["viewers"] == [] and "viewer.html" in told["missing"]["found"]
     assert "figure_front.svg" in told["missing"]["found"]
-    assert "table_4_1.md" not in told["missing"]["tables"] and told["missing"]["compare"]
-    assert not {*told["missing"]["figures"]} & {*told["missing"]["beyond"]}
+    assert "table_4_1.json" not in told["missing"]["tables"] and told["missing"]["compare"]
+    assert not {*told["missing"]["figures"]} & {*told["missing"]["extensions"]}
     # The second viewer is shown where the first is not there.
     second = f"reports/{[*desk.settings['viewers']][1]}.html"
     (tmp_path / second).touch()
     assert targets.available_arguments(desk)["viewers"] == [second]
     (tmp_path / second).unlink()
-    assert told["figures"] == told["claims_md"] == told["lpips_json"] == []
+    assert told["figures"] == told["claims_json"] == told["lpips_json"] == []
     assert targets.newest(desk) == made.stat().st_mtime
 
 

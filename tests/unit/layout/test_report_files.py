@@ -2,7 +2,7 @@
 
 import pytest
 
-from neural_shadows.layout import figures, tables
+from neural_shadows.layout import kinds, tables
 from neural_shadows.layout.layout import Layout
 
 ROW = {"scene": "dragon", "method": "dragon", "experiment": "dragon", "bias": 0.0}
@@ -40,7 +40,7 @@ def test_jobs_between_a_mesh_and_its_network(layout):
 
 
 def test_pictures_are_judged_by_all_views_and_by_no_shadow(layout):
-    made = figures.files(layout, "figure_pictures")
+    made = kinds.files(layout, "figures", "figure_pictures")
     names = [f"{method}.{part}" for method in ("dragon", "no_shadow") for part in ("000", "001")]
     assert made["metrics"] == [f"results/evaluations/dragon/{name}.csv" for name in names]
     answered = [f"results/evaluations/dragon/dragon.{part}.npz" for part in ("000", "001")]
@@ -50,6 +50,6 @@ def test_pictures_are_judged_by_all_views_and_by_no_shadow(layout):
 
 
 def test_losses_come_with_what_became_of_their_trainings(layout):
-    made = figures.files(layout, "figure_loss")
+    made = kinds.files(layout, "figures", "figure_loss")
     assert made["losses"] == ["results/networks/dragon/loss.csv"]
     assert made["trainings"] == ["results/networks/dragon/training.json"]

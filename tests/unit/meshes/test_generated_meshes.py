@@ -7,8 +7,6 @@ import trimesh
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.fence import BAR_RADII, HEIGHT, WEAVE, make_fence
 from neural_shadows.meshes.landscape import make_landscape
-from neural_shadows.meshes.oak import RADIUS as RADIUS_OF_TRUNK
-from neural_shadows.meshes.oak import TRUNK, make_oak
 from neural_shadows.meshes.open_sides import is_sheet
 from neural_shadows.meshes.signed_distances import Part, distance_grid
 from neural_shadows.meshes.wyrm import cones, ellipsoid, make_wyrm
@@ -102,14 +100,6 @@ def test_wires_are_woven_and_as_open_as_their_pattern():
     covered = np.isfinite(depths(*points.T)[0]).mean()
     one = 2 * RADIUS * np.sqrt(2) * WIRES  # share that one family covers
     assert covered == pytest.approx(1 - (1 - one) ** 2, abs=0.02)
-
-
-def test_the_oak_is_one_closed_piece_on_the_ground():
-    oak = trimesh.Trimesh(*make_oak(cells=64), process=False)
-    assert oak.is_watertight and oak.is_winding_consistent and oak.volume > 0
-    assert oak.body_count == 1 and oak.bounds[0, 1] == 0 and 1 < oak.bounds[1, 1] < 2.5
-    low = oak.vertices[oak.vertices[:, 1] < 0.5 * TRUNK]
-    assert np.abs(low[:, [0, 2]]).max() < 2 * RADIUS_OF_TRUNK  # the trunk alone
 
 
 BALL, BOX = trimesh.creation.icosphere(4), trimesh.creation.box(extents=[1, 1, 1])

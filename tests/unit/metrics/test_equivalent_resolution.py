@@ -3,7 +3,7 @@ from report_samples import PUBLISHED
 
 from neural_shadows.metrics.equivalent_resolution import equivalent_resolution
 from neural_shadows.metrics.error_scale import error_of
-from neural_shadows.reports.published import read_published
+from neural_shadows.reports.data.published import read_published
 
 SIZES = (128, 256, 512, 1024, 2048)
 

@@ -10,8 +10,8 @@ from shapes import box, prepared, sheet
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.landscape import make_landscape
 from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.object_space.shadow_network import LIT
 from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.representations.depths import LIT
 
 
 def made(shape: trimesh.Trimesh, tmp_path, resolution: int, bits: int = 16, up: str = "y"):

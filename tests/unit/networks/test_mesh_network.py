@@ -15,11 +15,12 @@ from shapes import bumpy_sphere, prepared
 
 from neural_shadows.errors import InputError
 from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.object_space.shadow_network import LIT, ShadowNetwork
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
-from neural_shadows.networks.untrained.coded_mesh import coded, decoded
-from neural_shadows.networks.untrained.decimation import decimated
 from neural_shadows.networks.weight_file import load_network, save_network, save_tensors
+from neural_shadows.representations.depths import LIT
+from neural_shadows.representations.meshes.coded_mesh import coded, decoded
+from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.running.module_graph import PACKAGE
 
 

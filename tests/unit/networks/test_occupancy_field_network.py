@@ -8,13 +8,14 @@ from rays import ball_batch, ball_rays
 from shapes import bumpy_sphere, prepared, sheet
 
 from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.object_space.brick_layout import lay_out
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.occupancy_field_network import LIMIT, PUSHES
-from neural_shadows.networks.object_space.shadow_network import LIT, LabelledBatch, chords, hits
+from neural_shadows.networks.object_space.shadow_network import LabelledBatch, chords, hits
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
+from neural_shadows.representations.depths import LIT
+from neural_shadows.representations.distance_bricks.brick_layout import lay_out
 
 SOLID_32 = {"encoding": "occupancy_field", "resolution": 32, "surface": "solid", "stored": "int8"}
 SHEET_32 = SOLID_32 | {"surface": "sheet"}

@@ -8,12 +8,13 @@ from rays import ball_batch, ball_rays
 from shapes import bumpy_sphere
 
 from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.object_space.occupancy import enclosed_cells, surface_cells
-from neural_shadows.networks.object_space.shadow_network import LIT, hits
-from neural_shadows.networks.untrained.voxel_bricks import surface_bricks
-from neural_shadows.networks.untrained.voxel_dag import merged, octree, words_of
-from neural_shadows.networks.untrained.voxel_inside import inside_of
+from neural_shadows.networks.object_space.shadow_network import hits
 from neural_shadows.networks.weight_file import load_network, save_network
+from neural_shadows.representations.depths import LIT
+from neural_shadows.representations.voxels.occupancy import enclosed_cells, surface_cells
+from neural_shadows.representations.voxels.voxel_bricks import surface_bricks
+from neural_shadows.representations.voxels.voxel_dag import merged, octree, words_of
+from neural_shadows.representations.voxels.voxel_inside import inside_of
 
 
 def made(shape: trimesh.Trimesh, tmp_path, resolution: int, surface: str):

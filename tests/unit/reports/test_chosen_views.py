@@ -1,7 +1,7 @@
 import pandas as pd
 import pytest
 
-from neural_shadows.reports.chosen_views import choose_views
+from neural_shadows.reports.data.chosen_views import choose_views
 
 # FLIP of three methods by view: blank, then an error that grows, and a spread that does not.
 FLIP = {

@@ -1,7 +1,7 @@
 import pytest
 
-from neural_shadows.reports.claim_cards import Verdict, counted, number_text, read_cards
-from neural_shadows.reports.verdicts import SUPPORTED, TOO_SMALL, VERDICTS
+from neural_shadows.reports.data.verdicts import SUPPORTED, TOO_SMALL, VERDICTS
+from neural_shadows.reports.page.claim_cards import Verdict, counted, number_text, read_cards
 
 
 @pytest.mark.parametrize(

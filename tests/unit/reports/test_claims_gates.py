@@ -14,10 +14,10 @@ from claim_samples import (
 )
 from report_samples import row
 
-from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims.comparison import Comparison, most_against, verdict_of
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES
+from neural_shadows.reports.data import verdicts
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
 NEEDS = {"mesh": "thesis", "seeds": 3, "budget": 0.03}
 GOOD = {"network": 0.1, "map": 0.2, "null": 0.3, "seeds": 3, "share": 0.05, "mesh": True}
@@ -33,14 +33,14 @@ FAILURES = {
 
 
 def case(**changes):
-    """A network of a few seeds at one budget, a map and no shadow: LPIPS of each, 0.002 apart."""
+    """LPIPS of a network's seeds, a map and no shadow."""
     now = GOOD | changes
     curve = points("net", [now["share"] * THESIS_SAMPLES], now["seeds"])
     methods = {point["experiment"]: {"lpips": now["network"]} for point in curve}
     methods["shadow_map_256"] = {"lpips": now["map"]}
-    found = scene(methods, null={"lpips": now["null"]})
+    frames = scene(methods, null={"lpips": now["null"]})
     meshes = {"dragon": {"thesis_mesh": now["mesh"]}}
-    return measured({"dragon": found}, {"net": curve}, meshes=meshes)
+    return measured({"dragon": frames}, {"net": curve}, meshes=meshes)
 
 
 def judged(**changes):
@@ -48,12 +48,14 @@ def judged(**changes):
 
 
 def test_what_passes_every_test_is_supported():
-    found = judged()
-    assert (found["verdict"], found["null_verdict"]) == ("supported", "contradicted")
-    assert (found["seeds"], found["budget_fraction"]) == (3, pytest.approx(0.05))
+    outcome = judged()
+    assert (outcome["verdict"], outcome["null_verdict"]) == ("supported", "contradicted")
+    assert (outcome["seeds"], outcome["budget_fraction"]) == (3, pytest.approx(0.05))
     favour = "1 of 1 comparisons are in its favour at 5 % of the thesis's samples"
-    assert found["reason"] == favour
-    assert found["evidence"].startswith("LPIPS of net 0.1 against shadow_map_256 0.2: +0.1 [+0.098")
+    assert outcome["reason"] == favour
+    assert outcome["evidence"].startswith(
+        "LPIPS of net 0.1 against shadow_map_256 0.2: +0.1 [+0.098"
+    )
 
 
 @pytest.mark.parametrize("expected", FAILURES)
@@ -71,7 +73,7 @@ def test_the_first_test_that_fails_decides():
 
 
 def orders(kind, share, seeds, spoilt):
-    """A claim of a kind that is supported, on data that `spoilt` may spoil by verdict."""
+    """A supported claim of a kind, on data spoilt by verdict."""
     bad = {name: name in spoilt for name in verdicts.VERDICTS}
     share = share / 10 if bad[verdicts.TOO_SMALL] else share
     curves = {name: points(name, [share * THESIS_SAMPLES], seeds) for name in ("a", "b")}
@@ -104,28 +106,30 @@ def test_the_first_test_that_fails_decides_of_other_kinds(kind):
 
 def test_a_mesh_made_to_a_description_is_not_the_thesis_s_own():
     data = replace(case(), scenes={"dragon": {"procedural": True}})
-    found = judge(better(("net", "shadow_map_256"), **NEEDS), data)
-    assert found["verdict"] == verdicts.NOT_COMPARABLE
+    outcome = judge(better(("net", "shadow_map_256"), **NEEDS), data)
+    assert outcome["verdict"] == verdicts.NOT_COMPARABLE
     assert verdict(better(("net", "shadow_map_256")), data) == "supported"
 
 
-def test_too_small_a_budget_says_what_would_decide():
-    found = judged(share=0.01)
-    assert found["verdict"] == verdicts.TOO_SMALL
-    asked = "1 % of the thesis's samples, 3 % are needed; an extrapolation needs 1/30: 2.2 billion"
-    assert asked in found["reason"]
+def test_too_small_a_budget_has_what_would_decide_in_its_reason():
+    outcome = judged(share=0.01)
+    assert outcome["verdict"] == verdicts.TOO_SMALL
+    missing = (
+        "1 % of the thesis's samples, 3 % are needed; an extrapolation needs 1/30: 2.2 billion"
+    )
+    assert missing in outcome["reason"]
 
 
 @pytest.mark.parametrize(
     ("share", "expected"), [(0.03, verdicts.TOO_SMALL), (0.04, "contradicted")]
 )
 def test_nothing_is_contradicted_below_a_thirtieth_of_the_samples(share, expected):
-    # A claim that needs seeds alone: what supports it is said with its share.
+    # A claim that needs seeds alone: its support has the share in its reason.
     claim = better(("net", "shadow_map_256"), seeds=3)
-    found = judge(claim, case(map=0.05, share=share))
-    assert found["verdict"] == expected
-    assert f"against the claim at {100 * share:.2g} % of the thesis's samples" in found["reason"]
-    assert ("which says nothing of more" in found["reason"]) == (share < 1 / 30)
+    outcome = judge(claim, case(map=0.05, share=share))
+    assert outcome["verdict"] == expected
+    assert f"against the claim at {100 * share:.2g} % of the thesis's samples" in outcome["reason"]
+    assert ("which says nothing of more" in outcome["reason"]) == (share < 1 / 30)
     kept = judge(claim, case(share=share))
     assert (kept["verdict"], kept["reason"].split("favour ")[1]) == (
         "supported",
@@ -134,16 +138,16 @@ def test_nothing_is_contradicted_below_a_thirtieth_of_the_samples(share, expecte
 
 
 @pytest.mark.parametrize("share", [0.03, 0.04])
-def test_a_map_that_beats_a_network_which_has_learned_says_something_from_a_thirtieth(share):
-    found = judge(better(("shadow_map_256", "net")), case(map=0.05, share=share))
-    assert found["null_verdict"] == "supported"
-    assert found["verdict"] == ("vacuous" if share < 1 / 30 else "supported")
+def test_a_map_that_beats_a_network_which_has_learned_counts_from_a_thirtieth(share):
+    outcome = judge(better(("shadow_map_256", "net")), case(map=0.05, share=share))
+    assert outcome["null_verdict"] == "supported"
+    assert outcome["verdict"] == ("vacuous" if share < 1 / 30 else "supported")
     # Where a network is to win, drawing no shadow must not, at any scale.
     spoilt = case(map=0.35, null=0.3, share=share)
     assert judge(better(("net", "shadow_map_256")), spoilt)["verdict"] == "vacuous"
 
 
-def test_one_training_never_decides_and_more_are_asked_where_needed():
+def test_one_training_never_decides_and_more_are_needed_where_configured():
     claim = better(("net", "shadow_map_256"))
     for seeds, expected in ((1, verdicts.TOO_SMALL), (2, "supported")):
         assert verdict(claim, case(seeds=seeds)) == expected
@@ -161,16 +165,16 @@ def test_one_training_never_decides_and_more_are_asked_where_needed():
 def test_a_network_must_beat_no_shadow_in_the_thesis_s_metrics_and_the_claim_s(
     metric, value, null, reason
 ):
-    """A claim on LPIPS, in which it does, and on shadow error."""
+    """In LPIPS it does, in shadow error not."""
     means = {"lpips": 0.1, "shadow_error": 0.1} | {metric: value}
     methods = {f"net_0_{seed}": means for seed in range(2)}
     methods["shadow_map_256"] = {"lpips": 0.2, "shadow_error": 0.25}
-    found = scene(methods, null={"shadow_error": 0.3} | {metric: null})
-    data = measured({"dragon": found}, {"net": points("net", [THESIS_SAMPLES], 2)})
+    frames = scene(methods, null={"shadow_error": 0.3} | {metric: null})
+    data = measured({"dragon": frames}, {"net": points("net", [THESIS_SAMPLES], 2)})
     claim = better(("net", "shadow_map_256"), metrics=["lpips", "shadow_error"])
-    found = judge(claim, data)
-    assert found["verdict"] == "not learned"
-    assert f"net (dragon): {reason}" in found["reason"]
+    outcome = judge(claim, data)
+    assert outcome["verdict"] == "not learned"
+    assert f"net (dragon): {reason}" in outcome["reason"]
 
 
 def test_a_network_must_have_learned_at_the_budget_that_is_compared():
@@ -199,8 +203,8 @@ def test_a_network_that_is_only_built_has_no_seeds_and_need_not_have_learned():
     methods = {"built": {"lpips": 0.1}, "shadow_map_256": {"lpips": 0.2}}
     data = measured({"dragon": scene(methods, null={"lpips": 0.05})})
     claim = better(("built", "shadow_map_256"), built=["built"], seeds=3, budget=1)
-    found = judge(claim, data)
-    assert (found["verdict"], found["null_verdict"]) == ("supported", "")
+    outcome = judge(claim, data)
+    assert (outcome["verdict"], outcome["null_verdict"]) == ("supported", "")
 
 
 def test_order_of_scenes_that_no_shadow_has_too_is_vacuous():
@@ -211,18 +215,20 @@ def test_order_of_scenes_that_no_shadow_has_too_is_vacuous():
         "fence": scene(dict.fromkeys(names[1], {"lpips": 0.3}), {"lpips": 0.5}),
     }
     data = measured(scenes, dict(zip("ab", seeds)))
-    found = judge(better(("a", "b"), scenes={"b": "fence"}), data)
-    assert (found["verdict"], found["null_verdict"]) == ("vacuous", "supported")
-    assert "a (dragon) 0.1 against b (fence) 0.3" in found["evidence"]
+    outcome = judge(better(("a", "b"), scenes={"b": "fence"}), data)
+    assert (outcome["verdict"], outcome["null_verdict"]) == ("vacuous", "supported")
+    assert "a (dragon) 0.1 against b (fence) 0.3" in outcome["evidence"]
 
 
 def losses(ends, **changes):
-    """Three trainings each that end in a loss; `changes` of the last ones' records."""
+    """Three trainings each; `changes` of the last ones' records."""
     curves = {name: points(name, [THESIS_SAMPLES], 3) for name in ends}
     runs = {point["experiment"]: end for name, end in ends.items() for point in curves[name]}
-    found = {run: loss_curve(end + 0.001 * i) for i, (run, end) in enumerate(runs.items())}
+    losses = {run: loss_curve(end + 0.001 * i) for i, (run, end) in enumerate(runs.items())}
     last = [point["experiment"] for point in curves[[*ends][-1]]]
-    return measured(curves=curves, losses=found, trainings={run: record(**changes) for run in last})
+    return measured(
+        curves=curves, losses=losses, trainings={run: record(**changes) for run in last}
+    )
 
 
 @pytest.mark.parametrize(
@@ -271,12 +277,12 @@ def test_the_number_of_a_claim_is_of_the_comparison_that_decides():
     lost = Comparison("flip", "d", "d", "-0.1", False, 0.001)
     assert most_against([few, held, chance, lost]) is lost  # not the first that is negative
     assert most_against([few, held]) is held and most_against([few]) is None
-    found = judged(**FAILURES[verdicts.CONTRADICTED])
-    assert (found["number_of"], found["number"][:6]) == ("LPIPS", "-0.05 ")
+    outcome = judged(**FAILURES[verdicts.CONTRADICTED])
+    assert (outcome["number_of"], outcome["number"][:6]) == ("LPIPS", "-0.05 ")
 
 
 def test_a_loss_that_drawing_no_shadow_has_too_is_vacuous():
-    """Of networks whose losses are of unlike rays: no shadow costs the winner's little."""
+    """Losses of unlike rays: no shadow costs the winner's little."""
     data = losses({"a": 0.1, "b": 0.4})
     claim = {"kind": "lower_loss", "pairs": pairs(("a", "b"))}
     assert judge(claim, data)["null_verdict"] == "contradicted"  # 0.5 of both
@@ -284,5 +290,5 @@ def test_a_loss_that_drawing_no_shadow_has_too_is_vacuous():
     easy = replace(
         data, trainings=data.trainings | {run: record(no_shadow_loss=0.2) for run in runs}
     )
-    found = judge(claim, easy)
-    assert (found["verdict"], found["null_verdict"]) == (verdicts.VACUOUS, "supported")
+    outcome = judge(claim, easy)
+    assert (outcome["verdict"], outcome["null_verdict"]) == (verdicts.VACUOUS, "supported")

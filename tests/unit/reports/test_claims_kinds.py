@@ -20,11 +20,12 @@ from report_samples import row
 
 from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
-from neural_shadows.reports import verdicts
-from neural_shadows.reports.claims.better import comparisons
-from neural_shadows.reports.claims.gates import KINDS, judge
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES
-from neural_shadows.reports.claims.violations import LOWER, UPPER
+from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.claims.kinds import lower_loss, violations
+from neural_shadows.reports.claims.kinds.better import comparisons
+from neural_shadows.reports.claims.kinds.violations import LOWER, UPPER
+from neural_shadows.reports.data import verdicts
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
 BUILT = ("good", "bad")
 
@@ -37,16 +38,16 @@ def advantage(comparison):
 
 def test_methods_of_one_scene_are_compared_view_by_view():
     good, bad = views(0.1, 0.002, 1), views(0.11, 0.002, 2)
-    found = scene({"good": {"lpips": good}, "bad": {"lpips": bad}})
-    (one,) = comparisons(better(("good", "bad"), built=BUILT), measured({"dragon": found}))
-    value, low, high = advantage(one)
+    frames = scene({"good": {"lpips": good}, "bad": {"lpips": bad}})
+    (comparison,) = comparisons(better(("good", "bad"), built=BUILT), measured({"dragon": frames}))
+    value, low, high = advantage(comparison)
     gain = pd.Series(bad - good, INDEX)
     within = (gain - gain.groupby("view_set").transform("mean")).std()
     half = 1.96 * within / np.sqrt(VIEWS)
     assert (value, low, high) == pytest.approx((0.01, 0.01 - half, 0.01 + half), abs=0.2 * half)
     # As independent samples the same numbers decide nothing: the views' spread hides them.
     assert VIEW_LEVEL.std() > 7 * gain.std()
-    scenes = {"dragon": found, "fence": found}
+    scenes = {"dragon": frames, "fence": frames}
     claim = better(("good", "bad"), scenes={"bad": "fence"}, built=BUILT)
     assert verdict(claim, measured(scenes)) == verdicts.UNDECIDED
 
@@ -54,37 +55,37 @@ def test_methods_of_one_scene_are_compared_view_by_view():
 def test_psnr_is_pooled_so_that_identical_frames_do_not_drive_it():
     bad = np.full(VIEWS, 30.0)
     good = np.where(np.arange(VIEWS) < 4, 100.0, 29.0)  # its mean is 40.8 dB
-    found = scene({"good": {"psnr": good}, "bad": {"psnr": bad}})
+    frames = scene({"good": {"psnr": good}, "bad": {"psnr": bad}})
     claim = better(("good", "bad"), metrics=["psnr"], built=BUILT)
-    (one,) = comparisons(claim, measured({"dragon": found}))
+    (comparison,) = comparisons(claim, measured({"dragon": frames}))
     expected = psnr_of(mse_of(good).mean()) - 30
-    assert advantage(one)[0] == pytest.approx(expected, abs=0.005)
+    assert advantage(comparison)[0] == pytest.approx(expected, abs=0.005)
     assert expected < 0 < good.mean() - 30
-    assert one.text == "PSNR of good 29.8 dB against bad 30 dB"
+    assert comparison.text == "PSNR of good 29.8 dB against bad 30 dB"
 
 
 @pytest.mark.parametrize(
     ("metric", "good", "bad"), [("lpips", 0.1, 0.2), ("psnr", 30, 20), ("ssim", 0.9, 0.8)]
 )
 def test_metrics_have_a_direction(metric, good, bad):
-    found = scene({"good": {metric: good}, "bad": {metric: bad}})
-    data = measured({"dragon": found})
+    frames = scene({"good": {metric: good}, "bad": {metric: bad}})
+    data = measured({"dragon": frames})
     for pair, expected in ((("good", "bad"), "supported"), (("bad", "good"), "contradicted")):
         assert verdict(better(pair, metrics=[metric], built=BUILT), data) == expected
 
 
 def test_flip_takes_the_place_of_missing_lpips():
-    found = scene({"good": {"flip": 0.1}, "bad": {"flip": 0.2}}, null={"flip": 0.3})
-    found = found.drop(columns="lpips", level=1)
-    found = judge(better(("good", "bad"), built=BUILT), measured({"dragon": found}))
-    assert (found["metric"], found["verdict"]) == ("flip", "supported")
+    frames = scene({"good": {"flip": 0.1}, "bad": {"flip": 0.2}}, null={"flip": 0.3})
+    frames = frames.drop(columns="lpips", level=1)
+    outcome = judge(better(("good", "bad"), built=BUILT), measured({"dragon": frames}))
+    assert (outcome["metric"], outcome["verdict"]) == ("flip", "supported")
 
 
 def test_few_views_decide_nothing():
-    found = scene({"good": {"lpips": 0.1}, "bad": {"lpips": 0.2}})[:9]
-    found = judge(better(("good", "bad"), built=BUILT), measured({"dragon": found}))
-    assert (found["verdict"], found["reason"]) == (verdicts.TOO_SMALL, "9 views are too few")
-    assert "9 views are too few" in found["evidence"]
+    frames = scene({"good": {"lpips": 0.1}, "bad": {"lpips": 0.2}})[:9]
+    outcome = judge(better(("good", "bad"), built=BUILT), measured({"dragon": frames}))
+    assert (outcome["verdict"], outcome["reason"]) == (verdicts.TOO_SMALL, "9 views are too few")
+    assert "9 views are too few" in outcome["evidence"]
 
 
 @pytest.mark.parametrize(
@@ -97,8 +98,8 @@ def test_three_seeds_decide_as_students_t_does(gaps, expected):
     methods = {f"a_0_{seed}": {"lpips": alike} for seed in range(3)}
     methods |= {f"b_0_{seed}": {"lpips": alike + gap} for seed, gap in enumerate(gaps)}
     data = measured({"dragon": scene(methods)}, curves)
-    (one,) = comparisons(better(("a", "b")), data)
-    assert advantage(one) == pytest.approx(t_interval(gaps)[:3], abs=0.1 * np.ptp(gaps))
+    (comparison,) = comparisons(better(("a", "b")), data)
+    assert advantage(comparison) == pytest.approx(t_interval(gaps)[:3], abs=0.1 * np.ptp(gaps))
     assert verdict(better(("a", "b")), data) == expected
 
 
@@ -111,9 +112,9 @@ def test_trainings_are_compared_at_the_largest_budget_and_by_the_seeds_that_both
         for some in curves.values()
         for point in some
     }
-    (one,) = comparisons(better(("a", "b")), measured({"dragon": scene(methods)}, curves))
-    assert (one.samples, one.seeds) == (2000, 2)
-    assert one.text == "LPIPS of a 0.1 against b 0.15"
+    (comparison,) = comparisons(better(("a", "b")), measured({"dragon": scene(methods)}, curves))
+    assert (comparison.samples, comparison.seeds) == (2000, 2)
+    assert comparison.text == "LPIPS of a 0.1 against b 0.15"
 
 
 def test_a_bias_found_on_held_out_views_is_that_of_each_training():
@@ -138,15 +139,15 @@ def test_networks_that_share_no_budget_are_not_compared(kind, other, why):
     scenes = {"dragon": scene({"a": {"lpips": 0.1}, "b": {"lpips": 0.2}})}
     losses = {"a": loss_curve(0.1), "b": loss_curve(0.2)}
     data = measured(scenes, trainings=trainings, losses=losses)
-    found = judge(better(("a", "b")) | {"kind": kind}, data)
-    assert (found["verdict"], found["reason"]) == ("not comparable", f"a against b: {why}")
+    outcome = judge(better(("a", "b")) | {"kind": kind}, data)
+    assert (outcome["verdict"], outcome["reason"]) == ("not comparable", f"a against b: {why}")
 
 
 def test_a_training_that_died_early_was_one_of_its_whole_length():
     trainings = {"a": record(5000), "b": record(5000, died_at_step=1) | {"samples": 1000}}
     data = measured(losses={"a": loss_curve(0.1), "b": loss_curve(0.2)}, trainings=trainings)
-    (one,) = KINDS["lower_loss"](better(("a", "b")), data)
-    assert (one.samples, one.text) == (5000, "loss of a 0.1 against b 0.5")
+    (comparison,) = lower_loss.comparisons(better(("a", "b")), data)
+    assert (comparison.samples, comparison.text) == (5000, "loss of a 0.1 against b 0.5")
 
 
 @pytest.mark.parametrize("spread", [0.01, 0.03])
@@ -157,8 +158,8 @@ def test_losses_of_three_seeds_are_wrong_about_nothing_in_one_of_twenty(spread):
     decided = 0
     for _ in range(400):
         ends = {p["experiment"]: rng.normal(0.2, spread) for some in curves.values() for p in some}
-        found = {run: pd.DataFrame({"loss": [end] * 10}) for run, end in ends.items()}
-        decided += verdict(claim, measured(curves=curves, losses=found)) != "undecided"
+        losses = {run: pd.DataFrame({"loss": [end] * 10}) for run, end in ends.items()}
+        decided += verdict(claim, measured(curves=curves, losses=losses)) != "undecided"
     assert 8 <= decided <= 32  # 20 expected, 4.4 their standard deviation
 
 
@@ -187,10 +188,10 @@ def timed(devices=("cpu", "cpu"), frames=15):
 def test_own_times_are_compared_as_ratios_of_frames(least, most, expected):
     claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
     claim |= {"at_least": least, "at_most": most, "overhead_ms": 0.0}
-    found = judge(claim, timed())
-    assert found["verdict"] == expected
-    assert (found["number_of"], found["number"][:7]) == ("own milliseconds", "ratio 2")
-    assert found["evidence"].startswith("own time of slower 20.1 ms (frame 120 ms) against ")
+    outcome = judge(claim, timed())
+    assert outcome["verdict"] == expected
+    assert (outcome["number_of"], outcome["number"][:7]) == ("own milliseconds", "ratio 2")
+    assert outcome["evidence"].startswith("own time of slower 20.1 ms (frame 120 ms) against ")
 
 
 @pytest.mark.parametrize(
@@ -204,16 +205,16 @@ def test_own_times_are_compared_as_ratios_of_frames(least, most, expected):
 def test_times_of_another_class_of_device_are_not_comparable(devices, needed, reason):
     claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
     claim |= {"at_least": 1, "at_most": None, "overhead_ms": 0.0, "needs": {"device": needed}}
-    found = judge(claim, timed(devices))
-    assert (found["verdict"] == verdicts.NOT_COMPARABLE) == bool(reason)
-    assert found["reason"].endswith(reason)
+    outcome = judge(claim, timed(devices))
+    assert (outcome["verdict"] == verdicts.NOT_COMPARABLE) == bool(reason)
+    assert outcome["reason"].endswith(reason)
 
 
 def test_few_frames_decide_nothing():
     claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
     claim |= {"at_least": 1, "at_most": None, "overhead_ms": 0.0}
-    found = judge(claim, timed(frames=5))
-    assert (found["verdict"], found["reason"]) == (verdicts.TOO_SMALL, "5 frames are too few")
+    outcome = judge(claim, timed(frames=5))
+    assert (outcome["verdict"], outcome["reason"]) == (verdicts.TOO_SMALL, "5 frames are too few")
 
 
 @pytest.mark.parametrize(
@@ -222,17 +223,17 @@ def test_few_frames_decide_nothing():
 def test_what_a_frame_takes_beside_the_method_is_added_to_both(overhead, ratio, expected):
     claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
     claim |= {"at_least": None, "at_most": 1.3, "overhead_ms": overhead}
-    found = judge(claim, timed())
-    assert found["verdict"] == expected
-    said = found["evidence"].split("ratio ")[1]
-    assert float(said.split(" ")[0]) == pytest.approx(ratio, rel=0.02)
-    assert (", with 30 ms beside the method (at most 1.3)" in said) == bool(overhead)
+    outcome = judge(claim, timed())
+    assert outcome["verdict"] == expected
+    numbers = outcome["evidence"].split("ratio ")[1]
+    assert float(numbers.split(" ")[0]) == pytest.approx(ratio, rel=0.02)
+    assert (", with 30 ms beside the method (at most 1.3)" in numbers) == bool(overhead)
 
 
 def counted(false, leak, count=VIEWS):
-    """A network whose violations are seen at so many of each 100 points, in so many views."""
-    found = scene({"net": violated(false, leak)})[:count]
-    return measured({"dragon": found}, trainings={"net": record()})
+    """Violations by view, seen at so many of 100 points."""
+    frames = scene({"net": violated(false, leak)})[:count]
+    return measured({"dragon": frames}, trainings={"net": record()})
 
 
 @pytest.mark.parametrize(
@@ -242,24 +243,24 @@ def counted(false, leak, count=VIEWS):
 def test_violations_are_judged_by_what_each_costs_where_it_can_be_seen(false, leak, expected):
     # Of all violations of the upper bound a tenth is in shadow, of the lower a half is lit: as
     # shares of all, 20 would be more than 20 of the other.
-    found = judge({"kind": "violations", "methods": [row("net")]}, counted(false, leak))
-    assert found["verdict"] == expected
+    outcome = judge({"kind": "violations", "methods": [row("net")]}, counted(false, leak))
+    assert outcome["verdict"] == expected
     lower = f"false shadow at {false} % of the 2,400 points that are lit, of 4,800 with a violated"
     upper = f"light leak at {leak} % of the 12,000 in shadow, of 120,000 with a violated upper one"
-    assert lower in found["evidence"] and upper in found["evidence"]
-    assert ("of one training" in found["reason"]) and found["seeds"] == 1
+    assert lower in outcome["evidence"] and upper in outcome["evidence"]
+    assert ("of one training" in outcome["reason"]) and outcome["seeds"] == 1
 
 
 def test_violations_of_few_views_decide_nothing():
-    found = judge({"kind": "violations", "methods": [row("net")]}, counted(40, 15, count=9))
-    assert (found["verdict"], found["reason"]) == (verdicts.TOO_SMALL, "9 views are too few")
+    outcome = judge({"kind": "violations", "methods": [row("net")]}, counted(40, 15, count=9))
+    assert (outcome["verdict"], outcome["reason"]) == (verdicts.TOO_SMALL, "9 views are too few")
 
 
-def test_violations_of_a_network_that_draws_no_shadow_say_nothing():
+def test_violations_of_a_network_that_draws_no_shadow_decide_nothing():
     counts = dict.fromkeys((*LOWER, *UPPER), np.zeros(VIEWS)) | {"lower_violations": np.ones(VIEWS)}
     data = measured({"dragon": scene({"net": counts})}, trainings={"net": record()})
-    (one,) = KINDS["violations"]({"methods": [row("net")]}, data)
-    assert (one.supports, one.evidence) == (
+    (comparison,) = violations.comparisons({"methods": [row("net")]}, data)
+    assert (comparison.supports, comparison.evidence) == (
         False,
         "net: the lower bound is violated at no lit point",
     )

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 from claim_samples import VIEWS, better, loss_curve, measured, pairs, points, scene, views
 
-from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims.comparison import Comparison
 from neural_shadows.reports.claims.gates import direction_of, judge, trend_of
 from neural_shadows.reports.claims.learning import Learning, widened
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES
+from neural_shadows.reports.data import verdicts
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
 SHARES = np.array([1 / 81, 1 / 27, 1 / 9, 1 / 3, 1])  # of the largest budget
 
 
 def followed(a, b, most, *, seeds=3, noise=0.002, metric="lpips", as_loss=False):
-    """A claim that `a` is better than `b`, on curves whose errors are functions of the share.
+    """Judge a claim on curves with errors by the share.
 
     `most`: the largest budget as a share of the thesis's samples. Each training's error is off by
     a factor of its own.
@@ -48,12 +48,12 @@ AHEAD_LATER = power_law(0.0112, 0.0388), power_law(0.04, 0.005)
 
 @pytest.mark.parametrize("as_loss", [False, True])
 def test_a_licensed_extrapolation_decides(as_loss):
-    found = followed(*AHEAD_LATER, most=0.05, as_loss=as_loss)
-    assert found["verdict"] == "supported"
-    assert "at the thesis's samples, extrapolated" in found["reason"]
-    assert (found["direction"], found["trend"] > 0) == ("towards", True)
-    assert "(20 times the largest budget, the hold-out tries 3 times)" in found["evidence"]
-    at = float(found["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
+    outcome = followed(*AHEAD_LATER, most=0.05, as_loss=as_loss)
+    assert outcome["verdict"] == "supported"
+    assert "at the thesis's samples, extrapolated" in outcome["reason"]
+    assert (outcome["direction"], outcome["trend"] > 0) == ("towards", True)
+    assert "(20 times the largest budget, the hold-out tries 3 times)" in outcome["evidence"]
+    at = float(outcome["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
     assert at == pytest.approx(0.04 + 0.005 / 20**0.5 - 0.0112 - 0.0388 / 20**0.5, abs=0.002)
     ahead_no_more = followed(*AHEAD_LATER[::-1], most=0.05, as_loss=as_loss)
     assert (ahead_no_more["verdict"], ahead_no_more["direction"]) == ("contradicted", "away")
@@ -61,45 +61,47 @@ def test_a_licensed_extrapolation_decides(as_loss):
 
 def test_an_extrapolation_of_psnr_is_one_of_squared_errors():
     # A factor of two of the errors is 3.01 dB at all budgets.
-    found = followed(power_law(0, 1e-3), power_law(0, 2e-3), 0.05, metric="psnr")
-    assert found["verdict"] == "supported"
-    at = found["evidence"].split("at the thesis's samples ")[1].split(" ")[0]
+    outcome = followed(power_law(0, 1e-3), power_law(0, 2e-3), 0.05, metric="psnr")
+    assert outcome["verdict"] == "supported"
+    at = outcome["evidence"].split("at the thesis's samples ")[1].split(" ")[0]
     assert float(at) == pytest.approx(3.01, abs=0.05)
-    assert found["trend"] == pytest.approx(0, abs=0.05)
+    assert outcome["trend"] == pytest.approx(0, abs=0.05)
 
 
 def test_more_than_thirtyfold_is_not_licensed():
-    found = followed(*AHEAD_LATER, most=0.02)
-    assert found["verdict"] == verdicts.TOO_SMALL
-    asked = "2 % of the thesis's samples, 10 % are needed; an extrapolation needs 1/30: 2.2 billion"
-    assert asked in found["reason"]
-    assert "no extrapolation: 50 times the largest budget" in found["reason"]
-    assert found["reason"].endswith("moving towards the claim")
-    assert "at the thesis's samples" not in found["evidence"]
+    outcome = followed(*AHEAD_LATER, most=0.02)
+    assert outcome["verdict"] == verdicts.TOO_SMALL
+    missing = (
+        "2 % of the thesis's samples, 10 % are needed; an extrapolation needs 1/30: 2.2 billion"
+    )
+    assert missing in outcome["reason"]
+    assert "no extrapolation: 50 times the largest budget" in outcome["reason"]
+    assert outcome["reason"].endswith("moving towards the claim")
+    assert "at the thesis's samples" not in outcome["evidence"]
 
 
 def test_a_curve_that_bends_is_not_licensed():
     def bending(share):
         return 0.1 * share**-0.1 if share < 0.9 else 0.05
 
-    found = followed(bending, AHEAD_LATER[1], most=0.05)
-    assert found["verdict"] == verdicts.TOO_SMALL
-    assert "no extrapolation: the hold-out is missed by" in found["reason"]
+    outcome = followed(bending, AHEAD_LATER[1], most=0.05)
+    assert outcome["verdict"] == verdicts.TOO_SMALL
+    assert "no extrapolation: the hold-out is missed by" in outcome["reason"]
 
 
 def test_one_seed_has_a_trend_without_an_interval():
-    found = followed(*AHEAD_LATER, most=0.05, seeds=1)
-    assert found["verdict"] == verdicts.TOO_SMALL
-    assert found["reason"].startswith("1 seed of 2; ")
-    assert np.isfinite(found["trend"]) and np.isnan(found["trend_low"])
-    assert found["direction"] == ""
+    outcome = followed(*AHEAD_LATER, most=0.05, seeds=1)
+    assert outcome["verdict"] == verdicts.TOO_SMALL
+    assert outcome["reason"].startswith("1 seed of 2; ")
+    assert np.isfinite(outcome["trend"]) and np.isnan(outcome["trend_low"])
+    assert outcome["direction"] == ""
 
 
 def test_a_gap_that_closes_only_since_both_errors_fall_moves_neither_way():
-    found = followed(power_law(0, 0.05), power_law(0, 0.04), most=0.02, as_loss=True)
-    assert found["trend_low"] > 0
-    assert found["direction"] == "neither"
-    assert found["reason"].endswith("moving neither towards the claim nor away")
+    outcome = followed(power_law(0, 0.05), power_law(0, 0.04), most=0.02, as_loss=True)
+    assert outcome["trend_low"] > 0
+    assert outcome["direction"] == "neither"
+    assert outcome["reason"].endswith("moving neither towards the claim nor away")
 
 
 def test_a_map_does_not_learn():
@@ -109,9 +111,9 @@ def test_a_map_does_not_learn():
     methods = {p["experiment"]: {"lpips": views(e)} for p, e in zip(curve, errors)}
     methods["shadow_map_512"] = {"lpips": views(0.03)}
     data = measured({"dragon": scene(methods)}, {"net": curve})
-    found = judge(better(("net", "shadow_map_512"), budget=0.1), data)
-    assert found["verdict"] == "supported"
-    at = float(found["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
+    outcome = judge(better(("net", "shadow_map_512"), budget=0.1), data)
+    assert outcome["verdict"] == "supported"
+    at = float(outcome["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
     assert at == pytest.approx(0.03 - law(20), abs=0.003)
 
 
@@ -127,7 +129,7 @@ def test_each_side_of_an_extrapolation_is_widened_apart():
     assert widened((0.0, 0.0, 0.0), (0.0, 0.0))[3] == 1.0
 
 
-def test_a_direction_is_said_only_where_all_open_comparisons_move_alike():
+def test_a_direction_is_given_only_where_all_open_comparisons_move_alike():
     towards, away = (
         Learning(*[(1, 0.5, 1.5)] * 2, None, "", (9, 3)),
         Learning(*[(-1, -1.5, -0.5)] * 2, None, "", (9, 3)),

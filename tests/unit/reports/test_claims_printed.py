@@ -50,16 +50,16 @@ PRINTED = {
 
 @pytest.mark.parametrize(("about", "metrics", "expected"), PRINTED.values(), ids=PRINTED)
 def test_the_thesis_is_judged_by_its_own_tables(about, metrics, expected):
-    found = judge({"kind": "printed", "metrics": metrics, **about}, measured())
-    assert found["verdict"] == expected
-    assert np.isnan([found["seeds"], found["budget_fraction"]]).all()
+    outcome = judge({"kind": "printed", "metrics": metrics, **about}, measured())
+    assert outcome["verdict"] == expected
+    assert np.isnan([outcome["seeds"], outcome["budget_fraction"]]).all()
 
 
 def test_the_thesis_is_worth_a_map_of_386_texels_by_lpips_and_of_191_by_psnr():
     claim = {"kind": "printed", "table": "4.3", "row": "network", "equivalent_to": 512}
-    found = judge({**claim, "metrics": ["lpips", "psnr"]}, measured())["evidence"]
-    assert "LPIPS of Our method 0.0379: as a map of 386² [" in found
-    assert "PSNR of Our method 27.39: as a map of 191² [" in found
+    outcome = judge({**claim, "metrics": ["lpips", "psnr"]}, measured())["evidence"]
+    assert "LPIPS of Our method 0.0379: as a map of 386² [" in outcome
+    assert "PSNR of Our method 27.39: as a map of 191² [" in outcome
 
 
 @pytest.mark.parametrize(("lpips", "expected"), [(0.0354, "undecided"), (0.0352, "supported")])
@@ -69,6 +69,6 @@ def test_a_printed_difference_counts_from_twice_that_from_run_to_run(lpips, expe
     cell = (published["row"] == "frequencies_30") & (published["column"] == "lpips")
     published.loc[cell, "value"] = lpips
     claim = {"kind": "printed", "table": "4.2", "pairs": [["frequencies_30", "frequencies_10"]]}
-    found = judge(claim | {"metrics": ["lpips"]}, measured(published=published))
-    assert found["verdict"] == expected
-    assert " times that from run to run (0.0013)" in found["evidence"]
+    outcome = judge(claim | {"metrics": ["lpips"]}, measured(published=published))
+    assert outcome["verdict"] == expected
+    assert " times that from run to run (0.0013)" in outcome["evidence"]

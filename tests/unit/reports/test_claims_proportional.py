@@ -1,13 +1,13 @@
-"""Claims on what a table's column is proportional to, from made tables."""
+"""Claims on proportional columns, from made tables."""
 
 import numpy as np
 import pandas as pd
 import pytest
 from claim_samples import measured
 
-from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.proportional import explained
+from neural_shadows.reports.claims.kinds.proportional import explained
+from neural_shadows.reports.data import verdicts
 
 CLAIM = {"kind": "proportional", "table": "levels", "column": "runtime", "needs": {}}
 LEVELS = pd.DataFrame(
@@ -30,19 +30,19 @@ def judged(to, rather_than, same_size=True):
     ],
 )
 def test_the_better_line_decides(to, rather_than, verdict):
-    found = judged(to, rather_than)
-    assert found["verdict"] == verdict
+    outcome = judged(to, rather_than)
+    assert outcome["verdict"] == verdict
     # (8 · 1 + 4 · 2 + 2 · 4)² of 84 · 21
-    assert "R² 0.327 over compute" in found["evidence"]
+    assert "R² 0.327 over compute" in outcome["evidence"]
 
 
 def test_times_of_frames_of_another_size_are_not_compared():
     assert judged("storage_io", "compute", same_size=False)["verdict"] == verdicts.NOT_COMPARABLE
 
 
-def test_a_column_that_is_not_there_is_said():
-    found = judged("storage_io", "bytes")
-    assert found["verdict"] == verdicts.TOO_SMALL and "no bytes in levels" in found["reason"]
+def test_a_missing_column_is_named():
+    outcome = judged("storage_io", "bytes")
+    assert outcome["verdict"] == verdicts.TOO_SMALL and "no bytes in levels" in outcome["reason"]
 
 
 def test_a_line_through_the_origin_explains_what_is_on_it():

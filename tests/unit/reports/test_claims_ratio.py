@@ -1,11 +1,11 @@
-"""Claims on numbers of tables over each other, from made tables."""
+"""Claims on ratios of tables' numbers, from made tables."""
 
 import pandas as pd
 import pytest
 from claim_samples import measured
 
-from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.data import verdicts
 
 STEPS = pd.DataFrame(
     {
@@ -19,11 +19,11 @@ LEARNED = {
 }
 
 
-def judged(ratio, trainings=None, steps=STEPS, again=(), **told):
+def judged(ratio, trainings=None, steps=STEPS, again=(), **changes):
     ratio = {"table": "steps", "of": {"row": "original"}, "to": {"row": "trimmed"}, **ratio}
     ratio = {"at_least": None, "at_most": None, "per": None, "unlearned": None} | ratio
     others = {f"steps_{number}": table for number, table in enumerate(again)}
-    claim = {"kind": "ratio", "ratios": [ratio], "networks": [], "needs": {}, **told}
+    claim = {"kind": "ratio", "ratios": [ratio], "networks": [], "needs": {}, **changes}
     claim["again"] = {"steps": [*others]}
     data = measured(tables={"steps": steps, **others}, screen_trainings=trainings or {})
     return judge(claim, data)
@@ -40,10 +40,10 @@ def judged(ratio, trainings=None, steps=STEPS, again=(), **told):
     ],
 )
 def test_numbers_are_within_bounds(ratio, verdict):
-    found = judged(ratio)
-    assert found["verdict"] == verdict
+    outcome = judged(ratio)
+    assert outcome["verdict"] == verdict
     if ratio["column"] == "size" and verdict != verdicts.TOO_SMALL:
-        assert "ratio 10.4" in found["evidence"]
+        assert "ratio 10.4" in outcome["evidence"]
 
 
 @pytest.mark.parametrize(
@@ -59,44 +59,44 @@ def test_tables_of_other_seeds_decide_by_student_s_t(sizes, verdict, number):
     steps, *others = (
         pd.DataFrame({"row": ["original", "trimmed"], "size": [size, 1.0]}) for size in sizes
     )
-    told = {"networks": ["nsm"], "needs": {"seeds": 3}}
+    changes = {"networks": ["nsm"], "needs": {"seeds": 3}}
     ratio = {"column": "size", "at_least": 5}
-    found = judged(ratio, {"nsm": LEARNED}, steps, others, **told)
-    assert found["verdict"] == verdict
-    assert number in f"{found['number']} {found['reason']}"
+    outcome = judged(ratio, {"nsm": LEARNED}, steps, others, **changes)
+    assert outcome["verdict"] == verdict
+    assert number in f"{outcome['number']} {outcome['reason']}"
 
 
 def test_a_number_over_the_mean_of_others():
     steps = pd.DataFrame({"row": ["a", "b", "c"], "size": [3.0, 1.0, 5.0]})
     ratio = {"column": "size", "of": {"row": "a"}, "to": [{"row": "b"}, {"row": "c"}]}
-    found = judged(ratio | {"at_least": 0.99}, steps=steps)
-    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 1"
-    assert "a 3 over the mean of b and c 3" in found["evidence"]
+    outcome = judged(ratio | {"at_least": 0.99}, steps=steps)
+    assert outcome["verdict"] == verdicts.SUPPORTED and outcome["number"] == "ratio 1"
+    assert "a 3 over the mean of b and c 3" in outcome["evidence"]
     ratio["to"].append({"row": "d"})
     assert judged(ratio | {"at_least": 0.99}, steps=steps)["verdict"] == verdicts.TOO_SMALL
 
 
 def test_a_number_over_a_given_one():
     size = {"column": "size", "of": {"row": "trimmed"}}
-    found = judged(size | {"to": 5.0, "at_most": 1})
-    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 0.5"
-    assert "size of trimmed 2.5 over 5 (steps)" in found["evidence"]
+    outcome = judged(size | {"to": 5.0, "at_most": 1})
+    assert outcome["verdict"] == verdicts.SUPPORTED and outcome["number"] == "ratio 0.5"
+    assert "size of trimmed 2.5 over 5 (steps)" in outcome["evidence"]
     assert judged(size | {"to": 2.4, "at_most": 1})["verdict"] == verdicts.CONTRADICTED
 
 
 def test_nothing_at_all_is_within_an_upper_bound():
     steps = pd.DataFrame({"row": ["original"], "size": [0.0]})
-    found = judged({"column": "size", "to": 0.02, "at_most": 1}, steps=steps)
-    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 0"
+    outcome = judged({"column": "size", "to": 0.02, "at_most": 1}, steps=steps)
+    assert outcome["verdict"] == verdicts.SUPPORTED and outcome["number"] == "ratio 0"
 
 
 def test_numbers_are_first_divided_by_another_column():
     """A fourfold fall beside a twofold one."""
     flicker = {"row": ["original", "trimmed"], "light": [0.8, 0.2], "camera": [0.2, 0.1]}
     ratio = {"column": "light", "per": "camera", "at_least": 1}
-    found = judged(ratio, steps=pd.DataFrame(flicker))
-    assert found["verdict"] == verdicts.SUPPORTED and found["number"] == "ratio 2"
-    assert "light per camera of original 4 over trimmed 2" in found["evidence"]
+    outcome = judged(ratio, steps=pd.DataFrame(flicker))
+    assert outcome["verdict"] == verdicts.SUPPORTED and outcome["number"] == "ratio 2"
+    assert "light per camera of original 4 over trimmed 2" in outcome["evidence"]
     flicker["camera"] = [0.8, 0.1]
     assert judged(ratio, steps=pd.DataFrame(flicker))["verdict"] == verdicts.CONTRADICTED
 
@@ -106,19 +106,19 @@ def test_numbers_are_first_divided_by_another_column():
 )
 def test_what_a_perceptual_loss_does_needs_one(net, verdict):
     trainings = {"plain": LEARNED | {"perceptual": net}, "l1": LEARNED | {"perceptual": "none"}}
-    told = {"networks": ["plain", "l1"], "needs": {"trunk": True}}
-    found = judged({"column": "size", "at_least": 1}, trainings, **told)
-    assert found["verdict"] == verdict
-    assert ("pretrained trunk" in found["reason"]) == (net == "none")
+    changes = {"networks": ["plain", "l1"], "needs": {"trunk": True}}
+    outcome = judged({"column": "size", "at_least": 1}, trainings, **changes)
+    assert outcome["verdict"] == verdict
+    assert ("pretrained trunk" in outcome["reason"]) == (net == "none")
 
 
 def test_times_may_have_to_be_of_a_gpu():
     ratio = {"column": "runtime", "of": {"row": "trimmed"}, "to": 30.0, "at_most": 1}
     needs = {"needs": {"device": "cuda"}}
-    found = judged(ratio, steps=STEPS.assign(device="cpu"), **needs)
-    assert found["verdict"] == verdicts.NOT_COMPARABLE and "cuda" in found["reason"]
-    found = judged(ratio, steps=STEPS.assign(device="cuda"), **needs)
-    assert found["verdict"] == verdicts.SUPPORTED
+    outcome = judged(ratio, steps=STEPS.assign(device="cpu"), **needs)
+    assert outcome["verdict"] == verdicts.NOT_COMPARABLE and "cuda" in outcome["reason"]
+    outcome = judged(ratio, steps=STEPS.assign(device="cuda"), **needs)
+    assert outcome["verdict"] == verdicts.SUPPORTED
 
 
 def test_times_are_of_frames_of_the_paper_s_size():
@@ -129,23 +129,26 @@ def test_times_are_of_frames_of_the_paper_s_size():
 
 
 def test_what_networks_measure_needs_seeds_and_that_they_learned():
-    told = {"networks": ["nsm"], "needs": {"seeds": 3}}
+    changes = {"networks": ["nsm"], "needs": {"seeds": 3}}
     ratio = {"column": "size", "at_most": 1}
-    found = judged(ratio, {"nsm": LEARNED}, **told)
-    assert found["verdict"] == verdicts.TOO_SMALL and "1 seed of 3" in found["reason"]
+    outcome = judged(ratio, {"nsm": LEARNED}, **changes)
+    assert outcome["verdict"] == verdicts.TOO_SMALL and "1 seed of 3" in outcome["reason"]
     worse = LEARNED | {"validation_mse": [0.03, 0.05]}
-    found = judged(ratio, {"nsm": worse}, **told)
-    assert found["verdict"] == verdicts.NOT_LEARNED and "hard_map 350" in found["reason"]
-    found = judged(ratio, {"nsm": LEARNED | {"died_at_step": 4000}}, **told)
-    assert found["verdict"] == verdicts.NOT_LEARNED and "nsm: died at step 4,000" in found["reason"]
-    # Of one that learned the second light alone, the first does not count.
+    outcome = judged(ratio, {"nsm": worse}, **changes)
+    assert outcome["verdict"] == verdicts.NOT_LEARNED and "hard_map 350" in outcome["reason"]
+    outcome = judged(ratio, {"nsm": LEARNED | {"died_at_step": 4000}}, **changes)
+    assert (
+        outcome["verdict"] == verdicts.NOT_LEARNED
+        and "nsm: died at step 4,000" in outcome["reason"]
+    )
+    # Of a network of the second light alone the first does not count.
     alone = {"validation_mse": [9.0, 0.02], "training": {"lights": [1]}}
-    found = judged(ratio, {"nsm": LEARNED | alone}, **told)
-    assert found["verdict"] == verdicts.TOO_SMALL
+    outcome = judged(ratio, {"nsm": LEARNED | alone}, **changes)
+    assert outcome["verdict"] == verdicts.TOO_SMALL
 
 
 def of_nulls(**nulls):
-    """Errors of a network on what it learned and never saw, and of another; and of nulls on both."""
+    """Errors of networks and nulls on learned and unseen frames."""
     numbers = {"mine": (0.01, 0.012), "other": (0.02, 0.02)} | nulls
     rows = [
         {"label": name, "null": name if name in nulls else None, "frames": frames, "mse": value}
@@ -181,8 +184,8 @@ BEATS |= {"column": "mse", "at_least": 1}
     ],
 )
 def test_a_ratio_that_what_learns_nothing_has_too_is_vacuous(ratio, nulls, verdict):
-    found = judged(ratio, {"nsm": LEARNED}, of_nulls(**nulls), networks=["nsm"])
-    assert found["verdict"] == verdict
+    outcome = judged(ratio, {"nsm": LEARNED}, of_nulls(**nulls), networks=["nsm"])
+    assert outcome["verdict"] == verdict
 
 
 @pytest.mark.parametrize(("null", "verdict"), [(0.25, verdicts.VACUOUS), (0.1, verdicts.SUPPORTED)])
@@ -211,14 +214,14 @@ def test_a_number_with_an_interval_of_its_own(ends, verdict):
         {"row": ["trimmed"], "size": [1.25], "size_low": [low], "size_high": [high]}
     )
     ratio = {"column": "size", "of": {"row": "trimmed"}, "to": 1.0, "at_most": 1}
-    found = judged(ratio, steps=steps.astype({"size_low": float, "size_high": float}))
-    assert found["verdict"] == verdict
+    outcome = judged(ratio, steps=steps.astype({"size_low": float, "size_high": float}))
+    assert outcome["verdict"] == verdict
 
 
 def test_times_without_a_device_are_a_cpu_s():
     """As those of tables of methods for soft shadows."""
     steps = pd.DataFrame({"row": ["original", "trimmed"], "time": [92.0, 114.0]})
     ratio = {"column": "time", "of": {"row": "trimmed"}, "to": {"row": "original"}, "at_most": 1.1}
-    found = judged(ratio, steps=steps, needs={"device": "cuda"})
-    assert found["verdict"] == verdicts.NOT_COMPARABLE
+    outcome = judged(ratio, steps=steps, needs={"device": "cuda"})
+    assert outcome["verdict"] == verdicts.NOT_COMPARABLE
     assert judged(ratio, steps=steps)["verdict"] == verdicts.CONTRADICTED

@@ -1,4 +1,4 @@
-"""Each claim of the shipped configuration, on data that are as it says, and on their contrary."""
+"""Each shipped claim on data for and against it."""
 
 import functools
 from itertools import product
@@ -12,10 +12,11 @@ from shipped import shipped
 
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
-from neural_shadows.layout import screen_tables, soft_methods
+from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.claims.gates import KINDS, judge
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES, compared, rows_of
+from neural_shadows.reports.claims.claim_kinds import compared, kind_of, methods
+from neural_shadows.reports.claims.gates import judge
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
 BUDGETS = np.array([1 / 27, 1 / 9, 1 / 3, 1])  # of the largest
 REFERENCE = ROOT / "reports" / "reference"
@@ -24,28 +25,30 @@ FALL = 0.1  # exponent of all networks' errors
 
 @functools.cache
 def claims():
-    """The thesis's: of those of other texts see the kinds in test_claims_soft and _ratio, and below
-    whether they find their numbers.
+    """The thesis's claims.
+
+    Of those of other texts see the kinds in test_claims_soft and _ratio, and below whether they find
+    their numbers.
     """
-    found = resolved(read_config(shipped()))["claims"]
-    return {name: claim for name, claim in found.items() if claim["text"] == "thesis"}
+    shipped_claims = resolved(read_config(shipped()))["claims"]
+    return {name: claim for name, claim in shipped_claims.items() if claim["text"] == "thesis"}
 
 
 def ranks(claim):
-    """How many methods each one is to lose against, in a row."""
-    found = {row["method"]: 0 for row in rows_of(claim)}
-    for _ in found:
+    """Ranks by method, 0 of claimed winners."""
+    rank = {row["method"]: 0 for row in methods(claim)}
+    for _ in rank:
         for better, worse in compared(claim):
-            found[worse["method"]] = max(found[worse["method"]], found[better["method"]] + 1)
-    return found
+            rank[worse["method"]] = max(rank[worse["method"]], rank[better["method"]] + 1)
+    return rank
 
 
 def errors_of(claim, share, contrary):
-    """Runs, their samples and their errors, each method twice as wrong as the one before it."""
+    """Learning curves, and errors that double from rank to rank."""
     order = ranks(claim)
     most, rng = max(order.values()), np.random.default_rng(3)
     curves, errors = {}, {}
-    for row in rows_of(claim):
+    for row in methods(claim):
         method = row["method"]
         level = 0.02 * 2.0 ** (most - order[method] if contrary else order[method])
         if not row["trained"]:
@@ -60,7 +63,7 @@ def errors_of(claim, share, contrary):
 
 
 def data_of(claim, share, contrary):
-    """Everything that a claim is tested on, at a share of the samples; `contrary` to what it says."""
+    """Values for a claim, or contrary ones, by samples."""
     match claim["kind"]:
         case "printed":
             return measured()
@@ -69,7 +72,7 @@ def data_of(claim, share, contrary):
         case "violations":
             curves = {
                 row["method"]: points(row["method"], [share * THESIS_SAMPLES], 3)
-                for row in rows_of(claim)
+                for row in methods(claim)
             }
             errors = dict.fromkeys(runs_of(curves), 0.1)
             counts = violated(10, 30) if contrary else violated(40, 15)
@@ -86,46 +89,45 @@ def runs_of(curves):
 
 
 def scenes_of(claim, curves, errors, counts=()):
-    """Metrics of a claim's scenes, of all runs of its methods."""
+    """Metrics by scene of all runs of a claim's methods."""
     scenes = {}
-    for row in rows_of(claim):
+    for row in methods(claim):
         runs = [point["experiment"] for point in curves.get(row["method"], ())] or [row["method"]]
-        found = {run: quality(errors[run]) | dict(counts) for run in runs}
-        scenes[row["scene"]] = scenes.get(row["scene"], {}) | found
-    return {name: scene(found, null=quality(0.9)) for name, found in scenes.items()}
+        means = {run: quality(errors[run]) | dict(counts) for run in runs}
+        scenes[row["scene"]] = scenes.get(row["scene"], {}) | means
+    return {name: scene(means, null=quality(0.9)) for name, means in scenes.items()}
 
 
 def times_of(claim, contrary):
-    """Own times, a factor of three from the bound of the claim."""
+    """Own times a factor of three from a claim's bound."""
     far = 3.0 if (claim["at_least"] is None) == contrary else 1 / 3
     own = {}
     for first, second in claim["pairs"]:
-        known = own.setdefault(first["scene"], {})
-        known.setdefault(second["method"], 100.0)
-        known[first["method"]] = (
-            known[second["method"]] * far * (claim["at_least"] or claim["at_most"])
-        )
+        times = own.setdefault(first["scene"], {})
+        times.setdefault(second["method"], 100.0)
+        bound = claim["at_least"] or claim["at_most"]
+        times[first["method"]] = times[second["method"]] * far * bound
     return {
         ("table_4_6", name): {
             "methods": {
                 method: {"own_ms": [ms] * 15, "ms": [ms] * 15, "device": "cuda"}
-                for method, ms in known.items()
+                for method, ms in times.items()
             }
         }
-        for name, known in own.items()
+        for name, times in own.items()
     }
 
 
 def quality(error):
-    """Metrics that all say the same: an error, whose views differ by 1 % of it."""
+    """Metrics of an error, spread by 1 % over views."""
     spread = error * (1 + 0.1 * (views(0.0, spread=0.0)))
     return {"lpips": spread, "psnr": -10 * np.log10(spread), "ssim": 1 - spread}
 
 
 def expected(claim, share, contrary):
-    """The verdicts that a claim may have."""
+    """The verdict of a claim."""
     if claim["kind"] == "printed":
-        # The text on widths says the contrary of its own table.
+        # The text on widths is contrary to its own table.
         return "contradicted" if "width" in claim["statement"] else "supported"
     if claim["kind"] == "frame_time":
         return "contradicted" if contrary else "supported"
@@ -143,29 +145,33 @@ def expected(claim, share, contrary):
 )
 def test_a_claim_has_the_verdict_that_its_data_carry(name, share, contrary):
     claim = claims()[name]
-    found = judge(claim, data_of(claim, share, contrary))
-    assert found["verdict"] == expected(claim, share, contrary), found["reason"]
+    outcome = judge(claim, data_of(claim, share, contrary))
+    assert outcome["verdict"] == expected(claim, share, contrary), outcome["reason"]
     # At a twentieth what needs all samples is decided by an extrapolation, and by that alone.
     carried = share == 0.05 and claim.get("needs", {}).get("budget") is not None
-    assert ("extrapolated" in found["reason"]) == carried
+    assert ("extrapolated" in outcome["reason"]) == carried
+
+
+@functools.cache
+def with_all_seeds():
+    """A configuration with all seeds of networks of frames."""
+    return read_config(shipped("nsm_seeds", "kpnsm_seeds", "nsm_scenes"))
 
 
 @functools.cache
 def of_all_seeds():
-    """The layout of a run with all trainings that claims on frames compare."""
-    return Layout(resolved(read_config(shipped("nsm_seeds", "kpnsm_seeds", "nsm_scenes"))))
+    """Its layout."""
+    return Layout(resolved(with_all_seeds()))
 
 
 def on_tables():
-    found = of_all_seeds().settings["claims"].items()
-    return {name: claim for name, claim in found if claim["kind"] in ("ratio", "proportional")}
+    on_frames = of_all_seeds().settings["claims"].items()
+    return {name: claim for name, claim in on_frames if claim["kind"] in ("ratio", "proportional")}
 
 
 def labels_of(table):
-    layout = of_all_seeds()
-    of_screen = layout.entry("tables", table)["kind"] in screen_tables.KINDS
-    kind = screen_tables if of_screen else soft_methods
-    return [*kind.labels(layout, table).values()]
+    shown = dict.fromkeys(with_all_seeds().tables[table].methods_shown())
+    return [soft_methods.label(of_all_seeds(), method) for method in shown]
 
 
 def with_taa(labels):
@@ -173,7 +179,7 @@ def with_taa(labels):
 
 
 def numbers_of(name):
-    """A table as its settings say, or as a reference has it."""
+    """A table by its settings or by a reference."""
     layout = of_all_seeds()
     table = layout.entry("tables", name)
     made = [path for where in ("*", "earlier/*") for path in REFERENCE.glob(f"{where}/{name}.csv")]
@@ -204,14 +210,14 @@ def numbers_of(name):
 @pytest.mark.parametrize("name", on_tables())
 def test_a_claim_finds_each_of_its_rows_and_columns(name):
     claim = on_tables()[name] | {"needs": {}, "again": {}}
-    names = {one["table"] for one in claim.get("ratios", [claim])}
-    tables = {one: numbers_of(one).assign(of_printed_size=True) for one in names}
-    found = KINDS[claim["kind"]](claim, measured(tables=tables))
-    assert [one.text for one in found if not one.number] == []
+    names = {of_table["table"] for of_table in claim.get("ratios", [claim])}
+    tables = {table: numbers_of(table).assign(of_printed_size=True) for table in names}
+    comparisons = kind_of(claim).comparisons(claim, measured(tables=tables))
+    assert [each.text for each in comparisons if not each.number] == []
 
 
 def names_in(table):
-    """What the rows of a table may be called, by the configuration alone."""
+    """Possible names of a table's rows, by the configuration."""
     layout = of_all_seeds()
     settings = layout.entry("tables", table)
     scenes = layout.entry("frame_sets", settings["frame_set"])["scenes"]
@@ -221,7 +227,9 @@ def names_in(table):
     }
 
 
-@pytest.mark.parametrize("name", [name for name, one in on_tables().items() if one.get("again")])
+@pytest.mark.parametrize(
+    "name", [name for name, claim in on_tables().items() if claim.get("again")]
+)
 def test_a_claim_finds_its_rows_in_tables_of_other_seeds(name):
     claim = on_tables()[name]
     for ratio in claim["ratios"]:

@@ -5,10 +5,10 @@ import pandas as pd
 import pytest
 from claim_samples import measured
 
-from neural_shadows.reports import verdicts
 from neural_shadows.reports.claims.gates import judge
 from neural_shadows.reports.claims.measured import TEXT_SAMPLES
-from neural_shadows.reports.claims.soft import SoftTable, soft_values
+from neural_shadows.reports.claims.soft_claims import SoftTable, soft_values
+from neural_shadows.reports.data import verdicts
 
 LABELS = {"pcss": "PCSS", "msm_15": "MSM", "rt_1": "1 ray", "rt_4": "4 rays", "rt_4_svgf": "SVGF"}
 MSE = {"pcss": 0.010, "msm_15": 0.012, "rt_1": 0.03, "rt_4": 0.008, "rt_4_svgf": 0.001}
@@ -31,9 +31,9 @@ OFF = "mse_off_edges"
 
 
 def data(frames=20, noise=0.001, methods=TIMES["methods"], scenes=2, edges=None):
-    """What frames have in common is larger than what methods differ by, off edges and at them.
+    """Frames with larger differences than methods.
 
-    `edges`: by method what all pixels have beside that.
+    `edges`: by method the additional error of all pixels.
     """
     rng = np.random.default_rng(4)
     level = rng.uniform(0, 0.02, frames)
@@ -55,8 +55,15 @@ def data(frames=20, noise=0.001, methods=TIMES["methods"], scenes=2, edges=None)
     return measured(soft={"soft": table})
 
 
-def claim(kind, **told):
-    return {"kind": kind, "table": "soft", "needs": {}, "metrics": [OFF], "radii": [1, 2], **told}
+def claim(kind, **changes):
+    return {
+        "kind": kind,
+        "table": "soft",
+        "needs": {},
+        "metrics": [OFF],
+        "radii": [1, 2],
+        **changes,
+    }
 
 
 @pytest.mark.parametrize(
@@ -64,9 +71,9 @@ def claim(kind, **told):
     [(["pcss", "msm_15"], verdicts.SUPPORTED), (["msm_15", "pcss"], verdicts.CONTRADICTED)],
 )
 def test_frames_are_compared_in_pairs(pair, verdict):
-    found = judge(claim("soft_better", pairs=[pair]), data())
-    assert found["verdict"] == verdict
-    assert "PCSS" in found["evidence"] and "at 0.2 m" in found["evidence"]
+    outcome = judge(claim("soft_better", pairs=[pair]), data())
+    assert outcome["verdict"] == verdict
+    assert "PCSS" in outcome["evidence"] and "at 0.2 m" in outcome["evidence"]
 
 
 def test_noise_and_few_frames_decide_nothing():
@@ -77,32 +84,35 @@ def test_noise_and_few_frames_decide_nothing():
 
 
 def test_as_many_rays_as_fit_into_the_time():
-    """PCSS takes 35 and 45 ms: one ray at the first radius, four at the second."""
-    found = judge(claim("soft_equal_time", methods=["pcss"]), data())
-    first, second = found["evidence"].split("\n")
+    """PCSS takes 35 ms, as one ray, and 45 ms, as four."""
+    outcome = judge(claim("soft_equal_time", methods=["pcss"]), data())
+    first, second = outcome["evidence"].split("\n")
     assert "1 ray" in first and "(10 ms) against PCSS" in first
-    assert "4 rays" in second and "SVGF" not in found["evidence"]
-    assert found["verdict"] == verdicts.CONTRADICTED  # at the first radius one ray is worse
+    assert "4 rays" in second and "SVGF" not in outcome["evidence"]
+    assert outcome["verdict"] == verdicts.CONTRADICTED  # at the first radius one ray is worse
     later = judge(claim("soft_equal_time", methods=["pcss"], radii=[2]), data())
     assert later["verdict"] == verdicts.SUPPORTED
 
 
 def test_a_method_that_is_faster_than_any_ray_is_not_judged():
     quick = TIMES["methods"] | {"msm_15": {"ms": [1.0, 1.0, 1.0], "map": "8", "texel_floats": 4}}
-    found = judge(claim("soft_equal_time", methods=["msm_15"]), data(methods=quick))
-    assert found["verdict"] == verdicts.TOO_SMALL and "no number of rays fits" in found["reason"]
+    outcome = judge(claim("soft_equal_time", methods=["msm_15"]), data(methods=quick))
+    assert (
+        outcome["verdict"] == verdicts.TOO_SMALL and "no number of rays fits" in outcome["reason"]
+    )
 
 
-def test_a_metric_that_is_missing_is_said():
-    found = judge(claim("soft_better", pairs=[["pcss", "msm_15"]], metrics=["lpips"]), data())
-    assert found["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in found["reason"]
+def test_a_missing_metric_is_named():
+    outcome = judge(claim("soft_better", pairs=[["pcss", "msm_15"]], metrics=["lpips"]), data())
+    assert outcome["verdict"] == verdicts.TOO_SMALL and "no LPIPS of PCSS, MSM" in outcome["reason"]
 
 
 def of_networks(
     seeds, gains, metric=OFF, kind="soft_better", samples=TEXT_SAMPLES["nsm"], nulls=()
 ):
-    """A network that is better than PCSS by a gain of its own, each seed by another; one ray is as
-    PCSS, in the time of the network.
+    """A network better than PCSS by each seed's gain.
+
+    One ray is as PCSS, in the time of the network.
     """
     runs = ["mine", *(f"mine_{seed}" for seed in range(1, seeds))]
     errors = {
@@ -133,15 +143,15 @@ def of_networks(
     table = SoftTable(soft_values(pd.DataFrame(rows)), labels, times, RADII)
     record = {"validation_mse": [0.01], "null_mse": {"hard_map": [0.02]}, "died_at_step": None}
     record["samples"] = samples
-    known = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))
-    told = {"again": {"mine": runs[1:]}, "networks": runs, "needs": {"seeds": 3}, "radii": None}
-    told |= {
+    values = measured(soft={"soft": table}, screen_trainings=dict.fromkeys(runs, record))
+    changes = {"again": {"mine": runs[1:]}, "networks": runs, "needs": {"seeds": 3}, "radii": None}
+    changes |= {
         "text": "nsm",
         "bases": dict.fromkeys(runs, "base_hard") if "base_hard" in dict(nulls) else {},
     }
     if kind == "soft_equal_time":
-        return claim(kind, methods=["mine"], **told | {"radii": [1]}), known
-    return claim(kind, pairs=[["mine", "pcss"]], metrics=[metric], **told), known
+        return claim(kind, methods=["mine"], **changes | {"radii": [1]}), values
+    return claim(kind, pairs=[["mine", "pcss"]], metrics=[metric], **changes), values
 
 
 @pytest.mark.parametrize(
@@ -154,14 +164,14 @@ def of_networks(
     ],
 )
 def test_three_trainings_decide_over_all_lights(gains, verdict):
-    """How they differ counts as much as how frames do."""
-    found = judge(*of_networks(len(gains), gains))
-    assert found["verdict"] == verdict
+    """Their differences count as much as those of frames."""
+    outcome = judge(*of_networks(len(gains), gains))
+    assert outcome["verdict"] == verdict
     assert (
-        "MSE × 10⁻⁴ off edges at all lights of Mine" in found["evidence"]
-        and "nan" not in found["evidence"]
+        "MSE × 10⁻⁴ off edges at all lights of Mine" in outcome["evidence"]
+        and "nan" not in outcome["evidence"]
     )
-    assert verdict != verdicts.TOO_SMALL or "2 seeds of 3" in found["reason"]
+    assert verdict != verdicts.TOO_SMALL or "2 seeds of 3" in outcome["reason"]
 
 
 @pytest.mark.parametrize(
@@ -174,20 +184,21 @@ def test_three_trainings_decide_over_all_lights(gains, verdict):
     ],
 )
 def test_rays_of_a_network_s_time_are_judged_by_its_trainings(gains, verdict):
-    found = judge(*of_networks(len(gains), gains, kind="soft_equal_time"))
-    assert found["verdict"] == verdict and "(9 ms) against Mine " in found["evidence"]
-    assert verdict != verdicts.TOO_SMALL or "1 seed of 3" in found["reason"]
+    outcome = judge(*of_networks(len(gains), gains, kind="soft_equal_time"))
+    assert outcome["verdict"] == verdict and "(9 ms) against Mine " in outcome["evidence"]
+    assert verdict != verdicts.TOO_SMALL or "1 seed of 3" in outcome["reason"]
 
 
-def test_of_a_network_two_trainings_are_needed_where_nothing_is_said():
-    told, known = of_networks(1, [-0.002], kind="soft_equal_time")
-    assert "1 seed of 2" in judge({**told, "needs": {}}, known)["reason"]
+def test_of_a_network_two_trainings_are_needed_by_default():
+    claim_of_network, values = of_networks(1, [-0.002], kind="soft_equal_time")
+    assert "1 seed of 2" in judge({**claim_of_network, "needs": {}}, values)["reason"]
 
 
-def test_rays_that_beat_what_has_not_learned_say_nothing():
-    told, known = of_networks(3, [-0.002, -0.0021, -0.0019], kind="soft_equal_time")
-    known.screen_trainings["mine_1"] = known.screen_trainings["mine"] | {"validation_mse": [0.03]}
-    assert judge(told, known)["verdict"] == verdicts.NOT_LEARNED
+def test_rays_that_beat_what_has_not_learned_decide_nothing():
+    claim_of_network, values = of_networks(3, [-0.002, -0.0021, -0.0019], kind="soft_equal_time")
+    trainings = values.screen_trainings
+    trainings["mine_1"] = trainings["mine"] | {"validation_mse": [0.03]}
+    assert judge(claim_of_network, values)["verdict"] == verdicts.NOT_LEARNED
 
 
 def test_of_ssim_more_is_better():
@@ -202,14 +213,14 @@ def test_of_ssim_more_is_better():
     ("scenes", "frames", "units"),
     [(1, 16, "16 frames in 1 scene"), (4, 16, "16 frames in 4 scenes"), (8, 16, "8 scenes")],
 )
-def test_the_evidence_says_what_is_counted(scenes, frames, units):
+def test_the_evidence_names_what_is_counted(scenes, frames, units):
     pair = [["pcss", "msm_15"]]
-    found = judge(claim("soft_better", pairs=pair), data(frames=frames, scenes=scenes))
-    assert f"] over {units}" in found["evidence"]
+    outcome = judge(claim("soft_better", pairs=pair), data(frames=frames, scenes=scenes))
+    assert f"] over {units}" in outcome["evidence"]
 
 
 def test_scenes_are_what_a_claim_is_about():
-    """Many frames of five scenes, in two of which the contrary holds."""
+    """Many frames of five scenes, two of them contrary."""
     rows = [
         {"scene": str(scene), "part": "test_000", "frame": frame, "radius": 0, "metric": OFF}
         | {"method": method, "value": 0.01 + (method == "msm_15") * gain}
@@ -218,18 +229,18 @@ def test_scenes_are_what_a_claim_is_about():
         for method in ("pcss", "msm_15")
     ]
     table = SoftTable(soft_values(pd.DataFrame(rows)), LABELS, None, RADII[:1])
-    told = claim("soft_better", pairs=[["pcss", "msm_15"]], radii=[0])
-    found = judge(told, measured(soft={"soft": table}))
-    assert found["verdict"] == verdicts.UNDECIDED and "over 5 scenes" in found["evidence"]
+    paired = claim("soft_better", pairs=[["pcss", "msm_15"]], radii=[0])
+    outcome = judge(paired, measured(soft={"soft": table}))
+    assert outcome["verdict"] == verdicts.UNDECIDED and "over 5 scenes" in outcome["evidence"]
 
 
-def test_what_all_pixels_would_say_is_said_where_it_differs():
-    """Antialiasing gives PCSS more error at edges than moments have in all."""
-    told = claim("soft_better", pairs=[["pcss", "msm_15"]])
-    unlike = judge(told, data(scenes=8, edges={"pcss": 0.01}))
+def test_another_verdict_of_all_pixels_is_in_the_evidence():
+    """PCSS has more error at edges than moments in all."""
+    paired = claim("soft_better", pairs=[["pcss", "msm_15"]])
+    unlike = judge(paired, data(scenes=8, edges={"pcss": 0.01}))
     assert unlike["verdict"] == verdicts.SUPPORTED
     assert unlike["evidence"].endswith("edges of surfaces among them: contradicted")
-    assert "By the error of all pixels" not in judge(told, data(scenes=8))["evidence"]
+    assert "By the error of all pixels" not in judge(paired, data(scenes=8))["evidence"]
     equal = claim("soft_equal_time", methods=["pcss"], radii=[2])
     unlike = judge(equal, data(scenes=8, edges={"rt_4": 0.01}))
     assert unlike["verdict"] == verdicts.SUPPORTED
@@ -248,17 +259,17 @@ GAINS = [0.002, 0.0021, 0.0019]
     ],
 )
 def test_a_network_s_lead_that_what_learns_nothing_has_too_is_vacuous(nulls, named):
-    found = judge(*of_networks(3, GAINS, nulls=nulls.items()))
-    assert (found["verdict"], found["null_verdict"]) == (verdicts.VACUOUS, "supported")
-    assert f"with {named} in place of the networks" in found["reason"]
+    outcome = judge(*of_networks(3, GAINS, nulls=nulls.items()))
+    assert (outcome["verdict"], outcome["null_verdict"]) == (verdicts.VACUOUS, "supported")
+    assert f"with {named} in place of the networks" in outcome["reason"]
 
 
-def test_rays_that_beat_a_map_as_well_say_nothing_below_a_thirtieth():
+def test_rays_that_beat_a_map_as_well_are_vacuous_below_a_thirtieth():
     lost = [-gain for gain in GAINS]
-    told = {"kind": "soft_equal_time", "nulls": [("hard", 0.02)]}
-    whole = judge(*of_networks(3, lost, **told))
+    changes = {"kind": "soft_equal_time", "nulls": [("hard", 0.02)]}
+    whole = judge(*of_networks(3, lost, **changes))
     assert (whole["verdict"], whole["null_verdict"]) == (verdicts.SUPPORTED, "supported")
-    few = judge(*of_networks(3, lost, **told, samples=TEXT_SAMPLES["nsm"] // 240))
+    few = judge(*of_networks(3, lost, **changes, samples=TEXT_SAMPLES["nsm"] // 240))
     assert few["verdict"] == verdicts.VACUOUS
     assert few["reason"].endswith("they do at 0.42 % of Datta et al. 2022's pixels")
 
@@ -275,7 +286,7 @@ def test_rays_that_beat_a_map_as_well_say_nothing_below_a_thirtieth():
 )
 def test_a_paper_s_networks_have_the_thesis_s_standard(share, gains, budget, verdict):
     samples = round(share * TEXT_SAMPLES["nsm"])
-    told, known = of_networks(3, [gains * gain for gain in GAINS], samples=samples)
-    found = judge(told | {"needs": {"seeds": 3, "budget": budget}}, known)
-    assert found["verdict"] == verdict and found["budget_fraction"] == pytest.approx(share)
-    assert (found["samples"], found["text_samples"]) == (samples, TEXT_SAMPLES["nsm"])
+    claim_of_network, values = of_networks(3, [gains * gain for gain in GAINS], samples=samples)
+    outcome = judge(claim_of_network | {"needs": {"seeds": 3, "budget": budget}}, values)
+    assert outcome["verdict"] == verdict and outcome["budget_fraction"] == pytest.approx(share)
+    assert (outcome["samples"], outcome["text_samples"]) == (samples, TEXT_SAMPLES["nsm"])

@@ -11,10 +11,10 @@ from report_samples import (
     written_table,
 )
 
-from neural_shadows.reports.claim_cards import budget, read_cards
-from neural_shadows.reports.claims.violations import LOWER, UPPER
-from neural_shadows.reports.claims.write_claims import COLUMNS, write_claims
-from neural_shadows.reports.tables.quality import METRICS
+from neural_shadows.reports.claims.kinds.violations import LOWER, UPPER
+from neural_shadows.reports.claims.write_claims import COLUMNS, claims
+from neural_shadows.reports.data.quality import METRICS
+from neural_shadows.reports.page.claim_cards import budget, read_cards
 
 CURVE = points("net", [20_480_000], 3)
 THESIS = {"text": "thesis", "section": "4", "statement": "So."}
@@ -38,7 +38,7 @@ NOTHING = {
 
 @pytest.fixture
 def written(tmp_path):
-    """The claims of a network of three seeds, a map, and another network that is not trained on."""
+    """Claims on a network of three seeds and its rivals."""
     runs = [point["experiment"] for point in CURVE]
     quality = dict.fromkeys(METRICS, 0.2) | {"psnr": 20.0, "ssim": 0.9}
     means = dict.fromkeys(runs, quality)
@@ -49,8 +49,8 @@ def written(tmp_path):
     losses, trainings = [], []
     for seed, name in enumerate([*runs, "other"]):
         training = TRAINING["training"] | {"steps": 20_000, "batch_size": 1024, "seed": seed % 3}
-        known = {"training": training, "samples": 20_480_000, "no_shadow_loss": 0.7}
-        trainings.append(write_record(folder / name / "training.json", TRAINING | known))
+        ended = {"training": training, "samples": 20_480_000, "no_shadow_loss": 0.7}
+        trainings.append(write_record(folder / name / "training.json", TRAINING | ended))
         losses.append(trainings[-1].with_name("loss.csv"))
         curve = loss_curve(0.6 if name == "other" else 0.1).rename_axis("step").reset_index()
         curve.assign(samples=1, learning_rate=0.1).to_csv(losses[-1], index=False)
@@ -58,14 +58,14 @@ def written(tmp_path):
     timed = {"net": frames, "shadow_map_256": frames | {"own_ms": [1.0] * 15}}
     times = write_record(tmp_path / "frame_times" / "t" / "dragon.json", {"methods": timed})
     return written_table(
-        write_claims,
+        claims,
         tmp_path,
         metrics=[write_metrics(tmp_path, means, views=24)],
         losses=losses,
         trainings=trainings,
         times=[times],
         meshes=[write_mesh(tmp_path)],
-        claims={name: THESIS | one for name, one in CLAIMS.items()},
+        claims={name: THESIS | claim for name, claim in CLAIMS.items()},
         learning_curves={"net": CURVE},
         soft_metrics=[],
         soft_times=[],
@@ -74,9 +74,9 @@ def written(tmp_path):
 
 
 def test_claims_are_written_with_verdict_reason_and_scale(written):
-    found, _ = written
-    assert list(found) == COLUMNS
-    verdicts = found.set_index("claim")["verdict"]
+    rows, _ = written
+    assert list(rows) == COLUMNS
+    verdicts = rows.set_index("claim")["verdict"]
     assert verdicts.to_dict() == {
         "quality": "undecided (scale)",
         "own_mesh": "not comparable",
@@ -84,7 +84,7 @@ def test_claims_are_written_with_verdict_reason_and_scale(written):
         "time": "supported",
         "printed": "contradicted",
     }
-    first = found.iloc[0]
+    first = rows.iloc[0]
     assert (first["metric"], first["seeds"], first["null_verdict"]) == (
         "lpips, psnr",
         3,
@@ -92,8 +92,8 @@ def test_claims_are_written_with_verdict_reason_and_scale(written):
     )
     assert first["budget_fraction"] == pytest.approx(1 / 3200)
     assert (first["samples"], first["text_samples"]) == (20_480_000, 65_536_000_000)
-    assert found["kind"].tolist() == ["better", "better", "lower_loss", "frame_time", "printed"]
-    assert found["samples"].isna().tolist() == [False, False, False, True, True]
+    assert rows["kind"].tolist() == ["better", "better", "lower_loss", "frame_time", "printed"]
+    assert rows["samples"].isna().tolist() == [False, False, False, True, True]
 
 
 def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(written):
@@ -125,12 +125,12 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
 )
 def test_networks_of_frames_are_trained_too(tmp_path, samples, lead):
     records = [
-        write_record(tmp_path / "frames" / str(i) / "training.json", {"samples": one})
-        for i, one in enumerate(samples)
+        write_record(tmp_path / "frames" / str(i) / "training.json", {"samples": seen})
+        for i, seen in enumerate(samples)
     ]
-    claims = {"printed": THESIS | CLAIMS["printed"]}
+    printed = {"printed": THESIS | CLAIMS["printed"]}
     _, md = written_table(
-        write_claims, tmp_path, **NOTHING | {"claims": claims, "screen_trainings": records}
+        claims, tmp_path, **NOTHING | {"claims": printed, "screen_trainings": records}
     )
     assert f"\n{lead} A verdict" in md.read_text()
 

@@ -1,6 +1,6 @@
 import pytest
 
-from neural_shadows.reports.digits import short
+from neural_shadows.reports.data.digits import short
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,8 @@
 import pandas as pd
 from report_samples import PUBLISHED
 
-from neural_shadows.reports.equivalent_maps import equivalent_maps
-from neural_shadows.reports.published import printed_networks, read_published
+from neural_shadows.reports.data.equivalent_maps import equivalent_maps
+from neural_shadows.reports.data.published import printed_networks, read_published
 
 METHODS = ["shadow_map_128", "shadow_map_512", "shadow_map_pcf_256", "network", "no_shadow"]
 

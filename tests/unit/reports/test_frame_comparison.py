@@ -7,7 +7,7 @@ from PIL import Image
 from report_page import seen_frames, write_evaluated
 from report_samples import row
 
-from neural_shadows.reports.frame_comparison import frame_comparisons, map_picture
+from neural_shadows.reports.page.frame_comparison import frame_comparisons, map_picture
 
 
 def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):

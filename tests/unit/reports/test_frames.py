@@ -2,7 +2,7 @@ import numpy as np
 import pandas as pd
 from frame_samples import write_frames
 
-from neural_shadows.reports.frames import read_frames
+from neural_shadows.reports.data.frames import read_frames
 
 
 def test_views_are_read_from_the_batch_that_has_them_in_the_order_asked_for(tmp_path):

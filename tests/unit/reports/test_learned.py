@@ -3,8 +3,8 @@ import pandas as pd
 import pytest
 from report_samples import PUBLISHED, row
 
-from neural_shadows.reports.learned import has_learned, learned, learned_methods, margins
-from neural_shadows.reports.published import read_published
+from neural_shadows.reports.data.learned import has_learned, learned, learned_methods, margins
+from neural_shadows.reports.data.published import read_published
 
 METRICS = ("lpips", "psnr", "ssim")
 

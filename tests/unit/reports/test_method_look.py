@@ -3,7 +3,7 @@ import report_samples as samples
 from matplotlib import font_manager
 from matplotlib.ft2font import FT2Font
 
-from neural_shadows.reports.method_look import LOOKS, look_of
+from neural_shadows.reports.data.method_look import LOOKS, look_of
 
 
 def name_of(method, **network):
@@ -20,10 +20,10 @@ def test_methods_of_a_kind_look_alike_and_kinds_do_not():
     assert name_of("no_shadow") == name_of("all_dark") == "no method"
     assert name_of("ray_traced") == "exact shadow"
     assert name_of("mine", encoding="my_network") == "my network"  # a kind of the user's own
-    for looks in ({look.symbol for look in LOOKS.values()}, {o.name for o in LOOKS.values()}):
-        assert len(looks) == len(LOOKS)
-    drawn = {(look.colour, look.marker) for look in LOOKS.values()}
-    assert len(drawn) == len(LOOKS)
+    looks = {*LOOKS.values()}
+    for of_each in ({look.symbol for look in looks}, {look.name for look in looks}):
+        assert len(of_each) == len(looks)
+    assert len({(look.colour, look.marker) for look in looks}) == len(looks)
 
 
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)

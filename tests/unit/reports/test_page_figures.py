@@ -5,9 +5,9 @@ from xml.etree import ElementTree
 import pandas as pd
 from PIL import Image
 
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.figures.style import new_figure, write_figure
-from neural_shadows.reports.page_figures import LARGEST_SVG, figure_blocks, inline_svg
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing.style import new_figure, write_figure
+from neural_shadows.reports.page.figure_blocks import LARGEST_SVG, figure_blocks, inline_svg
 
 
 def test_large_drawings_are_shown_as_pixels_and_pictures_as_images(tmp_path):

@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 from report_samples import PUBLISHED, row
 
-from neural_shadows.reports.published import add_printed, read_published
+from neural_shadows.reports.data.published import add_printed, read_published
 
 # rows x columns of each table in the thesis
 SIZES = {"4.1": (3, 3), "4.2": (4, 3), "4.3": (6, 3), "4.4": (6, 3), "4.5": (7, 3), "4.6": (6, 3)}

@@ -2,7 +2,7 @@ from platform import python_version
 
 from report_samples import LPIPS, MACHINE, RUN, SCENES, TRAINING, write_record
 
-from neural_shadows.reports.run_facts import run_facts, run_sentence
+from neural_shadows.reports.page.run_facts import run_facts, run_sentence
 from neural_shadows.running.origin import CHECKOUT, commit_of
 
 

@@ -7,7 +7,7 @@ from PIL import Image
 from screen_frames import edge
 from soft_pictures import LABELS, seen, write_soft_pictures
 
-from neural_shadows.reports.soft_comparison import soft_comparisons
+from neural_shadows.reports.page.soft_comparison import soft_comparisons
 
 
 @pytest.fixture

@@ -2,8 +2,10 @@
 
 import pytest
 
+from neural_shadows.networks.kind_module import ENCODINGS, FORMS, form_module, kind_module
 from neural_shadows.running import module_graph
 from neural_shadows.running.module_graph import PACKAGE, digest, modules_of
+from neural_shadows.settings.kinds import kinds
 
 STAGES = [
     path for path in PACKAGE.rglob("*.py") if "run_stage(snakemake" in path.read_text("utf-8")
@@ -29,6 +31,16 @@ def test_training_depends_on_what_decides_the_weights():
 
 
 @pytest.mark.parametrize(
+    "module", [*map(kind_module, kinds(ENCODINGS)), *map(form_module, kinds(FORMS))]
+)
+def test_a_kind_of_network_depends_on_its_own_class_and_on_no_settings(module):
+    names = [path.relative_to(PACKAGE).as_posix() for path in modules_of(module)]
+    assert [name for name in names if name.endswith(("_network.py", "_unet.py"))]
+    assert not [name for name in names if name.startswith(("settings/", ENCODINGS, FORMS))]
+    assert "networks/settings" not in {name.rpartition("/")[0] for name in names}
+
+
+@pytest.mark.parametrize(
     "stage",
     [
         "frames/render_frames",
@@ -45,7 +57,7 @@ def test_soft_shadows_depend_on_no_network_and_no_other_method(stage):
     # Maps of a directional light are the thesis's; a scene or a method is an input of its own jobs.
     assert "shadow_maps/shadow_map" not in names
     kinds = {path.stem for path in found if path.parent.name in ("soft_methods", "generators")}
-    assert kinds <= {"registry", "soft_method"}
+    assert kinds <= {"registry"}
 
 
 def test_all_forms_of_import_are_followed(tmp_path):

@@ -3,6 +3,7 @@
 import pytest
 
 from neural_shadows.networks.kind_module import kind_module
+from neural_shadows.running.module_graph import PACKAGE
 from neural_shadows.training.checkpoints import (
     CHECKPOINTS,
     STAGES,
@@ -31,10 +32,13 @@ def test_other_settings_have_another_checkpoint(tmp_path, change):
     assert ours == folder_of(tmp_path) != folder_of(tmp_path, HEADER | change)
 
 
-def test_other_code_of_the_network_s_kind_has_another_checkpoint(tmp_path):
-    edited = tmp_path / "frequency_network.py"
-    edited.write_text(kind_module("frequency").read_text() + "# edited\n")
-    assert folder_of(tmp_path, kind=edited) != folder_of(tmp_path)
+def test_other_code_of_the_network_s_class_has_another_checkpoint(tmp_path):
+    """Its settings' file is no part of it: a description changes no weights."""
+    network = PACKAGE / "networks/object_space/frequency_network.py"
+    edited = tmp_path / network.name
+    edited.write_text(network.read_text() + "# edited\n")
+    assert folder_of(tmp_path) == folder_of(tmp_path, kind=network)
+    assert folder_of(tmp_path) != folder_of(tmp_path, kind=edited)
 
 
 def test_checkpoints_of_finished_networks_are_removed(tmp_path):

@@ -16,8 +16,9 @@ from neural_shadows.frames.setting import setting_of
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.rendering.gbuffer import axis_cosines
 from neural_shadows.training import steps
+from neural_shadows.training.crop_places import crop_places
 from neural_shadows.training.screen_batches import ScreenFrames
-from neural_shadows.training.screen_crops import Place, crop_places
+from neural_shadows.training.screen_crops import Place
 from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.train_screen import train_screen
 

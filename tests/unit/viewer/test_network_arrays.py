@@ -8,7 +8,7 @@ import pytest
 from shapes import bumpy_sphere
 
 from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.object_space.field_marching import SOLID
+from neural_shadows.representations.distance_bricks.field_marching import SOLID
 from neural_shadows.viewer.network_arrays import SOLID_CODE, network_arrays
 
 

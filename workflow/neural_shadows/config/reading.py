@@ -7,14 +7,13 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
-from neural_shadows.config.base import not_among
 from neural_shadows.config.messages import describe
-from neural_shadows.config.own_frames import OwnFrames, without_frames
-from neural_shadows.config.scenes import MeshFile
-from neural_shadows.config.screen_experiments import training_of
 from neural_shadows.config.whole import Config
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.formats import format_of
+from neural_shadows.sections.own_frames import OwnFrames, without_frames
+from neural_shadows.sections.scenes import MeshFile
+from neural_shadows.settings.base import not_among
 
 # What `dragon` may be beside a file.
 MESHES_BY_NAME = {"wyrm": {"generate": "wyrm"}, "stanford": {"download": "stanford_dragon"}}
@@ -82,6 +81,10 @@ def read_config(values: dict[str, Any]) -> Config:
         # `--config dragon=wyrm` over a scene that is a wyrm already keeps its resolution.
         if not (isinstance(old, dict) and mesh.items() <= old.items()):
             scenes["dragon"]["mesh"] = mesh
+    if (up := values.get("up")) is not None and isinstance(
+        dragon := (values.get("scenes") or {}).get("dragon"), dict
+    ):
+        dragon["up"] = up
     try:
         return Config.model_validate(values, context=values)
     except ValidationError as error:
@@ -118,7 +121,7 @@ def check_files(config: Config) -> None:
                 "results/README.md tells the format"
             )
     for name in config.screen_experiments:
-        trunk = getattr(training_of(config, name).perceptual, "trunk", None)
+        trunk = getattr(config.screen_training_of(name).perceptual, "trunk", None)
         if trunk is not None:
             _check_file(f"screen_experiments.{name}: perceptual.trunk", trunk)
     if config.metrics.lpips.trunk is not None:

@@ -11,9 +11,9 @@ from neural_shadows.evaluation.frame_answers import all_radii, constants_of, err
 from neural_shadows.evaluation.measure_occluders import read_occluders
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, name_of, write_answers
-from neural_shadows.evaluation.soft_methods.registry import soft_methods_by_scene, take_fields
-from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
+from neural_shadows.evaluation.soft_method import Constants, SoftMethod
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
+from neural_shadows.evaluation.soft_registry import soft_methods_by_scene, take_fields
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.metrics.available_lpips import lpips_metric

@@ -11,14 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.evaluation.hard_method import OfBias, ShadowMethod
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import (
-    OfBias,
-    ShadowMethod,
-    classic_method,
-    network_method,
-    open_network,
-)
+from neural_shadows.evaluation.shadow_methods import classic_method, network_method, open_network
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.metrics.shadow_error import shadow_error
 from neural_shadows.rendering.gbuffer import GBuffer

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.soft_methods.object_field import ObjectField, write_fields
-from neural_shadows.evaluation.soft_methods.object_fields import fields_in
+from neural_shadows.evaluation.method_parts.object_field import ObjectField, write_fields
+from neural_shadows.evaluation.method_parts.scene_fields import fields_in
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage

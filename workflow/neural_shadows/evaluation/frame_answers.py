@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame
-from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
+from neural_shadows.evaluation.soft_method import Constants, SoftMethod
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.penumbra_width import penumbra_width
 from neural_shadows.metrics.visibility_error import visibility_errors
@@ -22,7 +22,7 @@ def all_radii(
 ) -> Iterator[np.ndarray]:
     """The method's picture of each radius; it is asked once where they have the same."""
     for k, radius in enumerate(measured.part.radii):
-        if method.asked_again(constants, k):
+        if method.changes_at(constants, k):
             found = measured.answered(method, radius, constants[k])
         yield found
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import torch
 
-from neural_shadows.evaluation.memory import shadow_map_bytes
-from neural_shadows.evaluation.method_names import is_map, unbiased
+from neural_shadows.evaluation.memory import stored_bytes
+from neural_shadows.evaluation.method_names import unbiased
 from neural_shadows.evaluation.shadow_methods import classic_method, open_network
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.networks.compute import choose_device, choose_dtype
@@ -48,7 +48,7 @@ def timed_classic(method: str, scene: Scene) -> TimedMethod:
         visibility = ask(frame)(0.0)
         return visibility, time.perf_counter() - started
 
-    return TimedMethod(answer, "cpu", shadow_map_bytes(method) if is_map(method) else None)
+    return TimedMethod(answer, "cpu", stored_bytes(method))
 
 
 def timed_network(network: ShadowNetwork, dtype: torch.dtype) -> TimedMethod:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
+from neural_shadows.evaluation.soft_method import SoftMethod, visibility
 from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.draw_settings import light_map_of
 from neural_shadows.frames.frame_set import FrameSetPart, check_values

@@ -1,8 +1,8 @@
-"""How much memory a network and a shadow map take [4.4.2]."""
+"""Bytes that networks and shadow maps store [4.4.2]."""
 
 from pathlib import Path
 
-from neural_shadows.evaluation.method_names import family_of, is_map, resolution_of
+from neural_shadows.evaluation.method_names import METHODS, family_and_size
 
 
 def network_bytes(weights: Path) -> int:
@@ -11,11 +11,6 @@ def network_bytes(weights: Path) -> int:
     with weights.open("rb") as file:
         header = int.from_bytes(file.read(8), "little")
     return weights.stat().st_size - 8 - header
-
-
-def shadow_map_bytes(method: str) -> int:
-    """Bytes of the N² heights of a map FAMILY_N, stored as while it answers."""
-    return family_of(method).texel_bytes * resolution_of(method) ** 2
 
 
 def stored_bytes(stored: str | Path) -> int | None:
@@ -30,4 +25,6 @@ def stored_bytes(stored: str | Path) -> int | None:
     """
     if isinstance(stored, Path):
         return network_bytes(stored)
-    return shadow_map_bytes(stored) if is_map(stored) else None
+    family, size = family_and_size(stored)
+    of_size = METHODS[family].stored_bytes if family else None
+    return of_size(size) if of_size else None

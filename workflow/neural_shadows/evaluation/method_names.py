@@ -1,39 +1,26 @@
-"""Keys of methods: a network's is its experiment's name, the others' are made here."""
+"""Keys of methods: a network's is its experiment's name, others' are in `hard_methods`.
 
-from dataclasses import dataclass
+Each module of that folder is a family, `METHODS` by key, or by FAMILY for keys FAMILY_N. None is
+imported by a statement, as families of `soft_registry`.
+"""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from neural_shadows.evaluation.hard_method import HardMethod
+from neural_shadows.settings.kinds import kinds
 
 RAY_TRACED = "ray_traced"
 BIASED_SUFFIX = "_biased"
 
-# Null predictors and their labels: what knows nothing of the object, so that what is no better
-# than it has learned nothing of it either.
-NO_SHADOW = "no_shadow"  # everything that faces the light is lit
-NULL = {NO_SHADOW: "No shadow", "all_dark": "All dark"}
-
-
-@dataclass(frozen=True)
-class MapFamily:
-    """Shadow maps of one kind: FAMILY_N has N² texels."""
-
-    label: str
-    pcf: bool = False  # 2 × 2 depth tests weighted bilinearly, or that of the nearest texel
-    sixteen_bit: bool = False  # heights as unorm16, or as float32
-
-    @property
-    def texel_bytes(self) -> int:
-        """Of a stored height."""
-        return 2 if self.sixteen_bit else 4
-
-
-CLASSIC = {
-    "shadow_map": MapFamily("{}² shadow map"),
-    "shadow_map_16bit": MapFamily("{}² shadow map, 16 bit", sixteen_bit=True),
-    "shadow_map_pcf": MapFamily("{}² shadow map, 2 × 2 PCF", pcf=True),
-    "shadow_map_pcf_16bit": MapFamily(
-        "{}² shadow map, 2 × 2 PCF, 16 bit", pcf=True, sixteen_bit=True
-    ),
+_FAMILIES = {
+    key: family for family in kinds("evaluation/hard_methods").values() for key in family.METHODS
 }
-LARGEST_MAP = 32768  # texels along a side: the thesis's reference [4.1]
+METHODS: dict[str, HardMethod] = {key: one.METHODS[key] for key, one in _FAMILIES.items()}
+PATTERNS = [
+    *(f"{key}_N" for key, method in METHODS.items() if method.sizes),
+    *(key for key, method in METHODS.items() if not method.sizes),
+]
 
 
 def shadow_map_key(resolution: int) -> str:
@@ -41,37 +28,36 @@ def shadow_map_key(resolution: int) -> str:
     return f"shadow_map_{resolution}"
 
 
-def is_null(method: str) -> bool:
-    """Whether a key is a null predictor's."""
-    return method in NULL
+# By the config's word: shadow rays, or the thesis's map of 32768² texels [4.1].
+REFERENCES = {"exact": RAY_TRACED, "shadow_map": shadow_map_key(32768)}
 
 
-def is_map(method: str) -> bool:
-    """Whether a key, without a bias, is a family of `CLASSIC` and a size that can be rendered."""
+def family_and_size(method: str) -> tuple[str | None, int]:
+    """The key in `METHODS` of a method without a bias, and its N, or 0.
+
+    The key is None of a network, of ray tracing, and of a size that cannot be rendered.
+    """
     family, _, size = method.rpartition("_")
-    return family in CLASSIC and size.isdecimal() and 2 <= int(size) <= LARGEST_MAP
+    if family in METHODS and size.isdecimal() and int(size) in METHODS[family].sizes:
+        return family, int(size)
+    return (method if method in METHODS and not METHODS[method].sizes else None), 0
 
 
 def is_classic(method: str) -> bool:
     """Whether a key, without a bias, is of a method that needs no network and may err."""
-    return is_null(method) or is_map(method)
+    return family_and_size(method)[0] is not None
 
 
 def classic_label(method: str) -> str:
     """What tables call a method of which `is_classic` holds."""
-    if is_null(method):
-        return NULL[method]
-    return family_of(method).label.format(resolution_of(method))
+    family, size = family_and_size(method)
+    return METHODS[family].label.format(size)
 
 
-def family_of(method: str) -> MapFamily:
-    """The kind of map of a key FAMILY_N."""
-    return CLASSIC[method.rpartition("_")[0]]
-
-
-def resolution_of(method: str) -> int:
-    """N of a key FAMILY_N."""
-    return int(method.rpartition("_")[2])
+def hard_modules(methods: Iterable[str]) -> set[Path]:
+    """The modules of the families of those methods that need no network; keys may have a bias."""
+    families = {family_and_size(unbiased(method))[0] for method in methods} - {None}
+    return {Path(_FAMILIES[family].__file__) for family in families}
 
 
 def biased_key(method: str) -> str:

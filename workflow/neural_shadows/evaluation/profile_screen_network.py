@@ -11,11 +11,11 @@ import numpy as np
 import torch
 
 from neural_shadows.files.whole_files import write_json
-from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.frames.feature_names import channels_of
 from neural_shadows.networks.compute import choose_device, is_native
-from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
-from neural_shadows.networks.screen_space.kernel_widths import layers_of
-from neural_shadows.networks.screen_space.screen_networks import ScreenNetwork, make_screen_network
+from neural_shadows.networks.screen_space.screen_forms import layers_of
+from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
+from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 from neural_shadows.networks.screen_space.widths import by_level
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
@@ -61,11 +61,9 @@ def profile_screen_network(
     with progress_bar(len(planned), "runs", "profile") as bar:
         for place, count, precision in planned:
             torch.set_num_threads(count)
-            made = make_screen_network(network)
-            if isinstance(made, KernelUnet):
-                made = made.folded()  # as it answers
-            made = made.to(place, precision, memory_format=torch.channels_last)
-            times = _timed(made, profile)
+            timed = make_screen_network(network).for_inference()
+            timed = timed.to(place, precision, memory_format=torch.channels_last)
+            times = _timed(timed, profile)
             name = str(precision).removeprefix("torch.")
             runs.append({"device": place.type, "threads": count, "precision": name} | times)
             bar.update()
@@ -92,7 +90,7 @@ def _counts(network: Mapping[str, Any]) -> list[dict[str, float]]:
 def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]:
     weight = next(network.parameters())
     like = {"device": weight.device, "dtype": weight.dtype}
-    channels = sum(FEATURES[name] for name in network.features)
+    channels = channels_of(network.features)
     generator = torch.Generator().manual_seed(0)
     size = 1, channels, profile["height"], profile["width"]
     x = torch.rand(size, generator=generator).to(**like, memory_format=torch.channels_last)

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from neural_shadows.evaluation.method_names import REFERENCES
 from neural_shadows.evaluation.references import write_references
-from neural_shadows.evaluation.shadow_methods import REFERENCES, classic_method
+from neural_shadows.evaluation.shadow_methods import classic_method
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.running.progress import progress_bar

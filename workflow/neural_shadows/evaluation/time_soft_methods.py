@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
-from neural_shadows.evaluation.soft_method_names import tuned_as
-from neural_shadows.evaluation.soft_methods.registry import soft_method, take_fields
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod, visibility
+from neural_shadows.evaluation.soft_method import SoftMethod, visibility
+from neural_shadows.evaluation.soft_registry import soft_method, take_fields, tuned_as
 from neural_shadows.files.whole_files import read_json, write_json
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.running.one_thread import one_thread
@@ -83,7 +82,7 @@ def time_soft_methods(
                 works = {
                     name: partial(visibility, method, frame, radius, chosen[name][k])
                     for name, method in timed.items()
-                    if method.asked_again(chosen[name], k)
+                    if method.changes_at(chosen[name], k)
                 }
                 # What is compiled, and what a method makes of a scene: a point light's may be another
                 # path than that of all others. Cones through fields took five times as long at first.

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.soft_methods.registry import soft_method, take_fields
-from neural_shadows.evaluation.soft_methods.soft_method import Constants, SoftMethod
+from neural_shadows.evaluation.soft_method import Constants, SoftMethod
+from neural_shadows.evaluation.soft_registry import soft_method, take_fields
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.running.origin import describe_origin

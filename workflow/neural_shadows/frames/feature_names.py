@@ -27,6 +27,11 @@ KPNSM_FEATURES = dict.fromkeys(
 FEATURES = NSM_FEATURES | KPNSM_FEATURES
 
 
+def channels_of(features: Sequence[str]) -> int:
+    """Channels of some features together."""
+    return sum(FEATURES[name] for name in features)
+
+
 def base_of(features: Sequence[str]) -> str:
     """The feature that a network of kernels filters.
 

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from neural_shadows.config.base import not_among
-from neural_shadows.config.networks import NetworkModel, kind_of
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import is_classic, unbiased
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
+from neural_shadows.networks.kind_module import ENCODINGS
+from neural_shadows.networks.settings.object_space import NetworkModel
+from neural_shadows.settings.base import not_among
+from neural_shadows.settings.kinds import kinds
 
 
 @dataclass(frozen=True)
@@ -113,7 +115,8 @@ class Layout:
 
     def kind(self, experiment: str) -> type[NetworkModel]:
         """What the graph must know of an experiment's kind of network."""
-        return kind_of(self.entry("experiments", experiment)["network"]["encoding"])
+        encoding = self.entry("experiments", experiment)["network"]["encoding"]
+        return kinds(ENCODINGS)[encoding].Settings
 
     def is_trained(self, experiment: str) -> bool:
         """Whether an experiment's network is not only built."""

@@ -56,10 +56,6 @@ class Paths:
         """The times of a table's methods on a scene."""
         return f"{self.results}/frame_times/{table}/{scene}.json"
 
-    def cost(self, over: str = "{over}", value: str | int = "{value}") -> str:
-        """What the stages cost at one size."""
-        return f"{self.results}/cost/{over}.{value}.json"
-
     def frames(
         self,
         ending: str,

@@ -1,5 +1,6 @@
 """Networks of whole frames: what each is trained on."""
 
+from collections.abc import Iterable
 from typing import Any
 
 from neural_shadows.layout import frame_sets
@@ -29,3 +30,8 @@ def training_settings(layout: Layout, experiment: str) -> dict[str, Any]:
     """What `train_screen` is told beside its files."""
     settings = layout.entry("screen_experiments", experiment)
     return {key: settings[key] for key in _KEYS}
+
+
+def forms(layout: Layout, experiments: Iterable[str]) -> set[str]:
+    """The forms of the networks of some experiments."""
+    return {layout.entry("screen_experiments", one)["network"]["form"] for one in experiments}

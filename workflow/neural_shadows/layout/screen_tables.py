@@ -1,60 +1,47 @@
-"""What tables of trained networks on frames are made of."""
+"""What tables of trained screen-space networks are made of."""
 
+from collections.abc import Iterable
 from typing import Any
 
-from neural_shadows.evaluation.soft_method_names import UNLEARNED, in_format, is_network
+from neural_shadows.evaluation.soft_registry import UNLEARNED, is_network
 from neural_shadows.layout import soft_methods
 from neural_shadows.layout.layout import Layout
-
-KINDS = (
-    *("screen_depth", "screen_features", "screen_errors", "screen_solids"),
-    *("screen_steps", "screen_temporal"),
-)
+from neural_shadows.layout.tables import unique
 
 
-def methods(layout: Layout, table: str) -> list[str]:
-    """The methods of a table in its order, each once."""
-    settings = layout.entry("tables", table)
-    match settings["kind"]:
-        case "screen_steps":
-            named = [one["experiment"] for one in settings["steps"].values() if one["experiment"]]
-        case "screen_errors" | "screen_solids":
-            named = settings["networks"]
-        case "screen_temporal":
-            named = settings["methods"]
-        case _:
-            named = settings["columns"].values()
-    return list(dict.fromkeys(named))
+def files(
+    layout: Layout, table: str, methods: Iterable[str], evaluated: Iterable[str] = ()
+) -> dict[str, Any]:
+    """Metrics of methods and of what learns nothing, and the trainings of the networks among them.
 
-
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    """Files of a table's methods on its frame set, of what learns nothing, and of the networks."""
+    Args:
+        methods: of the table's frame set; evaluated: what is evaluated in their place, of networks in
+            a number format.
+    """
     paths, frame_set = layout.paths, soft_methods.frame_set(layout, table)
-    named = methods(layout, table)
-    networks = [*filter(is_network, named)]
-    asked = _in_formats(layout, table) or named
-    asked = [*asked, *(null for null in UNLEARNED if asked and null not in asked)]
+    methods = unique(methods)
+    measured = [*evaluated] or methods
+    measured = unique([*measured, *UNLEARNED]) if measured else []
     return {
-        "soft_metrics": [paths.soft_evaluation("csv", frame_set, method) for method in asked],
-        "trainings": [paths.screen_network("training.json", name) for name in networks],
-        "sensitivities": [paths.screen_sensitivity(frame_set, name) for name in networks],
-        "profiles": _profiles(layout, table),
-        "frames_json": soft_methods.tests(layout, frame_set)[0],
-        "widths_json": soft_methods.widths(layout, frame_set) if asked else [],
+        "soft_metrics": [paths.soft_evaluation("csv", frame_set, method) for method in measured],
+        "trainings": [
+            paths.screen_network("training.json", m) for m in filter(is_network, methods)
+        ],
+        "widths_json": soft_methods.widths(layout, frame_set) if measured else [],
     }
 
 
-def _in_formats(layout: Layout, table: str) -> list[str]:
-    """The methods that steps are: networks in number formats; none of another table."""
-    steps = layout.entry("tables", table).get("steps", {}).values()
-    return [in_format(one["experiment"], one["precision"]) for one in steps if one["experiment"]]
+def sensitivities(layout: Layout, table: str, networks: Iterable[str]) -> list[str]:
+    """The sensitivities of networks on a table's frame set."""
+    frame_set = soft_methods.frame_set(layout, table)
+    return [layout.paths.screen_sensitivity(frame_set, name) for name in unique(networks)]
 
 
-def _profiles(layout: Layout, table: str) -> list[str]:
-    steps = layout.entry("tables", table).get("steps", {}).values()
-    return [layout.paths.screen_profile(name) for name in {step["network"]: 0 for step in steps}]
+def frames_json(layout: Layout, table: str) -> str:
+    """A part of the test frames of a table's frame set."""
+    return soft_methods.tests(layout, soft_methods.frame_set(layout, table))[0]
 
 
-def labels(layout: Layout, table: str) -> dict[str, str]:
-    """What each method of a table is called."""
-    return {method: soft_methods.label(layout, method) for method in methods(layout, table)}
+def labels(layout: Layout, methods: Iterable[str]) -> dict[str, str]:
+    """The labels of methods, each once."""
+    return {method: soft_methods.label(layout, method) for method in unique(methods)}

@@ -1,31 +1,29 @@
 """What tables and figures of methods for soft shadows are made of."""
 
-from neural_shadows.evaluation.soft_method_names import (
+from collections.abc import Iterable
+
+from neural_shadows.evaluation.soft_registry import (
     FORMATS,
     LABELS,
-    NULL,
-    asks_fields,
     available,
     in_format,
     is_network,
     is_tuned,
+    needs_fields,
     tuned_as,
 )
 from neural_shadows.frames.uses import SEQUENCES
-from neural_shadows.layout import frame_sets
+from neural_shadows.layout import frame_sets, screen_networks
 from neural_shadows.layout.layout import Layout
 
 
 def methods(layout: Layout, table: str) -> list[str]:
-    """The methods of a table in its order that this machine has, with those that know nothing."""
-    named = _named(layout, table)
-    # A summary has the rows that it names.
-    nulls = NULL if layout.entry("tables", table)["kind"] == "soft_methods" else ()
-    return [*filter(available, named), *(method for method in nulls if method not in named)]
+    """The methods of a table, in its order, that this machine has."""
+    return [*filter(available, _named(layout, table))]
 
 
 def left_out(layout: Layout, table: str) -> list[str]:
-    """The others, as they are called."""
+    """The labels of the others."""
     return [LABELS[method] for method in _named(layout, table) if not available(method)]
 
 
@@ -60,11 +58,9 @@ def chosen(layout: Layout, frame_set: str, method: str) -> list[str]:
 
 
 def fields(layout: Layout, frame_set: str, method: str) -> list[str]:
-    """The file of the fields that a method asks; none of another method, or of frames of a user's own,
-    where there is no scene.
-    """
+    """The file of the fields of a method that needs some; none of another, or without a scene."""
     own = layout.entry("frame_sets", frame_set)["path"] is not None
-    return [layout.paths.soft_fields(frame_set)] if asks_fields(method) and not own else []
+    return [layout.paths.soft_fields(frame_set)] if needs_fields(method) and not own else []
 
 
 def timed_fields(layout: Layout, table: str) -> list[str]:
@@ -201,6 +197,12 @@ def experiments(layout: Layout, method: str) -> list[str]:
     if method in by_scene:
         return by_scene[method]["experiments"]
     return [_of_formats(layout).get(method, (method, "auto"))[0]]
+
+
+def forms(layout: Layout, methods: Iterable[str]) -> set[str]:
+    """The forms of the networks among some methods."""
+    names = [name for method in methods for name in experiments(layout, method)]
+    return screen_networks.forms(layout, names)
 
 
 def by_scene(layout: Layout, method: str) -> bool:

@@ -9,7 +9,6 @@ import trimesh
 from neural_shadows.files.whole_files import whole_file
 from neural_shadows.meshes.fence import make_fence
 from neural_shadows.meshes.landscape import make_landscape
-from neural_shadows.meshes.oak import make_oak
 from neural_shadows.meshes.wyrm import make_wyrm
 from neural_shadows.running.stage import run_stage
 
@@ -17,7 +16,6 @@ MAKERS = {
     "wyrm": make_wyrm,
     "fence": make_fence,
     "landscape": make_landscape,
-    "oak": make_oak,
 }
 
 

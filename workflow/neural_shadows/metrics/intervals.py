@@ -10,7 +10,7 @@ of up to 1.3 (lognormal, σ 0.4), 88 to 90 % for one of 6.2 (σ 1).
 from collections.abc import Callable
 
 import numpy as np
-from scipy.stats import bootstrap, norm, t
+import scipy
 
 from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
 
@@ -167,8 +167,10 @@ def _students(
         return float(value), -np.inf, np.inf, 1.0
     some = np.where(variance > 0, variance, 1.0)
     freedom = some**2 / sum((part**2 + (variance <= 0)) / degrees for part, degrees in parts)
-    half = t.ppf((1 + LEVEL) / 2, freedom) * np.sqrt(variance)
-    p = np.where(variance > 0, 2 * t.sf(np.abs(value) / np.sqrt(some), freedom), value == 0)
+    half = scipy.stats.t.ppf((1 + LEVEL) / 2, freedom) * np.sqrt(variance)
+    p = np.where(
+        variance > 0, 2 * scipy.stats.t.sf(np.abs(value) / np.sqrt(some), freedom), value == 0
+    )
     found = value, value - half, value + half, p
     return found if np.ndim(value) else tuple(map(float, found))
 
@@ -180,7 +182,7 @@ def _psnr_difference(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray
 def _interval(
     samples: tuple[np.ndarray, ...], statistic: Callable, seed: int, resamples: int, paired=False
 ) -> tuple[float, float, float]:
-    low, high = bootstrap(
+    low, high = scipy.stats.bootstrap(
         samples,
         statistic,
         n_resamples=resamples,
@@ -198,5 +200,5 @@ def _expanded(count: int) -> float:
     A resampling has the variance of `count` − 1 values, and knows it as if they were many; at `LEVEL`
     its percentiles cover 90 % for ten values, 92 for 16 (Hesterberg 2015, section 5.3).
     """
-    ends = np.sqrt(count / (count - 1)) * t.ppf((1 + LEVEL) / 2, count - 1)
-    return float(1 - 2 * norm.sf(ends))
+    ends = np.sqrt(count / (count - 1)) * scipy.stats.t.ppf((1 + LEVEL) / 2, count - 1)
+    return float(1 - 2 * scipy.stats.norm.sf(ends))

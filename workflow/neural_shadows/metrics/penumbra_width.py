@@ -1,7 +1,7 @@
 """How wide the penumbrae of a frame are: on average along edges of hard shadows, and pixel by pixel."""
 
 import numpy as np
-from scipy.ndimage import gaussian_filter, maximum_filter, minimum_filter
+import scipy
 
 ENDS = (0.1, 0.9)  # visibilities between which 0.8 of a penumbra's width lies
 # An edge of length 1 in a direction drawn at random crosses 4 / π sides of pixels (Cauchy, Crofton).
@@ -47,10 +47,12 @@ def local_widths(visibility: np.ndarray, valid: np.ndarray, edges: np.ndarray) -
         if not left.any():
             break
         sigma = max(0.5, reach / 6)
-        slope = np.hypot(*(gaussian_filter(visibility, sigma, order) for order in ((1, 0), (0, 1))))
+        slope = np.hypot(
+            *(scipy.ndimage.gaussian_filter(visibility, sigma, order) for order in ((1, 0), (0, 1)))
+        )
         # Clear of what is not of this surface by most of the filter's breadth.
-        clear = minimum_filter(counts, 2 * round(1.5 * sigma) + 1, mode="nearest")
-        steepest = maximum_filter(np.where(clear, slope + 1e-6, 0), 2 * reach + 1)
+        clear = scipy.ndimage.minimum_filter(counts, 2 * round(1.5 * sigma) + 1, mode="nearest")
+        steepest = scipy.ndimage.maximum_filter(np.where(clear, slope + 1e-6, 0), 2 * reach + 1)
         measured = left & (steepest > 0)
         widths[measured] = np.minimum(4 / np.pi / steepest[measured], WIDEST)
         left &= ~(widths <= 2 * reach)

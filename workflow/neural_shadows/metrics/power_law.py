@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import norm, t
+import scipy
 
 from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
@@ -269,7 +269,11 @@ def _carried_on(curve: Curve, samples: float, seed: int) -> tuple[float, np.ndar
         return value, np.array([np.nan]), np.array([np.nan])
     freedom = budgets * (seeds - 1)
     quantile = (1 + LEVEL) / 2
-    wide = np.sqrt(seeds / (seeds - 1)) * t.ppf(quantile, freedom) / norm.ppf(quantile)
+    wide = (
+        np.sqrt(seeds / (seeds - 1))
+        * scipy.stats.t.ppf(quantile, freedom)
+        / scipy.stats.norm.ppf(quantile)
+    )
     rng = np.random.default_rng(seed)
     residuals = wide * _residuals(curve).ravel()
     drawn = rng.choice(residuals, (RESAMPLES, budgets + 1, seeds)).mean(axis=2)

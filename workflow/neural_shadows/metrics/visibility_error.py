@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.ndimage import binary_dilation
+import scipy
 
 UMBRA, LIT = 0.02, 0.98  # of the target: below and above it there is no penumbra
 EDGE_PIXELS = 3  # on each side of an edge of the hard target
@@ -65,4 +65,4 @@ def _near_edges(hard: np.ndarray, valid: np.ndarray) -> np.ndarray:
     edge[:, 1:] |= along
     edge[:, :-1] |= along
     square = np.ones((2 * EDGE_PIXELS - 1,) * 2, bool)
-    return binary_dilation(edge, square)
+    return scipy.ndimage.binary_dilation(edge, square)

@@ -1,1 +1,1 @@
-"""What is trained: kinds of network, their weight files, and how they are asked [3.3, 3.6]."""
+"""Kinds of networks, trained or not, and their weight files [3.3, 3.6]."""

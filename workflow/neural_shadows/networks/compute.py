@@ -68,7 +68,7 @@ def choose_dtype(precision: str, device: torch.device) -> torch.dtype:
     `auto` takes bfloat16 where the processor has it and is faster by it than by float32, which it
     takes elsewhere. float16 is the thesis's (tiny-cuda-nn's). On a network of 8 million samples
     bfloat16 moved depths by 0.0014 sphere radii (median) and flipped 0.13 % of the points that face
-    the light, float16 by 0.00015 and 0.016 % (`tests/benchmarks/precision_of_queries.py`).
+    the light, float16 by 0.00015 and 0.016 %.
 
     Raises:
         InputError: the device has to emulate the format that was asked for.

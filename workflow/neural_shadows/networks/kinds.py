@@ -1,17 +1,17 @@
-"""The kinds of shadow network: each a module named for the config's `encoding`."""
+"""Shadow networks from their settings."""
 
-from importlib import import_module
 from typing import Any
 
-from neural_shadows.networks.kind_module import kind_module
+from neural_shadows.networks.kind_module import ENCODINGS
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.settings.kinds import kinds
 
 
 def make_network(settings: dict[str, Any]) -> ShadowNetwork:
     """A network from a config's entry: `encoding`, and the arguments of its class.
 
-    `RayGridNetwork` of `ray_grid_network.py` for `ray_grid`: found by name and not in a list,
-    so that one more kind changes no file that the others' trainings depend on.
+    The class is imported by its kind's file, so that one more kind changes no file that the others'
+    trainings depend on.
 
     Raises:
         KeyError, TypeError: there is no such encoding, or it has other arguments.
@@ -23,9 +23,6 @@ def make_network(settings: dict[str, Any]) -> ShadowNetwork:
         )
     arguments = dict(settings)
     encoding = arguments.pop("encoding")
-    if not str(encoding).isidentifier() or not kind_module(encoding).is_file():
+    if encoding not in kinds(ENCODINGS):
         raise KeyError(f"encoding {encoding!r}")
-    path = kind_module(encoding)
-    module = import_module(f"neural_shadows.networks.{path.parent.name}.{path.stem}")
-    words = path.stem.split("_")
-    return getattr(module, "".join(word.capitalize() for word in words))(**arguments)
+    return kinds(ENCODINGS)[encoding].network_class()(**arguments)

@@ -12,6 +12,13 @@ PACKAGE = Path(__file__).parents[1]
 # depends on it, and an edit of a log's wording must not train a network.
 _AROUND = PACKAGE / "running" / "stage.py"
 
+# What reads the configuration and names files. A job has it as inputs and params, which Snakemake
+# compares itself: a new check must write no table anew.
+_OF_THE_GRAPH = (
+    *(PACKAGE / room for room in ("settings", "sections", "layout", "networks/settings")),
+    *(PACKAGE / "networks" / folder for folder in ("object_space/kinds", "screen_space/forms")),
+)
+
 
 @cache
 def _imported(source: Path) -> frozenset[Path]:
@@ -24,7 +31,7 @@ def _imported(source: Path) -> frozenset[Path]:
             names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
     parts = [name.split(".")[1:] for name in names if name.startswith(f"{PACKAGE.name}.")]
     paths = {PACKAGE.joinpath(*part).with_suffix(".py") for part in parts}
-    return frozenset(path for path in paths if path.is_file())
+    return frozenset(path for path in paths if path.is_file() and path.parent not in _OF_THE_GRAPH)
 
 
 def modules_of(stage: Path) -> list[Path]:
@@ -32,6 +39,9 @@ def modules_of(stage: Path) -> list[Path]:
 
     Snakemake tracks a script by its age and not what it imports. With their digest as a rule's
     param an edited module reruns the rules whose results depend on it, and no others.
+
+    Args:
+        stage: or the file of a kind of network, of which only its imports count.
 
     Returns:
         Sorted paths, without `stage.py` and what it alone imports.
@@ -41,7 +51,7 @@ def modules_of(stage: Path) -> list[Path]:
         new = _imported(queue.pop()) - found - {_AROUND}
         found |= new
         queue += new
-    return sorted(found)
+    return sorted(path for path in found if path.parent not in _OF_THE_GRAPH)
 
 
 def digest(modules: Iterable[Path]) -> str:

@@ -4,6 +4,7 @@ import faulthandler
 import inspect
 import os
 import shlex
+import signal
 import sys
 import traceback
 from collections.abc import Callable
@@ -18,8 +19,12 @@ from neural_shadows.running import origin, progress
 # which names its script.
 _RULE_ONLY = {"code", "beside", "kind"}
 
+INTERRUPTED = 130  # the shell's status of what Ctrl-C ends
 
-def run_stage(job: Any, function: Callable[..., None]) -> None:
+
+def run_stage(
+    job: Any, function: Callable[..., Any], write: Callable[..., None] | None = None
+) -> None:
     """Call a stage's function with a job's files and params by argument name.
 
     The job's log begins with what makes its results: commit, code and machine. Output goes there,
@@ -31,6 +36,7 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
         function: takes keyword arguments named as in the rule: each named input (but `beside`),
             output and param (but `code` and `kind`; those in `settings` one by one), and, if it has
             arguments of these names, `threads` and wildcards.
+        write: takes the function's result, and the outputs by name, which the function then does not.
     """
     # A name of a file that is no text must not make an error of its own.
     terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
@@ -39,13 +45,20 @@ def run_stage(job: Any, function: Callable[..., None]) -> None:
         os.dup2(log.fileno(), 1)
         os.dup2(log.fileno(), 2)
         faulthandler.enable()  # where in the job native code crashed
+        # At once and without a traceback: files are written whole or not at all.
+        signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
         sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
         progress.TERMINAL = terminal
         origin.CODE = dict(job.params.items()).get("code")
         made = origin.describe_origin()
         print(f"Made by commit {made['commit']}, code {made['code']}, {made['machine']}", file=log)
         try:
-            function(**arguments_of(job, function))
+            arguments = arguments_of(job, function)
+            if write is None:
+                function(**arguments)
+            else:
+                outputs = {name: Path(arguments.pop(name)) for name in dict(job.output.items())}
+                write(function(**arguments), **outputs)
         except Exception as error:
             # An error of these names the file and the reason, others need their type.
             kind = "" if isinstance(error, InputError | OSError) else f"{type(error).__name__}: "

@@ -26,11 +26,11 @@ def checkpoint_folder(weights: Path, header: Mapping[str, Any], code: Iterable[P
 
     Args:
         weights: `networks/<experiment>/weights.safetensors`; header: of that file.
-        code: the modules that the training is started from: its stage, and what is found by name.
+        code: the modules that the training is started from: its stage, and its network's kind.
     """
     digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
     for module in code:
-        for path in (module, *modules_of(module)):
+        for path in modules_of(module):
             digest.update(path.read_bytes())
     return weights.parents[1] / CHECKPOINTS / f"{header['name']}-{digest.hexdigest()[:16]}"
 

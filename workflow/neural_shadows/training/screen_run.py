@@ -6,13 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import torch
-from torch import Tensor, nn
+from torch import Tensor
 
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.screen_space.chunk_norm import chunk_statistics
-from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
+from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
+from neural_shadows.training.crop_places import crop_places
 from neural_shadows.training.screen_batches import ScreenFrames
-from neural_shadows.training.screen_crops import Crops, Place, crop_places
+from neural_shadows.training.screen_crops import Crops, Place
 from neural_shadows.training.screen_loss import ScreenLoss, Terms
 from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
 
@@ -33,7 +34,7 @@ class ScreenRun(TrainingState):
 
     def __init__(
         self,
-        network: nn.Module,
+        network: ScreenNetwork,
         settings: Mapping[str, Any],
         frames: ScreenFrames,
         loss: ScreenLoss,
@@ -48,7 +49,7 @@ class ScreenRun(TrainingState):
         # Made anew of the weights after each step. Under autocast each crop would: 10 ms of 60.
         self._computing = self.network.in_format(self.dtype)
         self.loss_scale = LOSS_SCALE.get(self.dtype, 1.0)
-        self._normed = isinstance(network, KernelUnet)
+        self._normed = bool(network.norms())
 
     def _places(self) -> dict[str, Tensor]:
         return super()._places() | dict(self.network.named_buffers())
@@ -129,13 +130,13 @@ class ScreenRun(TrainingState):
         settings = self.settings
         late = step >= settings["perturbation_from"] * settings["steps"]
         twins = settings["perturbation"] > 0 and late
-        told = {key: settings[key] for key in ("seed", "crops", "crop", "flips")}
-        told["lights"] = settings.get("lights")
+        drawn = {key: settings[key] for key in ("seed", "crops", "crop", "flips")}
+        drawn["lights"] = settings.get("lights")
 
         def crop(place: Place) -> Crops:
             return self.frames.crop(place, settings["crop"], settings["aligned"])
 
-        places = crop_places(self.frames, step, twins=twins, pairs=self._normed, **told)
+        places = crop_places(self.frames, step, twins=twins, pairs=self._normed, **drawn)
         crops = list(pool.map(crop, places))
         count = max(sum(int(one.valid.sum()) for one in crops), 1)
         if self.device.type == "cpu":

@@ -16,11 +16,11 @@ import torch
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import sha256_of, write_json, write_text
 from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.kind_module import form_module
 from neural_shadows.networks.screen_space.screen_networks import (
     make_screen_network,
     save_screen_network,
 )
-from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
@@ -71,7 +71,7 @@ def train_screen(
         weights: in a folder of the experiment's, with `checkpoints` beside it.
         training_json: gets the settings and what came of them: `samples` (pixels), `seconds`,
             `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them `train_mse` of as
-            many training frames as validation has, `validation_mse`, `null_mse` of what knows nothing
+            many training frames as validation has, `validation_mse`, `null_mse` of what learns nothing
             (`no_shadow`, `hard_map`, and the network's own base); `validations` on the way;
             `perceptual` (`none` for L1 alone), `perceptual_factor`.
         network: what `make_screen_network` makes it from.
@@ -90,17 +90,15 @@ def train_screen(
     model = make_screen_network(network)
     model.initialise(seed)
     frames, held_out = (ScreenFrames(paths, model.features) for paths in (train, validation))
-    if isinstance(model, ShadowUnet):
-        for place, values in zip((model.centres, model.spreads), frames.ranges()):
-            place.copy_(torch.from_numpy(values))
+    model.normalise(frames.ranges)
     _check_twins(frames, train, training)
     net = training["perceptual"]["net"]
     perceptual = None if trunk is None else Perceptual(net, trunk, chosen, dtype)
-    made = {"seed": seed, "device": chosen.type, "precision": str(dtype).removeprefix("torch.")}
+    run_on = {"seed": seed, "device": chosen.type, "precision": str(dtype).removeprefix("torch.")}
     header = {
         "name": experiment,
         "network": dict(network),
-        "training": {**training, **made},
+        "training": {**training, **run_on},
         "features": list(model.features),
         "radii": frames.about.get("given_radii", frames.about["radii"]),
         "radius_unit": frames.about.get("radius_unit", "metres"),
@@ -110,7 +108,7 @@ def train_screen(
     loss = ScreenLoss(training["alpha"], training["perturbation"], perceptual)
     run = ScreenRun(model, header["training"], frames, loss)
     digested = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
-    code = (STAGES / "train_screen.py",)
+    code = (STAGES / "train_screen.py", form_module(network["form"]))
     checkpoint = checkpoint_folder(weights, digested, code)
     with gradient_pool(threads) as pool:
         if perceptual is not None:
@@ -121,17 +119,17 @@ def train_screen(
         points = partial(_points, run, held_out, pool)
         train_to_end(run, points, experiment, checkpoint, started, "pixels")
         compute = pool.map if chosen.type == "cpu" else map
-        found = mse_by_radius(held_out, network_answer(run, held_out), compute)
-        known = null_answers(held_out).items()
+        validation_mse = mse_by_radius(held_out, network_answer(run, held_out), compute)
+        nulls = null_answers(held_out).items()
+        null_mse = {name: mse_by_radius(held_out, null, compute) for name, null in nulls}
         every = -(-len(frames) // len(held_out))  # as many as these, spread over all
-        learned = mse_by_radius(frames, network_answer(run, frames), compute, every)
-        nulls = {name: mse_by_radius(held_out, one, compute) for name, one in known}
+        train_mse = mse_by_radius(frames, network_answer(run, frames), compute, every)
 
     save_screen_network(weights, model, header)
     write_text(loss_csv, run.curve_csv())
-    errors = {"train_mse": learned, "validation_mse": found, "null_mse": nulls}
+    errors = {"train_mse": train_mse, "validation_mse": validation_mse, "null_mse": null_mse}
     result = _outcome(run) | errors
-    about = {"parameters": sum(one.numel() for one in run.weights.values()), **result}
+    about = {"parameters": sum(weight.numel() for weight in run.weights.values()), **result}
     about |= {"perceptual_factor": loss.factor if perceptual is not None else None}
     write_json(training_json, {**header, **about, **describe_origin(), "threads": threads})
 

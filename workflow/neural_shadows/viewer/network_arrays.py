@@ -6,14 +6,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from neural_shadows.networks.object_space.field_marching import SOLID
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
-from neural_shadows.networks.object_space.occupancy_field_network import (
-    SAMPLES_PER_CELL,
-    OccupancyFieldNetwork,
-)
+from neural_shadows.networks.object_space.occupancy_field_network import OccupancyFieldNetwork
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.quantisation import quantise
+from neural_shadows.representations.distance_bricks.field_marching import SAMPLES_PER_CELL, SOLID
 from neural_shadows.viewer.packed import packed
 
 SOLID_CODE = 255  # of a brick; 0 holds values, others say how many bricks may be skipped

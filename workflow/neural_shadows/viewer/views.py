@@ -11,7 +11,7 @@ from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
-from neural_shadows.reports.figures.hero_view import hero_view
+from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.scenes.cameras import VIEW_SETS, Viewpoint
 from neural_shadows.scenes.lights import arc_directions
 from neural_shadows.scenes.scene import Scene

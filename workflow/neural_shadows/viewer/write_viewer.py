@@ -13,12 +13,12 @@ from neural_shadows.evaluation.memory import network_bytes
 from neural_shadows.evaluation.shadow_methods import take_found
 from neural_shadows.files.whole_files import whole_file, write_text
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.networks.untrained.decimation import decimated
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET
 from neural_shadows.rendering.shading import AMBIENT, BACKGROUND
-from neural_shadows.reports.page_blocks import data_uri
-from neural_shadows.reports.phrases import describe_mesh, describe_run
+from neural_shadows.reports.data.phrases import describe_mesh, describe_run
+from neural_shadows.reports.page.blocks import data_uri
+from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from plate_frames import CENTRE, RADIUS, error, plate, plate_frame, plate_truth
 
-from neural_shadows.evaluation.soft_methods.denoised import BY_KEY, METHODS
-from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced, ray_traced_penumbrae
-from neural_shadows.evaluation.soft_methods.soft_method import visibility
+from neural_shadows.evaluation.method_parts.denoisers import BY_KEY
+from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced, ray_traced_penumbrae
+from neural_shadows.evaluation.soft_method import visibility
+from neural_shadows.evaluation.soft_methods.denoised import DENOISERS, METHODS
 
 # At least how many times less the squared error of two rays is.
 FALLS = {"svgf": 6, "ffx": 12, "sigma": 12, "sigma_ffx": 12, "oidn_fast": 15, "oidn": 15}
@@ -61,7 +62,7 @@ def test_a_sequence_gets_better(frame, key):
 
 def test_only_filters_with_a_history_have_sequences():
     assert {key.split("_", 2)[2] for key, one in METHODS.items() if one.sequence} == {*SEQUENCES}
-    assert {*SEQUENCES} == {*BY_KEY} - {"oidn", "oidn_fast"}
+    assert {*SEQUENCES} == {*BY_KEY} - {"oidn", "oidn_fast"} and [*DENOISERS] == [*BY_KEY]
 
 
 def test_quality_of_oidn_differs(frame):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neural_shadows.evaluation.soft_methods.depth_aware_filter import depth_aware
+from neural_shadows.evaluation.method_parts.depth_aware_filter import depth_aware
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.cameras import Camera
 

@@ -6,17 +6,13 @@ import trimesh
 from shapes import prepared, sheet
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.soft_methods import object_fields
-from neural_shadows.evaluation.soft_methods.object_field import (
+from neural_shadows.evaluation.method_parts import scene_fields
+from neural_shadows.evaluation.method_parts.object_field import (
     StoredFields,
     fitted_field,
     write_fields,
 )
-from neural_shadows.evaluation.soft_methods.object_fields import (
-    SceneFields,
-    fields_in,
-    take_stored,
-)
+from neural_shadows.evaluation.method_parts.scene_fields import SceneFields, fields_in, take_stored
 from neural_shadows.scenes.scene import make_scene
 
 UP = np.array([0.0, 1.0, 0.0])
@@ -89,8 +85,8 @@ def test_open_objects_are_traced_as_they_are():
 @pytest.fixture
 def nothing_kept(monkeypatch):
     """Neither fields of other tests, nor files."""
-    monkeypatch.setattr(object_fields, "_kept", {})
-    monkeypatch.setattr(object_fields, "_stored", [])
+    monkeypatch.setattr(scene_fields, "_kept", {})
+    monkeypatch.setattr(scene_fields, "_stored", [])
 
 
 def test_stored_fields_are_taken_and_answer_alike(tmp_path, nothing_kept, monkeypatch):
@@ -100,8 +96,8 @@ def test_stored_fields_are_taken_and_answer_alike(tmp_path, nothing_kept, monkey
     fitted = SceneFields(scene)
     write_fields(tmp_path / "fields.npz", fields_in(scene))
     take_stored([tmp_path / "fields.npz"])
-    object_fields._kept.clear()
-    monkeypatch.setattr(object_fields, "fitted_field", lambda mesh, cell: None)  # of the sheet
+    scene_fields._kept.clear()
+    monkeypatch.setattr(scene_fields, "fitted_field", lambda mesh, cell: None)  # of the sheet
     stored = SceneFields(scene)
     assert len(stored.fields) == 1
     assert np.array_equal(stored.fields[0].bricks, fitted.fields[0].bricks)

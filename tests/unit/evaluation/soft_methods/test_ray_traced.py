@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from plate_frames import CENTRE, HEIGHT, RADIUS, WIDTH, error, plate, plate_frame, plate_truth
 
-from neural_shadows.evaluation.soft_methods import ray_traced as room
-from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced
+from neural_shadows.evaluation.method_parts import ray_tracing
+from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_a_point_gets_one_ray(frame):
 
 def test_rays_in_parts_and_of_later_frames(frame, monkeypatch):
     eight = ray_traced(frame, RADIUS, samples=8)
-    monkeypatch.setattr(room, "_CHUNK", 1000)
+    monkeypatch.setattr(ray_tracing, "_CHUNK", 1000)
     assert np.array_equal(ray_traced(frame, RADIUS, samples=8), eight)
     halves = [ray_traced(replace(frame, number=k), RADIUS, samples=4) for k in (0, 1)]
     assert not np.array_equal(*halves) and np.array_equal(sum(halves) / 2, eight)

@@ -1,21 +1,27 @@
 """Every method on one frame of a plate over a ground, beside many rays."""
 
-from importlib import import_module
-
 import numpy as np
 import pytest
 import trimesh
 from shapes import prepared
 
-from neural_shadows.evaluation.soft_method_names import DENOISERS, LABELS, is_tuned
-from neural_shadows.evaluation.soft_methods.registry import method_module, soft_method
-from neural_shadows.evaluation.soft_methods.soft_method import visibility
+from neural_shadows.evaluation.soft_method import visibility
+from neural_shadows.evaluation.soft_methods.denoised import DENOISERS
+from neural_shadows.evaluation.soft_registry import (
+    LABELS,
+    METHODS,
+    NETWORK_LOOK,
+    is_tuned,
+    look_of,
+    tuned_as,
+)
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import scene_of
 from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.generators.plate import LIGHT, arrange_plate
+from neural_shadows.settings.kinds import kinds
 from neural_shadows.shadow_maps.light_map import cube_map, perspective_map
 
 CENTRE, RADIUS, SIZE = np.array([0.0, LIGHT, 0.0]), 0.1, (96, 64)
@@ -48,7 +54,6 @@ def answers_of(method, frame, radius):
         yield found
 
 
-METHODS = {key: soft_method(key) for key in LABELS}
 ASKED = [key for key, method in METHODS.items() if method.answer]
 
 
@@ -78,20 +83,26 @@ def test_soft_shadows_of_a_sphere(frame, target):
     assert errors["hard"] < nothing / 5
     for few, more in ((1, 4), (4, 16), (16, 64)):
         assert 2 * errors[f"rt_{more}"] < errors[f"rt_{few}"]
-    for denoiser, (_, counts) in DENOISERS.items():
-        for count in counts[:3]:
-            assert 4 * errors[f"rt_{count}_{denoiser}"] < errors[f"rt_{count}"]
+    for key, denoiser in DENOISERS.items():
+        for count in denoiser.counts[:3]:
+            assert 4 * errors[f"rt_{count}_{key}"] < errors[f"rt_{count}"]
 
 
-def test_every_method_of_a_module_has_a_name():
-    named = {key: method_module(key) for key in LABELS}
-    for path in set(named.values()):
-        of = import_module(f"neural_shadows.evaluation.soft_methods.{path.stem}").METHODS
-        assert of.keys() == {key for key, its in named.items() if its == path}
+def test_no_two_methods_or_looks_are_taken_for_each_other():
+    families = kinds("evaluation/soft_methods").values()
+    assert sum(len(family.METHODS) for family in families) == len(METHODS)
+    assert "" not in LABELS.values() and len({*LABELS.values()}) == len(LABELS)
+    looks = [*{*map(look_of, METHODS)}, NETWORK_LOOK]
+    for of_each in ({one.name for one in looks}, {one.symbol for one in looks}):
+        assert len(of_each) == len(looks)
+    assert len({(one.colour, one.marker) for one in looks}) == len(looks)
 
 
-def test_those_with_constants_are_tuned():
-    assert {key for key, one in METHODS.items() if one.constants} == {*filter(is_tuned, LABELS)}
+def test_constants_are_those_of_the_first_of_a_kind():
+    for key, method in METHODS.items():
+        assert is_tuned(key) == bool(method.constants)
+        assert METHODS[tuned_as(key)].constants == method.constants
+        assert tuned_as(tuned_as(key)) == tuned_as(key)
 
 
 @pytest.fixture(scope="module")

@@ -8,16 +8,20 @@ import pytest
 import torch
 
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation import screen_network_method
 from neural_shadows.evaluation.evaluate_soft import evaluate_soft
 from neural_shadows.evaluation.measure_occluders import measure_occluders, read_occluders
 from neural_shadows.evaluation.measure_sensitivity import measure_sensitivity
 from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
-from neural_shadows.evaluation.soft_method_names import is_network, is_tuned
-from neural_shadows.evaluation.soft_methods import screen_network
-from neural_shadows.evaluation.soft_methods.registry import soft_method, soft_methods_by_scene
-from neural_shadows.evaluation.soft_methods.soft_method import visibility
+from neural_shadows.evaluation.soft_method import visibility
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.soft_registry import (
+    is_network,
+    is_tuned,
+    soft_method,
+    soft_methods_by_scene,
+)
 from neural_shadows.evaluation.time_soft_methods import time_soft_methods
 from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.feature_names import NSM_FEATURES
@@ -134,8 +138,10 @@ def test_what_is_timed_is_what_is_evaluated(folder, tmp_path, form):
     off = np.abs(exact - asked)
     # A rounding moves a kernel's weights by a hundredth, no more.
     assert np.median(off) < 1e-3 and np.quantile(off, 0.99) < 0.02
-    made = screen_network.channel_images
-    with mock.patch.object(screen_network, "channel_images", lambda *told: halved(made(*told))):
+    made = screen_network_method.channel_images
+    with mock.patch.object(
+        screen_network_method, "channel_images", lambda *told: halved(made(*told))
+    ):
         rounded = frame.surface.image(visibility(method, frame, 0.25, {}), 1.0)
     assert np.allclose(rounded, asked, atol=1e-5)
 
@@ -208,7 +214,7 @@ def test_of_several_networks_each_answers_the_scene_that_it_learned(folder, tmp_
 
 
 def test_in_a_format_that_the_processor_lacks_it_has_no_answers(folder, tmp_path, monkeypatch):
-    for module in (compute, screen_network):
+    for module in (compute, screen_network_method):
         monkeypatch.setattr(module, "is_native", lambda dtype, device: dtype == torch.float32)
     weights, lpips = [folder / "tiny/weights.safetensors"], folder / "lpips.json"
     parts, lines = [folder / "blinds/test_000.json"], {}

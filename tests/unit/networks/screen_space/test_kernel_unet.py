@@ -148,7 +148,7 @@ def test_any_size_is_padded_by_its_border_and_cropped(form, size):
 @each_form
 def test_norms_that_are_folded_into_convolutions_answer_the_same(form):
     network = tiny(form)
-    x, folded = planes(network, 24, 16), network.folded()
+    x, folded = planes(network, 24, 16), network.for_inference()
     more = {"kernels": 0, "direct": 1, "full": 1}  # of the head, and of the first level's second
     assert not folded.norms() and len(network.norms()) == 9 + more[form]
     assert torch.allclose(answer(folded, x), answer(network, x), atol=1e-5)
@@ -186,7 +186,7 @@ def test_bfloat16_answers_nearly_the_same(form):
     network = tiny(form)
     x = planes(network, 32, 32)
     exact = answer(network, x)
-    for one in (network, network.folded()):
+    for one in (network, network.for_inference()):
         off = (answer(one.in_format(torch.bfloat16), x) - exact).abs().mean()
         assert 0 < off < 0.1 * exact.std()
 

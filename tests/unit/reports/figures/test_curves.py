@@ -1,4 +1,4 @@
-"""The figures of what was measured: losses, widths, costs, fronts."""
+"""The figures of what was measured: losses, widths, fronts."""
 
 from xml.etree import ElementTree
 
@@ -7,11 +7,10 @@ import pandas as pd
 import pytest
 from report_samples import row
 
+from neural_shadows.reports.drawing.chart import saying_points, write_chart
+from neural_shadows.reports.drawing.point_labels import label_points
+from neural_shadows.reports.drawing.style import new_figure, write_figure
 from neural_shadows.reports.figures import loss, pareto, widths
-from neural_shadows.reports.figures.chart import saying_points, write_chart
-from neural_shadows.reports.figures.cost import cost_figure
-from neural_shadows.reports.figures.point_labels import label_points
-from neural_shadows.reports.figures.style import new_figure, write_figure
 
 NAN = float("nan")
 
@@ -101,15 +100,6 @@ def test_widths_of_another_mesh_have_no_axes_for_the_thesis():
 def test_widths_without_lpips_have_times_alone():
     figure = widths.width_figure(widths_table(lpips=[NAN] * 5), WIDTHS, title="Widths")
     assert [axes.get_ylabel()[:10] for axes in figure.axes] == ["LPIPS as t", "frame time"]
-
-
-def test_a_line_for_each_stage_with_its_exponent():
-    sizes = {"over": "samples", "size": [10, 100, 10, 100], "stage": ["rays"] * 2 + ["labels"] * 2}
-    values = {"seconds": [1.0, 10, 2, 2], "memory_mib": [5.0, 5, 0, 0]}
-    exponents = {"seconds_exponent": [1.0, 1, 0, 0], "memory_mib_exponent": 0.0}
-    seconds, memory = cost_figure(pd.DataFrame({**sizes, **values, **exponents}), title="C").axes
-    labels = [axes.get_legend_handles_labels()[1] for axes in (seconds, memory)]
-    assert labels == [["rays (1.00)", "labels (0.00)"], ["rays (0.00)"]]  # 0 has no logarithm
 
 
 def test_front_is_what_nothing_else_undercuts():

@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 from report_samples import RUN, row
 
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
 from neural_shadows.reports.figures.learning_curves import curves_figure, draw
 from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, MEASURED
 

@@ -11,12 +11,12 @@ from scipy.ndimage import binary_opening
 from scipy.special import sph_harm_y
 from shapes import SPHERE_OF_LIGHTS, box, bumpy_sphere, scene_of, sheet
 
+from neural_shadows.evaluation.look import ORANGE
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.rays.poisson_disk import sphere_directions
+from neural_shadows.reports.drawing.mesh_slice import slice_mesh, slice_rays
+from neural_shadows.reports.drawing.preview import draw as draw_preview
 from neural_shadows.reports.figures import view_directions
-from neural_shadows.reports.figures.mesh_slice import slice_mesh, slice_rays
-from neural_shadows.reports.figures.preview import draw as draw_preview
-from neural_shadows.reports.figures.style import ORANGE
 
 SAMPLING = {"silhouette_resolution": 32, "min_quad": 1}
 SLICES = ("shadow_boundary", "dual_bounds", "dead_zone_loss")

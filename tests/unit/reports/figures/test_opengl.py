@@ -4,7 +4,7 @@ from unittest.mock import MagicMock
 
 import pytest
 
-from neural_shadows.reports.figures import opengl
+from neural_shadows.reports.drawing import opengl
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="OpenGL is part of the system")
 

@@ -4,17 +4,17 @@ import report_samples as samples
 from frame_samples import write_frames
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from neural_shadows.reports.figures import pictures
-from neural_shadows.reports.figures.pictures import picture_strip
-from neural_shadows.reports.frame_errors import (
+from neural_shadows.reports.data.frame_errors import (
     choose_crops,
     error_layer,
     graded_layer,
     with_errors,
 )
-from neural_shadows.reports.frames import Frame
-from neural_shadows.reports.method_look import look_of
-from neural_shadows.reports.tables.quality import METRICS
+from neural_shadows.reports.data.frames import Frame
+from neural_shadows.reports.data.method_look import look_of
+from neural_shadows.reports.data.quality import METRICS
+from neural_shadows.reports.figures import pictures
+from neural_shadows.reports.figures.pictures import picture_strip
 
 
 def discs(first, second):

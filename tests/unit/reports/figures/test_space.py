@@ -12,20 +12,20 @@ from shapes import SPHERE_OF_LIGHTS, Y_UP, scene_of
 from neural_shadows.evaluation.references import References, write_references
 from neural_shadows.files.whole_files import write_json
 from neural_shadows.networks.kinds import make_network
+from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
+from neural_shadows.reports.drawing import hero_view, opengl
+from neural_shadows.reports.drawing.mesh_slice import slice_mesh
 from neural_shadows.reports.figures import (
     depth_sheets_3d,
     errors_3d,
     field_3d,
     field_slice,
-    hero_view,
-    opengl,
     scene_3d,
 )
-from neural_shadows.reports.figures.mesh_slice import slice_mesh
 
 with suppress(ImportError):  # after a driver's LLVM it would crash, and torchvision imports it
     import triton  # noqa: F401
@@ -97,9 +97,7 @@ def test_the_slice_of_a_ball_is_held_at_its_surface_and_enclosed_inside(files):
     inside = RADIUS - np.hypot(*np.meshgrid(axis, axis))
     near = (inside > 0.005) & (inside < 0.02)
     np.testing.assert_allclose(logits[near], 20 * inside[near], atol=0.1)
-    assert (
-        np.isnan(logits[inside < -0.5]).all() and (logits[inside > 0.6] > field_slice.LIMIT).all()
-    )
+    assert np.isnan(logits[inside < -0.5]).all() and (logits[inside > 0.6] > LIMIT).all()
 
 
 def test_wrong_points_are_where_the_visibility_differs(files):

@@ -1,8 +1,8 @@
 import pytest
 import report_samples as samples
 
-from neural_shadows.reports.tables.comparison import write
-from neural_shadows.reports.tables.quality import METRICS
+from neural_shadows.reports.data.quality import METRICS
+from neural_shadows.reports.tables.comparison import table as make_table
 
 FIELD = samples.TRAINING | {"name": "dragon_field"}
 ROWS = [
@@ -36,7 +36,7 @@ def written(tmp_path):
         biases = {"dragon_field": (0.008, True), "shadow_map_128": (-0.002, False)}
         trainings = tmp_path / "trainings"
         return samples.written_table(
-            write,
+            make_table,
             tmp_path,
             metrics=[samples.write_metrics(tmp_path, means, views=views)],
             mesh_json=samples.write_mesh(tmp_path, **mesh),

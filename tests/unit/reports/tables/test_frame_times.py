@@ -1,8 +1,8 @@
 import pytest
 import report_samples as samples
 
-from neural_shadows.reports.tables.frame_times import write
-from neural_shadows.reports.tables.quality import METRICS
+from neural_shadows.reports.data.quality import METRICS
+from neural_shadows.reports.tables.frame_times import table as make_table
 
 ROWS = [
     samples.row("dragon", published="dragon_256"),
@@ -27,7 +27,7 @@ def written(tmp_path):
         machine = samples.MACHINE | {"gpu": "a GPU"}
         times = {**samples.TIMES, "machine": machine, "methods": methods}
         return samples.written_table(
-            write,
+            make_table,
             tmp_path,
             times=[samples.write_record(tmp_path / "frame_times/t/dragon.json", times)],
             metrics=[samples.write_metrics(tmp_path, means)],

@@ -3,8 +3,8 @@ import pandas as pd
 import pytest
 import report_samples as samples
 
-from neural_shadows.reports.tables.learning_curves import write
-from neural_shadows.reports.tables.quality import METRICS
+from neural_shadows.reports.data.quality import METRICS
+from neural_shadows.reports.tables.learning_curves import table as make_table
 
 ROWS = [
     samples.row("dragon", "Poisson", published="poisson_quadtree"),
@@ -63,7 +63,7 @@ def written(tmp_path):
         columns = ["view", "view_set", "method", "metric", "value"]
         pd.DataFrame(views, columns=columns).to_csv(metrics_csv, index=False)
         table, md = samples.written_table(
-            write,
+            make_table,
             tmp_path,
             metrics=[metrics_csv],
             losses=losses,

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 import report_samples as samples
 
-from neural_shadows.reports.tables.networks import write
-from neural_shadows.reports.tables.quality import METRICS
+from neural_shadows.reports.data.quality import METRICS
+from neural_shadows.reports.tables.networks import table as make_table
 
 ROWS = [
     samples.row("ray_traced", "Ray traced"),
@@ -68,7 +68,7 @@ def written(tmp_path):
             for file, record in zip(weights, (samples.TRAINING, BUILT))
         ]
         return samples.written_table(
-            write,
+            make_table,
             tmp_path,
             times=times,
             metrics=metrics,

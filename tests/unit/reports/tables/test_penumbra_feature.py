@@ -1,8 +1,8 @@
 """In which pixels networks of kernels are told of a penumbra, on a frame whose shadow is known."""
 
 import numpy as np
-import pandas as pd
 import pytest
+import report_samples as samples
 from screen_frames import HEIGHT, write_frames
 
 from neural_shadows.reports.tables import penumbra_feature
@@ -11,10 +11,10 @@ from neural_shadows.reports.tables import penumbra_feature
 @pytest.fixture
 def table(tmp_path):
     def made():
-        csv, md = tmp_path / "table.csv", tmp_path / "table.md"
-        told = {"title": "Widths", "run": {"scale": "test"}, "csv": csv, "md": md}
-        penumbra_feature.write(parts=[tmp_path / "train_000.json"], **told)
-        return pd.read_csv(csv).set_index("light"), md.read_text(encoding="utf-8")
+        parts, run = [tmp_path / "train_000.json"], {"scale": "test"}
+        made = penumbra_feature.table(parts=parts, title="Widths", run=run)
+        data, md = samples.written(made, tmp_path)
+        return data.set_index("light"), md.read_text(encoding="utf-8")
 
     return made
 

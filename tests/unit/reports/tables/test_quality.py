@@ -4,7 +4,7 @@ from report_samples import metrics_of, row
 from scipy import stats
 
 from neural_shadows.errors import InputError
-from neural_shadows.reports.tables.quality import METRICS, quality_table, values_by_view
+from neural_shadows.reports.data.quality import METRICS, quality_table, values_by_view
 
 ROWS = [row("shadow_map_128", "128²"), row("network", "Network")]
 METHODS = [row["method"] for row in ROWS]

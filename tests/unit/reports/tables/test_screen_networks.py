@@ -9,8 +9,8 @@ from report_samples import MACHINE, PUBLISHED, RUN, write_record, written_table
 from shipped import shipped
 
 from neural_shadows.networks.screen_space.widths import by_level, convolutions
+from neural_shadows.reports.data.published_nsm import read_published_nsm
 from neural_shadows.reports.figures.screen_level_time import draw
-from neural_shadows.reports.published_nsm import read_published_nsm
 from neural_shadows.reports.tables import screen_levels, screen_networks, screen_parts
 
 PRINTED = PUBLISHED.with_name("published_nsm.csv")
@@ -40,7 +40,7 @@ def profile(folder: Path, width=2048, height=1024) -> Path:
 
 def made(module, folder, published, **given):
     given |= {"published_nsm_csv": PRINTED, "published": published}
-    return written_table(module.write, folder, **given)
+    return written_table(module.table, folder, **given)
 
 
 def test_the_file_of_printed_numbers_is_whole():

@@ -3,11 +3,13 @@
 import json
 
 import numpy as np
-import pandas as pd
 import pytest
+import report_samples as samples
 from report_samples import PUBLISHED as THESIS_CSV
 
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
+from neural_shadows.reports.data.frame_means import describe_units
+from neural_shadows.reports.data.screen_rows import describe_trainings
 from neural_shadows.reports.figures import screen_flicker, screen_sensitivity
 from neural_shadows.reports.tables import (
     screen_depth,
@@ -17,8 +19,6 @@ from neural_shadows.reports.tables import (
     screen_steps,
     screen_temporal,
 )
-from neural_shadows.reports.tables.frame_means import describe_units
-from neural_shadows.reports.tables.screen_rows import describe_trainings
 
 PUBLISHED = THESIS_CSV.with_name("published_nsm.csv")
 RUN = {"scale": "test", "seed": 1}
@@ -62,10 +62,9 @@ def about(tmp_path):
     return path
 
 
-def written(write, tmp_path, **told):
-    csv, md = tmp_path / "table.csv", tmp_path / "table.md"
-    write(**told, csv=csv, md=md, title="Title", run=RUN)
-    return pd.read_csv(csv), md.read_text(encoding="utf-8")
+def written(make, tmp_path, **given):
+    table, md = samples.written(make(**given, title="Title", run=RUN), tmp_path)
+    return table, md.read_text(encoding="utf-8")
 
 
 def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
@@ -89,7 +88,7 @@ def test_depths_stand_beside_what_is_printed(tmp_path, trained, about):
     told = {"soft_metrics": files, "trainings": trained, "frames_json": about}
     told |= {"published_nsm_csv": PUBLISHED, "published": "nsm.1", "labels": LABELS}
     columns = {"layers_3": "three", "layers_5": "five"}
-    table, text = written(screen_depth.write, tmp_path, columns=columns, **told)
+    table, text = written(screen_depth.table, tmp_path, columns=columns, **told)
     cells = table.set_index(["row", "column"])
     assert cells["mse"].to_dict() == {
         **{("penumbra_21", "layers_3"): 0.02, ("penumbra_21", "layers_5"): 0.04},
@@ -121,7 +120,7 @@ def test_features_with_their_worth(tmp_path, trained):
     told = {"soft_metrics": files, "trainings": trained, "sensitivities": shares}
     told |= {"published_nsm_csv": PUBLISHED, "published": "nsm.s1", "labels": LABELS}
     columns = {"features_2": "three", "extraction": "five"}
-    table, text = written(screen_features.write, tmp_path, columns=columns, **told)
+    table, text = written(screen_features.table, tmp_path, columns=columns, **told)
     assert table["error"].tolist() == [0.03, 0.015] and table["channels"].tolist() == [1, 4]
     assert table["printed_error"].tolist() == [0.00686, 0.00664]  # of the table and of the text
     assert table["share_n"].tolist()[1] == 0.1 and np.isnan(table["share_n"][0])
@@ -157,12 +156,12 @@ def test_steps(tmp_path, trained):
     ]
     told = {"profiles": [path], "soft_metrics": values, "trainings": trained[1:]}
     told |= {"published_nsm_csv": PUBLISHED, "steps": STEPS, "labels": LABELS}
-    table, text = written(screen_steps.write, tmp_path, published="nsm.steps", **told)
+    table, text = written(screen_steps.table, tmp_path, published="nsm.steps", **told)
     assert table["runtime"].tolist() == [400, 100] and table["printed_runtime"].tolist() == [28, 17]
     assert table["size"].tolist() == [1, 0.5] and table["error"].tolist() == [0.006, 0.007]
     assert table["share"].tolist() == pytest.approx([2**21 * 1e4 / 0.4e12, 2**21 * 1e4 / 0.1e12])
     assert table["of_printed_size"].all() and " 6.67 |" in text
-    table, text = written(screen_steps.write, tmp_path, published=None, **told)
+    table, text = written(screen_steps.table, tmp_path, published=None, **told)
     assert table["printed_runtime"].isna().all() and "Printed" not in text and "400.0" in text
     assert "Not timed" not in text and "Without an error" not in text
 
@@ -176,7 +175,7 @@ def test_steps_in_a_format_that_the_processor_lacks(tmp_path, trained):
     ]
     told = {"profiles": [profile], "soft_metrics": values, "trainings": trained[1:]}
     told |= {"published_nsm_csv": PUBLISHED, "steps": STEPS, "labels": LABELS}
-    table, text = written(screen_steps.write, tmp_path, published="nsm.steps", **told)
+    table, text = written(screen_steps.table, tmp_path, published="nsm.steps", **told)
     half = table.set_index("row").loc["trimmed_half"]
     assert half[["runtime", "share", "error", "run"]].isna().all() and half["size"] == 0.5
     assert table["runtime"][0] == 400 and table["error"][0] == 0.006
@@ -207,7 +206,7 @@ def test_flicker_by_what_moves(tmp_path, trained, about):
     rows.append({"metric": "mse_edge", "value": 0.5})
     files = [metrics(tmp_path / "five.csv", rows)]
     told = {"soft_metrics": files, "trainings": trained[1:], "frames_json": about}
-    table, text = written(screen_temporal.write, tmp_path, labels={"five": "Five"}, **told)
+    table, text = written(screen_temporal.table, tmp_path, labels={"five": "Five"}, **told)
     assert table["label"].tolist() == ["Five", "Five + TAA"]
     assert table["e_light"].tolist() == [0.4, 0.2] and table["e_camera"].tolist() == [0.2, 0.1]
     assert table["mse_sequence"].tolist() == [0.02, 0.03] and table["mse_edge"][0] == 0.5
@@ -236,7 +235,7 @@ def test_what_was_learned_beside_what_was_not(tmp_path, trained, about):
     learned |= {"train_mse": [0.01, 0.03], "validation_mse": [0.02, None]}
     trained[1].write_text(json.dumps(json.loads(trained[1].read_text()) | learned))
     told = {"soft_metrics": files, "trainings": trained[1:], "frames_json": about}
-    table, text = written(screen_errors.write, tmp_path, labels={"five": "Five"}, **told)
+    table, text = written(screen_errors.table, tmp_path, labels={"five": "Five"}, **told)
     cells = table.set_index(["frames", "light"])
     assert cells["mse"].dropna().to_dict() == {
         **{("training", "0"): 0.01, ("training", "1"): 0.03, ("training", "all"): 0.02},
@@ -266,7 +265,7 @@ def test_a_line_over_the_solids_before_the_light(tmp_path, trained, about):
     ]
     told = {"soft_metrics": [metrics(tmp_path / "five.csv", rows)], "trainings": trained[1:]}
     told |= {"frames_json": about}
-    table, text = written(screen_solids.write, tmp_path, labels={"five": "Five"}, **told)
+    table, text = written(screen_solids.table, tmp_path, labels={"five": "Five"}, **told)
     assert table["mse"].tolist()[:2] == [0.01, 0.02] and np.isnan(table["mse"][2])
     assert table["line"].tolist() == pytest.approx([0.01, 0.02, 0.03])
     assert table["slope_low"].tolist() == pytest.approx([0.01] * 3)
@@ -279,7 +278,7 @@ def test_lights_that_a_network_did_not_learn_have_no_training_error(tmp_path, tr
     trained[1].write_text(json.dumps(json.loads(trained[1].read_text()) | learned))
     told = {"soft_metrics": [metrics(tmp_path / "five.csv", rows)], "trainings": trained[1:]}
     told |= {"frames_json": about, "labels": {"five": "Five"}}
-    table, text = written(screen_errors.write, tmp_path, **told)
+    table, text = written(screen_errors.table, tmp_path, **told)
     assert set(table["frames"]) == {"room"} and table["ratio"].isna().all()
     assert "× training" not in text.splitlines()[2]
 
@@ -317,7 +316,7 @@ def test_what_learns_nothing_is_in_the_csv_alone(tmp_path, trained, about):
     trained[1].write_text(json.dumps(json.loads(trained[1].read_text()) | learned))
     told = {"soft_metrics": files, "trainings": trained[1:], "labels": {"five": "Five"}}
     told |= {"frames_json": about}
-    table, text = written(screen_errors.write, tmp_path, **told)
+    table, text = written(screen_errors.table, tmp_path, **told)
     cells = table.set_index(["experiment", "frames", "light"])["mse"]
     assert cells["hard", "training", "all"] == cells["hard", "validation", "all"] == 0.06
     assert cells["no_shadow", "room", "1"] == 0.1 and cells["five", "room", "all"] == 0.02
@@ -325,7 +324,7 @@ def test_what_learns_nothing_is_in_the_csv_alone(tmp_path, trained, about):
     assert set(table["null"].dropna()) == {"hard", "no_shadow"}
     assert set(table["mse_off_edges"].dropna()) == {0.01, 0.02, 0.05}
     assert "Shadow map" not in text and "vacuous" in text and "MSE off edges" in text
-    table, text = written(screen_temporal.write, tmp_path, **told)
+    table, text = written(screen_temporal.table, tmp_path, **told)
     flickers = table.set_index("label")["e_light"]
     assert flickers["Shadow map"] == 0.04 and flickers["Five"] == 0.02
     assert "| Shadow map" not in text and "| Five" in text

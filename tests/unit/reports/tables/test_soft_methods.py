@@ -5,10 +5,11 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
+import report_samples as samples
 
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
+from neural_shadows.reports.drawing.shown_errors import COLUMNS
 from neural_shadows.reports.figures import soft_equal_time, soft_pictures
-from neural_shadows.reports.figures.shown_errors import COLUMNS
 from neural_shadows.reports.tables import soft_methods
 
 LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "pcss_post": "PCSS, filtered"}
@@ -60,27 +61,24 @@ def written(tmp_path):
     constants.write_text(
         json.dumps({"method": "pcss_post", "tried": {"bias": [1, 3]}, "radii": [chosen, chosen]})
     )
-    csv, md = tmp_path / "soft_methods.csv", tmp_path / "soft_methods.md"
-    soft_methods.write(
+    table = soft_methods.table(
         frames_json=frames,
         soft_metrics=paths,
         soft_times=times,
         widths_json=None,
         soft_constants=[constants],
         lpips_json=lpips,
-        csv=csv,
-        md=md,
         title="Soft shadows",
         labels=LABELS,
         left_out=["1 ray, OIDN"],
         unseen=["tree"],
         run=RUN,
     )
-    return csv, md
+    return samples.written(table, tmp_path)
 
 
 def test_means_over_frames_of_all_scenes(written):
-    table = pd.read_csv(written[0]).set_index(["method", "number"])
+    table = written[0].set_index(["method", "number"])
     # All methods of a light stand together.
     assert [*table.index] == [(name, light) for light in (0, 1) for name in LABELS]
     row = table.loc["hard", 1]
@@ -96,7 +94,7 @@ def test_means_over_frames_of_all_scenes(written):
 
 
 def test_what_looks_at_a_map_waits_for_it(written):
-    table = pd.read_csv(written[0]).set_index(["method", "number"])
+    table = written[0].set_index(["method", "number"])
     assert table.loc[("hard", 1), "ms"] == 11 and table.loc[("rt_4", 1), "ms"] == 16
     assert table.loc[("hard", 1), "bytes"] == 256 and table.loc[("rt_4", 1), "bytes"] == 0
 
@@ -114,7 +112,9 @@ def test_notes_say_constants_and_where_they_end(written):
 
 def test_error_over_time(written, tmp_path):
     outputs = tmp_path / "figure.png", tmp_path / "figure.svg"
-    soft_equal_time.draw(written[0], *outputs, title="Equal time", radii=None, run=RUN)
+    soft_equal_time.draw(
+        written[1].with_suffix(".csv"), *outputs, title="Equal time", radii=None, run=RUN
+    )
     text = outputs[1].read_text()
     assert "4 rays: MSE 300" not in text and "4 rays: MSE" in text and "16.0 ms" in text
     assert "light of 0.25 S radius" in text and "point light" not in text

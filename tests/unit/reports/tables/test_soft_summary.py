@@ -3,8 +3,8 @@
 import json
 
 import numpy as np
-import pandas as pd
 import pytest
+import report_samples as samples
 from report_samples import PUBLISHED as THESIS_CSV
 
 from neural_shadows.evaluation.soft_metrics import write_soft_metrics
@@ -52,20 +52,18 @@ def files(tmp_path):
 
 
 def summary(folder, files, **told):
-    csv, md = folder / "table.csv", folder / "table.md"
     given = {"published": "kpnsm.1", "methods": ROWS, "by": None, "metrics": ["mse", "ssim"]}
-    soft_summary.write(
+    table = soft_summary.table(
         frames_json=folder / "frames.json",
         soft_metrics=files,
         trainings=[],
         published_kpnsm_csv=PUBLISHED,
-        csv=csv,
-        md=md,
         title="Title",
         run={"scale": "test", "seed": 1},
         **{"soft_times": None, "widths_json": None, "measured": ["room", "tree"], **given, **told},
     )
-    return pd.read_csv(csv).set_index("method"), md.read_text(encoding="utf-8")
+    data, md = samples.written(table, folder)
+    return data.set_index("method"), md.read_text(encoding="utf-8")
 
 
 def test_the_mean_over_all_lights_beside_what_is_printed(tmp_path, files):

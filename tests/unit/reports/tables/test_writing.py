@@ -2,23 +2,25 @@
 
 import pandas as pd
 
-from neural_shadows.reports.page_tables import table_block
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data.table import Table, number_cells, numbers, write_table
+from neural_shadows.reports.page.table_blocks import table_block
 
 
 def test_a_bar_or_a_line_s_end_in_a_label_shifts_no_cell(tmp_path):
     columns = {
         "method": ["width 8|16", "plain\nand more"],
-        "PSNR ↑": ["30.0", "5.0"],
+        "PSNR ↑": numbers([30, 5], "{:.1f}"),
         "a|b": ["1", "2"],
     }
-    files = tmp_path / "table.csv", tmp_path / "table.md"
-    write_twins(pd.DataFrame({"a": [1]}), columns, *files, title="A table", notes=["A note."])
-    (part,) = table_block(files[1], {}).parts
+    csv, md, json = (tmp_path / f"table.{ending}" for ending in ("csv", "md", "json"))
+    write_table(Table("A table", pd.DataFrame({"a": [1]}), columns, ["A note."]), csv, md, json)
+    rows = [line for line in md.read_text().splitlines() if line.startswith("|")]
+    assert [line.replace("\\|", "").count("|") for line in rows] == [4] * 4
+    (part,) = table_block(json, {}).parts
     assert part.heads == ["method", "PSNR ↑", "a|b"]
     assert [[cell.text for cell in row] for row in part.rows] == [
         ["width 8|16", "30.0", "1"],
-        ["plain; and more", "5.0", "2"],
+        ["plain\nand more", "5.0", "2"],
     ]
     assert [row[1].best for row in part.rows] == [True, False]
 

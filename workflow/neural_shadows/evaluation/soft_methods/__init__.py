@@ -1,1 +1,1 @@
-"""Every way of answering how much of a spherical light each point of a frame sees."""
+"""Families of methods for soft shadows: how much of a spherical light each point of a frame sees."""

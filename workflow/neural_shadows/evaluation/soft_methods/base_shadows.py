@@ -1,8 +1,12 @@
-"""What networks begin with: as a frame's buffers hold it, a user's own frames' too."""
+"""Shadows that networks begin with, as a frame's buffers hold them, a user's own frames' too."""
 
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.buffers import LIT
+from neural_shadows.evaluation.look import BLACK, Look
+from neural_shadows.evaluation.soft_method import SoftMethod
 
+LOOK = Look("what networks begin with", BLACK, "<", "◄", "The map's shadow, as stored.")
+
+_LABELS = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
 METHODS = {
-    f"base_{name}": SoftMethod(channel=name, texel_floats=0, of_radius=False) for name in LIT
+    f"base_{channel}": SoftMethod(label=label, channel=channel, texel_floats=0, of_radius=False)
+    for channel, label in _LABELS.items()
 }

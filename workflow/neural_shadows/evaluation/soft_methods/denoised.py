@@ -1,161 +1,127 @@
 """Ray tracing with few rays a pixel, and what a denoiser makes of its picture."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
-from itertools import repeat
-from typing import Any
+from functools import partial
 
-import numpy as np
-
-from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx, ffx_like
-from neural_shadows.denoising.oidn import open_image_denoise
-from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma, sigma_like
-from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx, sigma_ffx_like
-from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
-from neural_shadows.denoising.temporal import TemporalFilter
-from neural_shadows.evaluation.soft_method_names import DENOISERS
-from neural_shadows.evaluation.soft_methods.ray_traced import ray_traced, ray_traced_penumbrae
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.rendering.surface import Surface
+from neural_shadows.evaluation.look import BLUE, ORANGE, PINK, SKY, YELLOW, Look
+from neural_shadows.evaluation.soft_method import SoftMethod, rays_label
 
 
 @dataclass(frozen=True)
 class Denoiser:
-    """A denoiser as methods use it: the last step, on one thread.
+    """A denoiser of `method_parts.denoisers`, after so many rays of a pixel.
 
-    Attributes:
-        single: of pictures (height, width) float32, the surface and the constants, the smooth
-            picture. They are the visibility by rays and, if `distances`, the penumbrae's radii of
-            `ray_traced_penumbrae`; lit, and −1, where there is no surface.
-        temporal: of a height, a width and the constants, what does so for frames in turn, if it
-            has a history: `next_frame` of the pictures, the surface, and where its points were.
-        tried: see `SoftMethod.constants`.
+    Args:
+        tried: its constants, see `SoftMethod`. history: whether it has one in sequences.
     """
 
-    single: Callable[..., np.ndarray]
-    temporal: Callable[..., Any] | None = None
+    label: str
+    look: Look
+    counts: Sequence[int] = (1, 2, 4)
     tried: Mapping[str, Sequence[float]] = field(default_factory=dict)
-    distances: bool = False
-
-    def pictures(self, frame: SoftFrame, radius: float, samples: int) -> tuple[np.ndarray, ...]:
-        """What it smooths, of a frame's rays."""
-        surface = frame.surface
-        if not self.distances:
-            return (surface.image(ray_traced(frame, radius, samples=samples), 1.0),)
-        visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples)
-        return surface.image(visibility, 1.0), surface.image(penumbra, -1.0)
+    history: bool = True
+    package: str | None = None
 
 
-def denoised(
-    frame: SoftFrame, radius: float, *, samples: int, denoiser: Denoiser, **constants: float
-) -> np.ndarray:
-    """Rays, then a denoiser of one frame: (n,) float32.
-
-    Args:
-        radius: of the light, in the scene's unit; a point's shadow has no noise and stays as it is.
-        samples: rays of each pixel.
-
-    Raises:
-        InputError: the denoiser's package is not installed.
-    """
-    if radius == 0:
-        return ray_traced(frame, radius, samples=samples)
-    pictures = denoiser.pictures(frame, radius, samples)
-    smooth = denoiser.single(*pictures, frame.surface, **constants)
-    return smooth.ravel()[frame.surface.pixel]
-
-
-def denoised_sequence(
-    frames: Iterable[SoftFrame],
-    radius: float,
-    *,
-    samples: int,
-    denoiser: Denoiser,
-    was: Iterable[np.ndarray | None] | None = None,
-    **constants: float,
-) -> Iterator[np.ndarray]:
-    """Rays, then a denoiser with its temporal part, of each frame in turn: (n,) float32.
-
-    Args:
-        radius, samples: see `denoised`.
-        frames: whose numbers grow. was: of each, where its points were in the one before, (n, 3), if
-            anything moved.
-    """
-    temporal = None
-    for frame, points in zip(frames, repeat(None) if was is None else was):
-        surface = frame.surface
-        if radius == 0:
-            yield ray_traced(frame, radius, samples=samples)
-            continue
-        temporal = temporal or denoiser.temporal(surface.height, surface.width, **constants)
-        pictures = denoiser.pictures(frame, radius, samples)
-        yield temporal.next_frame(*pictures, surface, points).ravel()[surface.pixel]
-
-
-# Only the last of a kind is kept: 50 MB for a million pixels, and the frames of a set have one size.
-_svgf_filter, _ffx_filter, _sigma_filter, _sigma_ffx_filter = (
-    lru_cache(maxsize=1)(kind) for kind in (SvgfFilter, FfxFilter, SigmaFilter, SigmaFfxFilter)
-)
-
-
-def _svgf(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
-    filter_ = _svgf_filter(*picture.shape, **constants)
-    return svgf_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
-
-
-def _ffx(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
-    filter_ = _ffx_filter(*picture.shape, **constants)
-    return ffx_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
-
-
-def _sigma(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
-    return sigma_like(_sigma_filter(*picture.shape, **constants), picture, penumbra, surface)
-
-
-def _sigma_ffx(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
-    filter_ = _sigma_ffx_filter(*picture.shape, **constants)
-    return sigma_ffx_like(filter_, picture, penumbra, surface)
-
-
-def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
-    return open_image_denoise(picture, surface.image(surface.n), quality=quality)
-
-
-BY_KEY = {
-    "svgf": Denoiser(_svgf, TemporalFilter, {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0)}),
-    "ffx": Denoiser(_ffx, TemporalFfx, {"sigma": (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)}),
+_OIDN = {"history": False, "package": "pyoidn"}  # which is for x86-64 alone
+_SIGMA = (0.5, 1.0, 2.0, 4.0, 8.0)
+DENOISERS = {
+    "svgf": Denoiser(
+        "SVGF-like",
+        Look(
+            "rays, SVGF-like filter", PINK, "v", "▼", "Rays, smoothed within surfaces.", joined=True
+        ),
+        (1, 2, 4, 16, 30),
+        {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0)},
+    ),
+    "ffx": Denoiser(
+        "FFX-like",
+        Look(
+            "rays, FFX-like filter",
+            SKY,
+            ">",
+            "►",
+            "Rays, smoothed within surfaces by the fewest taps.",
+            joined=True,
+        ),
+        tried={"sigma": (*_SIGMA, 16.0)},
+    ),
     "sigma": Denoiser(
-        _sigma, TemporalSigma, {"reach": (0.12, 0.25, 0.5, 0.7, 1.0, 1.4, 2.0)}, True
+        "SIGMA-like",
+        Look(
+            "rays, SIGMA-like filter",
+            BLUE,
+            "d",
+            "♦",
+            "Rays, blurred as the distances to what blocks the light ask.",
+            joined=True,
+        ),
+        tried={"reach": (0.12, 0.25, 0.5, 0.7, 1.0, 1.4, 2.0)},
     ),
     "sigma_ffx": Denoiser(
-        _sigma_ffx,
-        TemporalSigmaFfx,
-        {"reach": (0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0), "sigma": (0.5, 1.0, 2.0, 4.0, 8.0)},
-        True,
+        "SIGMA- and FFX-like",
+        Look(
+            "rays, SIGMA- and FFX-like filters",
+            YELLOW,
+            "H",
+            "⬣",
+            "Rays, blurred by distances, then smoothed within surfaces.",
+            joined=True,
+        ),
+        tried={"reach": (0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0), "sigma": _SIGMA},
     ),
-    "oidn_fast": Denoiser(partial(_oidn, quality="fast")),
-    "oidn": Denoiser(partial(_oidn, quality="high")),
+    "oidn_fast": Denoiser(
+        "OIDN fast",
+        Look(
+            "rays, Open Image Denoise fast",
+            ORANGE,
+            "x",
+            "✖",
+            "Rays, denoised by a smaller network.",
+            joined=True,
+        ),
+        **_OIDN,
+    ),
+    "oidn": Denoiser(
+        "OIDN",
+        Look(
+            "rays, Open Image Denoise",
+            ORANGE,
+            "X",
+            "✕",
+            "Rays, denoised by a network.",
+            joined=True,
+        ),
+        (1, 2, 4, 16, 30),
+        **_OIDN,
+    ),
 }
 
 
-def _method(key: str, count: int) -> SoftMethod:
-    denoiser = BY_KEY[key]
-    answer, sequence = (
-        partial(one, samples=count, denoiser=denoiser) for one in (denoised, denoised_sequence)
-    )
-    return SoftMethod(
-        answer,
-        denoiser.tried,
-        sequence=sequence if denoiser.temporal else None,
-        texel_floats=0,
-        by_rays=True,
-    )
+def _visibility(*of_frame, **settings):
+    from neural_shadows.evaluation.method_parts.denoisers import denoised
+
+    return denoised(*of_frame, **settings)
+
+
+def _sequence(*of_frames, **settings):
+    from neural_shadows.evaluation.method_parts.denoisers import denoised_sequence
+
+    return denoised_sequence(*of_frames, **settings)
 
 
 METHODS = {
-    f"rt_{count}_{key}": _method(key, count)
-    for key, (_, counts) in DENOISERS.items()
-    for count in counts
+    f"rt_{count}_{key}": SoftMethod(
+        partial(_visibility, samples=count, denoiser=key),
+        denoiser.tried,
+        f"{rays_label(count)}, {denoiser.label}",
+        package=denoiser.package,
+        look=denoiser.look,
+        sequence=partial(_sequence, samples=count, denoiser=key) if denoiser.history else None,
+        texel_floats=0,
+        by_rays=True,
+    )
+    for key, denoiser in DENOISERS.items()
+    for count in denoiser.counts
 }

@@ -1,36 +1,45 @@
 """Percentage-closer filtering by a kernel of one width (Reeves et al. 1987).
 
-A kernel fits one width of penumbra. That of k × k texels knows nothing of the light; the disc's
+A kernel fits one width of penumbra. That of k × k texels depends on nothing of the light; the disc's
 radius is tuned for each.
 """
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.shadow_maps.box_filter import box_visibility
-from neural_shadows.shadow_maps.light_filters import disc_visibility
+from neural_shadows.evaluation.look import SKY, Look
+from neural_shadows.evaluation.soft_method import SoftMethod
+
+if TYPE_CHECKING:
+    from neural_shadows.frames.soft_frame import SoftFrame
+
+LOOK = Look(
+    "percentage-closer filtering",
+    SKY,
+    "D",
+    "◆",
+    "Averages the tests round a pixel's texel; as blurred everywhere.",
+)
 
 # Times the bias of a test against one texel.
 BIASES = (0.1, 0.3, 1.0, 3.0, 10.0)
 _SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
 
 
-def _box_pcf(size: int) -> SoftMethod:
+def _box(frame: "SoftFrame", radius: float, *, size: int, bias: float) -> np.ndarray:
     """The mean of size × size bilinearly weighted tests; size is odd."""
-    answer = partial(_box, size=size)
-    return SoftMethod(answer, {"bias": BIASES}, of_radius=False)
+    from neural_shadows.shadow_maps.box_filter import box_visibility
 
-
-def _box(frame: SoftFrame, radius: float, *, size: int, bias: float) -> np.ndarray:
     biases = np.float32(bias) * frame.bias
     receivers = frame.ways, frame.surface.n_g, biases
     return box_visibility(frame.light_map, frame.depths, *receivers, size=size)
 
 
-def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.ndarray:
+def _disc(frame: "SoftFrame", radius: float, *, texels: float, bias: float) -> np.ndarray:
+    from neural_shadows.shadow_maps.light_filters import disc_visibility
+
     return disc_visibility(
         frame.light_map,
         frame.depths,
@@ -45,6 +54,11 @@ def _disc(frame: SoftFrame, radius: float, *, texels: float, bias: float) -> np.
 
 _DISC = {"texels": (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0), "bias": BIASES}
 METHODS = {
-    **{f"pcf_{size}": _box_pcf(size) for size in (3, 5, 9, 15)},
-    "pcf_disc": SoftMethod(_disc, _DISC, of_radius=False),  # but by its constants
+    **{
+        f"pcf_{size}": SoftMethod(
+            partial(_box, size=size), {"bias": BIASES}, f"PCF {size} × {size}", of_radius=False
+        )
+        for size in (3, 5, 9, 15)
+    },
+    "pcf_disc": SoftMethod(_disc, _DISC, "PCF, disc", of_radius=False),  # but by its constants
 }

@@ -5,17 +5,30 @@ makes the light larger or smaller than it is; a point light has the four tests r
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from neural_shadows.evaluation.soft_methods.depth_aware_filter import depth_aware
-from neural_shadows.evaluation.soft_methods.soft_method import SoftMethod
-from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.shadow_maps.box_filter import box_visibility
-from neural_shadows.shadow_maps.light_filters import soft_disc_visibility
+from neural_shadows.evaluation.look import BLUE, Look
+from neural_shadows.evaluation.soft_method import SoftMethod
+
+if TYPE_CHECKING:
+    from neural_shadows.frames.soft_frame import SoftFrame
+    from neural_shadows.rendering.surface import Surface
+
+LOOK = Look(
+    "percentage-closer soft shadows",
+    BLUE,
+    "P",
+    "✚",
+    "Looks for blockers first, and filters as widely as they ask.",
+)
 
 
-def _answer(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> np.ndarray:
+def _visibility(frame: "SoftFrame", radius: float, *, scale: float, bias: float) -> np.ndarray:
+    from neural_shadows.shadow_maps.box_filter import box_visibility
+    from neural_shadows.shadow_maps.light_filters import soft_disc_visibility
+
     receivers = frame.ways, frame.surface.n_g, np.float32(bias) * frame.bias
     if radius == 0:
         return box_visibility(frame.light_map, frame.depths, *receivers, size=1)
@@ -28,10 +41,18 @@ def _answer(frame: SoftFrame, radius: float, *, scale: float, bias: float) -> np
     )
 
 
-_PCSS = SoftMethod(_answer, {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)})
+def _filtered(surface: "Surface", visible: np.ndarray) -> np.ndarray:
+    from neural_shadows.evaluation.method_parts.depth_aware_filter import depth_aware
+
+    return depth_aware(surface, visible)
+
+
+_CONSTANTS = {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)}
+_PCSS = SoftMethod(_visibility, _CONSTANTS, "PCSS")
+_FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
 METHODS = {
     "pcss": _PCSS,
-    "pcss_post": replace(_PCSS, last=depth_aware),
-    "pcss_2048": replace(_PCSS, resolution=2048),
-    "pcss_2048_post": replace(_PCSS, resolution=2048, last=depth_aware),
+    "pcss_post": replace(_PCSS, label=f"{_PCSS.label}, depth-aware filter", last=_filtered),
+    "pcss_2048": _FINE,
+    "pcss_2048_post": replace(_FINE, label=f"{_FINE.label}, depth-aware filter", last=_filtered),
 }

@@ -22,36 +22,38 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.meshes.prepared_mesh import read_prepared
-from neural_shadows.networks.object_space.brick_distances import signed_distances
-from neural_shadows.networks.object_space.brick_layout import BrickLayout, lay_out
-from neural_shadows.networks.object_space.coded_field import (
-    LEVELS_PER_CELL,
-    coded,
-    decoded,
-    levels_of,
-)
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.networks.object_space.field_bricks import FieldBricks, field_bricks
-from neural_shadows.networks.object_space.field_marching import (
-    BRICK,
-    BRICK_VERTICES,
-    SOLID,
-    first_crossings,
-)
-from neural_shadows.networks.object_space.field_memory import check_memory
-from neural_shadows.networks.object_space.field_occlusion import occluded
-from neural_shadows.networks.object_space.light_tables import most_bytes
-from neural_shadows.networks.object_space.occupancy import surface_cells
 from neural_shadows.networks.object_space.shadow_network import (
-    LIT,
     LabelledBatch,
     ShadowNetwork,
     chords,
     hits,
 )
 from neural_shadows.networks.object_space.sphere_rays import SphereRays
-from neural_shadows.networks.object_space.surface_fit import fitted_distances
-from neural_shadows.networks.quantisation import pack_bits, quantise, restore_values, unpack_bits
+from neural_shadows.networks.quantisation import quantise, restore_values
+from neural_shadows.representations.depths import LIT
+from neural_shadows.representations.distance_bricks.brick_distances import REACH, signed_distances
+from neural_shadows.representations.distance_bricks.brick_layout import BrickLayout, lay_out
+from neural_shadows.representations.distance_bricks.coded_field import (
+    LEVELS_PER_CELL,
+    coded,
+    decoded,
+    levels_of,
+)
+from neural_shadows.representations.distance_bricks.field_bricks import FieldBricks, field_bricks
+from neural_shadows.representations.distance_bricks.field_marching import (
+    BRICK,
+    BRICK_VERTICES,
+    SAMPLES_PER_CELL,
+    SOLID,
+    first_crossings,
+)
+from neural_shadows.representations.distance_bricks.field_memory import check_memory
+from neural_shadows.representations.distance_bricks.field_occlusion import occluded
+from neural_shadows.representations.distance_bricks.light_tables import most_bytes
+from neural_shadows.representations.distance_bricks.surface_fit import fitted_distances
+from neural_shadows.representations.packed_bits import pack_bits, unpack_bits
+from neural_shadows.representations.voxels.occupancy import surface_cells
 from neural_shadows.scenes.tracing import Tracer
 
 # Logits end here: smoothly, so that int8 holds them. At 8 the surface blurs (−1.1 dB at 128³),
@@ -64,14 +66,7 @@ POINTS_PER_RAY = 8
 NEAR = 0.7  # of the close points' distances, in cells: a normal times an exponential variable
 SHEET_REACH = 4.0  # cells around a sheet's hit that its points lie in; farther is another surface
 
-# Of a ray along an axis. With four, the Stanford dragon at 256³ came out no better (40.2 and
-# 40.3 dB), and each sample is a look-up.
-SAMPLES_PER_CELL = 2
-
-# Signed distances end this many cells from the surface, where the logit is START_SHARE of LIMIT.
-# No farther, so that int8 has small steps, but past the vertices of a cell that the surface
-# crosses, 1.7; at 1 a logit could not be trained. Ending at 4 cells gave the same (37.6 dB).
-REACH = 2.0
+# The share of LIMIT where signed distances end; at 1 a logit could not be trained.
 START_SHARE = 0.9
 CELL_SHARE = START_SHARE / REACH  # the share of LIMIT of a distance of one cell
 # By how many cells the surface of distances may be moved out, see `ShadowNetwork.pushes`:

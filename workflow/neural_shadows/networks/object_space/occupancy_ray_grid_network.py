@@ -11,10 +11,10 @@ import torch
 from torch import Tensor
 
 from neural_shadows.meshes.prepared_mesh import read_prepared
-from neural_shadows.networks.object_space.occupancy import surface_cells
 from neural_shadows.networks.object_space.ray_grid_network import RayGridNetwork
 from neural_shadows.networks.object_space.shadow_network import chords
-from neural_shadows.networks.quantisation import pack_bits, unpack_bits
+from neural_shadows.representations.packed_bits import pack_bits, unpack_bits
+from neural_shadows.representations.voxels.occupancy import surface_cells
 
 
 class OccupancyRayGridNetwork(RayGridNetwork):

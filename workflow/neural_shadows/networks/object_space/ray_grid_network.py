@@ -9,13 +9,13 @@ from torch import Tensor, nn
 
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.shadow_network import (
-    LIT,
     LabelledBatch,
     ShadowNetwork,
     chords,
     hits,
 )
 from neural_shadows.networks.quantisation import quantise, restore_values
+from neural_shadows.representations.depths import LIT
 
 # Of the cross-entropy of hit or miss, beside the dead-zone loss, which is in sphere radii and so
 # the smaller of the two. Not tuned.

@@ -25,12 +25,6 @@ class LabelledBatch(NamedTuple):
     t_ub: Tensor  # (n,), may be ∞
 
 
-# t_pred of a ray without shadow: a diameter, which no point's min(s, ℓ) exceeds. Not ℓ itself:
-# found from o and d it differs from the point's own ℓ by a rounding, and without a depth bias a
-# tenth of the points behind a ray that misses were in shadow.
-LIT = 2.0
-
-
 def chords(origins: Tensor, directions: Tensor) -> Tensor:
     """ℓ = −2 o·d of each ray, the length of its chord of the unit sphere: (n,)."""
     return -2 * (origins * directions).sum(1)
@@ -44,8 +38,8 @@ def hits(batch: LabelledBatch) -> Tensor:
 class ShadowNetwork(nn.Module, ABC):
     """A function t_pred(o, d), of trained weights or not: behind that depth, all is in shadow.
 
-    A kind of network is a subclass in a module of its own, see `networks/kinds.py`; its
-    arguments are a model in `config/networks.py`.
+    A kind of network is a file of `object_space/kinds`, with the settings that are its class's
+    arguments, and that class, a subclass, in a module of its own.
     """
 
     # Rays per forward and backward pass on a CPU, at most: at 256 wide one layer's activations

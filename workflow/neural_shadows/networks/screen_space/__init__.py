@@ -1,1 +1,1 @@
-"""Networks that answer a whole frame from its buffers (Datta et al. 2022)."""
+"""Networks of whole frames, from buffers to visibility (Datta et al. 2022)."""

@@ -1,4 +1,4 @@
-"""Neural Shadow Mapping's network with an exponent for its answer (Datta et al. 2022, S6)."""
+"""Neural Shadow Mapping's network with an exponent for its output (Datta et al. 2022, S6)."""
 
 import math
 from collections.abc import Sequence
@@ -7,18 +7,28 @@ from typing import Any
 import torch
 from torch import Tensor
 
-from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.frames.feature_names import channels_of
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
 
 BEHIND = "behind"
-DARKEST = 1 / 256  # what is darker is so dark in logarithms; the text does not say
+DARKEST = 1 / 256  # what is darker is so dark in logarithms; not in the text
+
+
+def trimmed_network(*, answer: str = "visibility", **settings: Any) -> ShadowUnet:
+    """A trimmed network of visibility or of an exponent.
+
+    Raises:
+        KeyError, TypeError, ValueError: an argument is missing, unknown or wrong.
+    """
+    return {"visibility": ShadowUnet, "exponent": ExponentUnet}[answer](**settings)
 
 
 class ExponentUnet(ShadowUnet):
-    """It answers α, and visibility is exp(−α b), b the distance behind what the light's map shows.
+    """Visibility exp(−α b) from a learned α.
 
-    An exponential shadow map (Annen et al. 2008) whose sharpness is learned. A training compares
-    logarithms: 1 − α b / ln 256 with that of the target, from 0 at `DARKEST` to 1 where all is lit.
+    b is the distance behind what the light's map shows. An exponential shadow map (Annen et al.
+    2008) whose sharpness is learned. A training compares logarithms: 1 − α b / ln 256 with that of
+    the target, from 0 at `DARKEST` to 1 where all is lit.
 
     Args:
         features: see `ShadowUnet`; `behind` is among them.
@@ -27,11 +37,11 @@ class ExponentUnet(ShadowUnet):
         ValueError: it is not.
     """
 
-    def __init__(self, form: str, widths: Sequence, features: Sequence[str], **told: Any):
+    def __init__(self, form: str, widths: Sequence, features: Sequence[str], **settings: Any):
         if BEHIND not in features:
             raise ValueError(f"an exponent needs the feature {BEHIND!r}; there is {list(features)}")
-        super().__init__(form, widths, features, **told)
-        self._behind = sum(FEATURES[name] for name in features[: features.index(BEHIND)])
+        super().__init__(form, widths, features, **settings)
+        self._behind = channels_of(features[: features.index(BEHIND)])
 
     def learned(self, x: Tensor) -> Tensor:
         """Logarithms of visibility as a training compares them, (B, 1, H, W) float32."""
@@ -39,7 +49,7 @@ class ExponentUnet(ShadowUnet):
         return 1 - sharpness * x[:, self._behind : self._behind + 1]
 
     def aim(self, target: Tensor) -> Tensor:
-        """What `learned` is to be, of visibility (B, 1, H, W)."""
+        """The target of `learned`, of visibility (B, 1, H, W)."""
         return 1 - target.clamp(min=DARKEST).log() / math.log(DARKEST)
 
     def forward(self, x: Tensor) -> Tensor:

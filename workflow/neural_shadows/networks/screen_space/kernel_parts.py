@@ -1,4 +1,4 @@
-"""What networks of kernels are built of, each a module, so that each can be timed."""
+"""Parts of networks of kernels, each a module to be timed."""
 
 from collections.abc import Sequence
 
@@ -14,20 +14,22 @@ from neural_shadows.networks.screen_space.widths import Convolution
 
 
 class KernelLevel(nn.Module):
-    """What a level but the deepest does: on the way down, and on the way up."""
+    """A level but the deepest, on the way down and up."""
 
     def __init__(self, layers: Sequence[Convolution]):
         super().__init__()
         self.encoder = normed(layers, "encoder")
         self.downsample = nn.MaxPool2d(2)
-        (raised,) = (one for one in layers if one.part == "upsample")
+        (raised,) = (layer for layer in layers if layer.part == "upsample")
         self.upsample = nn.ConvTranspose2d(raised.inputs, raised.outputs, 2, stride=2)
         self.skip = Sum()
         self.decoder = normed(layers, "decoder")
 
 
 class PlanesOfLogits(nn.Conv2d):
-    """A 1 × 1 convolution whose answer lies channel by channel, as the filter reads it.
+    """A 1 × 1 convolution with output channel by channel.
+
+    So the filter reads it.
 
     From channels-last to there a copy takes 8 ms of 256 × 128 pixels, 320 ms of 1024 × 512; as a
     product of matrices it needs none.
@@ -47,8 +49,8 @@ class PlanesOfLogits(nn.Conv2d):
     def forward(self, x: Tensor) -> Tensor:
         """(B, channels, H, W), contiguous."""
         weight, bias = self.weight.flatten(1), self.bias[:, None]
-        found = [torch.addmm(bias, weight, image.flatten(1)).view(-1, *x.shape[2:]) for image in x]
-        return torch.stack(found) if len(found) > 1 else found[0][None]
+        planes = [torch.addmm(bias, weight, image.flatten(1)).view(-1, *x.shape[2:]) for image in x]
+        return torch.stack(planes) if len(planes) > 1 else planes[0][None]
 
 
 class PixelKernels(nn.Module):
@@ -65,15 +67,13 @@ class PixelKernels(nn.Module):
 
 def normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:
     """The convolutions of a part, with a norm and a ReLU after each; a 3 × 3 has no bias."""
-    found: list[nn.Module] = []
-    for one in layers:
-        if one.part == part:
-            wide = one.size > 1
-            made = nn.Conv2d(
-                one.inputs, one.outputs, one.size, padding=one.size // 2, bias=not wide
-            )
-            found += [made, ChunkNorm(one.outputs), nn.ReLU(inplace=True)]
-    return nn.Sequential(*found)
+    modules: list[nn.Module] = []
+    for layer in layers:
+        if layer.part == part:
+            size, outputs = layer.size, layer.outputs
+            convolution = nn.Conv2d(layer.inputs, outputs, size, padding=size // 2, bias=size == 1)
+            modules += [convolution, ChunkNorm(outputs), nn.ReLU(inplace=True)]
+    return nn.Sequential(*modules)
 
 
 def fold(block: nn.Sequential) -> None:

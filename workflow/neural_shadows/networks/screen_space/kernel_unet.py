@@ -1,4 +1,7 @@
-"""The network of Kernel Predicting Neural Shadow Maps: from a frame's planes to kernels, or visibility."""
+"""The network of Kernel Predicting Neural Shadow Maps.
+
+From a frame's planes to kernels, or to visibility.
+"""
 
 from collections.abc import Sequence
 from copy import deepcopy
@@ -7,7 +10,7 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.frames.feature_names import FEATURES, base_of
-from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm, Statistics
+from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm
 from neural_shadows.networks.screen_space.kernel_parts import (
     KernelLevel,
     PixelKernels,
@@ -17,19 +20,20 @@ from neural_shadows.networks.screen_space.kernel_parts import (
 )
 from neural_shadows.networks.screen_space.kernel_widths import FIRST_LEVELS, kernel_convolutions
 from neural_shadows.networks.screen_space.layers import doubled, down_and_up, initialise, padded
+from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 
 _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
 
 
-class KernelUnet(nn.Module):
+class KernelUnet(ScreenNetwork):
     """A U-Net with batch norms and sums for skips (Hu et al. 2025, 4.2.1, and its code).
 
     The last 1 × 1 convolution of the kernels computes before the bilinear enlargement, at half the
     resolution: both orders are equal, and this one is a quarter of the work.
 
     Args:
-        form: `kernels`, which filter the one of its features in BASES; `direct`, which answers
-            visibility itself: the paper's form of Neural Shadow Mapping.
+        form: `kernels`, which filter the one of its features in BASES; `direct`, with
+            visibility itself for its output: the paper's form of Neural Shadow Mapping.
         widths: channels of each level, from that of half the frame's resolution, or with full ends
             from that of the frame's own.
         features: names in FEATURES; their planes are the input, in this order, without any scaling.
@@ -64,24 +68,24 @@ class KernelUnet(nn.Module):
         self.multiple = 2**last_level
         self.entrance = nn.PixelUnshuffle(2) if self._first else nn.Identity()
         numbers = range(self._first, last_level + 1)
-        of_level = [[one for one in layers if one.level == k] for k in numbers]
-        self.levels = nn.ModuleList(KernelLevel(one) for one in of_level[:-1])
+        of_level = [[layer for layer in layers if layer.level == k] for k in numbers]
+        self.levels = nn.ModuleList(KernelLevel(level) for level in of_level[:-1])
         self.deepest = normed(of_level[-1], "encoder")
-        last = [one for one in layers if one.part == "head"]
+        last = [layer for layer in layers if layer.part == "head"]
         if form == "kernels":
             self.head = PlanesOfLogits(last[0].inputs, last[0].outputs, 1)
             self.exit = PixelKernels(2**self._first)
         else:
-            before, answer = (
+            before, output = (
                 nn.Conv2d(x.inputs, x.outputs, x.size, padding=x.size // 2) for x in last
             )
             norm = ChunkNorm(last[0].outputs)
-            self.head = nn.Sequential(before, norm, nn.ReLU(inplace=True), answer)
+            self.head = nn.Sequential(before, norm, nn.ReLU(inplace=True), output)
             self.exit = doubled()
         self.initialise(seed)
 
     def initialise(self, seed: int) -> None:
-        """Set the weights that a training starts from: the same of a seed, everywhere."""
+        """Set the first weights: the same of a seed, everywhere."""
         generator = torch.Generator().manual_seed(seed)
         for layer in self.modules():
             if isinstance(layer, _CONVOLUTIONS):
@@ -103,39 +107,35 @@ class KernelUnet(nn.Module):
         return self.head(self.exit(inner))[..., :height, :width].float()
 
     def learned(self, x: Tensor) -> Tensor:
-        """What a training compares: visibility."""
+        """Visibility, for a training's loss."""
         return self(x)
-
-    def aim(self, target: Tensor) -> Tensor:
-        """What `learned` is to be, of visibility: that itself."""
-        return target
 
     @property
     def reach(self) -> int:
-        """Pixels of a side that an answer hangs on by its kernels; 1 of the direct form."""
+        """Pixels of a side of its kernels; 1 of the direct form."""
         return 1 + 4 * (2**self.filters - 1) if self.form == "kernels" else 1
 
     def inner(self, x: Tensor) -> Tensor:
-        """What the head is given, of padded planes: (B, C, h, w) at the resolution of its ends."""
+        """Input of the head: (B, C, h, w) at its ends' resolution."""
         x = padded(x.to(next(self.parameters()).dtype), self.multiple)
         return down_and_up(self.levels, self.deepest, self.entrance(x))
 
     def hidden(self) -> list[str]:
-        """Names of the weights of all convolutions but the first and the last."""
-        found = [name for name, one in self.named_modules() if isinstance(one, _CONVOLUTIONS)]
-        ends = {found[0], "head" if self.form == "kernels" else "head.3"}
-        return [f"{name}.weight" for name in found if name not in ends]
+        """Names of all convolutions' weights but the first and last."""
+        names = [name for name, part in self.named_modules() if isinstance(part, _CONVOLUTIONS)]
+        ends = {names[0], "head" if self.form == "kernels" else "head.3"}
+        return [f"{name}.weight" for name in names if name not in ends]
 
     def in_format(self, dtype: torch.dtype) -> "KernelUnet":
-        """A copy whose convolutions compute in a number format; norms keep theirs, float32."""
+        """A copy with its convolutions in a number format, norms in float32."""
         copied = deepcopy(self).to(memory_format=torch.channels_last)
         for layer in copied.modules():
             if isinstance(layer, _CONVOLUTIONS):
                 layer.to(dtype)
         return copied
 
-    def folded(self) -> "KernelUnet":
-        """A copy for answers alone: each norm is part of the convolution before it."""
+    def for_inference(self) -> "KernelUnet":
+        """A copy with each norm in the convolution before it."""
         copied = deepcopy(self)
         for block in copied.modules():
             if isinstance(block, nn.Sequential):
@@ -143,27 +143,22 @@ class KernelUnet(nn.Module):
         return copied
 
     def norms(self) -> list[ChunkNorm]:
-        """In the order in which they compute."""
+        """Batch norms in the order of their computation."""
         levels = [*self.levels]
-        blocks = [one.encoder for one in levels] + [self.deepest]
-        blocks += [one.decoder for one in reversed(levels)] + [self.head]
+        blocks = [level.encoder for level in levels] + [self.deepest]
+        blocks += [level.decoder for level in reversed(levels)] + [self.head]
         return [
             layer for block in blocks for layer in block.modules() if isinstance(layer, ChunkNorm)
         ]
 
-    def update_norms(self, chunks: Sequence[Sequence[Statistics]]) -> None:
-        """Move the running statistics to those of a step, what `chunk_statistics` gave of its chunks."""
-        for norm, *seen in zip(self.norms(), *chunks, strict=True):
-            norm.update(seen)
-
     def parts(self) -> dict[tuple[int, str], nn.Module]:
-        """The modules that do the work of each level, by level and part.
+        """Modules by level and part.
 
         Parts: `entrance`, `exit` (level 0), `encoder`, `downsample`, `upsample`, `skip`, `decoder`,
         `head` (the first level of kernels, level 0 of the direct form).
         """
-        found = {(0, "entrance"): self.entrance, (0, "exit"): self.exit}
+        parts = {(0, "entrance"): self.entrance, (0, "exit"): self.exit}
         for number, level in enumerate(self.levels, self._first):
-            found |= {(number, name): part for name, part in level.named_children()}
-        found[(self._first + len(self.levels), "encoder")] = self.deepest
-        return found | {(self._first * (self.form == "kernels"), "head"): self.head}
+            parts |= {(number, name): part for name, part in level.named_children()}
+        parts[(self._first + len(self.levels), "encoder")] = self.deepest
+        return parts | {(self._first * (self.form == "kernels"), "head"): self.head}

@@ -1,37 +1,35 @@
-"""The convolutions of networks that predict kernels (Hu et al. 2025, 4.2.1, and its code).
+"""Convolutions of networks of kernels (Hu et al. 2025, 4.2.1, and its code).
 
 Level 1 is the first, where 2 × 2 pixels are channels; with full ends, which the paper replaced by
 these, level 0. Counts are those of `widths.py`.
 """
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
-from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.networks.screen_space.widths import Convolution, convolutions
+from neural_shadows.networks.screen_space.widths import Convolution
 
-KERNEL_FORMS = ("kernels", "direct")
+FORMS = ("kernels", "direct")
 FIRST_LEVELS = {"half": 1, "full": 0}  # by the resolution of a network's ends
 KERNEL_TAPS = 25  # of each of a pixel's kernels
-_BEFORE_LAST = 16  # channels in front of the direct form's answer
+_BEFORE_LAST = 16  # channels in front of the direct form's output
 
 
 def kernel_convolutions(
     form: str, widths: Sequence[int], channels: int, filters: int, ends: str = "half"
 ) -> list[Convolution]:
-    """All convolutions of a network, in the order in which they compute.
+    """All convolutions of a network, in the order of computation.
 
     Args:
-        form: `kernels`, or `direct`, which answers visibility itself.
-        widths: channels of each level, from the first. channels: that the network is given.
+        form: `kernels`, or `direct`, with visibility itself for its output.
+        widths: channels of each level, from the first. channels: of its input.
         filters: how many kernels a pixel has; of no account in the direct form.
         ends: one of `FIRST_LEVELS`; of the direct form `half`.
 
     Raises:
         KeyError, ValueError: there are no such ends, or there is no such form.
     """
-    if form not in KERNEL_FORMS:
-        raise ValueError(f"form {form!r} is not among {', '.join(KERNEL_FORMS)}")
+    if form not in FORMS:
+        raise ValueError(f"form {form!r} is not among {', '.join(FORMS)}")
     first = FIRST_LEVELS[ends]
     down, up = [Convolution(1, "encoder", 1, 4 * channels, widths[0])], []
     if ends == "full":  # a level as all others are
@@ -52,15 +50,5 @@ def kernel_convolutions(
     )
 
 
-def layers_of(settings: Mapping[str, Any]) -> list[Convolution]:
-    """The convolutions of an entry of the config's `screen_networks`, of any form."""
-    form, widths = settings["form"], settings["widths"]
-    channels = sum(FEATURES[name] for name in settings["features"])
-    if form in KERNEL_FORMS:
-        told = settings.get("filters", 0), settings.get("ends", "half")
-        return kernel_convolutions(form, widths, channels, *told)
-    return convolutions(form, widths, channels, settings.get("extraction"))
-
-
 def _pair(level: int, part: str, inputs: int, outputs: int) -> list[Convolution]:
-    return [Convolution(level, part, 3, one, outputs) for one in (inputs, outputs)]
+    return [Convolution(level, part, 3, into, outputs) for into in (inputs, outputs)]

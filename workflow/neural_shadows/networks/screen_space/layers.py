@@ -1,4 +1,4 @@
-"""What the networks of a whole frame are built of, each a module, so that each can be timed."""
+"""Parts of networks of whole frames, each a module to be timed."""
 
 from collections.abc import Sequence
 
@@ -82,14 +82,13 @@ def down_and_up(levels: nn.ModuleList, deepest: nn.Module, x: Tensor) -> Tensor:
 
 def stacked(layers: Sequence[Convolution], linear_end: bool = False) -> nn.Sequential:
     """Convolutions with a ReLU after each, but for the last if the end is linear."""
-    found: list[nn.Module] = []
+    modules: list[nn.Module] = []
     for layer in layers:
-        found.append(made(layer))
-        found.append(nn.ReLU(inplace=True))
-    return nn.Sequential(*(found[:-1] if linear_end else found))
+        modules += [module_of(layer), nn.ReLU(inplace=True)]
+    return nn.Sequential(*(modules[:-1] if linear_end else modules))
 
 
-def made(layer: Convolution) -> nn.Module:
+def module_of(layer: Convolution) -> nn.Module:
     """The module of a convolution."""
     if layer.transposed:
         return nn.ConvTranspose2d(layer.inputs, layer.outputs, layer.size, stride=layer.size)

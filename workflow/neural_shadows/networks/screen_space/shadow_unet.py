@@ -1,12 +1,13 @@
-"""The network of Neural Shadow Mapping in all its forms: from a frame's buffers to visibility."""
+"""The network of Neural Shadow Mapping in all its forms."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import deepcopy
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
-from neural_shadows.frames.feature_names import FEATURES
+from neural_shadows.frames.feature_names import channels_of
 from neural_shadows.networks.screen_space.layers import (
     Concatenation,
     Halved,
@@ -18,6 +19,7 @@ from neural_shadows.networks.screen_space.layers import (
     padded,
     stacked,
 )
+from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 from neural_shadows.networks.screen_space.widths import (
     Convolution,
     Widths,
@@ -30,11 +32,11 @@ POOLS = {"average": nn.AvgPool2d, "max": nn.MaxPool2d}
 
 
 class Level(nn.Module):
-    """What a level but the deepest does: on the way down, and on the way up."""
+    """A level but the deepest, on the way down and up."""
 
     def __init__(self, layers: Sequence[Convolution], pool: str, skip: nn.Module | None, end: bool):
         super().__init__()
-        parts = {name: [one for one in layers if one.part == name] for name in PARTS_OF_LAYERS}
+        parts = {name: [each for each in layers if each.part == name] for name in PARTS_OF_LAYERS}
         self.encoder = stacked(parts["encoder"])
         self.downsample = POOLS[pool](2)
         # Transposed convolutions have no activation of their own.
@@ -46,7 +48,7 @@ class Level(nn.Module):
 PARTS_OF_LAYERS = ("encoder", "upsample", "decoder")
 
 
-class ShadowUnet(nn.Module):
+class ShadowUnet(ScreenNetwork):
     """A U-Net from a table of widths (Datta et al. 2022, 3.5, S3, S4.1).
 
     Args:
@@ -61,7 +63,7 @@ class ShadowUnet(nn.Module):
         seed: of the first weights.
 
     From channels `centres` are taken, and what is left is divided by `spreads`: means and standard
-    deviations over a training's frames, which it sets. The latter differ by 60 times; and of a ratio
+    deviations over a training's frames, see `normalise`. The latter differ by 60 times; and of a ratio
     near 1 bfloat16 would leave steps of 0.004, more than most shadows' rims are away from it. So it
     takes float32, whatever format it computes in: that of its weights, see `in_format`.
 
@@ -81,51 +83,52 @@ class ShadowUnet(nn.Module):
     ):
         super().__init__()
         self.features = tuple(features)
-        channels = sum(FEATURES[name] for name in self.features)
+        channels = channels_of(self.features)
         layers = convolutions(form, widths, channels, extraction)
         first, deepest = first_level(form), deepest_level(form, widths)
         original = form == "original"
         self.first, self.multiple = first, 2**deepest
-        reduced = [one for one in layers if one.part == "extraction"]
+        reduced = [layer for layer in layers if layer.part == "extraction"]
         self.extraction = stacked(reduced, linear_end=True) if reduced else None
         self.entrance = {"shuffle": nn.PixelUnshuffle(2), "half": Halved()}.get(form)
         self.exit = {"shuffle": SquareOfPixels(), "half": doubled()}.get(form)
         self.levels = nn.ModuleList(
             Level(
-                [one for one in layers if one.level == level and one.part != "extraction"],
+                [each for each in layers if each.level == level and each.part != "extraction"],
                 "max" if original else pool,
                 Concatenation() if original else Sum() if level or first_skip else None,
                 end=level == first,
             )
             for level in range(first, deepest)
         )
-        self.deepest = stacked([one for one in layers if one.level == deepest])
+        self.deepest = stacked([layer for layer in layers if layer.level == deepest])
         self.register_buffer("centres", torch.zeros(channels))
         self.register_buffer("spreads", torch.ones(channels))
         self.initialise(seed)
 
     def initialise(self, seed: int) -> None:
-        """Set the weights that a training starts from: the same of a seed, everywhere.
+        """Set the first weights: the same of a seed, everywhere.
 
         The output starts about a half: its bias is 0.5, of four that of the first.
         """
         generator = torch.Generator().manual_seed(seed)
-        found = [one for one in self.modules() if isinstance(one, nn.Conv2d | nn.ConvTranspose2d)]
-        for layer in found:
-            initialise(layer, generator)
+        for layer in self.modules():
+            if isinstance(layer, nn.Conv2d | nn.ConvTranspose2d):
+                initialise(layer, generator)
         with torch.no_grad():
             self.levels[0].decoder[-1].bias[0] = 0.5
 
     def forward(self, x: Tensor) -> Tensor:
-        """Visibility, not cut off at 0 and 1: (B, 1, H, W) of features (B, C, H, W), any H and W."""
+        """Visibility, not cut off at 0 and 1: (B, 1, H, W)."""
         return self.learned(x)
 
-    def aim(self, target: Tensor) -> Tensor:
-        """What `learned` is to be, of visibility: that itself."""
-        return target
+    def normalise(self, ranges: Callable[[], tuple[np.ndarray, np.ndarray]]) -> None:
+        """Take means as `centres` and standard deviations as `spreads`."""
+        for place, values in zip((self.centres, self.spreads), ranges()):
+            place.copy_(torch.from_numpy(values))
 
     def learned(self, x: Tensor) -> Tensor:
-        """What a training compares: visibility."""
+        """Visibility, for a training's loss."""
         x = (x - self.centres[:, None, None]) / self.spreads[:, None, None]
         x = x.to(next(self.parameters()).dtype)
         height, width = x.shape[-2:]
@@ -137,27 +140,27 @@ class ShadowUnet(nn.Module):
         return x[..., :height, :width]
 
     def hidden(self) -> list[str]:
-        """Names of the weights of all convolutions but the first and the last."""
+        """Names of all convolutions' weights but the first and last."""
         layers = (nn.Conv2d, nn.ConvTranspose2d)
-        found = [name for name, one in self.named_modules() if isinstance(one, layers)]
+        names = [name for name, part in self.named_modules() if isinstance(part, layers)]
         last = f"levels.0.decoder.{len(self.levels[0].decoder) - 1}"
-        return [f"{name}.weight" for name in found[1:] if name != last]
+        return [f"{name}.weight" for name in names[1:] if name != last]
 
     def in_format(self, dtype: torch.dtype) -> "ShadowUnet":
-        """A copy that computes in a number format; centres and spreads stay as they are."""
+        """A copy in a number format, but for centres and spreads."""
         copied = deepcopy(self).to(memory_format=torch.channels_last)
         for weight in copied.parameters():
             weight.data = weight.data.to(dtype)
         return copied
 
     def parts(self) -> dict[tuple[int, str], nn.Module]:
-        """The modules that do the work of each level, by level and part.
+        """Modules by level and part.
 
         Parts: `extraction`, `entrance`, `exit` (level 0), `encoder`, `downsample`, `upsample`,
         `skip`, `decoder`.
         """
-        found = {(0, name): getattr(self, name) for name in ("extraction", "entrance", "exit")}
+        parts = {(0, name): getattr(self, name) for name in ("extraction", "entrance", "exit")}
         for number, level in enumerate(self.levels, self.first):
-            found |= {(number, name): part for name, part in level.named_children()}
-        found[(self.first + len(self.levels), "encoder")] = self.deepest
-        return {place: part for place, part in found.items() if part is not None}
+            parts |= {(number, name): part for name, part in level.named_children()}
+        parts[(self.first + len(self.levels), "encoder")] = self.deepest
+        return {place: part for place, part in parts.items() if part is not None}

@@ -1,4 +1,4 @@
-"""From a table of widths to the convolutions of a network, and what these count up to.
+"""Convolutions of a network from its table of widths, and their counts.
 
 Tables S2, S4 and S5 of Datta et al. 2022 determine every layer. A level of the trimmed network is a
 3 × 3 convolution (in → mid) and a 1 × 1 (mid → out) on the way down, and the same on the way up, where
@@ -62,11 +62,11 @@ def outputs_of(form: str) -> int:
 def convolutions(
     form: str, widths: Widths, channels: int, extraction: int | None = None
 ) -> list[Convolution]:
-    """All convolutions of a network, in the order in which they compute.
+    """All convolutions of a network, in the order of computation.
 
     Args:
         form: one of `FORMS`. widths: of each level, from the first.
-        channels: that the network is given.
+        channels: of its input.
         extraction: hidden channels of a learned reduction to `EXTRACTED`; None for none.
 
     Raises:
@@ -74,16 +74,16 @@ def convolutions(
     """
     if form not in FORMS:
         raise ValueError(f"form {form!r} is not among {', '.join(FORMS)}")
-    found = []
+    reduction = []
     if extraction is not None:
-        found += [
+        reduction += [
             Convolution(0, "extraction", 1, channels, extraction),
             Convolution(0, "extraction", 1, extraction, EXTRACTED),
         ]
         channels = EXTRACTED
     channels *= 4 if form == "shuffle" else 1
     layers = _original if form == "original" else _trimmed
-    return found + layers(form, widths, channels)
+    return reduction + layers(form, widths, channels)
 
 
 def _trimmed(form: str, widths: Widths, channels: int) -> list[Convolution]:
@@ -126,10 +126,10 @@ def _original(form: str, widths: Widths, channels: int) -> list[Convolution]:
 
 def by_level(layers: Sequence[Convolution], quantity: str) -> dict[int, float]:
     """The sum of `weights`, `macs` or `storage` over the convolutions of each level."""
-    found = dict.fromkeys(sorted({layer.level for layer in layers}), 0.0)
+    sums = dict.fromkeys(sorted({layer.level for layer in layers}), 0.0)
     for layer in layers:
-        found[layer.level] += getattr(layer, quantity)
-    return found
+        sums[layer.level] += getattr(layer, quantity)
+    return sums
 
 
 def total(layers: Sequence[Convolution], quantity: str) -> float:

@@ -1,1 +1,1 @@
-"""Rivals of the networks: what answers the same query without any training."""
+"""Rivals of the networks for the same query, without any training."""

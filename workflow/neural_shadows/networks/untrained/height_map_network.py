@@ -1,6 +1,7 @@
-"""Height map: the heights of a landscape over a grid; a ray ends where it crosses their surface.
+"""Height map: the heights of a landscape over a grid.
 
-What such an object is usually held as. Nothing is trained.
+A ray ends where it crosses their surface. What such an object is usually held as. Nothing is
+trained.
 """
 
 from pathlib import Path
@@ -12,8 +13,8 @@ from torch import Tensor
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared
 from neural_shadows.networks.object_space.shadow_network import chords
-from neural_shadows.networks.untrained.height_marching import first_crossings
 from neural_shadows.networks.untrained.untrained_network import UntrainedNetwork
+from neural_shadows.representations.heights.height_marching import first_crossings
 from neural_shadows.scenes.tracing import Tracer
 
 _TYPES = {8: np.uint8, 16: np.uint16}

@@ -1,4 +1,4 @@
-"""The mesh itself: decimated, quantised, and asked by one of Embree's occlusion rays a point."""
+"""The mesh itself, decimated and quantised: one occlusion ray a point."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -9,12 +9,12 @@ from torch import Tensor
 
 from neural_shadows.meshes.cleaning import clean_mesh
 from neural_shadows.meshes.prepared_mesh import read_prepared
-from neural_shadows.networks.object_space.shadow_network import LIT
 from neural_shadows.networks.object_space.sphere_rays import SphereRays
-from neural_shadows.networks.quantisation import pack_integers, unpack_integers
-from neural_shadows.networks.untrained.coded_mesh import coded, decoded
-from neural_shadows.networks.untrained.decimation import decimated
 from neural_shadows.networks.untrained.untrained_network import UntrainedNetwork
+from neural_shadows.representations.depths import LIT
+from neural_shadows.representations.meshes.coded_mesh import coded, decoded
+from neural_shadows.representations.meshes.decimation import decimated
+from neural_shadows.representations.packed_bits import pack_integers, unpack_integers
 from neural_shadows.scenes.tracing import Tracer
 
 # What Embree 4 holds: its own copy of the mesh, 16 bytes a vertex and 12 a triangle, and its tree.

@@ -1,8 +1,8 @@
-"""Voxel DAG: a ray ends in the first voxel that is inside the object. Nothing is trained.
+"""Voxel DAG: a ray ends in the object's first voxel.
 
-The closest relatives of the fields that are: Kämpe et al. 2013, "High resolution sparse voxel
-DAGs", and Sintorn et al. 2014, "Compact precomputed voxelized shadows", whose voxels are those
-that one light does not reach; here they are the object's, for all lights.
+Nothing is trained. The closest relatives of the fields that are: Kämpe et al. 2013, "High
+resolution sparse voxel DAGs", and Sintorn et al. 2014, "Compact precomputed voxelized shadows",
+whose voxels are those that one light does not reach; here they are the object's, for all lights.
 """
 
 from pathlib import Path
@@ -13,15 +13,15 @@ from torch import Tensor
 
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.untrained.untrained_network import UntrainedNetwork
-from neural_shadows.networks.untrained.voxel_bricks import surface_bricks
-from neural_shadows.networks.untrained.voxel_dag import (
+from neural_shadows.representations.voxels.voxel_bricks import surface_bricks
+from neural_shadows.representations.voxels.voxel_dag import (
     check_places,
     first_voxels,
     merged,
     octree,
     words_of,
 )
-from neural_shadows.networks.untrained.voxel_inside import inside_of
+from neural_shadows.representations.voxels.voxel_inside import inside_of
 
 
 class VoxelDagNetwork(UntrainedNetwork):

@@ -1,10 +1,13 @@
-"""The thesis's claims, judged by what this run or the thesis itself has measured.
+"""The claims of the texts, judged by measurements.
 
-write_claims  the stage: reads files, judges each claim, writes CSV and Markdown
+kinds         the kinds of claims, a file each: settings, files and comparisons
+claim_kinds   the interface of these files
+write_claims  the stage: reads files, judges each claim
+inputs        the files and parameters of that stage
 gates         the tests in their order, of which the first that fails is the verdict
-comparison    one comparison of a claim, and what all comparisons say together
-better, lower_loss, frame_time, violations, printed, soft, ratio, proportional   the comparisons of
-                 each kind of claim
+comparison    one comparison of a claim, and the verdict of all comparisons together
+measured      the measured values, by method, budget and seed
 learning      the trend over learning curves, and the extrapolation that they license
-measured      what claims are tested on, by method, budget and seed
+unlearned     the tests of whether networks have learned
+setting_types, row_claims, network_claims, soft_claims   what several kinds share
 """

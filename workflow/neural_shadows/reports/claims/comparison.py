@@ -1,11 +1,12 @@
-"""One comparison of a claim, and what all of a claim's comparisons say together."""
+"""One comparison of a claim, and the verdict of all."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from neural_shadows.metrics.holm import holm
 from neural_shadows.reports.claims.learning import Learning
-from neural_shadows.reports.verdicts import CONTRADICTED, SUPPORTED, UNDECIDED
+from neural_shadows.reports.data.frame_means import OFF_EDGES
+from neural_shadows.reports.data.verdicts import CONTRADICTED, SUPPORTED, UNDECIDED
 
 LEVEL = 0.05
 NAMES = {
@@ -25,7 +26,7 @@ NAMES = {
 
 @dataclass(frozen=True)
 class Comparison:
-    """How one comparison of a claim came out.
+    """The outcome of one comparison of a claim.
 
     Args:
         metric, methods: what is compared, and of which methods.
@@ -56,27 +57,28 @@ class Comparison:
     @property
     def evidence(self) -> str:
         """The comparison in words and numbers."""
-        learnt = f", {self.learning.text}" if self.learning else ""
-        return f"{self.text}: {self.number}{self.remark}{learnt}"
+        trend = f", {self.learning.text}" if self.learning else ""
+        return f"{self.text}: {self.number}{self.remark}{trend}"
 
     @property
     def extrapolated(self) -> "Comparison | None":
-        """The same at the thesis's samples; None if the learning curves do not license it."""
+        """The same at the thesis's samples; None without a licence."""
         if self.learning is None or self.learning.extrapolated is None:
             return None
         return replace(self, **judged(*self.learning.extrapolated))
 
 
 def unjudged(**why: str) -> dict[str, object]:
-    """What says nothing, as a `Comparison` has it; `why`: its `incomparable` or `untested`."""
-    (said,) = why.values()
-    return {"number": "", "remark": said, "supports": False, "against": 1.0, **why}
+    """Fields of an undecided `Comparison` for a reason."""
+    (reason,) = why.values()
+    return {"number": "", "remark": reason, "supports": False, "against": 1.0, **why}
 
 
 def judged(value: float, low: float, high: float, p: float) -> dict[str, object]:
-    """What an advantage, its 95 % interval and its two-sided p-value say, as a `Comparison` has it.
+    """Fields of a `Comparison` by the interval of an advantage.
 
-    0 itself is neither side: methods that are alike in every view decide nothing.
+    The interval is the 95 % one, p two-sided. 0 itself is neither side: methods that are alike in
+    every view decide nothing.
     """
     return {
         "number": interval_text(value, low, high),
@@ -86,16 +88,27 @@ def judged(value: float, low: float, high: float, p: float) -> dict[str, object]
 
 
 def interval_text(value: float, low: float, high: float) -> str:
-    """An advantage with three digits and its interval; without one where none can be had."""
+    """An advantage with three digits and its interval, if any."""
     if not low > -float("inf"):
         return f"{value:+.3g}"
     return f"{value:+.3g} [{low:+.3g}, {high:+.3g}]"
 
 
-def verdict_of(comparisons: Sequence[Comparison]) -> str:
-    """Supported if each comparison supports the claim, contradicted if Holm leaves one against it.
+def seeds_of(count: int, needed: int) -> str:
+    """The number of seeds beside the needed one."""
+    return f"{count} seed{'s' if count > 1 else ''} of {needed}"
 
-    All must hold for a support, so that none needs a correction (intersection-union test).
+
+def of_all_pixels(metric: str) -> str:
+    """The metric of all pixels for one off edges."""
+    return metric.removesuffix(OFF_EDGES.removeprefix("mse"))
+
+
+def verdict_of(comparisons: Sequence[Comparison]) -> str:
+    """The verdict of all comparisons together.
+
+    All must hold for a support, so that none needs a correction (intersection-union test); a claim
+    is contradicted if Holm's correction leaves a comparison against it.
     """
     if all(comparison.supports for comparison in comparisons):
         return SUPPORTED
@@ -103,16 +116,16 @@ def verdict_of(comparisons: Sequence[Comparison]) -> str:
 
 
 def against(comparisons: Sequence[Comparison]) -> list[Comparison]:
-    """The comparisons that contradict a claim, by Holm's correction over all of them."""
+    """The comparisons against a claim by Holm's correction over all."""
     adjusted = holm([comparison.against for comparison in comparisons])
-    return [one for one, p in zip(comparisons, adjusted) if p <= LEVEL]
+    return [comparison for comparison, p in zip(comparisons, adjusted) if p <= LEVEL]
 
 
 def most_against(comparisons: Sequence[Comparison]) -> Comparison | None:
-    """The comparison with a number that speaks most against a claim; None if none has a number.
+    """The comparison most against a claim, if any.
 
     That of the least p-value: the one that contradicts it, if one does. Of those that lie on the
     claim's side the first that does not support it.
     """
-    known = [one for one in comparisons if one.number]
-    return min(known, key=lambda one: (one.against, one.supports), default=None)
+    numbered = [comparison for comparison in comparisons if comparison.number]
+    return min(numbered, key=lambda each: (each.against, each.supports), default=None)

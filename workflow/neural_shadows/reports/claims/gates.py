@@ -1,61 +1,31 @@
-"""The tests of a claim in their order: the first that it fails is its verdict."""
+"""A claim's tests, of which the first failed one decides."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from neural_shadows.metrics.power_law import LARGEST_STEP
-from neural_shadows.reports import verdicts
-from neural_shadows.reports.claims import (
-    better,
-    frame_time,
-    lower_loss,
-    printed,
-    proportional,
-    ratio,
-    soft,
-    violations,
-)
+from neural_shadows.reports.claims.claim_kinds import by_kind, kind_of, methods
 from neural_shadows.reports.claims.comparison import (
     NAMES,
     Comparison,
     against,
     most_against,
+    seeds_of,
     verdict_of,
 )
 from neural_shadows.reports.claims.learning import AWAY, NEITHER, TOWARDS
-from neural_shadows.reports.claims.measured import TEXT_SAMPLES, Measured, rows_of
+from neural_shadows.reports.claims.measured import TEXT_SAMPLES, Claim, Measured, needs
 from neural_shadows.reports.claims.unlearned import not_learned
-from neural_shadows.reports.phrases import TEXTS, is_own_mesh
-from neural_shadows.reports.tables.frame_means import OFF_EDGES
+from neural_shadows.reports.data import verdicts
+from neural_shadows.reports.data.phrases import TEXTS, is_own_mesh
 
-KINDS = {
-    "better": better.comparisons,
-    "lower_loss": lower_loss.comparisons,
-    "frame_time": frame_time.comparisons,
-    "violations": violations.comparisons,
-    "printed": printed.comparisons,
-    "soft_better": soft.better,
-    "soft_equal_time": soft.equal_time,
-    "ratio": ratio.comparisons,
-    "proportional": proportional.comparisons,
-}
-# Of the other kinds what learns nothing has no part in a claim, or none that is known: who breaks no
-# bound of depth, or one alone, has nothing to be compared (violations).
-WITHOUT_NETWORKS = {
-    "better": better.without_networks,
-    "lower_loss": lower_loss.without_networks,
-    "soft_better": soft.without_networks,
-    "soft_equal_time": soft.without_networks,
-    "ratio": ratio.without_networks,
-}
-OF_TRAININGS = ("better", "lower_loss")
 # One training says nothing of how trainings differ. Two are enough for an interval, of Student's t
 # with one degree of freedom: 12.7 standard errors either way.
 LEAST_SEEDS = 2
-# Of a smaller share of a text's samples nothing may be extrapolated, so that nothing is known of these.
+# Of a smaller share of a text's samples nothing may be extrapolated, so that they decide nothing.
 DECISIVE = 1 / LARGEST_STEP
 WHOSE = {"thesis": "the thesis's samples"} | {
     name: f"{paper}'s pixels" for name, paper in TEXTS.items()
@@ -66,41 +36,40 @@ MOVING = {
     NEITHER: "moving neither towards the claim nor away",
 }
 
-Claim = Mapping[str, Any]
-
 
 def judge(claim: Claim, data: Measured) -> dict[str, Any]:
-    """Test a claim: the columns of claims.csv from `verdict` to `evidence`.
+    """Test a claim, as its kind's `Settings.resolved` gives it.
 
-    `claim` has `kind`, `needs` (`mesh`, `device`, `seeds` and `budget`, each may be missing or
-    None) and what its kind needs; its methods are rows as `config.rows_of` gives them.
+    Returns: the columns of claims.csv from `verdict` to `text_samples`.
     """
-    found = KINDS[claim["kind"]](claim, data)
+    comparisons = kind_of(claim).comparisons(claim, data)
     if pixels := data.pixels(claim):
-        found = [replace(one, samples=pixels) for one in found]
+        comparisons = [replace(each, samples=pixels) for each in comparisons]
     null, passing = null_verdict(claim, data)
-    carried = carried_on(claim, found)
-    final = carried or found
+    carried = carried_on(claim, comparisons)
+    final = carried or comparisons
     gates = {
-        verdicts.NOT_COMPARABLE: not_comparable(claim, found, data),
+        verdicts.NOT_COMPARABLE: not_comparable(claim, comparisons, data),
         verdicts.NOT_LEARNED: not_learned(claim, data),
         verdicts.VACUOUS: vacuous(claim, final, passing),
-        verdicts.TOO_SMALL: too_small(claim, found, carried),
+        verdicts.TOO_SMALL: too_small(claim, comparisons, carried),
         verdict_of(final): decided(claim, final, bool(carried)),
     }
     verdict, reason = next((verdict, reason) for verdict, reason in gates.items() if reason)
-    samples = [one.samples for one in found if one.samples is not None]
+    seeds = [each.seeds for each in comparisons if each.seeds is not None]
+    samples = [each.samples for each in comparisons if each.samples is not None]
     shown = most_against(final)
-    evidence = "\n".join(one.evidence for one in found)
-    if (other := by_all_pixels(claim)) and (unlike := judge(other, data)["verdict"]) != verdict:
+    evidence = "\n".join(each.evidence for each in comparisons)
+    other = by_kind(claim, "by_all_pixels", default=None)
+    if other and (unlike := judge(other, data)["verdict"]) != verdict:
         evidence += f". By the error of all pixels, edges of surfaces among them: {unlike}"
     return {
         "verdict": verdict,
         "reason": reason,
-        "metric": ", ".join(dict.fromkeys(one.metric for one in found)),
-        "seeds": min((one.seeds for one in found if one.seeds is not None), default=np.nan),
+        "metric": ", ".join(dict.fromkeys(each.metric for each in comparisons)),
+        "seeds": min(seeds, default=np.nan),
         "budget_fraction": min(samples, default=np.nan) / whole_of(claim),
-        **trend_of(found),
+        **trend_of(comparisons),
         "null_verdict": null,
         "number_of": NAMES.get(shown.metric, shown.metric) if shown else "",
         "number": shown.number if shown else "",
@@ -111,113 +80,94 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
 
 
 def whole_of(claim: Claim) -> int:
-    """What a network of a claim's text was trained on."""
+    """Training samples of networks of a claim's text."""
     return TEXT_SAMPLES[claim.get("text", "thesis")]
 
 
-def by_all_pixels(claim: Claim) -> Claim | None:
-    """The claim on errors of all pixels; None of one that is not on those off edges."""
-    end = OFF_EDGES.removeprefix("mse")
-    if claim["kind"] == "soft_equal_time" and "metric" not in claim:
-        return {**claim, "metric": "mse"}
-    if claim["kind"] == "soft_better" and OFF_EDGES in claim["metrics"]:
-        return {**claim, "metrics": [name.removesuffix(end) for name in claim["metrics"]]}
-    columns = [one["column"] for one in claim.get("ratios", ())]
-    if any(column.endswith(end) for column in columns):
-        ratios = [one | {"column": one["column"].removesuffix(end)} for one in claim["ratios"]]
-        return {**claim, "ratios": ratios}
-    return None
-
-
-def not_comparable(claim: Claim, found: Sequence[Comparison], data: Measured) -> str:
-    """Why what was measured is not what the claim is about; empty if it is."""
+def not_comparable(claim: Claim, comparisons: Sequence[Comparison], data: Measured) -> str:
+    """The reason against comparable measurements, if any."""
     if needs(claim, "mesh") == "thesis":
-        scenes = dict.fromkeys(row["scene"] for row in rows_of(claim))
+        scenes = dict.fromkeys(row["scene"] for row in methods(claim))
         if others := [s for s in scenes if not is_own_mesh(data.meshes[s], data.scenes[s])]:
             return f"not the thesis's mesh: {', '.join(others)}"
-    if claim["kind"] == "frame_time":
-        timed, asked = frame_time.devices(claim, data), needs(claim, "device")
-        if len({*timed.values(), asked or min(timed.values())}) > 1:
-            said = ", ".join(f"{label} on {device}" for label, device in timed.items())
-            return f"times of {asked or 'one device'} are needed: {said}"
-    said = {one.methods: one.incomparable for one in found if one.incomparable}
-    return "; ".join(f"{methods}: {why}" for methods, why in said.items())
+    if why := by_kind(claim, "not_comparable", data, default=""):
+        return why
+    reasons = {each.methods: each.incomparable for each in comparisons if each.incomparable}
+    return "; ".join(f"{compared}: {why}" for compared, why in reasons.items())
 
 
 def null_verdict(claim: Claim, data: Measured) -> tuple[str, str]:
-    """The verdict with what learns nothing in the networks' place, and what of it is supported.
+    """The verdict with null predictors for networks, and supported ones.
 
-    Both are empty where it has no place.
+    Both are empty where null predictors have no place.
     """
-    nulls = WITHOUT_NETWORKS.get(claim["kind"], lambda *_: {})(claim, data)
-    verdicts_of = {null: verdict_of(found) for null, found in nulls.items()}
+    nulls = by_kind(claim, "without_networks", data, default={})
+    verdicts_of = {null: verdict_of(comparisons) for null, comparisons in nulls.items()}
     passing = [null for null, verdict in verdicts_of.items() if verdict == verdicts.SUPPORTED]
     if passing:
         return verdicts.SUPPORTED, " and ".join(passing).replace("_", " ")
     return next(iter(verdicts_of.values()), ""), ""
 
 
-def vacuous(claim: Claim, found: Sequence[Comparison], passing: str) -> str:
-    """Why a support says nothing; empty if it does, or if there is no support.
+def vacuous(claim: Claim, comparisons: Sequence[Comparison], passing: str) -> str:
+    """The reason for a vacuous support, if it is one.
 
     Any map beats no shadow, so that this says nothing against a claim that maps beat a network, if
     the network has learned what it can: from a thirtieth of its text's samples on it counts.
 
     Args:
-        passing: what learns nothing and is supported in the networks' place.
+        passing: the null predictors that are supported in the networks' place.
     """
-    if not passing or verdict_of(found) != verdicts.SUPPORTED:
+    if not passing or verdict_of(comparisons) != verdicts.SUPPORTED:
         return ""
-    if network_wins(claim):
+    if by_kind(claim, "network_wins", default=True):
         return f"supported as well with {passing} in place of the networks"
-    if (least := fewest_samples(found)) < DECISIVE * whole_of(claim):
+    if (least := fewest_samples(comparisons)) < DECISIVE * whole_of(claim):
         return (
             f"{passing} in the networks' place loses as well, and they do at {share(claim, least)}"
         )
     return ""
 
 
-def network_wins(claim: Claim) -> bool:
-    """Whether a network that learns is to be better than something."""
-    if claim["kind"] == "better":
-        return any(winner["trained"] for winner, _ in claim["pairs"])
-    return claim["kind"] in ("lower_loss", "ratio") or soft.wins(claim)
+def carried_on(claim: Claim, comparisons: Sequence[Comparison]) -> list[Comparison]:
+    """The comparisons, those of too few samples extrapolated.
 
-
-def carried_on(claim: Claim, found: Sequence[Comparison]) -> list[Comparison]:
-    """The comparisons, those of fewer samples than a claim needs at the thesis's.
-
-    Empty if none has fewer, or if one's learning curves do not license it.
+    Empty if all have as many as the claim needs, or if one's learning curves license nothing.
     """
-    short = [below_budget(claim, one) for one in found]
-    carried = [one.extrapolated if few else one for one, few in zip(found, short)]
+    short = [below_budget(claim, each) for each in comparisons]
+    carried = [each.extrapolated if few else each for each, few in zip(comparisons, short)]
     return carried if any(short) and all(carried) else []
 
 
-def below_budget(claim: Claim, one: Comparison) -> bool:
-    """Whether its networks saw a smaller share of the thesis's samples than the claim needs."""
+def below_budget(claim: Claim, comparison: Comparison) -> bool:
+    """Check for a smaller share of the samples than needed."""
     least = (needs(claim, "budget") or 0.0) * whole_of(claim)
-    return one.samples is not None and one.samples < least
+    return comparison.samples is not None and comparison.samples < least
 
 
-def fewest_samples(found: Sequence[Comparison]) -> float:
-    """Of the trainings of comparisons; infinite if nothing is trained."""
-    return min((one.samples for one in found if one.samples is not None), default=np.inf)
+def fewest_samples(comparisons: Sequence[Comparison]) -> float:
+    """The fewest training samples; infinite if nothing is trained."""
+    samples = [each.samples for each in comparisons if each.samples is not None]
+    return min(samples, default=np.inf)
 
 
-def too_small(claim: Claim, found: Sequence[Comparison], carried: Sequence[Comparison]) -> str:
-    """What seeds, views or samples are missing, and where the difference goes; empty if none are."""
-    trained = [one for one in found if one.samples is not None]
-    asked = max(needs(claim, "seeds") or 0, LEAST_SEEDS * (claim["kind"] in OF_TRAININGS))
-    learning = deciding(found).learning
-    lost = against(carried or found)
+def too_small(
+    claim: Claim, comparisons: Sequence[Comparison], carried: Sequence[Comparison]
+) -> str:
+    """Missing seeds, views or samples, and the difference's direction."""
+    least_seeds = LEAST_SEEDS * getattr(kind_of(claim), "NEEDS_SEEDS", False)
+    needed = max(needs(claim, "seeds") or 0, least_seeds)
+    learning = deciding(comparisons).learning
+    lost = against(carried or comparisons)
     # One comparison is enough against a claim, whatever the others lack.
-    reasons = [] if lost else [*dict.fromkeys(one.untested for one in found if one.untested)]
-    seeds = min((one.seeds for one in trained if one.seeds is not None), default=asked)
-    if seeds < asked:
-        reasons.append(f"{seeds} seed{'s' if seeds > 1 else ''} of {asked}")
-    if any(below_budget(claim, one) for one in found) and not carried:
-        least, budget = fewest_samples(found), needs(claim, "budget")
+    untested = dict.fromkeys(each.untested for each in comparisons if each.untested)
+    reasons = [] if lost else [*untested]
+    trained = [each for each in comparisons if each.samples is not None]
+    seeds = min((each.seeds for each in trained if each.seeds is not None), default=needed)
+    if seeds < needed:
+        reasons.append(seeds_of(seeds, needed))
+    if any(below_budget(claim, each) for each in comparisons) and not carried:
+        least, budget = fewest_samples(comparisons), needs(claim, "budget")
         reasons.append(f"{share(claim, least)}, {100 * budget:.3g} % are needed")
         if least < (enough := DECISIVE * whole_of(claim)):
             reasons.append(
@@ -227,7 +177,7 @@ def too_small(claim: Claim, found: Sequence[Comparison], carried: Sequence[Compa
             reasons.append(f"no extrapolation: {learning.unlicensed}")
     elif (least := fewest_samples(lost)) < DECISIVE * whole_of(claim):
         reasons.append(f"against the claim at {share(claim, least)}, which says nothing of more")
-    if reasons and (moving := direction_of(found)):
+    if reasons and (moving := direction_of(comparisons)):
         reasons.append(MOVING[moving])
     return "; ".join(reasons)
 
@@ -238,47 +188,42 @@ def share(claim: Claim, samples: float) -> str:
     return f"{100 * samples / whole_of(claim):.2g} % of {whose}"
 
 
-def decided(claim: Claim, found: Sequence[Comparison], carried: bool) -> str:
-    """Which comparisons a verdict rests on."""
-    samples = fewest_samples(found)
+def decided(claim: Claim, comparisons: Sequence[Comparison], carried: bool) -> str:
+    """The comparisons behind a verdict, in words."""
+    samples = fewest_samples(comparisons)
     where = f" at {share(claim, samples)}" if samples < whole_of(claim) else ""
     where = " at the thesis's samples, extrapolated" if carried else where
-    if any(one.seeds == 1 for one in found):
+    if any(each.seeds == 1 for each in comparisons):
         where += ", of one training"
-    held, lost = sum(one.supports for one in found), against(found)
-    if held < len(found) and lost:
-        return f"against the claim{where}: {'; '.join(one.text for one in lost)}"
-    rest = ", none is significantly against it" if held < len(found) else ""
-    return f"{held} of {len(found)} comparisons are in its favour{where}{rest}"
+    held, lost = sum(each.supports for each in comparisons), against(comparisons)
+    if held < len(comparisons) and lost:
+        return f"against the claim{where}: {'; '.join(each.text for each in lost)}"
+    rest = ", none is significantly against it" if held < len(comparisons) else ""
+    return f"{held} of {len(comparisons)} comparisons are in its favour{where}{rest}"
 
 
-def deciding(found: Sequence[Comparison]) -> Comparison:
-    """The first comparison with learning curves that does not support a claim, else the first."""
-    return min(found, key=lambda one: (one.learning is None, one.supports))
+def deciding(comparisons: Sequence[Comparison]) -> Comparison:
+    """The first comparison without support, those with learning curves before."""
+    return min(comparisons, key=lambda each: (each.learning is None, each.supports))
 
 
-def direction_of(found: Sequence[Comparison]) -> str:
-    """Where a claim's comparisons move, of those that do not support it if there are some.
+def direction_of(comparisons: Sequence[Comparison]) -> str:
+    """The common direction of comparisons, if they have one.
 
-    Empty if they do not all move alike, or if that is not known of one.
+    Those without support count alone, if there are some.
     """
-    open_ones = [one for one in found if not one.supports] or found
-    directions = {one.learning.direction if one.learning else "" for one in open_ones}
+    open_ones = [each for each in comparisons if not each.supports] or comparisons
+    directions = {each.learning.direction if each.learning else "" for each in open_ones}
     return directions.pop() if len(directions) == 1 else ""
 
 
-def trend_of(found: Sequence[Comparison]) -> dict[str, Any]:
-    """The trend of the `deciding` comparison and which it is; NaN and empty where there is none."""
-    one = deciding(found)
-    ends = one.learning.trend if one.learning else [np.nan] * 3
-    known = [end if np.isfinite(end) else np.nan for end in ends]
+def trend_of(comparisons: Sequence[Comparison]) -> dict[str, Any]:
+    """The trend of the `deciding` comparison, NaN without one."""
+    shown = deciding(comparisons)
+    ends = shown.learning.trend if shown.learning else [np.nan] * 3
+    finite = [end if np.isfinite(end) else np.nan for end in ends]
     return {
-        "trend_of": f"{one.metric} of {one.methods}" if one.learning else "",
-        **dict(zip(("trend", "trend_low", "trend_high"), known)),
-        "direction": one.learning.direction if one.learning else "",
+        "trend_of": f"{shown.metric} of {shown.methods}" if shown.learning else "",
+        **dict(zip(("trend", "trend_low", "trend_high"), finite)),
+        "direction": shown.learning.direction if shown.learning else "",
     }
-
-
-def needs(claim: Claim, name: str) -> Any:
-    """What a claim needs of the data, None for no need."""
-    return (claim.get("needs") or {}).get(name)

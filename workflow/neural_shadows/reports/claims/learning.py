@@ -1,24 +1,25 @@
-"""Where a difference of two methods goes as their networks are trained on more samples."""
+"""The trend of two methods' difference over training samples."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import norm
+import scipy
 
 from neural_shadows.metrics import power_law
 from neural_shadows.metrics.intervals import LEVEL
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.metrics.power_law import Curve
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES
-from neural_shadows.reports.digits import short
+from neural_shadows.reports.claims.measured import Measured
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.trained import THESIS_SAMPLES, Budget, Row
 
 TOWARDS, AWAY, NEITHER = "towards", "away", "neither"
 
 
 @dataclass(frozen=True)
 class Learning:
-    """What learning curves say of a difference, positive in the claim's favour.
+    """A difference over learning curves, positive in the claim's favour.
 
     Args:
         trend: its change for each tenfold of the samples, and the 95 % interval over seeds.
@@ -37,11 +38,11 @@ class Learning:
 
     @property
     def direction(self) -> str:
-        """Towards the claim, away from it, or neither; empty of one seed.
+        """Towards the claim, away from it, or neither.
 
-        Any gap closes while both errors fall, and opens while they do not: from 5 to 20 million
-        samples that of 10 frequencies to none fell from 0.049 to 0.044 in loss, and their ratio
-        grew from 1.28 to 1.40. So both must agree.
+        Empty of one seed. Any gap closes while both errors fall, and opens while they do not: from
+        5 to 20 million samples that of 10 frequencies to none fell from 0.049 to 0.044 in loss, and
+        their ratio grew from 1.28 to 1.40. So both must agree.
         """
         _, lows, highs = zip(self.trend, self.relative)
         if not np.isfinite(lows).all():
@@ -53,70 +54,80 @@ class Learning:
         """Trend and extrapolation in words and numbers."""
         value, low, high = self.trend
         ends = f" [{low:+.3g}, {high:+.3g}]" if self.direction else ""
-        said = f"trend {value:+.3g}{ends} for each tenfold of the samples"
+        text = f"trend {value:+.3g}{ends} for each tenfold of the samples"
         if self.extrapolated:
             at, below, above, _ = self.extrapolated
             far, tried = self.steps
-            said += (
+            text += (
                 f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}] ({short(far)} "
                 f"times the largest budget, the hold-out tries {short(tried)} times)"
             )
-        return said
+        return text
 
 
 def followed(
-    a: Curve,
-    b: Curve,
-    *,
-    learn: Sequence[bool],
-    died: bool,
-    psnr: bool,
-    views: tuple[float, float],
-    seed: int,
-) -> Learning:
-    """Follow the advantage of `a` over `b`.
+    pair: Sequence[Row],
+    budgets: Sequence[Budget],
+    errors: Sequence[Sequence[np.ndarray]],
+    data: Measured,
+    psnr: bool = False,
+    views: tuple[float, float] = (0.0, 0.0),
+) -> Learning | None:
+    """Follow the advantage of a pair's first method over budgets.
+
+    None of fewer than `FEWEST_BUDGETS`. A training that died is on no curve.
 
     Args:
-        a, b: errors of both methods at the same budgets, `FEWEST_BUDGETS` or more, and seeds.
-        learn: which of the two does; the errors of a map are the same at all budgets.
-        died: a training of theirs did, and its errors are on no curve.
+        errors: of each method and budget those of its trainings.
         psnr: the errors are squared ones, and the advantage is in dB.
         views: from the advantage down and up to the ends of its 95 % interval over views alone.
-        seed: of the resampling of curves.
     """
+    if budgets[-1].samples is None or len(budgets) < power_law.FEWEST_BUDGETS:
+        return None
+    samples = np.array([budget.samples for budget in budgets])
+    a, b = (Curve(samples, np.array(each)) for each in errors)
     gaps = psnr_of(a.values) - psnr_of(b.values) if psnr else b.values - a.values
-    trend = power_law.trend(a.samples, gaps)
+    trend = power_law.trend(samples, gaps)
     # An error may be 0, that of a frame like its reference: 1e-10, as in PSNR.
     ratios = np.log(np.maximum(b.values, 1e-10) / np.maximum(a.values, 1e-10))
-    relative = power_law.trend(a.samples, ratios)
-    steps = THESIS_SAMPLES / a.samples[-1], a.samples[-1] / a.samples[-2]
-    curves = [curve for curve, learns in zip((a, b), learn) if learns]
-    allowed, why = power_law.licensed(curves, THESIS_SAMPLES, seed, died)
+    relative = power_law.trend(samples, ratios)
+    steps = THESIS_SAMPLES / samples[-1], samples[-1] / samples[-2]
+    curves = [curve for curve, row in zip((a, b), pair) if row["trained"]]
+    died = any(data.died(row, budgets) for row in pair)
+    allowed, why = power_law.licensed(curves, THESIS_SAMPLES, data.seed, died)
     if not allowed:
         return Learning(trend, relative, None, why, steps)
-    arms = [curve if learns else curve.values[-1].mean() for curve, learns in zip((a, b), learn)]
+    # A map's errors are the same at all budgets.
+    arms = [
+        curve if row["trained"] else curve.values[-1].mean() for curve, row in zip((a, b), pair)
+    ]
     arms = arms if psnr else arms[::-1]
-    found = power_law.extrapolate_difference(*arms, THESIS_SAMPLES, seed, psnr)
-    return Learning(trend, relative, widened(found, views), "", steps)
+    difference = power_law.extrapolate_difference(*arms, THESIS_SAMPLES, data.seed, psnr)
+    return Learning(trend, relative, widened(difference, views), "", steps)
 
 
 def widened(
-    found: tuple[float, float, float], views: tuple[float, float]
+    difference: tuple[float, float, float], views: tuple[float, float]
 ) -> tuple[float, float, float, float]:
-    """An extrapolated value, the ends of its 95 % interval over views, too, and its p-value.
+    """Widen an extrapolated value's interval by that over views.
 
     Each side is scaled from 90 % and widened apart: what falls towards a floor is skew. Errors of
     fits and of views are taken as independent, and each side as that of a normal distribution.
 
     Args:
-        found: a value and its 90 % interval, which knows nothing of other views.
+        difference: a value and its 90 % interval over seeds alone.
         views: how far the 95 % interval over views alone goes down and up.
+
+    Returns: the value, the ends of its 95 % interval and its two-sided p-value.
     """
-    value, low, high = found
-    wide, narrow = (norm.ppf((1 + level) / 2) for level in (LEVEL, power_law.LEVEL))
+    value, low, high = difference
+    wide, narrow = (scipy.stats.norm.ppf((1 + level) / 2) for level in (LEVEL, power_law.LEVEL))
     # The value may lie outside its interval, which is of resampled fits.
     sides = np.maximum([value - low, high - value], 0.0) * wide / narrow
     down, up = np.hypot(sides, views)
     towards_0 = down if value > 0 else up
-    p = float(2 * norm.sf(wide * abs(value) / towards_0)) if towards_0 else float(value == 0)
+    if not towards_0:
+        p = float(value == 0)
+    else:
+        p = float(2 * scipy.stats.norm.sf(wide * abs(value) / towards_0))
     return value, float(value - down), float(value + up), p

@@ -1,7 +1,8 @@
-"""What the thesis concludes from its data, judged by ours [4, 5.1]."""
+"""The texts' conclusions, judged by our data [4, 5.1]."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pandas as pd
@@ -9,18 +10,19 @@ import pandas as pd
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
+from neural_shadows.reports.claims.claim_kinds import kind_of
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.measured import TEXT_SAMPLES, THESIS_SAMPLES, Measured
-from neural_shadows.reports.claims.soft import SoftTable, soft_values
-from neural_shadows.reports.claims.violations import counts_by_view
-from neural_shadows.reports.inputs import by_folder, read_meshes
-from neural_shadows.reports.learned import margins
-from neural_shadows.reports.phrases import TEXTS
-from neural_shadows.reports.published import by_cell, read_rows
-from neural_shadows.reports.tables.quality import values_by_view
-from neural_shadows.reports.tables.writing import write_twins
-from neural_shadows.reports.verdicts import MEANINGS, VERDICTS
+from neural_shadows.reports.claims.measured import TEXT_SAMPLES, Measured
+from neural_shadows.reports.claims.soft_claims import SoftTable, soft_values
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.inputs import by_folder, read_meshes
+from neural_shadows.reports.data.learned import margins
+from neural_shadows.reports.data.phrases import TEXTS
+from neural_shadows.reports.data.published import by_cell, read_rows
+from neural_shadows.reports.data.quality import values_by_view
+from neural_shadows.reports.data.table import Table, write_table
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
+from neural_shadows.reports.data.verdicts import MEANINGS, VERDICTS
 from neural_shadows.running.stage import run_stage
 from neural_shadows.training.loss_curve import read_loss
 
@@ -29,10 +31,10 @@ COLUMNS = [
     *("budget_fraction", "trend_of", "trend", "trend_low", "trend_high", "direction"),
     *("null_verdict", "number_of", "number", "evidence", "scale", "samples", "text_samples"),
 ]
-SAID = ("text", "section", "statement", "kind")
+OF_SETTINGS = ("text", "section", "statement", "kind")
 
 
-def write_claims(
+def claims(
     *,
     metrics: list[Path],
     losses: list[Path],
@@ -44,40 +46,32 @@ def write_claims(
     tables: list[Path],
     screen_trainings: list[Path],
     published_csv: Path,
-    csv: Path,
-    md: Path,
     claims: Mapping[str, Mapping[str, Any]],
     learning_curves: Mapping[str, Sequence[Mapping[str, Any]]],
     soft_tables: Mapping[str, Mapping[str, Any]],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
-) -> None:
-    """Write the claims of the texts with our verdicts, as CSV and Markdown.
+) -> Table:
+    """A table of the texts' claims with our verdicts.
 
-    CSV: `number` is of the comparison that speaks most against the claim, `number_of` its metric.
+    CSV: `number` is of the comparison most against the claim, `number_of` its metric.
 
     Args:
-        metrics: per-view metrics of all methods that claims name, of `no_shadow` on their scenes,
-            and of all points of their learning curves.
-        losses, trainings: of the networks among them; times: frame times; meshes: mesh.json of
-            their scenes. The folders say of which scene, experiment or table a file is.
-        soft_metrics, soft_times: of the methods for soft shadows that claims compare, and of the
-            tables that these are in, which the files' names say.
-        tables: CSVs of the tables whose numbers claims compare; screen_trainings: training.json of the
-            networks of frames among them.
-        published_csv: the numbers that the thesis prints.
+        metrics, losses, trainings, times, meshes, soft_metrics: the folders have the name of a
+            file's scene, experiment, table or frame set; soft_times, tables: the files that of a
+            table.
         claims: by name, as `judge` takes them, with `section` and `statement`.
-        learning_curves: `experiment`, `steps`, `seed` and `samples` of each training, by
-            experiment; the budgets grow.
-        soft_tables: of each table of them its `frame_set`, the `labels` of its methods, its `scenes`,
-            and its `radii` as texts.
+        learning_curves: the points of each experiment's curve, the budgets growing.
+        soft_tables: of each its `frame_set`, the `labels` of its methods, its `scenes`, and its
+            `radii` as texts.
 
     Raises:
         InputError: a file is missing, or a method lacks a value of a view that others have.
     """
     published = read_rows(published_csv)
+    kinds = {claim["kind"]: kind_of(claim) for claim in claims.values()}.values()
     data = Measured(
-        metrics={scene: _by_view(paths) for scene, paths in by_folder(metrics).items()},
+        metrics={scene: _by_view(paths, kinds) for scene, paths in by_folder(metrics).items()},
         losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
         trainings={name: read_json(path) for name, [path] in by_folder(trainings).items()},
         times={(path.parent.name, path.stem): read_json(path) for path in times},
@@ -91,65 +85,63 @@ def write_claims(
         tables={path.stem: pd.read_csv(path) for path in tables},
         screen_trainings={path.parent.name: read_json(path) for path in screen_trainings},
     )
-    found = pd.DataFrame(
-        {"claim": name} | {key: claim[key] for key in SAID} | judge(claim, data)
+    rows = pd.DataFrame(
+        {"claim": name} | {key: claim[key] for key in OF_SETTINGS} | judge(claim, data)
         for name, claim in claims.items()
     ).assign(scale=run["scale"])
-    found = found[COLUMNS].astype({"seeds": "Int64", "samples": "Int64"})  # with gaps
+    rows = rows[COLUMNS].astype({"seeds": "Int64", "samples": "Int64"})  # with gaps
     columns = {
-        "claim": found["statement"],
-        "verdict": "**" + found["verdict"] + "**",
-        "why": found["reason"],
-        "section": [phrases.section_of(one) for _, one in found.iterrows()],
-        "evidence": found["evidence"],
+        "claim": rows["statement"],
+        "verdict": "**" + rows["verdict"] + "**",
+        "why": rows["reason"],
+        "section": [phrases.section_of(row) for _, row in rows.iterrows()],
+        "evidence": rows["evidence"],
     }
-    title = "What is claimed, and what this run can say of it"
-    write_twins(
-        found,
-        columns,
-        csv,
-        md,
-        title=title,
-        lead=_lead(found["verdict"], data),
+    return Table(
+        title="What is claimed, and what this run can say of it",
+        data=rows,
+        columns=columns,
         notes=_notes(data, run, scenes),
+        lead=_lead(rows["verdict"], data),
         text_columns=len(columns),
     )
 
 
-def _by_view(paths: Sequence[Path]) -> pd.DataFrame:
-    """All metrics of a scene and the counts of violations: a row a view, a column each."""
-    found = read_metrics(paths)
-    quality = values_by_view(found, found["method"].unique())
-    return pd.concat([quality, counts_by_view(found)], axis=1)
+def _by_view(paths: Sequence[Path], kinds: Iterable[ModuleType]) -> pd.DataFrame:
+    """A scene's values, a row a view."""
+    metrics = read_metrics(paths)
+    quality = values_by_view(metrics, metrics["method"].unique())
+    counts = [kind.counts_by_view(metrics) for kind in kinds if hasattr(kind, "counts_by_view")]
+    return pd.concat([quality, *counts], axis=1)
 
 
 def _soft(
     metrics: Sequence[Path], times: Sequence[Path], tables: Mapping[str, Mapping[str, Any]]
 ) -> dict[str, SoftTable]:
-    """What claims on soft shadows are tested on, by table; each is of one frame set."""
+    """Measured values of soft shadows by table."""
     timed = {path.stem: read_json(path) for path in times}
-    found = {}
+    soft = {}
     for table, about in tables.items():
-        mine = [path for path in metrics if path.parent.name == about["frame_set"]]
-        measured = read_soft_metrics(mine)
+        of_frames = [path for path in metrics if path.parent.name == about["frame_set"]]
+        measured = read_soft_metrics(of_frames)
         values = soft_values(measured[measured["scene"].isin(about["scenes"])])
-        found[table] = SoftTable(values, about["labels"], timed.get(table), about["radii"])
-    return found
+        soft[table] = SoftTable(values, about["labels"], timed.get(table), about["radii"])
+    return soft
 
 
 def _lead(verdicts: pd.Series, data: Measured) -> str:
-    """What a reader must know before the first verdict: the scale, and what verdicts mean."""
+    """The scale of a run and the meanings of verdicts."""
     seen = [record["samples"] for record in data.trainings.values() if record["training"]]
     counts = verdicts.value_counts()
     pixels = [record["samples"] for record in data.screen_trainings.values()]
-    said = [phrases.describe_samples(max(seen), THESIS_SAMPLES)] if seen else []
+    sentences = [phrases.describe_samples(max(seen), THESIS_SAMPLES)] if seen else []
     if pixels:
         theirs = " and ".join(f"{TEXT_SAMPLES[text] / 1e9:.3g} billion" for text in TEXTS)
-        said.append(
+        sentences.append(
             f"Networks of frames saw at most {max(pixels):,} pixels each in this run, and {theirs} in "
             f"{' and '.join(TEXTS.values())}."
         )
-    scale = " ".join(said) or "No network was trained for these claims."
+    scale = " ".join(sentences) or "No network was trained for these claims."
     meanings = [f"- **{name}** ({counts.get(name, 0)}): {MEANINGS[name]}" for name in VERDICTS]
     first = (
         f"{scale} A verdict says what these data can carry about a claim, and nothing more: the "
@@ -184,4 +176,4 @@ def _notes(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write_claims)
+    run_stage(snakemake, claims, write_table)

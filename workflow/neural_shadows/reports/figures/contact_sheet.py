@@ -4,19 +4,27 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from math import ceil
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-from matplotlib.figure import Figure
+from pydantic import Field
 
 from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.layout import tables
+from neural_shadows.layout.layout import Layout
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.metrics.pooled_psnr import identical
-from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
-from neural_shadows.reports.frame_errors import error_legend, with_errors
-from neural_shadows.reports.frames import Frame, read_frames
-from neural_shadows.reports.method_look import REFERENCE
+from neural_shadows.reports.data.method_look import REFERENCE
+from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
+from neural_shadows.sections.table_figures import MethodsFigure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from neural_shadows.reports.data.frames import Frame
 
 MOST_VIEWS = 24  # of a view set; of more, so many evenly through them
 MOST_COLUMNS, FEWEST_COLUMNS = 8, 4
@@ -28,6 +36,30 @@ NOTE = (
 WIDTH = 12.0  # inches: on a page of 1168 px a view is 145 px wide
 
 
+class Settings(MethodsFigure):
+    """All views by each method, small."""
+
+    tables = (comparison.Settings, networks.Settings)
+    folded: ClassVar[bool] = True
+
+    kind: Literal["contact_sheet"] = Field(description="`contact_sheet`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    rows, scene = settings["rows"], settings["scene"]
+    return {
+        "metrics": tables.metrics(layout, rows),
+        "references": tables.references(layout, [scene]),
+        "visibilities": tables.visibilities(layout, rows),
+        "mesh_json": layout.paths.scene("mesh.json", scene),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"rows": layout.entry("figures", figure)["rows"], "run": layout.run()}
+
+
 def draw(
     metrics: list[Path],
     references: list[Path],
@@ -37,8 +69,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Section],
-    run: Section,
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
 ) -> None:
     """Draw the views of each view set by each method.
 
@@ -48,6 +80,8 @@ def draw(
     Raises:
         InputError: a file is missing or not whole.
     """
+    from neural_shadows.reports.data.frames import read_frames
+
     values = read_metrics(metrics)
     frames = {}
     for view_set, numbers in values.groupby("view_set")["view"].unique().items():
@@ -62,14 +96,16 @@ def draw(
 
 
 def contact_sheet(
-    frames: Mapping[str, Sequence[Frame]], labels: Mapping[str, str], title: str
-) -> Figure:
+    frames: Mapping[str, Sequence["Frame"]], labels: Mapping[str, str], title: str
+) -> "Figure":
     """Draw a block of small views for each view set: in turn a row of them by each method.
 
     Args:
         frames: by view set; all images of one shape.
         labels: of the methods, in order.
     """
+    from neural_shadows.reports.data.frame_errors import error_legend, with_errors
+
     most = max(map(len, frames.values()))
     columns = min(max(most, FEWEST_COLUMNS), MOST_COLUMNS)
     rows = [len(labels) * ceil(len(views) / columns) for views in frames.values()]

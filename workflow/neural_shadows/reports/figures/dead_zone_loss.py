@@ -1,21 +1,54 @@
-"""The dead-zone loss over the predicted depth (figure 3.7)."""
+"""The dead-zone loss over the predicted depth (figure 3.6)."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
-import torch
+from pydantic import Field
 
-from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.reports.figures.drawing import open_figure
-from neural_shadows.reports.figures.mesh_slice import slice_rays
-from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, Section, write_figure
+from neural_shadows.evaluation.look import BLUE, ORANGE
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing.style import GRID, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.scene_figures import SceneFigure
+
+
+class Settings(SceneFigure):
+    """The dead-zone loss of two rays of a slice [figure 3.6]."""
+
+    kind: Literal["dead_zone_loss"] = Field(description="`dead_zone_loss`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    scene, paths = layout.entry("figures", figure)["scene"], layout.paths
+    return {
+        "mesh_ply": paths.scene("mesh.ply", scene),
+        "mesh_json": paths.scene("mesh.json", scene),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    scene = layout.entry("figures", figure)["scene"]
+    return {"scene": layout.entry("scenes", scene)["scene"]}
 
 
 def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Section
+    mesh_ply: Path,
+    mesh_json: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    scene: Mapping[str, Any],
 ) -> None:
     """Draw the loss of the ray with the most distant bounds, and of the longest that misses."""
+    import torch
+
+    from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
+    from neural_shadows.reports.drawing.drawing import open_figure
+    from neural_shadows.reports.drawing.mesh_slice import slice_rays
+
     cut, figure = open_figure(mesh_ply, mesh_json, scene, title, 9, 4.6)
     rays = slice_rays(cut, 401)
     axes = figure.subplots()

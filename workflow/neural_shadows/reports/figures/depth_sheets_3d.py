@@ -1,20 +1,23 @@
 """A network's depths for one light beside their bounds, in three dimensions (figure 3.2)."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-import pyvista
-import torch
+from pydantic import Field
 
-from neural_shadows.networks.weight_file import load_network
-from neural_shadows.rays.labels import chord_lengths, dual_bounds
-from neural_shadows.rays.silhouette import entry_points
-from neural_shadows.reports.figures import space
-from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK, Section
+from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.scene import open_scene
+from neural_shadows.sections.any_report import AnyFigure
+from neural_shadows.settings.base import name_in
+
+if TYPE_CHECKING:
+    import pyvista
 
 RAYS = 500  # along a side of the square across the light
 TOLERANCE = 0.005  # of a depth that counts as right: two thirds of a cell of a 256³ field
@@ -26,14 +29,49 @@ COLOURS = {
 }
 
 
+class Settings(AnyFigure):
+    """A network's depths for one light, in three dimensions."""
+
+    needs_opengl: ClassVar[bool] = True
+
+    kind: Literal["depth_sheets_3d"] = Field(description="`depth_sheets_3d`")
+    experiment: name_in("experiments") = Field(description="a name in `experiments`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    experiment = layout.entry("figures", figure)["experiment"]
+    scene = layout.entry("experiments", experiment)["scene"]
+    return {
+        "mesh_ply": layout.paths.scene("mesh.ply", scene),
+        "weights": layout.paths.network("weights.safetensors", experiment),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    experiment = layout.entry("figures", figure)["experiment"]
+    scene = layout.entry("experiments", experiment)["scene"]
+    return {"scene": layout.entry("scenes", scene)["scene"]}
+
+
+def encodings(layout: Layout, figure: str) -> set[str]:
+    return layout.encodings([layout.entry("figures", figure)["experiment"]])
+
+
 def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Section
+    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
     """Draw t_lb, t_pred and t_ub of a light's rays that hit, each as a sheet where it lies.
 
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
     """
+    import torch
+
+    from neural_shadows.networks.weight_file import load_network
+    from neural_shadows.rays.labels import chord_lengths, dual_bounds
+    from neural_shadows.rays.silhouette import entry_points
+    from neural_shadows.scenes.scene import open_scene
+
     opened = open_scene(mesh_ply, **scene)
     network, _ = load_network(weights)
     view = hero_view(opened.up, 1)
@@ -72,11 +110,13 @@ def draw(
     space.write_pictures(shown, png, svg, title=title, colours=COLOURS)
 
 
-def sheet_of(depths: np.ndarray, points: np.ndarray, error: np.ndarray) -> pyvista.PolyData:
+def sheet_of(depths: np.ndarray, points: np.ndarray, error: np.ndarray) -> "pyvista.PolyData":
     """Quads between the points (RAYS², 3) of rays whose depths (RAYS²,), NaN for none, are near.
 
     The sheet's points have the `error` (RAYS²,) of their ray.
     """
+    import pyvista
+
     i = np.arange(RAYS**2).reshape(RAYS, RAYS)
     quads = np.stack([i[:-1, :-1], i[:-1, 1:], i[1:, 1:], i[1:, :-1]], axis=-1).reshape(-1, 4)
     quads = quads[np.ptp(depths[quads], axis=1) < STEP]

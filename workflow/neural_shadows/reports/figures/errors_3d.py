@@ -1,24 +1,68 @@
 """Where methods err: false shadow and light leak as points on the scene, in three dimensions."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
+from pydantic import Field
 
-from neural_shadows.evaluation import shadow_methods
+from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
 from neural_shadows.evaluation.method_names import unbiased
-from neural_shadows.evaluation.references import References
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports.figures import space
-from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK, Section
+from neural_shadows.layout import tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing.hero_view import hero_view
+from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.scene import open_scene
+from neural_shadows.sections.table_figures import MethodsFigure
 
+if TYPE_CHECKING:
+    from neural_shadows.evaluation.references import References
+    from neural_shadows.evaluation.shadow_methods import ShadowMethod
+
+USES_GPU = True
 MOST_VIEWS = 12  # of a batch; a network answers for each
 MOST_POINTS = 20_000
 COLOURS = {"false shadow": FALSE_SHADOW, "light leak": LIGHT_LEAK}
+
+
+class Settings(MethodsFigure):
+    """The errors of methods on the mesh, in three dimensions."""
+
+    tables = (comparison.Settings, networks.Settings)
+    needs_opengl: ClassVar[bool] = True
+
+    kind: Literal["errors_3d"] = Field(description="`errors_3d`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    rows, scene = settings["rows"], settings["scene"]
+    return {
+        "mesh_ply": layout.paths.scene("mesh.ply", scene),
+        "references": layout.paths.reference(scene, "000"),
+        "weights": tables.networks(layout, rows, "weights.safetensors"),
+        "depth_biases": tables.depth_biases(layout, rows),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    settings, compute = layout.entry("figures", figure), layout.settings["compute"]
+    return {
+        "scene": layout.entry("scenes", settings["scene"])["scene"],
+        "rows": settings["rows"],
+        "run": layout.run(),
+        "device": compute["device"],
+        "precision": compute["precision"],
+    }
+
+
+def encodings(layout: Layout, figure: str) -> set[str]:
+    rows = layout.entry("figures", figure)["rows"]
+    return layout.encodings(tables.experiments_of(rows))
 
 
 def draw(
@@ -30,9 +74,9 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: Section,
-    rows: Sequence[Section],
-    run: Section,
+    scene: Mapping[str, Any],
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
@@ -47,8 +91,12 @@ def draw(
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
     """
+    from neural_shadows.evaluation import shadow_methods
+    from neural_shadows.evaluation.references import References
+    from neural_shadows.scenes.scene import open_scene
+
     opened = open_scene(mesh_ply, **scene)
-    networks = {path.parent.name: path for path in weights}
+    trained = {path.parent.name: path for path in weights}
     held_out = {path.stem: path for path in depth_biases}
     shown = {}
     for row in rows:
@@ -58,7 +106,7 @@ def draw(
             bias = read_json(found)["depth_bias"] if found else 0.0
             method = shadow_methods.classic_method(name, opened)
         else:
-            path = networks[row["experiment"]]
+            path = trained[row["experiment"]]
             network, dtype = shadow_methods.open_network(path, device, threads, precision)
             bias = shadow_methods.take_found(network, found) if found else row["bias"]
             method = shadow_methods.network_method(network, dtype)
@@ -75,7 +123,7 @@ def draw(
 
 
 def wrong_points(
-    method: shadow_methods.ShadowMethod, bias: float, batch: References
+    method: "ShadowMethod", bias: float, batch: "References"
 ) -> tuple[np.ndarray, np.ndarray, float]:
     """Points (k, 3) where a method with a depth bias errs, the sign of the error (k,), and the share of all points.
 

@@ -1,29 +1,55 @@
 """The surface that an occupancy field has learned, in three dimensions, beside the mesh."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-import pyvista
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from pydantic import Field
 
-from neural_shadows.networks.object_space.field_marching import BRICK, SOLID
-from neural_shadows.networks.object_space.occupancy_field_network import (
-    LIMIT,
-    OccupancyFieldNetwork,
-)
-from neural_shadows.networks.weight_file import load_network
-from neural_shadows.reports.figures import space
-from neural_shadows.reports.figures.hero_view import hero_view
-from neural_shadows.reports.figures.style import Section
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.scene import open_scene
+from neural_shadows.sections.scene_figures import FieldFigure
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from neural_shadows.networks.object_space.occupancy_field_network import OccupancyFieldNetwork
 
 COLOURS = "RdBu_r"
 
 
+class Settings(FieldFigure):
+    """The surface of an occupancy field, in three dimensions."""
+
+    needs_opengl: ClassVar[bool] = True
+
+    kind: Literal["field_3d"] = Field(description="`field_3d`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    experiment = layout.entry("figures", figure)["experiment"]
+    scene = layout.entry("experiments", experiment)["scene"]
+    return {
+        "mesh_ply": layout.paths.scene("mesh.ply", scene),
+        "weights": layout.paths.network("weights.safetensors", experiment),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    experiment = layout.entry("figures", figure)["experiment"]
+    scene = layout.entry("experiments", experiment)["scene"]
+    return {"scene": layout.entry("scenes", scene)["scene"]}
+
+
+def encodings(layout: Layout, figure: str) -> set[str]:
+    return layout.encodings([layout.entry("figures", figure)["experiment"]])
+
+
 def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Section
+    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
     """Draw the mesh, and beside it where the field's logit is 0, coloured by the distance.
 
@@ -33,6 +59,12 @@ def draw(
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
     """
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    from neural_shadows.networks.weight_file import load_network
+    from neural_shadows.scenes.scene import open_scene
+
     opened = open_scene(mesh_ply, **scene)
     view = hero_view(opened.up, 3.0)
     left, right = space.new_plotter(view), space.new_plotter(view)
@@ -53,8 +85,13 @@ def draw(
     space.write_pictures(shown, png, svg, title=title, scale=(scale, colours))
 
 
-def learned_surface(field: OccupancyFieldNetwork) -> pyvista.PolyData:
+def learned_surface(field: "OccupancyFieldNetwork") -> "pyvista.PolyData":
     """Where the logits between the vertices of the field's cells turn positive."""
+    import pyvista
+
+    from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
+    from neural_shadows.representations.distance_bricks.field_marching import BRICK, SOLID
+
     size = field.resolution
     bricks = field.grid.view((size // BRICK,) * 3).numpy()
     logits = np.full((size + 1,) * 3, -LIMIT, np.float32)

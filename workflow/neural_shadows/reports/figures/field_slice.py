@@ -1,34 +1,56 @@
 """What an occupancy field has learned, in a slice, beside the mesh [5.4.1]."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import torch
-from matplotlib import colormaps
-from matplotlib.axes import Axes
-from matplotlib.image import AxesImage
-from matplotlib.patches import Patch, Rectangle
-from scipy.ndimage import uniform_filter
+from pydantic import Field
 
-from neural_shadows.networks.object_space.field_marching import BRICK, SOLID
-from neural_shadows.networks.object_space.occupancy_field_network import (
-    LIMIT,
-    OccupancyFieldNetwork,
-)
-from neural_shadows.networks.weight_file import load_network
-from neural_shadows.reports.figures.drawing import draw_outline
-from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_mesh
-from neural_shadows.reports.figures.style import Section, legend_below, new_figure, write_figure
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing.style import legend_below, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.scene import open_scene
+from neural_shadows.sections.scene_figures import FieldFigure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.image import AxesImage
+
+    from neural_shadows.networks.object_space.occupancy_field_network import OccupancyFieldNetwork
+    from neural_shadows.reports.drawing.mesh_slice import MeshSlice
 
 PIXELS = 900  # of the slice's side
 DETAIL = 0.07  # half the side of the detail, in sphere radii
 EMPTY_COLOUR, ENCLOSED_COLOUR = "#f4f4f4", "#5b6b7b"
 
 
+class Settings(FieldFigure):
+    """A slice of an occupancy field, beside the mesh."""
+
+    kind: Literal["field_slice"] = Field(description="`field_slice`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    experiment = layout.entry("figures", figure)["experiment"]
+    scene = layout.entry("experiments", experiment)["scene"]
+    return {
+        "mesh_ply": layout.paths.scene("mesh.ply", scene),
+        "weights": layout.paths.network("weights.safetensors", experiment),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    experiment = layout.entry("figures", figure)["experiment"]
+    scene = layout.entry("experiments", experiment)["scene"]
+    return {"scene": layout.entry("scenes", scene)["scene"]}
+
+
+def encodings(layout: Layout, figure: str) -> set[str]:
+    return layout.encodings([layout.entry("figures", figure)["experiment"]])
+
+
 def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Section
+    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
     """Draw the slice whole, and in detail where most of it is stored.
 
@@ -38,6 +60,13 @@ def draw(
     Raises:
         InputError: an input file is not whole.
     """
+    from matplotlib.patches import Patch, Rectangle
+
+    from neural_shadows.networks.weight_file import load_network
+    from neural_shadows.reports.drawing.mesh_slice import slice_mesh
+    from neural_shadows.representations.distance_bricks.field_marching import BRICK
+    from neural_shadows.scenes.scene import open_scene
+
     cut = slice_mesh(open_scene(mesh_ply, **scene))
     field, _ = load_network(weights)
     figure = new_figure(title, 13, 6.6)
@@ -60,6 +89,10 @@ def choose_detail(logits: np.ndarray) -> np.ndarray:
 
     `logits` (PIXELS, PIXELS) are of the whole slice, as `slice_logits` gives them.
     """
+    from scipy.ndimage import uniform_filter
+
+    from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
+
     size = round(DETAIL * PIXELS)
     inside = uniform_filter(((logits > 0) & (logits <= LIMIT)).astype(float), size)
     outside = uniform_filter((logits <= 0).astype(float), size)
@@ -68,7 +101,7 @@ def choose_detail(logits: np.ndarray) -> np.ndarray:
 
 
 def slice_logits(
-    field: OccupancyFieldNetwork, cut: MeshSlice, centre: np.ndarray, half: float
+    field: "OccupancyFieldNetwork", cut: "MeshSlice", centre: np.ndarray, half: float
 ) -> np.ndarray:
     """Logits (PIXELS, PIXELS) of a square of the slice, rows upwards.
 
@@ -77,6 +110,11 @@ def slice_logits(
     Args:
         centre: (2,) of the square in the slice's plane; `half`: half its side.
     """
+    import torch
+
+    from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
+    from neural_shadows.representations.distance_bricks.field_marching import SOLID
+
     at = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * half - half
     x, y = np.meshgrid(centre[0] + at, centre[1] + at)
     p = cut.to_space(np.stack([x.ravel(), y.ravel()], axis=1))
@@ -90,8 +128,13 @@ def slice_logits(
 
 
 def _show(
-    axes: Axes, field: OccupancyFieldNetwork, cut: MeshSlice, centre: np.ndarray, half: float
-) -> AxesImage:
+    axes: "Axes", field: "OccupancyFieldNetwork", cut: "MeshSlice", centre: np.ndarray, half: float
+) -> "AxesImage":
+    from matplotlib import colormaps
+
+    from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
+    from neural_shadows.reports.drawing.drawing import draw_outline
+
     extent = np.add.outer(centre, [-half, half]).ravel()
     colours = colormaps["RdBu"].with_extremes(bad=EMPTY_COLOUR, over=ENCLOSED_COLOUR)
     style = {"cmap": colours, "vmin": -LIMIT, "vmax": LIMIT, "interpolation": "nearest"}

@@ -1,30 +1,53 @@
 """Loss and quality over training samples, and what the smaller budgets predict of the largest."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
-from matplotlib.transforms import ScaledTranslation, Transform
+from pydantic import Field
 
+from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics import power_law
 from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES
-from neural_shadows.reports.figures import style
-from neural_shadows.reports.figures.chart import say, saying_points, write_chart
+from neural_shadows.reports.data.table import read_table
+from neural_shadows.reports.data.trained import THESIS_SAMPLES
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import say, saying_points, write_chart
+from neural_shadows.reports.tables import learning_curves
 from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, READING, by_kind
-from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.table_figures import RowsFigure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.transforms import Transform
 
 GREY = "#777777"
 DECIBELS = "psnr"  # already a logarithm: its axis is linear
 NUMBERS = ("samples", "mean", *PREDICTED, "no_shadow", "thesis")
+
+
+class Settings(RowsFigure):
+    """Loss and quality over training samples, with predictions."""
+
+    tables = (learning_curves.Settings,)
+    chapter: ClassVar[Chapter] = "thesis"
+
+    kind: Literal["learning_curves"] = Field(description="`learning_curves`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"rows": layout.entry("figures", figure)["rows"], "run": layout.run()}
 
 
 def draw(
@@ -33,8 +56,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[style.Section],
-    run: style.Section,
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
 ) -> None:
     """Draw the learning curves of a scene.
 
@@ -52,14 +75,17 @@ def draw(
     write_chart(figure, png, svg)
 
 
-def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> Figure:
+def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> "Figure":
     """Draw a panel for each metric; PSNR in dB and the others' errors logarithmic.
 
     Args:
         table: of `curve_table`, of one scene.
         labels: the methods, in the legend's order.
     """
-    colours = dict(zip(labels, style.COLOURS))
+    from matplotlib.lines import Line2D
+    from matplotlib.transforms import ScaledTranslation
+
+    colours = dict(zip(labels, COLOURS))
     figure = style.new_figure(title, 11, 8.2)
     for axes, (metric, panel) in zip(
         figure.subplots(2, 2).flat, table.groupby("metric", sort=False)
@@ -100,7 +126,9 @@ def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> 
     return figure
 
 
-def _draw_curve(axes: Axes, metric: str, part: pd.DataFrame, colour: str, aside: Transform) -> None:
+def _draw_curve(
+    axes: "Axes", metric: str, part: pd.DataFrame, colour: str, aside: "Transform"
+) -> None:
     """Draw a method's trainings, the law of all budgets but the largest, and its predictions.
 
     These stand `aside`, which is where data lie in the panel and a little further.
@@ -129,7 +157,7 @@ def _draw_curve(axes: Axes, metric: str, part: pd.DataFrame, colour: str, aside:
         axes.plot(THESIS_SAMPLES, _height(metric, beyond["thesis"]), "*", color=colour, ms=11)
 
 
-def _draw_prediction(axes: Axes, metric: str, line: pd.Series, **look: Any) -> None:
+def _draw_prediction(axes: "Axes", metric: str, line: pd.Series, **look: Any) -> None:
     value, *ends = _height(metric, line[PREDICTED].to_numpy(float))
     spread = np.abs(np.array(ends) - value)[:, None]
     spread = spread if metric != "ssim" else spread[::-1]  # 1 − SSIM: the ends change places
@@ -144,8 +172,10 @@ def _height(metric: str, values: float | np.ndarray) -> float | np.ndarray:
     return values if metric == DECIBELS else error_of(metric, values)
 
 
-def _dress(axes: Axes, metric: str) -> None:
+def _dress(axes: "Axes", metric: str) -> None:
     """Scales, names and grid of a panel."""
+    from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
+
     name, _ = READING[metric]
     name = "1 − SSIM ↓" if metric == "ssim" else name
     axes.set(xscale="log", xlabel="training samples", title=name)

@@ -2,21 +2,75 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
+from pydantic import Field
 
+from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.figures import style
-from neural_shadows.reports.figures.chart import saying_points, write_chart
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import networks
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import saying_points, write_chart
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import AnyFigure
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import Model, Text, name_in, section_or
 from neural_shadows.training.loss_curve import read_loss
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 PARTS = 60  # of a curve that is drawn as means
 POINTS = ["samples", "loss"]
 SAYING = 6  # every so many of them is a point that says its value
+
+
+class Curve(Model):
+    """A curve that is more than a name."""
+
+    experiment: name_in("experiments") = Field(description="a name in `experiments`")
+    label: Text | None = Field(None, description="without it the experiment's label")
+
+
+class Settings(AnyFigure):
+    """Training loss over steps [figures 4.1 to 4.3]."""
+
+    kind: Literal["loss"] = Field(description="`loss`")
+    curves: list[section_or(Curve, "experiment")] = Field(
+        min_length=1, description="experiments, in the legend's order"
+    )
+
+    def check(self, config: Sections, key: str) -> None:
+        for curve in self.curves:
+            config.label_of(curve.experiment, curve.label)
+            if config.experiments[curve.experiment].training is None:
+                raise ValueError(
+                    f"{key}.curves: {curve.experiment!r} is built without training and has no loss; "
+                    "leave it out"
+                )
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        curves = [
+            {"experiment": one.experiment, "label": config.label_of(one.experiment, one.label)}
+            for one in self.curves
+        ]
+        return self.model_dump() | {"curves": curves}
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    curves = layout.entry("figures", figure)["curves"]
+    return {
+        "losses": networks(layout, curves, "loss.csv"),
+        "trainings": networks(layout, curves, "training.json"),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"curves": layout.entry("figures", figure)["curves"], "run": layout.run()}
 
 
 def draw(
@@ -27,7 +81,7 @@ def draw(
     *,
     title: str,
     curves: Sequence[Mapping[str, str]],
-    run: style.Section,
+    run: Mapping[str, Any],
 ) -> None:
     """Draw the loss curves of experiments.
 
@@ -39,11 +93,11 @@ def draw(
     Raises:
         InputError: a loss curve is missing or not whole.
     """
-    files = {path.parent.name: path for path in losses}
+    found = {path.parent.name: path for path in losses}
     died = {record["name"]: record["died_at_step"] for record in map(read_json, trainings)}
     frames, ends = {}, {}
     for curve in curves:
-        frames[curve["label"]] = read_loss(files[curve["experiment"]])
+        frames[curve["label"]] = read_loss(found[curve["experiment"]])
         ends[curve["label"]] = died[curve["experiment"]]
     figure = loss_figure(frames, ends, title=f"{title} ({run['scale']} scale)")
     data = [means_of(frame).assign(curve=label) for label, frame in frames.items()]
@@ -65,7 +119,7 @@ def means_of(curve: pd.DataFrame) -> pd.DataFrame:
 
 def loss_figure(
     curves: Mapping[str, pd.DataFrame], died: Mapping[str, int | None], *, title: str
-) -> Figure:
+) -> "Figure":
     """Draw loss over samples, both logarithmic; the points pale, and their means.
 
     Args:
@@ -78,7 +132,7 @@ def loss_figure(
     drawn = {label: curve[np.isfinite(curve["loss"])] for label, curve in curves.items()}
     for i, (label, curve) in enumerate(drawn.items()):
         points = curve[POINTS].to_numpy(float).T
-        colour = style.COLOURS[i % len(style.COLOURS)]
+        colour = COLOURS[i % len(COLOURS)]
         step = died[label]
         end = f"at the end {short(points[1, -1])}" if step is None else f"died at step {step:,}"
         if not len(curve):  # it died before the first point
@@ -92,7 +146,7 @@ def loss_figure(
     for i, (label, curve) in enumerate(curves.items()):
         places = means_of(curve)[::-SAYING].to_numpy()
         texts = [f"{label}: {short(loss)} at {seen:,.0f} samples" for seen, loss in places]
-        look = {"color": style.COLOURS[i % len(style.COLOURS)], "markersize": 3.5}
+        look = {"color": COLOURS[i % len(COLOURS)], "markersize": 3.5}
         saying_points(axes, *places.T, texts, **look)
     # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
     settled = [curve["loss"].iloc[len(curve) // 100 :].max() for curve in drawn.values()]

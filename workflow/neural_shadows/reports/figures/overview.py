@@ -1,16 +1,44 @@
 """The method in one picture (figure 3.1)."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from matplotlib.axes import Axes
+from pydantic import Field
 
-from neural_shadows.rays.poisson_disk import sphere_directions
+from neural_shadows.evaluation.look import BLUE, ORANGE
+from neural_shadows.layout.layout import Layout
 from neural_shadows.rays.streams import DIRECTIONS
-from neural_shadows.reports.figures import drawing
-from neural_shadows.reports.figures.mesh_slice import MeshSlice, slice_rays
-from neural_shadows.reports.figures.style import BLUE, ORANGE, Section, legend_below, write_figure
+from neural_shadows.reports.drawing.style import legend_below, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.scene_figures import SamplingFigure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from neural_shadows.reports.drawing.mesh_slice import MeshSlice
+
+
+class Settings(SamplingFigure):
+    """The method from view directions to a query [figure 3.1]."""
+
+    kind: Literal["overview"] = Field(description="`overview`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    scene, paths = layout.entry("figures", figure)["scene"], layout.paths
+    return {
+        "mesh_ply": paths.scene("mesh.ply", scene),
+        "mesh_json": paths.scene("mesh.json", scene),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    scene = layout.entry("scenes", settings["scene"])
+    sampling = layout.entry("samplings", settings["sampling"])
+    return {"scene": scene["scene"], "sampling": sampling, "seed": scene["seed"]}
 
 
 def draw(
@@ -20,11 +48,15 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: Section,
-    sampling: Section,
+    scene: Mapping[str, Any],
+    sampling: Mapping[str, Any],
     seed: int,
 ) -> None:
     """Draw directions, points on a silhouette, labels and a query beside each other."""
+    from neural_shadows.rays.poisson_disk import sphere_directions
+    from neural_shadows.reports.drawing import drawing
+    from neural_shadows.reports.drawing.mesh_slice import slice_rays
+
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title, 13.3, 4.4)
     directions, points, labels, query = figure.subplots(1, 4)
     pattern = sphere_directions(drawing.SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0]
@@ -41,8 +73,11 @@ def draw(
     write_figure(figure, png, svg)
 
 
-def _draw_query(axes: Axes, cut: MeshSlice) -> None:
+def _draw_query(axes: "Axes", cut: "MeshSlice") -> None:
     """Draw a ray with a point in shadow on it."""
+    from neural_shadows.reports.drawing import drawing
+    from neural_shadows.reports.drawing.mesh_slice import slice_rays
+
     drawing.draw_disk(axes, "d  a query: p is in shadow, as s > t$_s$")
     drawing.draw_outline(axes, cut)
     rays = slice_rays(cut, 401)

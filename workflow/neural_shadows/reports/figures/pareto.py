@@ -1,25 +1,32 @@
 """Quality over what it costs: bytes in a file and in memory, time, building [5.4.1]."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
+from pydantic import Field
 
-from neural_shadows.evaluation.method_names import NO_SHADOW, RAY_TRACED
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.figures import style
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.figures.point_labels import label_points
-from neural_shadows.reports.method_look import LOOKS, Look, look_of
-from neural_shadows.reports.published import NETWORKS
-from neural_shadows.reports.tables.quality import with_ends
-from neural_shadows.reports.tables.writing import read_table
+from neural_shadows.evaluation.look import Look
+from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.null_predictors import NO_SHADOW
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.method_look import LOOKS, look_of
+from neural_shadows.reports.data.published import NETWORKS
+from neural_shadows.reports.data.quality import with_ends
+from neural_shadows.reports.data.table import read_table
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.tables import networks
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.table_figures import RowsFigure
+from neural_shadows.settings.base import Name
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 COSTS = {
     "stored_bytes": ("stored, KiB", 1 / 1024),
@@ -44,6 +51,30 @@ MOST_IN_LINE = 2  # of the legend below a panel
 PANEL = 4.75, 3.8  # inches: 342 points, so that one panel fits a phone's 375 px
 
 
+class Settings(RowsFigure):
+    """Quality over bytes, own time and building."""
+
+    tables = (networks.Settings,)
+
+    kind: Literal["pareto"] = Field(description="`pareto`")
+    scene: Name = Field(description="a scene of that table")
+    costs: list[Literal["stored_bytes", "resident_bytes", "own_ms", "build_seconds"]] = Field(
+        ["stored_bytes", "resident_bytes", "own_ms", "build_seconds"],
+        min_length=1,
+        description="what quality is drawn over; the first figure of `stored_bytes` alone opens "
+        "the page",
+    )
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    return {key: settings[key] for key in ("scene", "costs", "rows")} | {"run": layout.run()}
+
+
 def draw(
     table: Path,
     png: Path,
@@ -52,8 +83,8 @@ def draw(
     title: str,
     scene: str,
     costs: Sequence[str],
-    rows: Sequence[style.Section],
-    run: style.Section,
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
 ) -> None:
     """Draw a scene of a table of networks.
 
@@ -83,7 +114,7 @@ def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
     return order[np.r_[True, best[1:] < best[:-1]][: len(order)]]
 
 
-def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> Figure:
+def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "Figure":
     """Draw a scene's methods, a line of panels for each cost.
 
     On the left LPIPS, or FLIP where there is none; on the right pooled PSNR, upwards better.
@@ -94,6 +125,10 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> F
         table: rows of a table of networks of one scene, with their `key` and `look`; the key of
             the thesis's own values is `PRINTED`.
     """
+    from matplotlib.lines import Line2D
+
+    from neural_shadows.reports.drawing.point_labels import label_points
+
     measured = table["lpips_low"].notna().any()  # what is printed has no interval
     perceived = "lpips" if measured else "flip"
     # The thesis prints a mean PSNR, and no views to pool.
@@ -139,7 +174,7 @@ def _drawn(look: Look) -> dict[str, Any]:
     return {"color": look.colour, "marker": look.marker, "linestyle": "", "markersize": 7}
 
 
-def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
+def _draw_panel(axes: "Axes", points: pd.DataFrame, metric: str) -> pd.DataFrame:
     """The methods at their costs, and lines of what has a quality but no cost here.
 
     Returns: the methods that are points, first those that no other betters in both.
@@ -161,9 +196,9 @@ def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
     return pd.concat([first, measured.drop(first.index)])
 
 
-def _draw_lines(axes: Axes, points: pd.DataFrame, methods: pd.DataFrame, errors: bool) -> None:
+def _draw_lines(axes: "Axes", points: pd.DataFrame, methods: pd.DataFrame, errors: bool) -> None:
     """What has a quality and no cost, across the panel, and the cost of what has no error."""
-    lines, maps = points[points["key"].isin(LINES)], methods["look"].eq(LOOKS["map"])
+    lines, maps = points[points["key"].isin(LINES)], methods["look"].eq(LOOKS["shadow_map"])
     if methods["cost"][maps].isna().all():  # maps are rendered anew in each frame
         lines = pd.concat([lines, methods[maps]])
     if len(lines) > 2:

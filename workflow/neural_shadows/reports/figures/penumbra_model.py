@@ -1,21 +1,65 @@
 """The width that Neural Shadow Mapping's model gives penumbrae, beside what they measure (3.6)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-from matplotlib.figure import Figure
+from pydantic import Field
 
-from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.measured_penumbrae import NARROWEST, widths
-from neural_shadows.reports.figures.style import COLOURS, GRID, Section, new_figure, write_figure
+from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.soft_methods import all_generators, all_meshes, first_tests
+from neural_shadows.reports.drawing.style import GRID, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import AnyFigure, Chapter
+from neural_shadows.sections.own_frames import OwnFrames
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import name_in
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SHOWN = 4000  # points a radius
 
 
+class Settings(AnyFigure):
+    """Widths of penumbrae by the model, over measured widths."""
+
+    chapter: ClassVar[Chapter] = "soft"
+
+    kind: Literal["penumbra_model"] = Field(description="`penumbra_model`")
+    frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
+
+    def check(self, config: Sections, key: str) -> None:
+        if isinstance(config.frame_sets[self.frame_set], OwnFrames):
+            raise ValueError(
+                f"{key}.frame_set: {self.frame_set!r} is of a user's own frames, which have "
+                "no scene to look at"
+            )
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    frame_set = layout.entry("figures", figure)["frame_set"]
+    return {"parts": first_tests(layout, frame_set), "meshes": all_meshes(layout, frame_set)}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"run": layout.run()}
+
+
+def generators(layout: Layout, figure: str) -> list[str]:
+    return all_generators(layout, layout.entry("figures", figure)["frame_set"])
+
+
 def draw(
-    parts: list[Path], meshes: list[Path], png: Path, svg: Path, *, title: str, run: Section
+    parts: list[Path],
+    meshes: list[Path],
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    run: Mapping[str, Any],
 ) -> None:
     """Draw each penumbra pixel's width by the model over its measured width, for each radius.
 
@@ -25,6 +69,9 @@ def draw(
     Raises:
         InputError: a file is missing or not whole.
     """
+    from neural_shadows.evaluation.measured_frames import measured_frames
+    from neural_shadows.evaluation.measured_penumbrae import widths
+
     frames = [one for one in measured_frames(parts, meshes) if one.number == 0]
     radii = frames[0].part.radii
     found = {
@@ -36,8 +83,10 @@ def draw(
     write_figure(figure, png, svg)
 
 
-def model_figure(found: dict[float, np.ndarray], *, title: str, seed: int) -> Figure:
+def model_figure(found: dict[float, np.ndarray], *, title: str, seed: int) -> "Figure":
     """A panel with a cloud of points for each radius, and the share that the model does not exceed."""
+    from neural_shadows.evaluation.measured_penumbrae import NARROWEST
+
     figure = new_figure(title, 6.5, 6.2)
     axes = figure.subplots()
     rng = np.random.default_rng(seed)

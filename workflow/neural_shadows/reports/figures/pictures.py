@@ -4,36 +4,36 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from math import ceil
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure, SubFigure
-from matplotlib.gridspec import SubplotSpec
-from matplotlib.patches import Rectangle
-from matplotlib.transforms import ScaledTranslation
+from pydantic import Field
 
-from neural_shadows.evaluation.method_names import NO_SHADOW
+from neural_shadows.evaluation.look import YELLOW, Look
+from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.layout import tables
+from neural_shadows.layout.layout import Layout
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.reports.chosen_views import RULE, choose_views
-from neural_shadows.reports.figures.style import (
-    YELLOW,
-    Section,
-    new_figure,
-    note_below,
-    write_figure,
-)
-from neural_shadows.reports.frame_errors import (
-    Window,
-    choose_crops,
-    error_legend,
-    with_errors,
-)
-from neural_shadows.reports.frames import Frame, read_frames
-from neural_shadows.reports.learned import learned_methods, margins
-from neural_shadows.reports.method_look import LOOKS, REFERENCE, Look, look_of
-from neural_shadows.reports.published import read_published
-from neural_shadows.reports.tables.quality import values_by_view
+from neural_shadows.reports.data.chosen_views import RULE, choose_views
+from neural_shadows.reports.data.learned import learned_methods, margins
+from neural_shadows.reports.data.method_look import LOOKS, REFERENCE, look_of
+from neural_shadows.reports.data.published import read_published
+from neural_shadows.reports.data.quality import values_by_view
+from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.scenes import ViewSet
+from neural_shadows.sections.sections import Sections
+from neural_shadows.sections.table_figures import MethodsFigure
+from neural_shadows.settings.base import check_among
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+    from matplotlib.gridspec import SubplotSpec
+
+    from neural_shadows.reports.data.frame_errors import Window
+    from neural_shadows.reports.data.frames import Frame
 
 MOST_COLUMNS = 4  # of methods in a line; more go to a line of their own
 WIDTH = 12.0  # inches, 1800 px: on a page of 1168 px the names are 14 px high
@@ -42,6 +42,39 @@ HEAD = 0.6  # inches of a line's names and scores
 
 NOT_LEARNED = "\n(not learned)"  # under the name
 SCORES = {"psnr": "PSNR {:.1f} dB", "lpips": "LPIPS {:.4f}"}
+
+
+class Settings(MethodsFigure):
+    """The same viewpoints by every method, whole and as crops [figures 4.4 to 4.7]."""
+
+    tables = (comparison.Settings, networks.Settings)
+
+    kind: Literal["pictures"] = Field(description="`pictures`")
+    view_sets: list[ViewSet] = Field(min_length=1, description="a view of each is shown")
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        known = config.scenes[self.scene_of(config)].view_sets
+        for view_set in self.view_sets:
+            check_among(f"{key}.view_sets", view_set, known)
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    rows, scene = settings["rows"], settings["scene"]
+    return {
+        # Whether a network has learned depends on no shadow's.
+        "metrics": tables.metrics(layout, [*rows, *tables.unshadowed([scene])]),
+        "references": tables.references(layout, [scene]),
+        "visibilities": tables.visibilities(layout, rows),
+        "mesh_json": layout.paths.scene("mesh.json", scene),
+        "published_csv": layout.source("config/published.csv"),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    return {"rows": settings["rows"], "view_sets": settings["view_sets"], "run": layout.run()}
 
 
 def draw(
@@ -54,9 +87,9 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Section],
+    rows: Sequence[Mapping[str, Any]],
     view_sets: Sequence[str],
-    run: Section,
+    run: Mapping[str, Any],
 ) -> None:
     """Draw a frame of each view set by every method, whole and as two crops.
 
@@ -67,6 +100,8 @@ def draw(
     Raises:
         InputError: a file is missing or not whole.
     """
+    from neural_shadows.reports.data.frames import read_frames
+
     measured = dict.fromkeys([NO_SHADOW, *(row["method"] for row in rows)])
     values = read_metrics(metrics)
     wide = values_by_view(values, [*measured])
@@ -83,8 +118,8 @@ def draw(
 
 
 def picture_strip(
-    frames: Sequence[Frame], heads: Mapping[str, tuple[str, Look]], title: str
-) -> Figure:
+    frames: Sequence["Frame"], heads: Mapping[str, tuple[str, Look]], title: str
+) -> "Figure":
     """Draw whole frames, and below each its crops with their errors, for each viewpoint.
 
     Args:
@@ -92,6 +127,8 @@ def picture_strip(
             as in the thesis. Scores that a viewpoint has are written below its names.
         heads: the name and the look of each method to draw, in the order to draw them.
     """
+    from neural_shadows.reports.data.frame_errors import choose_crops, error_legend, with_errors
+
     heads = {**heads, REFERENCE: ("Reference", LOOKS[REFERENCE])}
     lines = ceil(len(heads) / MOST_COLUMNS)
     columns = ceil(len(heads) / lines)
@@ -124,19 +161,23 @@ def picture_strip(
     return figure
 
 
-def _panel(part: SubFigure, place: SubplotSpec, anchor: str) -> Axes:
+def _panel(part: "SubFigure", place: "SubplotSpec", anchor: str) -> "Axes":
     axes = part.add_subplot(place, xticks=[], yticks=[], anchor=anchor)
     axes.spines[:].set_visible(False)
     return axes
 
 
-def _mark(axes: Axes, crop: Window) -> None:
+def _mark(axes: "Axes", crop: "Window") -> None:
+    from matplotlib.patches import Rectangle
+
     corner = crop.column - 0.5, crop.row - 0.5
     axes.add_patch(Rectangle(corner, crop.width, crop.height, fill=False, color=YELLOW))
 
 
-def _write_head(axes: Axes, name: str, look: Look, scores: str, letters: int) -> None:
+def _write_head(axes: "Axes", name: str, look: Look, scores: str, letters: int) -> None:
     """Write a method's mark and name, and below them its scores, above its frame."""
+    from matplotlib.transforms import ScaledTranslation
+
     text = "\n".join(textwrap.fill(part, letters) for part in name.split("\n"))
     style = {"textcoords": "offset points", "annotation_clip": False}
     axes.annotate(scores, (0, 1), xytext=(0, 4), xycoords="axes fraction", fontsize=9, **style)

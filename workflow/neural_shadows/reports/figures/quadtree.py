@@ -1,10 +1,36 @@
-"""A silhouette with its quadtree (figure 3.5)."""
+"""A silhouette with its quadtree (figure 3.4)."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any, Literal
 
-from neural_shadows.reports.figures import drawing
-from neural_shadows.reports.figures.style import Section, note_below, write_figure
+from pydantic import Field
+
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing.style import note_below, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.scene_figures import SamplingFigure
+
+
+class Settings(SamplingFigure):
+    """A silhouette's quadtree, and points on its quads [figure 3.4]."""
+
+    kind: Literal["quadtree"] = Field(description="`quadtree`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    scene, paths = layout.entry("figures", figure)["scene"], layout.paths
+    return {
+        "mesh_ply": paths.scene("mesh.ply", scene),
+        "mesh_json": paths.scene("mesh.json", scene),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    scene = layout.entry("scenes", settings["scene"])
+    sampling = layout.entry("samplings", settings["sampling"])
+    return {"scene": scene["scene"], "sampling": sampling, "seed": scene["seed"]}
 
 
 def draw(
@@ -14,11 +40,13 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: Section,
-    sampling: Section,
+    scene: Mapping[str, Any],
+    sampling: Mapping[str, Any],
     seed: int,
 ) -> None:
     """Draw a silhouette's quadtree, and points divided over its quads."""
+    from neural_shadows.reports.drawing import drawing
+
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title)
     shown = drawing.slice_silhouette(cut, sampling)
     left, right = figure.subplots(1, 2)

@@ -1,27 +1,58 @@
 """A scene in its bounding sphere, its light, and what is sampled of it, in three dimensions."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-import pyvista
+from pydantic import Field
 
+from neural_shadows.evaluation.look import BLUE, COLOURS, ORANGE
+from neural_shadows.layout.layout import Layout
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.rays.labels import chord_lengths
-from neural_shadows.rays.ray_set import RaySet
-from neural_shadows.reports.figures import space, style
-from neural_shadows.reports.figures.hero_view import hero_view
+from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.lights import arc_directions, lowest_elevation
-from neural_shadows.scenes.scene import Scene, open_scene
+from neural_shadows.sections.scene_figures import SamplingFigure
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from neural_shadows.scenes.scene import Scene
 
 RAYS = 300
 COLOURS = {
-    "where the light comes from": style.COLOURS[4],
-    "view directions": style.COLOURS[2],
-    "ray: lit": style.ORANGE,
-    "ray: between its bounds": style.BLUE,
+    "where the light comes from": COLOURS[4],
+    "view directions": COLOURS[2],
+    "ray: lit": ORANGE,
+    "ray: between its bounds": BLUE,
     "ray: in shadow": "#8d97a3",
 }
+
+
+class Settings(SamplingFigure):
+    """A scene, its light and rays, in three dimensions."""
+
+    needs_opengl: ClassVar[bool] = True
+
+    kind: Literal["scene_3d"] = Field(description="`scene_3d`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    settings, paths = layout.entry("figures", figure), layout.paths
+    scene, sampling = settings["scene"], settings["sampling"]
+    return {
+        "mesh_ply": paths.scene("mesh.ply", scene),
+        "mesh_json": paths.scene("mesh.json", scene),
+        "directions_npy": paths.rays("directions.npy", scene, sampling),
+        **layout.shards(scene, sampling),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    scene = layout.entry("figures", figure)["scene"]
+    return {"scene": layout.entry("scenes", scene)["scene"]}
 
 
 def draw(
@@ -34,13 +65,19 @@ def draw(
     svg: Path,
     *,
     title: str,
-    scene: style.Section,
+    scene: Mapping[str, Any],
 ) -> None:
     """Draw a scene with its light and view directions, and some of its training rays.
 
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
     """
+    import pyvista
+
+    from neural_shadows.rays.labels import chord_lengths
+    from neural_shadows.rays.ray_set import RaySet
+    from neural_shadows.scenes.scene import open_scene
+
     rays = RaySet(directions_npy, sorted(origins), sorted(bounds))
     opened = open_scene(mesh_ply, **scene)
     view = hero_view(opened.up, 4.1)
@@ -48,7 +85,7 @@ def draw(
     sphere = pyvista.Sphere(radius=1, theta_resolution=36, phi_resolution=18)
     for plotter, opacity in ((left, 1.0), (right, 0.35)):  # rays go on inside the object
         space.add_object(plotter, opened, opacity)
-        plotter.add_mesh(sphere, style="wireframe", color=style.ORANGE, opacity=0.2, lighting=False)
+        plotter.add_mesh(sphere, style="wireframe", color=ORANGE, opacity=0.2, lighting=False)
     space.add_ground(left, opened)
     light, away, lit, between, shade = COLOURS.values()
     left.add_mesh(light_domain(opened), color=light, opacity=0.2, lighting=False)
@@ -76,8 +113,10 @@ def draw(
     space.write_pictures(shown, png, svg, title=f"{title} ({name})", colours=COLOURS)
 
 
-def light_domain(scene: Scene) -> pyvista.DataSet:
+def light_domain(scene: "Scene") -> "pyvista.DataSet":
     """The part of the unit sphere that the scene's light comes from, a little outside it."""
+    import pyvista
+
     (domain,) = scene.lights
     lowest = lowest_elevation(domain)
     if domain["domain"] == "single_axis":

@@ -2,19 +2,55 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.figure import Figure
+from pydantic import Field
 
 from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
-from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
+from neural_shadows.evaluation.soft_registry import available
+from neural_shadows.layout import soft_methods
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.reports.tables import screen_temporal
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.table_figures import TableFigure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # As the paper has it: purple is calm, gold flickers.
-COLOURS = LinearSegmentedColormap.from_list("flicker", ["#2d0b59", "#8c2981", "#e69f00", "#fff7bc"])
+COLOURS = ["#2d0b59", "#8c2981", "#e69f00", "#fff7bc"]
 FULL = 0.1  # a mean change of so much visibility from frame to frame has the whole colour
 WIDTH = 12.0  # inches
+
+
+class Settings(TableFigure):
+    """The flicker of methods in a frame set's sequences."""
+
+    tables = (screen_temporal.Settings,)
+    chapter: ClassVar[Chapter] = "soft"
+
+    kind: Literal["screen_flicker"] = Field(description="`screen_flicker`")
+    methods: list[str] = Field(min_length=1, description="which of the table's methods")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    frame_set = soft_methods.frame_set(layout, settings["table"])
+    return {
+        "parts": soft_methods.sequences(layout, frame_set),
+        "answers": [
+            layout.paths.soft_evaluation("npz", frame_set, method) for method in settings["methods"]
+        ],
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    methods = filter(available, layout.entry("figures", figure)["methods"])
+    labels = {method: soft_methods.label(layout, method) for method in methods}
+    return {"labels": labels, "run": layout.run()}
 
 
 def draw(
@@ -25,7 +61,7 @@ def draw(
     *,
     title: str,
     labels: Mapping[str, str],
-    run: Section,
+    run: Mapping[str, Any],
 ) -> None:
     """Draw a line a method, and the exact shadow above them: a picture for each sequence.
 
@@ -36,19 +72,22 @@ def draw(
     Raises:
         InputError: a file is missing or not whole.
     """
-    files = {path.stem: path for path in answers}
-    first = next(iter(files.values()))
+    paths = {path.stem: path for path in answers}
+    first = next(iter(paths.values()))
     maps = {"exact": [read_answer(first, flicker_name(part, exact=True)) for part in parts]}
     for method, label in labels.items():
-        maps[label] = [read_answer(files[method], flicker_name(part)) for part in parts]
+        maps[label] = [read_answer(paths[method], flicker_name(part)) for part in parts]
     moving = [part.stem.rsplit("_", 1)[0] for part in parts]
     write_figure(flicker_figure(maps, moving, f"{title} ({run['scale']} scale)"), png, svg)
 
 
 def flicker_figure(
     maps: Mapping[str, Sequence[np.ndarray]], moving: Sequence[str], title: str
-) -> Figure:
+) -> "Figure":
     """Mean change of each pixel from frame to frame, (H, W) in [0, 1], by method and sequence."""
+    from matplotlib.colors import LinearSegmentedColormap
+
+    colours = LinearSegmentedColormap.from_list("flicker", COLOURS)
     height, width = next(iter(maps.values()))[0].shape
     inches = WIDTH / len(moving) * height / width + 0.2
     figure = new_figure(title, WIDTH, 1.2 + len(maps) * inches)
@@ -57,7 +96,7 @@ def flicker_figure(
     for line, (label, images) in enumerate(maps.items()):
         for axes, image, what in zip(grid[line], images, moving):
             axes.set_axis_off()
-            shown = axes.imshow(image, cmap=COLOURS, vmin=0, vmax=FULL, interpolation="none")
+            shown = axes.imshow(image, cmap=colours, vmin=0, vmax=FULL, interpolation="none")
             axes.set_title(f"{label}, {what} moves: {image.mean():.4f}", loc="left", fontsize=8)
     figure.colorbar(shown, ax=grid, location="bottom", shrink=0.4, aspect=40, extend="max")
     note_below(

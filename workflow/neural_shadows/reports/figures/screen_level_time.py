@@ -1,24 +1,51 @@
 """The time of a network of whole frames by level, stacked by part, beside the printed one."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from pydantic import Field
 
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.figures.style import COLOURS, GRID, Section, legend_below, new_figure
-from neural_shadows.reports.published_nsm import PAPER
+from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.published_nsm import PAPER
+from neural_shadows.reports.data.table import read_table
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing.style import GRID, legend_below, new_figure
+from neural_shadows.reports.tables import screen_parts
 from neural_shadows.reports.tables.screen_parts import NAMES, PRINTED
-from neural_shadows.reports.tables.writing import read_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.table_figures import TableFigure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 NUMBERS = ("level", "ms", "share", "printed_ms", "printed_share")
 PARTS = (*PRINTED, "extraction", "entrance", "exit")  # in the order of their colours
 
 
-def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None:
+class Settings(TableFigure):
+    """Time of a screen-space network, by level and part."""
+
+    tables = (screen_parts.Settings,)
+    chapter: ClassVar[Chapter] = "soft"
+
+    kind: Literal["screen_level_time"] = Field(description="`screen_level_time`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"run": layout.run()}
+
+
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
     """Draw the CSV of a table of `screen_parts`.
 
     Raises:
@@ -28,7 +55,7 @@ def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None
     write_chart(level_figure(found, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
-def level_figure(table: pd.DataFrame, *, title: str) -> Figure:
+def level_figure(table: pd.DataFrame, *, title: str) -> "Figure":
     """Shares of the whole time by level: ours at the left, the paper's at the right if printed."""
     panels = {f"ours, {table['run'].iloc[0]}": ("share", "ms")}
     if table["printed_ms"].notna().any():
@@ -44,7 +71,7 @@ def level_figure(table: pd.DataFrame, *, title: str) -> Figure:
     return figure
 
 
-def _draw_levels(axes: Axes, table: pd.DataFrame, share: str, ms: str) -> None:
+def _draw_levels(axes: "Axes", table: pd.DataFrame, share: str, ms: str) -> None:
     levels = sorted(table["level"].unique())
     bottom = pd.Series(0.0, index=levels)
     for part, colour in zip(PARTS, (*COLOURS, "#999999")):

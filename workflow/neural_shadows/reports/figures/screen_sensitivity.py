@@ -1,21 +1,48 @@
 """How much of a network's answer hangs on each feature (Datta et al. 2022, figure 3)."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import pandas as pd
-from matplotlib.figure import Figure
+from pydantic import Field
 
 from neural_shadows.errors import InputError
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.figures.style import BLUE, GRID, Section, new_figure, note_below
+from neural_shadows.evaluation.look import BLUE
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data.screen_rows import learned_rows
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing.style import GRID, new_figure, note_below
+from neural_shadows.reports.tables import screen_features
 from neural_shadows.reports.tables.screen_features import LEAST_SHARE
-from neural_shadows.reports.tables.screen_rows import learned_rows
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.table_figures import TableFigure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SHARE = "share_"
 
 
-def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None:
+class Settings(TableFigure):
+    """Sensitivity of screen-space networks to their features."""
+
+    tables = (screen_features.Settings,)
+    chapter: ClassVar[Chapter] = "soft"
+
+    kind: Literal["screen_sensitivity"] = Field(description="`screen_sensitivity`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"run": layout.run()}
+
+
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
     """Draw the CSV of a table of `screen_features`.
 
     Raises:
@@ -28,7 +55,7 @@ def draw(table: Path, png: Path, svg: Path, *, title: str, run: Section) -> None
     write_chart(sensitivity_figure(found, f"{title} ({run['scale']} scale)"), png, svg)
 
 
-def sensitivity_figure(table: pd.DataFrame, title: str) -> Figure:
+def sensitivity_figure(table: pd.DataFrame, title: str) -> "Figure":
     """A panel for each network, with a bar for each of its features, the largest first."""
     figure = new_figure(title, 10, 0.9 + 0.26 * (table.filter(like=SHARE).notna().sum().sum() + 9))
     columns = [name for name in table if name.startswith(SHARE)]

@@ -1,26 +1,51 @@
 """The boundary of the shadow along a ray (figure 3.2)."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
+from pydantic import Field
 
-from neural_shadows.reports.figures import drawing
-from neural_shadows.reports.figures.mesh_slice import slice_rays
-from neural_shadows.reports.figures.style import (
-    BLUE,
-    GRID,
-    ORANGE,
-    Section,
-    legend_below,
-    write_figure,
-)
+from neural_shadows.evaluation.look import BLUE, ORANGE
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing.style import GRID, legend_below, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.scene_figures import SceneFigure
+
+
+class Settings(SceneFigure):
+    """A light's rays in a slice, with their bounds [figure 3.2]."""
+
+    kind: Literal["shadow_boundary"] = Field(description="`shadow_boundary`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    scene, paths = layout.entry("figures", figure)["scene"], layout.paths
+    return {
+        "mesh_ply": paths.scene("mesh.ply", scene),
+        "mesh_json": paths.scene("mesh.json", scene),
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    scene = layout.entry("figures", figure)["scene"]
+    return {"scene": layout.entry("scenes", scene)["scene"]}
 
 
 def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Section
+    mesh_ply: Path,
+    mesh_json: Path,
+    png: Path,
+    svg: Path,
+    *,
+    title: str,
+    scene: Mapping[str, Any],
 ) -> None:
     """Draw a light's rays in a slice, and their bounds over the offset across the light."""
+    from neural_shadows.reports.drawing import drawing
+    from neural_shadows.reports.drawing.mesh_slice import slice_rays
+
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title)
     plane, graph = figure.subplots(1, 2)
     drawing.draw_disk(plane, "the slice, lit from the upper left")

@@ -1,24 +1,50 @@
 """Error over milliseconds of every method for soft shadows, on one thread of one device."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import isnan
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import pandas as pd
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
+from pydantic import Field
 
-from neural_shadows.evaluation.soft_method_names import DENOISERS
-from neural_shadows.reports.figures import style
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.figures.point_labels import label_points
-from neural_shadows.reports.figures.shown_errors import COLUMNS, with_shown_errors
-from neural_shadows.reports.soft_looks import SOFT_LOOKS, family_of, light_name
-from neural_shadows.reports.tables.writing import read_table
+from neural_shadows.evaluation.null_predictors import is_null
+from neural_shadows.evaluation.soft_registry import look_of
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data.lights import light_name
+from neural_shadows.reports.data.table import read_table
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing.shown_errors import COLUMNS, with_shown_errors
+from neural_shadows.reports.tables import soft_methods
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.table_figures import RadiiFigure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NUMBERS = ("number", "radius", "ms", *COLUMNS)
-JOINED = ("rt", "field", *DENOISERS)  # one method with more and more rays
+
+
+class Settings(RadiiFigure):
+    """Error over milliseconds of methods for soft shadows."""
+
+    tables = (soft_methods.Settings,)
+    chapter: ClassVar[Chapter] = "soft"
+
+    kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
+    radii: list[int] | None = Field(
+        None, min_length=1, description="which radii, counted from 0; by default all but a point"
+    )
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"radii": layout.entry("figures", figure)["radii"], "run": layout.run()}
 
 
 def draw(
@@ -28,7 +54,7 @@ def draw(
     *,
     title: str,
     radii: Sequence[int] | None,
-    run: style.Section,
+    run: Mapping[str, Any],
 ) -> None:
     """Draw a panel for each radius.
 
@@ -46,21 +72,24 @@ def draw(
     write_chart(figure, png, svg)
 
 
-def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str) -> Figure:
+def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str) -> "Figure":
     """A panel for each radius: mean squared error over milliseconds of a frame, both logarithmic.
 
     Args:
         table: `method`, `label`, `number` (of the radius), `radius`, `unit`, `ms` and `COLUMNS`.
         radii: numbers of those to draw.
     """
+    from matplotlib.lines import Line2D
+
+    from neural_shadows.reports.drawing.point_labels import label_points
+
     table, name = with_shown_errors(table)
     figure = style.new_figure(title, 5.2 * len(radii), 5.2)
     panels = figure.subplots(1, len(radii), sharex=True, sharey=True, squeeze=False)[0]
-    families = {family_of(method) for method in table["method"]} - {"null"}
+    looks = dict.fromkeys(look_of(method) for method in table["method"] if not is_null(method))
     entries = [
         Line2D([], [], label=look.name, color=look.colour, marker=look.marker, linestyle="")
-        for family, look in SOFT_LOOKS.items()
-        if family in families
+        for look in looks
     ]
     style.legend_below(figure, entries, len(radii))  # a name is half a panel wide
     named = []
@@ -68,7 +97,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         rows = table[(table["number"] == number) & (table["method"] != "all_dark")]
         methods = rows.dropna(subset="ms")
         for row in methods.itertuples():
-            look = SOFT_LOOKS[family_of(row.method)]
+            look = look_of(row.method)
             spread = [[row.error - row.error_low], [row.error_high - row.error]]
             drawn = {"color": look.colour, "marker": look.marker, "linestyle": "", "capsize": 2}
             bar = axes.errorbar(row.ms, row.error, spread, **drawn)
@@ -76,9 +105,8 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
             ends = "" if isnan(row.error_low) else ends  # of a single frame
             error = f"{1e4 * row.error:.1f}{ends}"
             say(bar.lines[0], f"{row.label}: {name} {error} × 10⁻⁴; {row.ms:.1f} ms")
-        for family in JOINED:
-            some = methods[methods["method"].map(family_of) == family].sort_values("ms")
-            look = SOFT_LOOKS[family]
+        for look in (look for look in looks if look.joined):
+            some = methods[methods["method"].map(look_of) == look].sort_values("ms")
             axes.plot(some["ms"], some["error"], color=look.colour, linewidth=0.8, zorder=0)
         for row in rows[rows["method"] == "no_shadow"].itertuples():
             axes.axhline(row.error, color="#777777", linewidth=0.7, linestyle=":", zorder=0)

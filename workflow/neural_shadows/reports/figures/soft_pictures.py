@@ -1,22 +1,127 @@
 """One frame by methods for soft shadows, with their errors, at several radii."""
 
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from pydantic import Field
 
+from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
 from neural_shadows.evaluation.soft_answers import name_of, read_answer
-from neural_shadows.frames.frame_set import FrameSetPart
-from neural_shadows.reports.figures.style import Section, new_figure, note_below, write_figure
-from neural_shadows.reports.frame_errors import FULL
-from neural_shadows.reports.soft_looks import light_names
+from neural_shadows.evaluation.soft_registry import available
+from neural_shadows.frames.light_size import shown_radii
+from neural_shadows.layout import frame_sets
+from neural_shadows.layout.kinds import kind_of
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.soft_methods import frame_set
+from neural_shadows.layout.soft_methods import label as label_of
+from neural_shadows.layout.tables import unique
+from neural_shadows.reports.data.lights import light_names
+from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.reports.tables import soft_methods, soft_summary
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.frame_sets import measured_scenes
+from neural_shadows.sections.sections import Sections
+from neural_shadows.sections.table_figures import RadiiFigure
+from neural_shadows.settings.base import check_among, name_in
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 NUMBER = 0  # of the part's frames, the one that is shown
 WIDTH = 12.0  # inches
 WIDEST = 4.0  # of a picture
+
+
+class Settings(RadiiFigure):
+    """A frame by methods for soft shadows, with their errors.
+
+    At several radii; the page lets any two of them be compared.
+    """
+
+    tables = (soft_methods.Settings, soft_summary.Settings)
+    chapter: ClassVar[Chapter] = "soft"
+
+    kind: Literal["soft_pictures"] = Field(description="`soft_pictures`")
+    soft_scene: name_in("soft_scenes") = Field(description="whose first test frame is shown")
+    methods: list[str] = Field(min_length=1, description="which of the table's methods")
+    radii: list[int] | None = Field(
+        None,
+        min_length=1,
+        description="which radii, counted from 0; by default the least but a point, the middle "
+        "and the largest",
+    )
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        table = config.tables[self.table]
+        scenes = measured_scenes(config.frame_sets[table.frame_set])
+        check_among(f"{key}.soft_scene", self.soft_scene, scenes)
+        for method in self.methods:
+            check_among(f"{key}.methods", method, table.methods_shown())
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        frames = config.frame_sets[config.tables[self.table].frame_set]
+        return self.model_dump() | {"radii": self.radii or shown_radii(len(frames.radii))}
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    frames = frame_set(layout, settings["table"])
+    return {
+        "part": frame_sets.parts(layout, settings["soft_scene"], frames, "test")[0],
+        "answers": [
+            layout.paths.soft_evaluation("npz", frames, method)
+            for method in filter(available, settings["methods"])
+        ],
+    }
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    settings = layout.entry("figures", figure)
+    methods = filter(available, settings["methods"])
+    return {
+        "labels": {method: label_of(layout, method) for method in methods},
+        "radii": settings["radii"],
+        "run": layout.run(),
+    }
+
+
+def shown(layout: Layout) -> list[dict[str, Any]]:
+    """All frames of this kind's figures, for `soft_comparisons`."""
+    frames = []
+    for name in _of_this_kind(layout, layout.settings["figures"]):
+        settings = layout.entry("figures", name)
+        table = settings["table"]
+        frames.append(
+            {
+                "table": table,
+                "title": layout.entry("tables", table)["title"],
+                "frame_set": frame_set(layout, table),
+                "scene": settings["soft_scene"],
+                "labels": params(layout, name)["labels"],
+                "radii": settings["radii"],
+            }
+        )
+    return frames
+
+
+def shown_files(layout: Layout, figures: Iterable[str]) -> dict[str, list[str]]:
+    """Files of this kind's figures among some, each once."""
+    made_of = [files(layout, name) for name in _of_this_kind(layout, figures)]
+    return {
+        "soft_parts": unique(one["part"] for one in made_of),
+        "soft_answers": unique(path for one in made_of for path in one["answers"]),
+    }
+
+
+def _of_this_kind(layout: Layout, figures: Iterable[str]) -> list[str]:
+    this = sys.modules[__name__]
+    return [name for name in figures if kind_of(layout, "figures", name) is this]
 
 
 def draw(
@@ -28,7 +133,7 @@ def draw(
     title: str,
     labels: Mapping[str, str],
     radii: Sequence[int],
-    run: Section,
+    run: Mapping[str, Any],
 ) -> None:
     """Draw the first frame of a part: a line a method, two pictures for each radius.
 
@@ -39,12 +144,14 @@ def draw(
     Raises:
         InputError: a file is missing or not whole.
     """
+    from neural_shadows.frames.frame_set import FrameSetPart
+
     opened = FrameSetPart(part)
     targets = opened.targets[NUMBER].astype(np.float32)
     valid = np.asarray(opened.valid[NUMBER, 0])
-    files = {path.stem: path for path in answers}
+    paths = {path.stem: path for path in answers}
     pictures = {
-        label: [read_answer(files[method], name_of(part, k)) for k in radii]
+        label: [read_answer(paths[method], name_of(part, k)) for k in radii]
         for method, label in labels.items()
     }
     lights = [light_names(opened.about)[k] for k in radii]
@@ -59,7 +166,7 @@ def strips(
     valid: np.ndarray,
     lights: Sequence[str],
     title: str,
-) -> Figure:
+) -> "Figure":
     """The exact soft shadow of each light, and below it each method's with its error.
 
     Args:
@@ -87,7 +194,7 @@ def strips(
 
 def answers_alone(
     pictures: Mapping[str, Sequence[np.ndarray]], lights: Sequence[str], title: str
-) -> Figure:
+) -> "Figure":
     """What each method answered for each radius, where nothing is known to compare with.
 
     Args:
@@ -103,7 +210,7 @@ def answers_alone(
 
 def _grid(
     title: str, rows: int, columns: int, shape: float, note: float = 0.0
-) -> tuple[Figure, np.ndarray]:
+) -> "tuple[Figure, np.ndarray]":
     """A figure of so many pictures, and its axes.
 
     Args:
@@ -121,14 +228,14 @@ def coloured(error: np.ndarray) -> np.ndarray:
     """Errors (H, W) as colours (H, W, 3): orange below 0, blue above, white at 0."""
     from matplotlib.colors import to_rgb
 
-    from neural_shadows.reports.figures.style import FALSE_SHADOW, LIGHT_LEAK
+    from neural_shadows.reports.data.frame_errors import FULL
 
     share = np.clip(np.abs(error) / FULL, 0, 1)[..., None]
     colour = np.where(error[..., None] < 0, to_rgb(FALSE_SHADOW), to_rgb(LIGHT_LEAK))
     return 1 - share * (1 - colour)
 
 
-def _show(axes: Axes, image: np.ndarray | None, text: str) -> None:
+def _show(axes: "Axes", image: np.ndarray | None, text: str) -> None:
     axes.set_axis_off()
     if image is not None:
         axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation="none")

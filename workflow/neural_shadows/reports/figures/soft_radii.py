@@ -1,23 +1,58 @@
 """Error over the light's radius, a line a method (Hu et al. 2025, figure 9)."""
 
+from collections.abc import Mapping
 from itertools import product
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import pandas as pd
-from matplotlib.figure import Figure
+from pydantic import Field
 
-from neural_shadows.reports.figures import style
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.figures.shown_errors import COLUMNS, with_shown_errors
-from neural_shadows.reports.soft_looks import SOFT_LOOKS, family_of
-from neural_shadows.reports.tables.writing import read_table
+from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.evaluation.soft_registry import look_of
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data.table import read_table
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing.shown_errors import COLUMNS, with_shown_errors
+from neural_shadows.reports.tables import soft_summary
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.sections import Sections
+from neural_shadows.sections.table_figures import TableFigure
+from neural_shadows.settings.base import Name
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NUMBERS = ("radius", *COLUMNS)
 LINES = ("-", "--", ":")  # when all colours are taken once, twice
 
 
-def draw(table: Path, png: Path, svg: Path, *, title: str, run: style.Section) -> None:
+class Settings(TableFigure):
+    """Error over the light's radius, of methods for soft shadows."""
+
+    tables = (soft_summary.Settings,)
+    chapter: ClassVar[Chapter] = "soft"
+
+    kind: Literal["soft_radii"] = Field(description="`soft_radii`")
+    table: Name = Field(description="a table of `soft_summary` in `tables`, `by: radius`")
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        if config.tables[self.table].by != "radius":
+            raise ValueError(f"{key}.table: {self.table!r} is not `by: radius`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"run": layout.run()}
+
+
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
     """Draw the CSV of a table of `soft_summary` that is by radius.
 
     Raises:
@@ -27,7 +62,7 @@ def draw(table: Path, png: Path, svg: Path, *, title: str, run: style.Section) -
     write_chart(radii_figure(found, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
-def radii_figure(table: pd.DataFrame, *, title: str) -> Figure:
+def radii_figure(table: pd.DataFrame, *, title: str) -> "Figure":
     """Mean squared error (logarithmic) over the radius, with its 95 % intervals.
 
     Args:
@@ -37,9 +72,9 @@ def radii_figure(table: pd.DataFrame, *, title: str) -> Figure:
     figure = style.new_figure(title, 8, 5.4)
     axes = figure.subplots()
     known = table.dropna(subset="error")
-    looks = product(LINES, style.COLOURS)
+    looks = product(LINES, COLOURS)
     for (method, rows), (line, colour) in zip(known.groupby("method", sort=False), looks):
-        marker, label = SOFT_LOOKS[family_of(method)].marker, rows["label"].iloc[0]
+        marker, label = look_of(method).marker, rows["label"].iloc[0]
         drawn = {"color": colour, "linestyle": line, "marker": marker, "markersize": 5}
         drawn["label"] = label
         spread = [rows["error"] - rows["error_low"], rows["error_high"] - rows["error"]]

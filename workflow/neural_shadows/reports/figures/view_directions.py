@@ -1,21 +1,41 @@
-"""View directions of each sampler, with their spectra (figure 3.4)."""
+"""View directions of each sampler, with their spectra (figure 3.3)."""
 
 from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
+from pydantic import Field
 
-from neural_shadows.rays.poisson_disk import sphere_directions
+from neural_shadows.evaluation.look import BLUE, ORANGE
+from neural_shadows.layout.layout import Layout
 from neural_shadows.rays.streams import DIRECTIONS
-from neural_shadows.reports.figures.drawing import SHOWN_DIRECTIONS, draw_hemisphere
-from neural_shadows.reports.figures.style import BLUE, GRID, ORANGE, new_figure, write_figure
+from neural_shadows.reports.drawing.style import GRID, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import AnyFigure
 
 DEGREES = 80  # of the spectra: 1000 Poisson-disk directions have their ring near degree 50
 
 
+class Settings(AnyFigure):
+    """View directions by sampler, and their spectra [figure 3.3]."""
+
+    kind: Literal["view_directions"] = Field(description="`view_directions`")
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"seed": layout.settings["seed"]}
+
+
 def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
     """Draw a hemisphere of directions of each sampler, and below them their spectra."""
+    from neural_shadows.rays.poisson_disk import sphere_directions
+    from neural_shadows.reports.drawing.drawing import SHOWN_DIRECTIONS, draw_hemisphere
+
     figure = new_figure(title, 11, 9.6)
     uniform = np.random.default_rng((seed, DIRECTIONS)).normal(size=(SHOWN_DIRECTIONS, 3))
     uniform /= np.linalg.norm(uniform, axis=1, keepdims=True)

@@ -2,21 +2,55 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from pydantic import Field
 
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.figures import style
-from neural_shadows.reports.figures.chart import say, write_chart
-from neural_shadows.reports.tables.quality import with_ends
-from neural_shadows.reports.tables.timing import FRAME_MS, OWN_MS
-from neural_shadows.reports.tables.writing import read_table
+from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.quality import with_ends
+from neural_shadows.reports.data.table import read_table
+from neural_shadows.reports.data.timing import FRAME_MS, OWN_MS
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.tables import frame_times
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.sections import Sections
+from neural_shadows.sections.table_figures import TableFigure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 THEIRS = ("thesis_lpips", "thesis_frame_ms")
 GREY, MARKERS = "#777777", "os^v"
+
+
+class Settings(TableFigure):
+    """Quality and times over layer width [figure 4.8]."""
+
+    tables = (frame_times.Settings,)
+
+    kind: Literal["widths"] = Field(description="`widths`")
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        """With `rows`: the table's networks with a `width`."""
+        rows = []
+        for row in config.tables[self.table].resolved_rows(config):
+            network = row["experiment"] and config.network_of(row["experiment"])
+            if width := getattr(network, "width", None):
+                rows.append(row | {"width": width})
+        return self.model_dump() | {"rows": rows}
+
+
+def files(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+
+
+def params(layout: Layout, figure: str) -> dict[str, Any]:
+    return {"rows": layout.entry("figures", figure)["rows"], "run": layout.run()}
 
 
 def draw(
@@ -25,8 +59,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[style.Section],
-    run: style.Section,
+    rows: Sequence[Mapping[str, Any]],
+    run: Mapping[str, Any],
 ) -> None:
     """Draw the networks of a table of frame times.
 
@@ -46,7 +80,7 @@ def draw(
 
 def width_figure(
     table: pd.DataFrame, widths: Mapping[tuple[str, str], int], *, title: str
-) -> Figure:
+) -> "Figure":
     """Draw LPIPS and times over width, a line per scene, the thesis's numbers dashed and grey.
 
     Its LPIPS has axes of its own: it is of another network, and the two do not compare. Networks
@@ -65,7 +99,7 @@ def width_figure(
     panels = iter(figure.subplots(1, sum(counts), squeeze=False)[0])
     quality, theirs, (speed,) = ([next(panels) for _ in range(count)] for count in counts)
     for i, (scene, rows) in enumerate(shown.groupby("scene", sort=False)):
-        colour = style.COLOURS[i % len(style.COLOURS)]
+        colour = COLOURS[i % len(COLOURS)]
         for axes in quality:
             _draw_line(axes, rows, with_ends("lpips"), color=colour, label=scene)
         _draw_line(speed, rows, FRAME_MS, color=colour, label=scene)
@@ -95,7 +129,7 @@ def width_figure(
     return figure
 
 
-def _draw_line(axes: Axes, rows: pd.DataFrame, columns: Sequence[str], **look: str) -> None:
+def _draw_line(axes: "Axes", rows: pd.DataFrame, columns: Sequence[str], **look: str) -> None:
     """A value and the ends of its interval over width, hollow where nothing was learned."""
     value, low, high = (rows[column] for column in columns)
     axes.errorbar(rows["width"], value, [value - low, high - value], capsize=3, **look)

@@ -2,26 +2,73 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.evaluation.method_names import is_null
+from neural_shadows.evaluation.null_predictors import NULL, is_null
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.equivalent_maps import equivalent_maps
-from neural_shadows.reports.inputs import read_biases
-from neural_shadows.reports.learned import margins
-from neural_shadows.reports.published import add_printed, printed_table, read_published
-from neural_shadows.reports.tables import quality, quality_cells
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import depth_biases as depth_biases_of
+from neural_shadows.layout.tables import metrics as metrics_of
+from neural_shadows.layout.tables import networks
+from neural_shadows.reports.data import phrases, quality, quality_cells
+from neural_shadows.reports.data.equivalent_maps import equivalent_maps
+from neural_shadows.reports.data.inputs import read_biases
+from neural_shadows.reports.data.learned import margins
+from neural_shadows.reports.data.published import add_printed, printed_table, read_published
+from neural_shadows.reports.data.table import Column, Table, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.rows import TableOfOneScene
 
 PRINTED = ("lpips", "psnr", "ssim")  # what the thesis's tables give, in its order
 
 
-def write(
+class Settings(TableOfOneScene):
+    """Methods on the same viewpoints of one scene: their quality."""
+
+    null_rows = tuple(NULL)
+
+    kind: Literal["comparison"] = Field("comparison", description="`comparison`, the default")
+    against: str | None = Field(
+        None, description="the row whose paired differences to all others are given"
+    )
+
+    def chapter_of(self) -> Chapter:
+        return "thesis" if self.published else "extensions"
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    rows = layout.entry("tables", table)["rows"]
+    scene = rows[0]["scene"]
+    return {
+        "metrics": metrics_of(layout, rows),
+        "mesh_json": layout.paths.scene("mesh.json", scene),
+        "trainings": networks(layout, rows, "training.json"),
+        "depth_biases": depth_biases_of(layout, rows),
+        "lpips_json": layout.paths.lpips,
+        "published_csv": layout.source("config/published.csv"),
+        # Not read: the preview of its scene is made with a table.
+        "beside": [layout.paths.report(f"scenes/{scene}.png")],
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    rows = settings["rows"]
+    return {
+        "published": settings["published"],
+        "against": settings["against"],
+        "rows": rows,
+        "run": layout.run(),
+        "scenes": layout.scenes(row["scene"] for row in rows),
+    }
+
+
+def table(
     *,
     metrics: list[Path],
     mesh_json: Path,
@@ -29,16 +76,14 @@ def write(
     depth_biases: list[Path],
     lpips_json: Path,
     published_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     against: str | None,
     rows: Sequence[Mapping[str, Any]],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
-) -> None:
-    """Write a comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
+) -> Table:
+    """A comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
 
     The null predictors come last. CSV: the columns of `scene_quality`, `unfit`, those of `add_printed` and
     `add_printed_maps`, and the context.
@@ -77,7 +122,7 @@ def write(
         phrases.describe_run(run),
     ]
     title = phrases.titled(title, published, mesh)
-    write_twins(table, cells(table, published), csv, md, title=title, notes=notes)
+    return Table(title, table, cells(table, published), notes)
 
 
 def add_printed_maps(
@@ -102,26 +147,28 @@ def add_printed_maps(
     return frame.assign(**columns)
 
 
-def cells(table: pd.DataFrame, published: str | None) -> dict[str, Iterable[str]]:
+def cells(table: pd.DataFrame, published: str | None) -> dict[str, Column | Iterable[str]]:
     """The Markdown's columns: those that the thesis prints, and what judges them."""
-    columns: dict[str, Iterable[str]] = {"method": quality_cells.method_cells(table)}
+    columns: dict[str, Column | Iterable[str]] = {"method": quality_cells.method_column(table)}
     measured = [metric for metric in PRINTED if table[metric].notna().any()]
     for metric in ["flip"] * ("lpips" not in measured) + measured:
         heading, _, decimals = quality_cells.READING[metric]
-        columns[heading] = quality_cells.quality_cells(table, metric)
+        columns[heading] = quality_cells.quality_column(table, metric)
         if published and metric in PRINTED:
-            printed = number_cells(table[f"thesis_{metric}"], f"{{:.{decimals}f}}")
+            form = f"{{:.{decimals}f}}"
+            printed = numbers(table[f"thesis_{metric}"], form, printed_of=heading)
             columns[f"thesis {metric.upper()}"] = printed
-    columns["pooled PSNR ↑"] = number_cells(table["psnr_pooled"], "{:.2f}")
+    columns["pooled PSNR ↑"] = numbers(table["psnr_pooled"], "{:.2f}")
     if table["psnr_difference"].notna().any():
-        columns["difference, dB"] = quality_cells.difference_cells(table)
+        columns["difference, dB"] = quality_cells.difference_column(table)
     for by in ("", "thesis "):  # empty without maps, and where the thesis says nothing
         names = [f"{by.replace(' ', '_')}map_{metric}" for metric in ("lpips", "psnr")]
         maps = quality_cells.map_cells(*(table[name] for name in names))
-        columns |= {f"{by}equal map": maps} if any(maps) else {}
-    columns["shadow error % ↓"] = number_cells(table["shadow_error"], "{:.2f}", 100)
+        if any(maps):
+            columns[f"{by}equal map"] = Column(maps, printed_of="equal map" if by else "")
+    columns["shadow error % ↓"] = numbers(table["shadow_error"], "{:.2f}", 100)
     return columns
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -2,22 +2,59 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
+from pydantic import Field
+
+from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.inputs import read_meshes
-from neural_shadows.reports.learned import margins
-from neural_shadows.reports.published import add_printed, read_published
-from neural_shadows.reports.tables import quality_cells, timing
-from neural_shadows.reports.tables.quality import scenes_quality, with_ends
-from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import experiments_of, networks, unique
+from neural_shadows.layout.tables import metrics as metrics_of
+from neural_shadows.reports.data import phrases, quality_cells, timing
+from neural_shadows.reports.data.inputs import read_meshes
+from neural_shadows.reports.data.learned import margins
+from neural_shadows.reports.data.published import add_printed, read_published
+from neural_shadows.reports.data.quality import scenes_quality, with_ends
+from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.rows import TableByScene
 
 PRINTED = ("frame_ms", "lpips", "size_kib")  # what the thesis prints, in its order
 
 
-def write(
+class Settings(TableByScene):
+    """Speed, quality and size of methods [4.4.1]."""
+
+    null_rows = (NO_SHADOW,)
+    timed = True
+
+    kind: Literal["frame_times"] = Field(description="`frame_times`")
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    rows = layout.entry("tables", table)["rows"]
+    scenes = unique(row["scene"] for row in rows)
+    return {
+        "times": [layout.paths.frame_times(table, scene) for scene in scenes],
+        "metrics": metrics_of(layout, rows),
+        "weights": networks(layout, rows, "weights.safetensors"),
+        "meshes": [layout.paths.scene("mesh.json", scene) for scene in scenes],
+        "lpips_json": layout.paths.lpips,
+        "published_csv": layout.source("config/published.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    return {"published": settings["published"], "rows": settings["rows"], "run": layout.run()}
+
+
+def encodings(layout: Layout, table: str) -> set[str]:
+    return layout.encodings(experiments_of(layout.entry("tables", table)["rows"]))
+
+
+def table(
     *,
     times: list[Path],
     metrics: list[Path],
@@ -25,14 +62,12 @@ def write(
     meshes: list[Path],
     lpips_json: Path,
     published_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     rows: Sequence[Mapping[str, Any]],
     run: Mapping[str, Any],
-) -> None:
-    """Write a table of frame times, in the order of `rows`.
+) -> Table:
+    """A table of frame times, in the order of `rows`.
 
     CSV: `method, scene`, `FRAME_MS`, `OWN_MS`, `repeats, device, lpips, lpips_low, lpips_high,
     learned, size_kib, resident_kib`, the columns of `add_printed` of the three that the thesis
@@ -56,14 +91,14 @@ def write(
 
     columns = {
         "scene": table["scene"],
-        "method": quality_cells.method_cells(table),
-        "own ms ↓": interval_cells(table, timing.OWN_MS, 1),
-        "frame ms ↓": interval_cells(table, timing.FRAME_MS, 1),
-        "thesis ms": number_cells(table["thesis_frame_ms"], "{:.1f}"),
-        "LPIPS ↓": quality_cells.quality_cells(table, "lpips"),
-        "thesis LPIPS": number_cells(table["thesis_lpips"], "{:.4f}"),
-        "size KiB": number_cells(table["size_kib"], "{:.0f}"),
-        "thesis KiB": number_cells(table["thesis_size_kib"], "{:.0f}"),
+        "method": quality_cells.method_column(table),
+        "own ms ↓": intervals(table, timing.OWN_MS, 1),
+        "frame ms ↓": intervals(table, timing.FRAME_MS, 1),
+        "thesis ms": numbers(table["thesis_frame_ms"], "{:.1f}", printed_of="frame ms ↓"),
+        "LPIPS ↓": quality_cells.quality_column(table, "lpips"),
+        "thesis LPIPS": numbers(table["thesis_lpips"], "{:.4f}", printed_of="LPIPS ↓"),
+        "size KiB": numbers(table["size_kib"], "{:.0f}"),
+        "thesis KiB": numbers(table["thesis_size_kib"], "{:.0f}", printed_of="size KiB"),
     }
     ran = timing.devices(timed)
     if len(ran) > 1:
@@ -91,10 +126,8 @@ def write(
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
-    write_twins(
-        table, columns, csv, md, title=phrases.titled(title, published), notes=notes, text_columns=2
-    )
+    return Table(phrases.titled(title, published), table, columns, notes, text_columns=2)
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -2,25 +2,33 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.evaluation.method_names import NO_SHADOW
+from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import curves as curves_of
+from neural_shadows.layout.tables import metrics as metrics_of
+from neural_shadows.layout.tables import networks, unique, unshadowed, with_curves
 from neural_shadows.metrics import power_law
 from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
-from neural_shadows.reports import phrases
-from neural_shadows.reports.claims.measured import THESIS_SAMPLES, Measured, Row
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.inputs import by_folder, read_meshes
-from neural_shadows.reports.published import read_published
-from neural_shadows.reports.tables.quality import values_by_view
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.inputs import by_folder, read_meshes
+from neural_shadows.reports.data.published import read_published
+from neural_shadows.reports.data.quality import values_by_view
+from neural_shadows.reports.data.table import Column, Table, number_cells, write_table
+from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.row_settings import RowSettings
+from neural_shadows.sections.rows import TableByScene
+from neural_shadows.sections.sections import Sections
 from neural_shadows.training.loss_curve import read_loss
 
 # Headings, and decimals as the thesis prints them.
@@ -39,7 +47,50 @@ COLUMNS = [
 MEASURED, EXTRAPOLATED = "measured", "extrapolated"  # kinds of rows
 
 
-def write(
+class Settings(TableByScene):
+    """What each budget of `learning_curves` reaches."""
+
+    kind: Literal["learning_curves"] = Field(description="`learning_curves`")
+
+    def experiments_allowed(self, config: Sections) -> list[str]:
+        return config.learning_curves.experiments
+
+    def classic_allowed(self, row: RowSettings) -> list[str]:
+        return []
+
+    def check(self, config: Sections, key: str) -> None:
+        if config.learning_curves is None:
+            raise ValueError(f"{key}.kind: {self.kind!r} needs the section `learning_curves`")
+        super().check(config, key)
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    rows = layout.entry("tables", table)["rows"]
+    scenes = unique(row["scene"] for row in rows)
+    rows = [*with_curves(layout, rows), *unshadowed(scenes)]
+    return {
+        "metrics": metrics_of(layout, rows),
+        "losses": networks(layout, rows, "loss.csv"),
+        "trainings": networks(layout, rows, "training.json"),
+        "meshes": [layout.paths.scene("mesh.json", scene) for scene in scenes],
+        "lpips_json": layout.paths.lpips,
+        "published_csv": layout.source("config/published.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    rows = settings["rows"]
+    return {
+        "published": settings["published"],
+        "rows": rows,
+        "curves": curves_of(layout, rows),
+        "run": layout.run(),
+        "scenes": layout.scenes(row["scene"] for row in rows),
+    }
+
+
+def table(
     *,
     metrics: list[Path],
     losses: list[Path],
@@ -47,16 +98,14 @@ def write(
     meshes: list[Path],
     lpips_json: Path,
     published_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     rows: Sequence[Row],
     curves: Mapping[str, Sequence[Mapping[str, Any]]],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
-) -> None:
-    """Write the table of `curve_table` as CSV; as Markdown a row for each method and metric.
+) -> Table:
+    """The table of `curve_table` as CSV; as Markdown a row for each method and metric.
 
     Args:
         metrics: also of `no_shadow`, and of all points of the learning curves.
@@ -65,20 +114,18 @@ def write(
     """
     lpips = read_json(lpips_json)
     read = {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()}
-    data = Measured(
+    data = Trained(
         metrics={
             name: values_by_view(part, part["method"].unique()) for name, part in read.items()
         },
         losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
         trainings={name: read_json(path) for name, [path] in by_folder(trainings).items()},
         meshes=read_meshes(meshes),
-        scenes=scenes,
         curves=curves,
         seed=run["seed"],
-        **{"times": {}, "published": pd.DataFrame(), "margins": {}},  # of claims alone
     )
-    numbers = read_published(published_csv)
-    printed = numbers.loc[[published]].droplevel("table").to_dict() if published else {}
+    printed_numbers = read_published(published_csv)
+    printed = printed_numbers.loc[[published]].droplevel("table").to_dict() if published else {}
     table = curve_table(rows, data, printed)
     notes = [
         "Mean ± standard deviation over seeds; each budget is trained from the start, with its own "
@@ -104,13 +151,15 @@ def write(
     several = table["scene"].nunique() > 1
     columns = _cells(table)
     columns = {name: cells for name, cells in columns.items() if name != "scene" or several}
+    printed_of = "at the thesis's samples"
+    columns["thesis"] = Column(columns["thesis"], printed_of=printed_of)
     texts = 3 if several else 2
     title = phrases.titled(title, published)
-    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=texts)
+    return Table(title, table, columns, notes, text_columns=texts)
 
 
 def curve_table(
-    rows: Sequence[Row], data: Measured, printed: Mapping[tuple[str, str], float]
+    rows: Sequence[Row], data: Trained, printed: Mapping[tuple[str, str], float]
 ) -> pd.DataFrame:
     """A row for each method, metric and budget, and for the thesis's budget.
 
@@ -238,4 +287,4 @@ def _interval(line: pd.Series, form: str) -> str:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -2,29 +2,54 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.reports import phrases
-from neural_shadows.reports.inputs import read_sizes
-from neural_shadows.reports.published import add_printed
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import experiments_of, networks
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.inputs import read_sizes
+from neural_shadows.reports.data.published import add_printed
+from neural_shadows.reports.data.table import Table, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.rows import TableOfOneScene
 
 
-def write(
+class Settings(TableOfOneScene):
+    """The memory that methods take [4.4.2]."""
+
+    kind: Literal["memory"] = Field(description="`memory`")
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    rows = layout.entry("tables", table)["rows"]
+    return {
+        "weights": networks(layout, rows, "weights.safetensors"),
+        "published_csv": layout.source("config/published.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    return {"published": settings["published"], "rows": settings["rows"], "run": layout.run()}
+
+
+def encodings(layout: Layout, table: str) -> set[str]:
+    return layout.encodings(experiments_of(layout.entry("tables", table)["rows"]))
+
+
+def table(
     *,
     weights: list[Path],
     published_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     rows: Sequence[Mapping[str, Any]],
     run: Mapping[str, Any],
-) -> None:
-    """Write the bytes of each method beside the thesis's numbers, which stand beside any mesh."""
+) -> Table:
+    """The bytes of each method beside the thesis's numbers, which stand beside any mesh."""
     sizes = read_sizes(rows, weights)
     table = pd.DataFrame({"method": row["label"], "bytes": sizes[row["method"]]} for row in rows)
     table.insert(1, "memory_mib", table["bytes"] / 2**20)
@@ -33,17 +58,17 @@ def write(
     table = table.sort_values("bytes", ascending=False, kind="stable")
     columns = {
         "method": table["method"],
-        "memory MiB": number_cells(table["memory_mib"], "{:.4g}"),
-        "thesis MiB": number_cells(table["thesis_memory_mib"], "{:.4g}"),
-        "bytes": number_cells(table["bytes"], "{:,}"),
+        "memory MiB": numbers(table["memory_mib"], "{:.4g}"),
+        "thesis MiB": numbers(table["thesis_memory_mib"], "{:.4g}", printed_of="memory MiB"),
+        "bytes": numbers(table["bytes"], "{:,}"),
     }
     notes = [
         "A network: what its weight file stores, 4 bytes for each weight of the thesis's. A shadow "
         "map of N² texels: 4 N² bytes, of 16 bit 2 N².",
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=phrases.titled(title, published), notes=notes)
+    return Table(phrases.titled(title, published), table, columns, notes)
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -1,23 +1,39 @@
 """Networks and their rivals beside shadow maps: quality, bytes, building and speed [5.4.1]."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.evaluation.method_names import RAY_TRACED, is_null
+from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.null_predictors import NULL, is_null
 from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.inputs import by_folder, read_biases, read_meshes, read_seconds
-from neural_shadows.reports.learned import margins
-from neural_shadows.reports.published import TABLE_OF_SCENE, printed_networks, read_published
-from neural_shadows.reports.tables import quality, quality_cells, timing
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import before_training, experiments_of, networks, unique
+from neural_shadows.layout.tables import depth_biases as depth_biases_of
+from neural_shadows.layout.tables import metrics as metrics_of
+from neural_shadows.reports.data import phrases, quality, quality_cells, timing
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.inputs import by_folder, read_biases, read_meshes, read_seconds
+from neural_shadows.reports.data.learned import margins
+from neural_shadows.reports.data.published import TABLE_OF_SCENE, printed_networks, read_published
+from neural_shadows.reports.data.table import (
+    Column,
+    Table,
+    filled,
+    number_cells,
+    numbers,
+    write_table,
+)
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.rows import TableByScene
+from neural_shadows.settings.base import name_in
 
 # What a method is, beside its quality; empty where it does not apply.
 FACTS = ("encoding", "parameters", "stored_bytes", "coded", "resident_bytes", "build_seconds")
@@ -27,7 +43,51 @@ SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
 Row = Mapping[str, Any]
 
 
-def write(
+class Settings(TableByScene):
+    """All that networks and their rivals cost, by scene [5.4.1]."""
+
+    null_rows = tuple(NULL)
+    timed = True
+    chapter: ClassVar[Chapter] = "extensions"
+
+    kind: Literal["networks"] = Field(description="`networks`")
+    against: dict[name_in("scenes"), str] = Field(
+        {}, description="the row whose paired differences to all others are given, by scene"
+    )
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    rows = layout.entry("tables", table)["rows"]
+    scenes = unique(row["scene"] for row in rows)
+    return {
+        "times": [layout.paths.frame_times(table, scene) for scene in scenes],
+        "metrics": metrics_of(layout, rows),
+        "weights": networks(layout, rows, "weights.safetensors"),
+        "trainings": networks(layout, rows, "training.json"),
+        "depth_biases": depth_biases_of(layout, rows),
+        "meshes": [layout.paths.scene("mesh.json", scene) for scene in scenes],
+        "lpips_json": layout.paths.lpips,
+        "published_csv": layout.source("config/published.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    rows = settings["rows"]
+    return {
+        "against": settings["against"],
+        "durations": {name: before_training(layout, name) for name in experiments_of(rows)},
+        "rows": rows,
+        "run": layout.run(),
+        "scenes": layout.scenes(row["scene"] for row in rows),
+    }
+
+
+def encodings(layout: Layout, table: str) -> set[str]:
+    return layout.encodings(experiments_of(layout.entry("tables", table)["rows"]))
+
+
+def table(
     *,
     times: list[Path],
     metrics: list[Path],
@@ -37,16 +97,14 @@ def write(
     meshes: list[Path],
     lpips_json: Path,
     published_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     against: Mapping[str, str],
     durations: Mapping[str, Sequence[str]],
     rows: Sequence[Row],
     run: Mapping[str, Any],
     scenes: Mapping[str, Mapping[str, Any]],
-) -> None:
-    """Write the table in the order of `rows`, scenes kept together.
+) -> Table:
+    """The table in the order of `rows`, scenes kept together.
 
     Below the methods of a scene that the thesis prints, on a mesh as it describes it, stand its
     own values; the null predictors come last.
@@ -106,7 +164,7 @@ def write(
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
-    write_twins(table, cells(table), csv, md, title=title, notes=notes, text_columns=2)
+    return Table(title, table, cells(table), notes, text_columns=2)
 
 
 def facts_of(
@@ -152,36 +210,35 @@ def with_printed(
     return pd.concat([part for part in parts if len(part)], ignore_index=True).drop(columns="null")
 
 
-def cells(table: pd.DataFrame) -> dict[str, Iterable[str]]:
+def cells(table: pd.DataFrame) -> dict[str, Column | Iterable[str]]:
     """The Markdown's columns; a scene is named in its first row."""
     measured = table["lpips_low"].notna().any()  # what is printed has no interval
     perceived = "lpips" if measured else "flip"
     # Of the thesis's networks the mean is printed, and no views to pool.
     means = number_cells(table["psnr"], "{:.2f} (mean)")
-    pooled = [
-        cell or mean for cell, mean in zip(quality_cells.quality_cells(table, "psnr_pooled"), means)
-    ]
+    pooled = quality_cells.quality_column(table, "psnr_pooled")
+    pooled = replace(pooled, texts=[text or mean for text, mean in zip(pooled.texts, means)])
     ends = ["" if end is not True else " †" for end in table["bias_at_end"]]
     biases = number_cells(table["depth_bias"], "{:.4g}")
     columns = {
         "scene": table["scene"].where(~table["scene"].duplicated(), ""),
-        "method": quality_cells.method_cells(table),
+        "method": quality_cells.method_column(table),
         "pooled PSNR ↑": pooled,
-        "difference, dB": quality_cells.difference_cells(table),
-        quality_cells.READING[perceived][0]: quality_cells.quality_cells(table, perceived),
+        "difference, dB": quality_cells.difference_column(table),
+        quality_cells.READING[perceived][0]: quality_cells.quality_column(table, perceived),
         "equal map": quality_cells.map_cells(table["map_lpips"], table["map_psnr"]),
-        "stored KiB ↓": number_cells(table["stored_bytes"], "{:,.0f}", 1 / 1024),
+        "stored KiB ↓": numbers(table["stored_bytes"], "{:,.0f}", 1 / 1024),
         "coded": ["yes" if coded is True else "" for coded in table["coded"]],
-        "resident KiB ↓": number_cells(table["resident_bytes"], "{:,.0f}", 1 / 1024),
-        "build s ↓": number_cells(table["build_seconds"], "{:,.0f}"),
-        "own ms ↓": number_cells(table["own_ms"], short),
-        "frame ms ↓": number_cells(table["frame_ms"], "{:.0f}"),
+        "resident KiB ↓": numbers(table["resident_bytes"], "{:,.0f}", 1 / 1024),
+        "build s ↓": numbers(table["build_seconds"], "{:,.0f}"),
+        "own ms ↓": numbers(table["own_ms"], short),
+        "frame ms ↓": numbers(table["frame_ms"], "{:.0f}"),
         "bias": [f"{bias}{end}" for bias, end in zip(biases, ends)],
     }
     if table["device"].nunique() > 1:
         columns["device"] = table["device"].fillna("")
-    return {name: texts for name, texts in columns.items() if any(texts)}
+    return filled(columns)
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

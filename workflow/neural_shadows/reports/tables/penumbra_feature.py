@@ -4,35 +4,51 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.frames.frame_set import FrameSetPart
-from neural_shadows.frames.kernel_features import MADE_OF, PENUMBRA_PIXELS, kernel_feature
-from neural_shadows.frames.light_size import light_size
+from neural_shadows.layout import soft_methods
+from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.visibility_error import LIT, UMBRA
-from neural_shadows.reports import phrases
-from neural_shadows.reports.published_kpnsm import PAPER
-from neural_shadows.reports.soft_looks import UNITS, light_name
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.lights import UNITS, light_name
+from neural_shadows.reports.data.published_kpnsm import PAPER
+from neural_shadows.reports.data.table import Table, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import FramesTable
+
+if TYPE_CHECKING:
+    from neural_shadows.frames.frame_set import FrameSetPart
 
 FEATURE = "penumbra"
 TOLD = 0.5  # pixels: what is narrower is no more than the edge of a hard shadow
 WHERE = ("lit", "penumbra", "umbra")
 
 
-def write(
+class Settings(FramesTable):
+    """Pixels with a penumbra in the features of kernel networks (Hu et al. 2025, 4.1)."""
+
+    kind: Literal["penumbra_feature"] = Field(description="`penumbra_feature`")
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    return {"parts": soft_methods.tests(layout, soft_methods.frame_set(layout, table))}
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    return {"run": layout.run()}
+
+
+def table(
     *,
     parts: list[Path],
-    csv: Path,
-    md: Path,
     title: str,
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each light but points, and one for all of them.
+) -> Table:
+    """A row for each light but points, and one for all of them.
 
     CSV: those of `feature_table`, `radius`, its unit, and the scale.
 
@@ -42,6 +58,8 @@ def write(
     Raises:
         InputError: a part is missing, not whole, or has no channel that the feature is made of.
     """
+    from neural_shadows.frames.frame_set import FrameSetPart
+
     opened = [FrameSetPart(path) for path in parts]
     about = opened[0].about
     unit = UNITS[about.get("radius_unit", "metres")]
@@ -53,11 +71,8 @@ def write(
         "light": [
             "all" if row == "all" else light_name(radii[row], unit) for row in table["light"]
         ],
-        **{
-            f"{where}, % told": number_cells(table[f"{where}_share"], "{:.2f}", 100)
-            for where in WHERE
-        },
-        **{f"pixels {where}": number_cells(table[where], "{:,.0f}") for where in WHERE},
+        **{f"{where}, % told": numbers(table[f"{where}_share"], "{:.2f}", 100) for where in WHERE},
+        **{f"pixels {where}": numbers(table[where], "{:,.0f}") for where in WHERE},
     }
     notes = [
         f"Shares of pixels whose feature p, the width of the penumbra in the frame, exceeds {TOLD:g} "
@@ -68,13 +83,16 @@ def write(
         "is wholly lit it is told where a texel of the light's map says otherwise.",
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes)
+    return Table(title, table, columns, notes)
 
 
-def told_pixels(part: FrameSetPart) -> np.ndarray:
+def told_pixels(part: "FrameSetPart") -> np.ndarray:
     """How many pixels of a part's frames there are, and of how many p exceeds `TOLD`: (radii, 3, 2) by
     light and `WHERE`.
     """
+    from neural_shadows.frames.kernel_features import MADE_OF, PENUMBRA_PIXELS, kernel_feature
+    from neural_shadows.frames.light_size import light_size
+
     found = np.zeros((len(part.radii), len(WHERE), 2), np.int64)
     for number in range(len(part)):
         buffers = {name: part.image(number, name) for name in MADE_OF[FEATURE]}
@@ -109,4 +127,4 @@ def feature_table(counts: np.ndarray) -> pd.DataFrame:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -2,31 +2,53 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.measured_penumbrae import NARROWEST, widths
+from neural_shadows.layout import soft_methods
+from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.intervals import t_interval
-from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import FramesTable
 
 WIDE = 95  # percentile of the widths by which the paper chooses the network's levels
 
 
-def write(
+class Settings(FramesTable):
+    """Widths of penumbrae beside those of Neural Shadow Mapping's model (3.6)."""
+
+    kind: Literal["penumbra_widths"] = Field(description="`penumbra_widths`")
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    frame_set = soft_methods.frame_set(layout, table)
+    return {
+        "parts": soft_methods.first_tests(layout, frame_set),
+        "meshes": soft_methods.all_meshes(layout, frame_set),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    return {"run": layout.run()}
+
+
+def generators(layout: Layout, table: str) -> list[str]:
+    return soft_methods.all_generators(layout, soft_methods.frame_set(layout, table))
+
+
+def table(
     *,
     parts: list[Path],
     meshes: list[Path],
-    csv: Path,
-    md: Path,
     title: str,
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each scene and light: widths as measured and as modelled.
+) -> Table:
+    """A row for each scene and light: widths as measured and as modelled.
 
     CSV: those of `widths_table`, and the scale.
 
@@ -36,6 +58,9 @@ def write(
     Raises:
         InputError: a file is missing or not whole.
     """
+    from neural_shadows.evaluation.measured_frames import measured_frames
+    from neural_shadows.evaluation.measured_penumbrae import NARROWEST, widths
+
     found = {}
     for one in measured_frames(parts, meshes):
         for light, radius in enumerate(one.part.radii):
@@ -46,16 +71,14 @@ def write(
     table = table.assign(scale=run["scale"])
     columns = {
         "scene": table["scene"],
-        "light, m": number_cells(table["radius"], "{:g}"),
-        "pixels": number_cells(table["pixels"], "{:,.0f}"),
-        "measured, px": number_cells(table["measured"], "{:.1f}"),
-        f"{WIDE} % of them": number_cells(table["measured_wide"], "≤ {:.1f}"),
-        "by the model, px": number_cells(table["modelled"], "{:.1f}"),
-        f"{WIDE} % of these": number_cells(table["modelled_wide"], "≤ {:.1f}"),
-        "their ratio": interval_cells(
-            table, ["wide_ratio", "wide_ratio_low", "wide_ratio_high"], 2
-        ),
-        "measured within, %": number_cells(table["within"], "{:.1f}", 100),
+        "light, m": numbers(table["radius"], "{:g}"),
+        "pixels": numbers(table["pixels"], "{:,.0f}"),
+        "measured, px": numbers(table["measured"], "{:.1f}"),
+        f"{WIDE} % of them": numbers(table["measured_wide"], "≤ {:.1f}"),
+        "by the model, px": numbers(table["modelled"], "{:.1f}"),
+        f"{WIDE} % of these": numbers(table["modelled_wide"], "≤ {:.1f}"),
+        "their ratio": intervals(table, ["wide_ratio", "wide_ratio_low", "wide_ratio_high"], 2),
+        "measured within, %": numbers(table["within"], "{:.1f}", 100),
     }
     notes = [
         "Measured: the way from 10 to 90 % of the light, times 1.25, through pixels in the middle of a "
@@ -69,7 +92,7 @@ def write(
         "the paper chooses the network's levels.",
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes)
+    return Table(title, table, columns, notes)
 
 
 def widths_table(pairs: Mapping[tuple[str, int, float], Sequence[np.ndarray]]) -> pd.DataFrame:
@@ -110,4 +133,4 @@ def _wide_ratio(frames: Sequence[np.ndarray]) -> dict[str, float]:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

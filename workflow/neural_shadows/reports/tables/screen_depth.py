@@ -2,47 +2,83 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.published_nsm import read_published_nsm, titled
-from neural_shadows.reports.tables.frame_means import OFF_EDGES, mean_with_interval
-from neural_shadows.reports.tables.screen_rows import (
+from neural_shadows.layout import screen_tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.frame_means import OFF_EDGES, mean_with_interval
+from neural_shadows.reports.data.published_nsm import read_published_nsm, titled
+from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
     learned_rows,
     nulls_in,
     with_printed,
 )
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data.table import Table, filled, number_cells, numbers, write_table
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.settings.base import Name, name_in
 
 SUFFICES = 2.0  # times a row's least error: what is worse has too few levels (claim 3.6)
 
 
-def write(
+class Settings(FramesTable):
+    """Trained networks of several depths on penumbrae of several widths."""
+
+    published: str | None = Field(
+        None, pattern=r"^nsm\.1$", description="`nsm.` and the paper's number of this table"
+    )
+    kind: Literal["screen_depth"] = Field(description="`screen_depth`")
+    columns: dict[Name, name_in("screen_experiments")] = Field(
+        min_length=1, description="a name in `screen_experiments` for each name that the paper has"
+    )
+
+    def methods_shown(self) -> list[str]:
+        return [*self.columns.values()]
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    methods = layout.entry("tables", table)["columns"].values()
+    measured = screen_tables.files(layout, table, methods)
+    return measured | {
+        "frames_json": screen_tables.frames_json(layout, table),
+        "published_nsm_csv": layout.source("config/published_nsm.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    return {
+        **{key: settings[key] for key in ("published", "columns")},
+        "labels": screen_tables.labels(layout, settings["columns"].values()),
+        "run": layout.run(),
+    }
+
+
+def table(
     *,
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
     published_nsm_csv: Path,
     widths_json: Path | None = None,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each scene and network: squared error of the largest light's shadow.
+) -> Table:
+    """A row for each scene and network: squared error of the largest light's shadow.
 
     CSV: those of `depth_table`, printed numbers and differences, and the scale.
 
@@ -57,8 +93,8 @@ def write(
     records = {path.parent.name: read_json(path) for path in trainings}
     found = read_soft_metrics(soft_metrics)
     table = depth_table(found, len(about["radii"]) - 1, columns, labels, records)
-    numbers = read_published_nsm(published_nsm_csv)
-    table = with_printed(table, published, "mse", None, numbers)
+    printed_numbers = read_published_nsm(published_nsm_csv)
+    table = with_printed(table, published, "mse", None, printed_numbers)
     whole = table.assign(scale=run["scale"])
     table = learned_rows(whole)
     parts = {
@@ -66,8 +102,8 @@ def write(
     }
     for column, label in zip(columns, (labels[name] for name in columns.values())):
         here = table[table["column"] == column]
-        parts[label] = number_cells(here["mse"], "{:.4f}")
-        parts[f"{label}, printed"] = number_cells(here["printed_mse"], "{:.3f}")
+        parts[label] = numbers(here["mse"], "{:.4f}")
+        parts[f"{label}, printed"] = numbers(here["printed_mse"], "{:.3f}")
     parts["of the widest"] = [
         " / ".join(number_cells(here["mse_widest"], "{:.4f}"))
         for _, here in table.groupby("row", sort=False)
@@ -88,8 +124,8 @@ def write(
         *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
-    parts = {name: cells for name, cells in parts.items() if any(cells)}
-    write_twins(whole, parts, csv, md, title=titled(title, published), notes=notes)
+    parts = filled(parts)
+    return Table(titled(title, published), whole, parts, notes)
 
 
 def depth_table(
@@ -146,4 +182,4 @@ def _describe_learning(records: Mapping[str, Mapping[str, Any]], labels: Mapping
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

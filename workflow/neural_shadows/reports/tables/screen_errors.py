@@ -4,24 +4,29 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.frame_means import OFF_EDGES, by_frame, mean_with_interval
-from neural_shadows.reports.tables.screen_rows import (
+from neural_shadows.layout import screen_tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.frame_means import OFF_EDGES, by_frame, mean_with_interval
+from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
     learned_rows,
     nulls_in,
 )
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data.table import Table, number_cells, write_table
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.settings.base import name_in
 
 TRAINING, VALIDATION, SEQUENCES = "training", "validation", "sequences"
 ALL = "all"  # lights of all radii
@@ -30,19 +35,39 @@ SHOWN = {"mse": ("MSE × 10⁻⁴", 1e4), OFF_EDGES: ("MSE off edges × 10⁻⁴
 SHOWN |= {name: (text, 1) for name, text in WIDTHS.items()}
 
 
-def write(
+class Settings(FramesTable):
+    """Networks' errors by scene and light, beside those on what they learned from."""
+
+    kind: Literal["screen_errors"] = Field(description="`screen_errors`")
+    networks: list[name_in("screen_experiments")] = Field(
+        min_length=1, description="names in `screen_experiments`, in the table's order"
+    )
+
+    def methods_shown(self) -> list[str]:
+        return self.networks
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    measured = screen_tables.files(layout, table, layout.entry("tables", table)["networks"])
+    return measured | {"frames_json": screen_tables.frames_json(layout, table)}
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    networks = layout.entry("tables", table)["networks"]
+    return {"labels": screen_tables.labels(layout, networks), "run": layout.run()}
+
+
+def table(
     *,
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
     widths_json: Path | None = None,
-    csv: Path,
-    md: Path,
     title: str,
     labels: Mapping[str, str],
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each network, kind of frames and light.
+) -> Table:
+    """A row for each network, kind of frames and light.
 
     CSV: those of `errors_table`, and the scale.
 
@@ -70,7 +95,7 @@ def write(
         *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes, text_columns=3)
+    return Table(title, table, columns, notes, text_columns=3)
 
 
 def errors_table(
@@ -186,4 +211,4 @@ def _frames_name(frames: str, learned: bool) -> str:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -2,51 +2,87 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
+from pydantic import Field
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.feature_names import FEATURES
-from neural_shadows.reports import phrases
-from neural_shadows.reports.published_nsm import read_published_nsm, titled
-from neural_shadows.reports.tables.frame_means import (
+from neural_shadows.layout import screen_tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.frame_means import (
     OFF_EDGES,
     by_frame,
     describe_units,
     mean_with_interval,
 )
-from neural_shadows.reports.tables.screen_rows import (
+from neural_shadows.reports.data.published_nsm import read_published_nsm, titled
+from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
     learned_rows,
     nulls_in,
     with_printed,
 )
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.reports.data.table import Table, filled, intervals, numbers, write_table
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.settings.base import Name, name_in
 
 LEAST_SHARE = 0.015  # of a feature that is kept (3.2)
 
 
-def write(
+class Settings(FramesTable):
+    """Trained networks by sets of features."""
+
+    published: str | None = Field(
+        None, pattern=r"^nsm\.s1$", description="`nsm.` and the paper's number of this table"
+    )
+    kind: Literal["screen_features"] = Field(description="`screen_features`")
+    columns: dict[Name, name_in("screen_experiments")] = Field(
+        min_length=1, description="a name in `screen_experiments` for each name that the paper has"
+    )
+
+    def methods_shown(self) -> list[str]:
+        return [*self.columns.values()]
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    methods = layout.entry("tables", table)["columns"].values()
+    measured = screen_tables.files(layout, table, methods)
+    return measured | {
+        "sensitivities": screen_tables.sensitivities(layout, table, methods),
+        "published_nsm_csv": layout.source("config/published_nsm.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    return {
+        **{key: settings[key] for key in ("published", "columns")},
+        "labels": screen_tables.labels(layout, settings["columns"].values()),
+        "run": layout.run(),
+    }
+
+
+def table(
     *,
     soft_metrics: list[Path],
     trainings: list[Path],
     sensitivities: list[Path],
     published_nsm_csv: Path,
     widths_json: Path | None = None,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each set of features: error, and the share of each feature's sensitivity.
+) -> Table:
+    """A row for each set of features: error, and the share of each feature's sensitivity.
 
     CSV: those of `features_table`, printed errors and differences, and the scale.
 
@@ -62,10 +98,12 @@ def write(
     found = read_soft_metrics(soft_metrics)
     table = features_table(found, columns, labels, shares)
     # The paper gives two of these in its text (3.2) and the others in table S1.
-    numbers = read_published_nsm(published_nsm_csv).rename(
+    printed_numbers = read_published_nsm(published_nsm_csv).rename(
         index={"nsm.features": "nsm.s1"}, level=0
     )
-    whole = with_printed(table, published, "error", "error", numbers).assign(scale=run["scale"])
+    whole = with_printed(table, published, "error", "error", printed_numbers).assign(
+        scale=run["scale"]
+    )
     table = learned_rows(whole)
     frames = by_frame(found[found["method"].isin(columns.values())], "mse")
     told = [
@@ -74,11 +112,11 @@ def write(
     ]
     cells = {
         "features": table["label"],
-        "channels": number_cells(table["channels"], "{:.0f}"),
-        "MSE × 10⁻³": interval_cells(table, ["error", "error_low", "error_high"], 2, 1e3),
-        "off edges × 10⁻³": number_cells(table["error_off_edges"], "{:.2f}", 1e3),
-        "printed × 10⁻³": number_cells(table["printed_error"], "{:.2f}", 1e3),
-        "difference": number_cells(table["error_minus_printed"], "{:+.2f}", 1e3),
+        "channels": numbers(table["channels"], "{:.0f}"),
+        "MSE × 10⁻³": intervals(table, ["error", "error_low", "error_high"], 2, 1e3),
+        "off edges × 10⁻³": numbers(table["error_off_edges"], "{:.2f}", 1e3),
+        "printed × 10⁻³": numbers(table["printed_error"], "{:.2f}", 1e3),
+        "difference": numbers(table["error_minus_printed"], "{:+.2f}", 1e3),
         "sensitivity, %": told,
     }
     notes = [
@@ -93,8 +131,8 @@ def write(
         *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
-    cells = {name: column for name, column in cells.items() if any(column)}
-    write_twins(whole, cells, csv, md, title=titled(title, published), notes=notes)
+    cells = filled(cells)
+    return Table(titled(title, published), whole, cells, notes)
 
 
 def features_table(
@@ -135,4 +173,4 @@ def _sorted(features: Mapping[str, Any]) -> list[tuple[str, Any]]:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -3,23 +3,27 @@
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases, screen_profiles
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.published_nsm import (
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data import phrases, screen_profiles
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.published_nsm import (
     beside,
     printed,
     printed_size,
     read_published_nsm,
     titled,
 )
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import NsmTable
+from neural_shadows.settings.base import name_in
 
 # Column, its unit, and the digits that the paper prints.
 COLUMNS = {
@@ -31,35 +35,51 @@ COLUMNS = {
 OF_ANY_SIZE = ("parameters",)
 
 
-def write(
+class Settings(NsmTable):
+    """What each level of a screen-space network counts and takes."""
+
+    kind: Literal["screen_levels"] = Field(description="`screen_levels`")
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    return {
+        "profile_json": layout.paths.screen_profile(layout.entry("tables", table)["network"]),
+        "published_nsm_csv": layout.source("config/published_nsm.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    return {"published": layout.entry("tables", table)["published"], "run": layout.run()}
+
+
+def table(
     *,
     profile_json: Path,
     published_nsm_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     run: Mapping[str, Any],
-) -> None:
+) -> Table:
     """Write `level_table`; `profile_json`: what `profile_screen_network` wrote.
 
     Raises:
         InputError: a file is missing or damaged.
     """
-    profile, numbers = read_json(profile_json), read_published_nsm(published_nsm_csv)
-    table = level_table(profile, numbers, published).assign(scale=run["scale"])
+    profile, printed_numbers = read_json(profile_json), read_published_nsm(published_nsm_csv)
+    table = level_table(profile, printed_numbers, published).assign(scale=run["scale"])
     shown = {"level": [*map(str, table["level"])]}
     for one in profile["runs"]:
         key = screen_profiles.run_key(one)
-        shown[f"ms, {screen_profiles.run_name(one)}"] = number_cells(
+        shown[f"ms, {screen_profiles.run_name(one)}"] = numbers(
             table[f"ms_{key}"], partial(short, digits=4)
         )
-    shown["% of the product's rate"] = number_cells(table["product_share"], "{:.0f}", 100)
+    shown["% of the product's rate"] = numbers(table["product_share"], "{:.0f}", 100)
     for name, (unit, form) in COLUMNS.items():
         if name != "runtime":
-            shown[unit] = number_cells(table[name], form)
-        shown[f"printed {unit}"] = number_cells(table[f"printed_{name}"], "{:.6g}")
-        shown[f"difference, {unit}"] = number_cells(table[f"{name}_minus_printed"], "{:+.3g}")
+            shown[unit] = numbers(table[name], form)
+        shown[f"printed {unit}"] = numbers(table[f"printed_{name}"], "{:.6g}")
+        shown[f"difference, {unit}"] = numbers(table[f"{name}_minus_printed"], "{:+.3g}")
     compared = screen_profiles.run_name(screen_profiles.compared(profile))
     notes = [
         f"Printed times and rates stand beside those of {compared}. A level's rate: the multiply-adds "
@@ -67,15 +87,15 @@ def write(
         "Weights without biases, each multiply-add once; storage: the channels that each convolution "
         "reads and writes, over all pixels.",
         screen_profiles.describe(profile),
-        beside(profile, numbers),
+        beside(profile, printed_numbers),
         phrases.describe_run(run),
     ]
-    shown = {name: cells for name, cells in shown.items() if any(cells)}
-    write_twins(table, shown, csv, md, title=titled(title, published), notes=notes)
+    shown = filled(shown)
+    return Table(titled(title, published), table, shown, notes)
 
 
 def level_table(
-    profile: screen_profiles.Profile, numbers: pd.Series, published: str | None
+    profile: screen_profiles.Profile, printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
     """A row for each level.
 
@@ -95,11 +115,11 @@ def level_table(
     table["storage_io"] = levels["storage"] * pixels / 1e6
     rate = 1e12 * table["compute"] / table["runtime"]
     table["product_share"] = rate / run["product_macs"]
-    same = (profile["width"], profile["height"]) == printed_size(numbers)
+    same = (profile["width"], profile["height"]) == printed_size(printed_numbers)
     table["of_printed_size"] = same
     rows = [f"level_{level}" for level in table["level"]]
     for name in COLUMNS:
-        table[f"printed_{name}"] = printed(numbers, published, rows, name)
+        table[f"printed_{name}"] = printed(printed_numbers, published, rows, name)
         difference = table[name] - table[f"printed_{name}"]
         comparable = same or name in OF_ANY_SIZE
         table[f"{name}_minus_printed"] = difference if comparable else np.nan
@@ -107,4 +127,4 @@ def level_table(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

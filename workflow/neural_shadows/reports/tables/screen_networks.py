@@ -2,42 +2,84 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.networks.screen_space.kernel_widths import layers_of
+from neural_shadows.layout.layout import Layout
+from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.widths import total
-from neural_shadows.reports import phrases
-from neural_shadows.reports.published_nsm import printed, read_published_nsm, titled
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.published_nsm import printed, read_published_nsm, titled
+from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import NsmTable
+from neural_shadows.settings.base import Model, Name, name_in, section_or
 
 
-def write(
+class NetworkRow(Model):
+    """A row that is more than a name."""
+
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+    published: Name | None = Field(
+        None, description="its row in published_nsm.csv, if not of `network`'s name"
+    )
+
+
+class Settings(NsmTable):
+    """Multiply-adds and weights of several networks."""
+
+    kind: Literal["screen_networks"] = Field(description="`screen_networks`")
+    networks: list[section_or(NetworkRow, "network")] = Field(
+        min_length=1, description="in the table's order"
+    )
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    return {"published_nsm_csv": layout.source("config/published_nsm.csv")}
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    rows = [
+        {
+            "name": row["network"],
+            "published": row["published"] or row["network"],
+            "settings": layout.entry("screen_networks", row["network"]),
+        }
+        for row in settings["networks"]
+    ]
+    return {"published": settings["published"], "networks": rows, "run": layout.run()}
+
+
+def forms(layout: Layout, table: str) -> set[str]:
+    rows = layout.entry("tables", table)["networks"]
+    return {layout.entry("screen_networks", row["network"])["form"] for row in rows}
+
+
+def table(
     *,
     published_nsm_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     networks: Sequence[Mapping[str, Any]],
     run: Mapping[str, Any],
-) -> None:
+) -> Table:
     """Write `network_table`."""
-    numbers = read_published_nsm(published_nsm_csv)
-    table = network_table(networks, numbers, published).assign(scale=run["scale"])
+    printed_numbers = read_published_nsm(published_nsm_csv)
+    table = network_table(networks, printed_numbers, published).assign(scale=run["scale"])
     shown = {
         "network": table["network"],
         "widths": table["widths"],
         "levels": [*map(str, table["levels"])],
-        "multiply-adds a pixel": number_cells(table["mac_per_pixel"], "{:,.0f}"),
-        "printed": number_cells(table["printed_mac_per_pixel"], "{:,.0f}"),
-        "difference": number_cells(table["mac_per_pixel_minus_printed"], "{:+.4g}"),
-        "weights": number_cells(table["parameters"], "{:,.0f}", 1000),
-        "printed, thousands": number_cells(table["printed_parameters"], "{:,.6g}"),
-        "difference, thousands": number_cells(table["parameters_minus_printed"], "{:+.2g}"),
-        "MiB at 16 bits": number_cells(table["mib"], "{:.2f}"),
+        "multiply-adds a pixel": numbers(table["mac_per_pixel"], "{:,.0f}"),
+        "printed": numbers(table["printed_mac_per_pixel"], "{:,.0f}"),
+        "difference": numbers(table["mac_per_pixel_minus_printed"], "{:+.4g}"),
+        "weights": numbers(table["parameters"], "{:,.0f}", 1000),
+        "printed, thousands": numbers(table["printed_parameters"], "{:,.6g}"),
+        "difference, thousands": numbers(table["parameters_minus_printed"], "{:+.2g}"),
+        "MiB at 16 bits": numbers(table["mib"], "{:.2f}"),
     }
     notes = [
         "Counted of each network's convolutions, without biases. Widths: channels of each level, from "
@@ -46,12 +88,12 @@ def write(
         phrases.describe_run(run),
     ]
     heading = titled(title, published)
-    shown = {name: cells for name, cells in shown.items() if any(cells)}
-    write_twins(table, shown, csv, md, title=heading, notes=notes, text_columns=2)
+    shown = filled(shown)
+    return Table(heading, table, shown, notes, text_columns=2)
 
 
 def network_table(
-    networks: Sequence[Mapping[str, Any]], numbers: pd.Series, published: str | None
+    networks: Sequence[Mapping[str, Any]], printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
     """A row for each network, of `name`, its row in the paper (`published`) and its `settings`.
 
@@ -74,10 +116,10 @@ def network_table(
         )
     table, rows = pd.DataFrame(records), [one["published"] for one in networks]
     for name in ("mac_per_pixel", "parameters"):
-        table[f"printed_{name}"] = printed(numbers, published, rows, name)
+        table[f"printed_{name}"] = printed(printed_numbers, published, rows, name)
         table[f"{name}_minus_printed"] = table[name] - table[f"printed_{name}"]
     return table
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

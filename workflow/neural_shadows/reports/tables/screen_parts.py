@@ -3,23 +3,27 @@
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases, screen_profiles
-from neural_shadows.reports.digits import short
-from neural_shadows.reports.published_nsm import (
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data import phrases, screen_profiles
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.published_nsm import (
     beside,
     printed,
     printed_size,
     read_published_nsm,
     titled,
 )
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import NsmTable
+from neural_shadows.settings.base import name_in
 
 # What the paper calls the parts of `ShadowUnet.parts`.
 PRINTED = {
@@ -32,51 +36,67 @@ PRINTED = {
 NAMES = {"encoder": "convolutions down", "decoder": "convolutions up"}
 
 
-def write(
+class Settings(NsmTable):
+    """The time of each level and part of a screen-space network."""
+
+    kind: Literal["screen_parts"] = Field(description="`screen_parts`")
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    return {
+        "profile_json": layout.paths.screen_profile(layout.entry("tables", table)["network"]),
+        "published_nsm_csv": layout.source("config/published_nsm.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    return {"published": layout.entry("tables", table)["published"], "run": layout.run()}
+
+
+def table(
     *,
     profile_json: Path,
     published_nsm_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     run: Mapping[str, Any],
-) -> None:
+) -> Table:
     """Write `part_table`; `profile_json`: what `profile_screen_network` wrote.
 
     Raises:
         InputError: a file is missing or damaged.
     """
-    profile, numbers = read_json(profile_json), read_published_nsm(published_nsm_csv)
-    table = part_table(profile, numbers, published).assign(scale=run["scale"])
+    profile, printed_numbers = read_json(profile_json), read_published_nsm(published_nsm_csv)
+    table = part_table(profile, printed_numbers, published).assign(scale=run["scale"])
     shown = {
         "level": [*map(str, table["level"])],
         "part": [NAMES.get(part, part) for part in table["part"]],
     }
     for one in profile["runs"]:
         key = screen_profiles.run_key(one)
-        shown[f"ms, {screen_profiles.run_name(one)}"] = number_cells(
+        shown[f"ms, {screen_profiles.run_name(one)}"] = numbers(
             table[f"ms_{key}"], partial(short, digits=4)
         )
-    shown["%"] = number_cells(table["share"], "{:.1f}", 100)
-    shown["printed ms"] = number_cells(table["printed_ms"], "{:.2f}")
-    shown["printed %"] = number_cells(table["printed_share"], "{:.1f}", 100)
-    shown["difference, ms"] = number_cells(table["ms_minus_printed"], "{:+.3g}")
+    shown["%"] = numbers(table["share"], "{:.1f}", 100)
+    shown["printed ms"] = numbers(table["printed_ms"], "{:.2f}")
+    shown["printed %"] = numbers(table["printed_share"], "{:.1f}", 100)
+    shown["difference, ms"] = numbers(table["ms_minus_printed"], "{:+.3g}")
     compared = screen_profiles.run_name(screen_profiles.compared(profile))
     notes = [
         f"%: of all parts, {compared}, which printed times stand beside. Convolutions with their "
         "padding and activations. The paper's text has no skip at level 0, which its table times.",
         screen_profiles.describe(profile),
-        beside(profile, numbers),
+        beside(profile, printed_numbers),
         phrases.describe_run(run),
     ]
-    shown = {name: cells for name, cells in shown.items() if any(cells)}
+    shown = filled(shown)
     heading = titled(title, published)
-    write_twins(table, shown, csv, md, title=heading, notes=notes, text_columns=2)
+    return Table(heading, table, shown, notes, text_columns=2)
 
 
 def part_table(
-    profile: screen_profiles.Profile, numbers: pd.Series, published: str | None
+    profile: screen_profiles.Profile, printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
     """A row for each level and part that is ours or printed.
 
@@ -92,7 +112,7 @@ def part_table(
     places = [
         (level, part)
         for (row, part), level in names.items()
-        if (level, part) in times.index or (published, row, PRINTED[part]) in numbers.index
+        if (level, part) in times.index or (published, row, PRINTED[part]) in printed_numbers.index
     ]
     ends = [place for place in times.index if place not in places]
     times = times.reindex(pd.MultiIndex.from_tuples([*ends, *places], names=["level", "part"]))
@@ -102,14 +122,14 @@ def part_table(
     table["ms"] = table[f"ms_{screen_profiles.run_key(run)}"]
     table["share"] = table["ms"] / table["ms"].sum()
     table["printed_ms"] = [
-        printed(numbers, published, [f"level_{level}"], PRINTED.get(part, ""))[0]
+        printed(printed_numbers, published, [f"level_{level}"], PRINTED.get(part, ""))[0]
         for level, part in zip(table["level"], table["part"])
     ]
     table["printed_share"] = table["printed_ms"] / table["printed_ms"].sum()
-    same = (profile["width"], profile["height"]) == printed_size(numbers)
+    same = (profile["width"], profile["height"]) == printed_size(printed_numbers)
     table["ms_minus_printed"] = table["ms"] - table["printed_ms"] if same else np.nan
     return table
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

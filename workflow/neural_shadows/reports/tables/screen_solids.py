@@ -2,39 +2,64 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
+from pydantic import Field
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.layout import screen_tables
+from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.occluder_error import MOST
-from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.frame_means import describe_units, mean_with_interval
-from neural_shadows.reports.tables.screen_rows import (
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.frame_means import describe_units, mean_with_interval
+from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
     learned_rows,
     nulls_in,
 )
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.settings.base import name_in
 
 
-def write(
+class Settings(FramesTable):
+    """Networks' errors by how many solids lie before the light."""
+
+    kind: Literal["screen_solids"] = Field(description="`screen_solids`")
+    networks: list[name_in("screen_experiments")] = Field(
+        min_length=1, description="names in `screen_experiments`, in the table's order"
+    )
+
+    def methods_shown(self) -> list[str]:
+        return self.networks
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    measured = screen_tables.files(layout, table, layout.entry("tables", table)["networks"])
+    return measured | {"frames_json": screen_tables.frames_json(layout, table)}
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    networks = layout.entry("tables", table)["networks"]
+    return {"labels": screen_tables.labels(layout, networks), "run": layout.run()}
+
+
+def table(
     *,
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
     widths_json: Path | None = None,
-    csv: Path,
-    md: Path,
     title: str,
     labels: Mapping[str, str],
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each network and number of solids.
+) -> Table:
+    """A row for each network and number of solids.
 
     CSV: those of `solids_table`, and the scale.
 
@@ -54,9 +79,9 @@ def write(
     columns = {
         "network": table["label"],
         "solids": [f"{number}{end}" for number, end in zip(table["solids"], more)],
-        "MSE × 10⁻⁴": interval_cells(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
-        "the line": number_cells(table["line"], "{:.1f}", 1e4),
-        "each solid adds": interval_cells(table, ["slope", "slope_low", "slope_high"], 1, 1e4),
+        "MSE × 10⁻⁴": intervals(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
+        "the line": numbers(table["line"], "{:.1f}", 1e4),
+        "each solid adds": intervals(table, ["slope", "slope_low", "slope_high"], 1, 1e4),
     }
     notes = [
         "Of pixels of test frames with so many solids between them and the light's centre, mean over "
@@ -70,7 +95,7 @@ def write(
         *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
-    write_twins(whole, columns, csv, md, title=title, notes=notes, text_columns=2)
+    return Table(title, whole, columns, notes, text_columns=2)
 
 
 def _frames(found: pd.DataFrame) -> tuple[list[str], int]:
@@ -112,4 +137,4 @@ def _values(mine: pd.Series, metric: str) -> pd.Series:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -4,33 +4,46 @@ Hu et al. 2025, 4.2.1).
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.evaluation.soft_method_names import in_format
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.soft_registry import in_format
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.published_nsm import PAPER, printed_size, read_published_nsm
-from neural_shadows.reports.screen_profiles import describe, product_share, run_name
-from neural_shadows.reports.tables.frame_means import (
+from neural_shadows.layout import screen_tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import unique
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.frame_means import (
     OFF_EDGES,
     by_frame,
     describe_units,
     mean_with_interval,
 )
-from neural_shadows.reports.tables.screen_rows import (
+from neural_shadows.reports.data.published_nsm import PAPER, printed_size, read_published_nsm
+from neural_shadows.reports.data.screen_profiles import describe, product_share, run_name
+from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
     learned_rows,
     nulls_in,
     with_printed,
 )
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.reports.data.table import (
+    Table,
+    filled,
+    intervals,
+    number_cells,
+    numbers,
+    write_table,
+)
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.settings.base import Model, Name, name_in
 
 COLUMNS = (
     *("row", "null", "network", "precision", "run", "device", "runtime", "share", "size"),
@@ -40,22 +53,67 @@ COLUMNS = (
 BYTES = {"float32": 4, "bfloat16": 2}
 
 
-def write(
+class Step(Model):
+    """A step on the way to a fast network."""
+
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`: timed")
+    precision: Literal["float32", "bfloat16"] = Field(
+        description="of its weights, its time and its error"
+    )
+    experiment: name_in("screen_experiments") | None = Field(
+        None, description="a name in `screen_experiments`: its error, in this precision"
+    )
+
+
+class Settings(FramesTable):
+    """From a large screen-space network to a fast one (Datta et al. 2022, 3.5)."""
+
+    published: Literal["nsm.steps"] | None = Field(
+        None, description="`nsm.steps`, the numbers that this paper prints of its steps"
+    )
+    kind: Literal["screen_steps"] = Field(description="`screen_steps`")
+    steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")
+
+    def methods_shown(self) -> list[str]:
+        return [step.experiment for step in self.steps.values() if step.experiment]
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    steps = layout.entry("tables", table)["steps"].values()
+    trained = [step for step in steps if step["experiment"]]
+    evaluated = [in_format(step["experiment"], step["precision"]) for step in trained]
+    experiments = [step["experiment"] for step in trained]
+    profiled = unique(step["network"] for step in steps)
+    return screen_tables.files(layout, table, experiments, evaluated) | {
+        "profiles": [layout.paths.screen_profile(name) for name in profiled],
+        "published_nsm_csv": layout.source("config/published_nsm.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    experiments = [one["experiment"] for one in settings["steps"].values() if one["experiment"]]
+    return {
+        **{key: settings[key] for key in ("published", "steps")},
+        "labels": screen_tables.labels(layout, experiments),
+        "run": layout.run(),
+    }
+
+
+def table(
     *,
     profiles: list[Path],
     soft_metrics: list[Path],
     trainings: list[Path],
     published_nsm_csv: Path,
     widths_json: Path | None = None,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     steps: Mapping[str, Mapping[str, Any]],
     labels: Mapping[str, str],
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each step: time, size and error, each beside the printed.
+) -> Table:
+    """A row for each step: time, size and error, each beside the printed.
 
     CSV: those of `steps_table`, printed numbers and differences, `of_printed_size`, whether frames are
     timed that have the paper's, and the scale.
@@ -73,29 +131,31 @@ def write(
     records = {path.parent.name: read_json(path) for path in trainings}
     found = read_soft_metrics(soft_metrics) if soft_metrics else None
     table = steps_table(steps, profiled, found)
-    numbers = read_published_nsm(published_nsm_csv)
+    printed_numbers = read_published_nsm(published_nsm_csv)
     sizes = [(one["width"], one["height"]) for one in profiled.values()]
     # The other paper's frames have this size, too.
-    table["of_printed_size"] = all(size == printed_size(numbers) for size in sizes)
+    table["of_printed_size"] = all(size == printed_size(printed_numbers) for size in sizes)
     for name in ("runtime", "size", "error"):
-        table = with_printed(table, published, name, name, numbers)
-        bounds = [numbers.get((published, row, f"{name}_above"), np.nan) for row in table["row"]]
+        table = with_printed(table, published, name, name, printed_numbers)
+        bounds = [
+            printed_numbers.get((published, row, f"{name}_above"), np.nan) for row in table["row"]
+        ]
         table[f"printed_{name}_above"] = bounds
     whole = table.assign(scale=run["scale"])
     table = learned_rows(whole)
     cells = {
         "step": table["row"],
         "format": table["precision"],
-        "ms": number_cells(table["runtime"], "{:.1f}"),
+        "ms": numbers(table["runtime"], "{:.1f}"),
         "printed": _printed(table, "runtime", "{:g}"),
-        "share of the products' rate, %": number_cells(table["share"], "{:.0f}", 100),
-        "MiB": number_cells(table["size"], "{:.2f}"),
+        "share of the products' rate, %": numbers(table["share"], "{:.0f}", 100),
+        "MiB": numbers(table["size"], "{:.2f}"),
         "printed, MB": _printed(table, "size", "{:g}"),
-        "MSE × 10⁻³": interval_cells(table, ["error", "error_low", "error_high"], 2, 1e3),
-        "off edges × 10⁻³": number_cells(table["error_off_edges"], "{:.2f}", 1e3),
-        "printed × 10⁻³": number_cells(table["printed_error"], "{:.2f}", 1e3),
+        "MSE × 10⁻³": intervals(table, ["error", "error_low", "error_high"], 2, 1e3),
+        "off edges × 10⁻³": numbers(table["error_off_edges"], "{:.2f}", 1e3),
+        "printed × 10⁻³": numbers(table["printed_error"], "{:.2f}", 1e3),
     }
-    cells = {name: column for name, column in cells.items() if any(column)}
+    cells = filled(cells)
     printed = (
         f"Printed: {PAPER}, on an RTX 2080 Ti; another machine's milliseconds. `original`: its width "
         "is not printed and taken such that its size is as said, above 25 MB."
@@ -110,7 +170,7 @@ def write(
         phrases.describe_run(run),
     ]
     heading = f"{title} ({PAPER}, 3.5)" if published else title
-    write_twins(whole, cells, csv, md, title=heading, notes=notes, text_columns=2)
+    return Table(heading, whole, cells, notes, text_columns=2)
 
 
 def steps_table(
@@ -178,10 +238,10 @@ def _without_errors(table: pd.DataFrame, steps: Mapping[str, Mapping[str, Any]])
 
 def _printed(table: pd.DataFrame, name: str, form: str) -> list[str]:
     """What is printed: a number, or that it is above one."""
-    numbers = number_cells(table[f"printed_{name}"], form)
+    printed_numbers = number_cells(table[f"printed_{name}"], form)
     bounds = number_cells(table[f"printed_{name}_above"], f"> {form}")
-    return [number or bound for number, bound in zip(numbers, bounds)]
+    return [number or bound for number, bound in zip(printed_numbers, bounds)]
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

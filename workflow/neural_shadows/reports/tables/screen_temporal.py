@@ -2,37 +2,65 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
+from pydantic import Field
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.tables.screen_rows import (
+from neural_shadows.layout import screen_tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
     learned_rows,
     nulls_in,
 )
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import number_cells, write_twins
+from neural_shadows.reports.data.table import Table, numbers, write_table
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import MethodsTable
+from neural_shadows.settings.base import Name
 
 
-def write(
+class Settings(MethodsTable):
+    """How much methods flicker on a frame set's sequences, with and without TAA."""
+
+    kind: Literal["screen_temporal"] = Field(description="`screen_temporal`")
+    methods: list[Name] = Field(
+        min_length=1, description="as those of `soft_methods`, in the table's order"
+    )
+
+    def methods_shown(self) -> list[str]:
+        return self.methods
+
+    def needs_sequence(self) -> bool:
+        return True
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    measured = screen_tables.files(layout, table, layout.entry("tables", table)["methods"])
+    return measured | {"frames_json": screen_tables.frames_json(layout, table)}
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    methods = layout.entry("tables", table)["methods"]
+    return {"labels": screen_tables.labels(layout, methods), "run": layout.run()}
+
+
+def table(
     *,
     soft_metrics: list[Path],
     trainings: list[Path],
     frames_json: Path,
     widths_json: Path | None = None,
-    csv: Path,
-    md: Path,
     title: str,
     labels: Mapping[str, str],
     run: Mapping[str, Any],
-) -> None:
-    """Write two rows for each method: as it is, and each frame averaged with the one before.
+) -> Table:
+    """Two rows for each method: as it is, and each frame averaged with the one before.
 
     CSV: those of `temporal_table`, and the scale.
 
@@ -49,10 +77,10 @@ def write(
     kinds = [name.removeprefix("e_") for name in table if name.startswith("e_")]
     columns = {
         "method": table["label"],
-        **{f"E, {kind}": number_cells(table[f"e_{kind}"], "{:.4f}") for kind in kinds},
-        **{f"exact, {kind}": number_cells(table[f"reference_{kind}"], "{:.4f}") for kind in kinds},
-        "MSE × 10⁻⁴ in sequences": number_cells(table["mse_sequence"], "{:.1f}", 1e4),
-        "MSE × 10⁻⁴ at edges": number_cells(table["mse_edge"], "{:.1f}", 1e4),
+        **{f"E, {kind}": numbers(table[f"e_{kind}"], "{:.4f}") for kind in kinds},
+        **{f"exact, {kind}": numbers(table[f"reference_{kind}"], "{:.4f}") for kind in kinds},
+        "MSE × 10⁻⁴ in sequences": numbers(table["mse_sequence"], "{:.1f}", 1e4),
+        "MSE × 10⁻⁴ at edges": numbers(table["mse_edge"], "{:.1f}", 1e4),
     }
     radius = about["radii"][len(about["radii"]) // 2]
     notes = [
@@ -67,7 +95,7 @@ def write(
         *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
-    write_twins(whole, columns, csv, md, title=title, notes=notes)
+    return Table(title, whole, columns, notes)
 
 
 def temporal_table(found: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
@@ -103,4 +131,4 @@ def _mean(found: pd.DataFrame, metric: str) -> float:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

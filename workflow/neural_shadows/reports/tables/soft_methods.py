@@ -2,28 +2,35 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
-from neural_shadows.evaluation.soft_method_names import tuned_as
+from neural_shadows.evaluation.null_predictors import NULL
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.soft_registry import tuned_as
 from neural_shadows.files.whole_files import read_json
+from neural_shadows.layout import soft_methods
+from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.pooled_psnr import psnr_of
-from neural_shadows.reports import phrases
-from neural_shadows.reports.soft_looks import UNITS, light_name
-from neural_shadows.reports.tables.frame_means import (
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.frame_means import (
     ABOUT_EDGES,
     OFF_EDGES,
     describe_units,
     mean_over_scenes,
     mean_with_interval,
 )
-from neural_shadows.reports.tables.soft_costs import cost, describe_bytes, describe_times
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.reports.data.lights import UNITS, light_name
+from neural_shadows.reports.data.soft_costs import cost, describe_bytes, describe_times
+from neural_shadows.reports.data.table import Table, filled, intervals, numbers, write_table
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import MethodsTable
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import Name
 
 WITH_INTERVALS = ("mse", OFF_EDGES, "l1")
 ERRORS = ("mse", OFF_EDGES)
@@ -38,7 +45,47 @@ FLICKER = (
 )
 
 
-def write(
+class Settings(MethodsTable):
+    """Methods for soft shadows on a frame set, by light: errors, flicker, time, bytes."""
+
+    kind: Literal["soft_methods"] = Field(description="`soft_methods`")
+    methods: list[Name] = Field(
+        min_length=1,
+        description="keys of `METHODS` in evaluation/soft_methods/, or networks, in the table's "
+        "order; `no_shadow` and `all_dark` are there without being named",
+    )
+
+    def methods_shown(self) -> list[str]:
+        return self.methods
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        missing = [null for null in NULL if null not in self.methods]
+        return self.model_dump() | {"methods": [*self.methods, *missing]}
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    frame_set = soft_methods.frame_set(layout, table)
+    return {
+        "frames_json": soft_methods.tests(layout, frame_set)[0],
+        "soft_metrics": soft_methods.evaluations(layout, table, "csv"),
+        "soft_times": soft_methods.times(layout, table),
+        "soft_constants": soft_methods.constants(layout, table),
+        "widths_json": soft_methods.widths(layout, frame_set),
+        "lpips_json": layout.paths.lpips,
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    frames = layout.entry("frame_sets", soft_methods.frame_set(layout, table))
+    return {
+        "labels": soft_methods.labels(layout, table),
+        "left_out": soft_methods.left_out(layout, table),
+        "unseen": frames.get("unseen", []),
+        "run": layout.run(),
+    }
+
+
+def table(
     *,
     frames_json: Path,
     soft_metrics: list[Path],
@@ -46,15 +93,13 @@ def write(
     soft_constants: list[Path],
     widths_json: Path | None,
     lpips_json: Path,
-    csv: Path,
-    md: Path,
     title: str,
     labels: Mapping[str, str],
     left_out: Sequence[str],
     unseen: Sequence[str],
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each radius and method, in the order of `labels`.
+) -> Table:
+    """A row for each radius and method, in the order of `labels`.
 
     CSV: all columns of `soft_table`, and the scale.
 
@@ -76,27 +121,25 @@ def write(
     columns = {
         "light": [light_name(radius, unit) for radius in table["radius"]],
         "method": table["label"],
-        "MSE × 10⁻⁴ ↓": interval_cells(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
-        "off edges": interval_cells(
-            table, [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"], 1, 1e4
-        ),
-        "unseen scenes": number_cells(table["mse_unseen"], "{:.1f}", 1e4),
-        "unseen, off edges": number_cells(table["off_edges_unseen"], "{:.1f}", 1e4),
-        "umbra": number_cells(table["mse_umbra"], "{:.1f}", 1e4),
-        "penumbra": number_cells(table["mse_penumbra"], "{:.1f}", 1e4),
-        "lit": number_cells(table["mse_lit"], "{:.1f}", 1e4),
-        "edge": number_cells(table["mse_edge"], "{:.1f}", 1e4),
-        "PSNR dB ↑": number_cells(table["psnr_pooled"], "{:.1f}"),
-        "SSIM ↑": number_cells(table["ssim"], "{:.3f}"),
-        "FLIP ↓": number_cells(table["flip"], "{:.4f}"),
-        "LPIPS ↓": number_cells(table["lpips"], "{:.4f}"),
-        "false shadow %": number_cells(table["false_shadow"], "{:.2f}", 100),
-        "light leak %": number_cells(table["light_leak"], "{:.2f}", 100),
-        "flicker E": number_cells(table["instability"], "{:.3f}"),
-        "ms": number_cells(table["ms"], "{:.1f}"),
-        "KiB": number_cells(table["bytes"] / 1024, "{:,.0f}"),
+        "MSE × 10⁻⁴ ↓": intervals(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
+        "off edges": intervals(table, [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"], 1, 1e4),
+        "unseen scenes": numbers(table["mse_unseen"], "{:.1f}", 1e4),
+        "unseen, off edges": numbers(table["off_edges_unseen"], "{:.1f}", 1e4),
+        "umbra": numbers(table["mse_umbra"], "{:.1f}", 1e4),
+        "penumbra": numbers(table["mse_penumbra"], "{:.1f}", 1e4),
+        "lit": numbers(table["mse_lit"], "{:.1f}", 1e4),
+        "edge": numbers(table["mse_edge"], "{:.1f}", 1e4),
+        "PSNR dB ↑": numbers(table["psnr_pooled"], "{:.1f}"),
+        "SSIM ↑": numbers(table["ssim"], "{:.3f}"),
+        "FLIP ↓": numbers(table["flip"], "{:.4f}"),
+        "LPIPS ↓": numbers(table["lpips"], "{:.4f}"),
+        "false shadow %": numbers(table["false_shadow"], "{:.2f}", 100),
+        "light leak %": numbers(table["light_leak"], "{:.2f}", 100),
+        "flicker E": numbers(table["instability"], "{:.3f}"),
+        "ms": numbers(table["ms"], "{:.1f}"),
+        "KiB": numbers(table["bytes"] / 1024, "{:,.0f}"),
     }
-    columns = {name: cells for name, cells in columns.items() if any(cells)}
+    columns = filled(columns)
     records = {one["method"]: one for one in map(read_json, soft_constants)}
     chosen = {name: records[tuned_as(name)] for name in labels if tuned_as(name) in records}
     scenes, frames = [*found["scene"].unique()], table["frames"].iloc[0]
@@ -122,7 +165,7 @@ def write(
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
-    write_twins(table, columns, csv, md, title=title, notes=notes)
+    return Table(title, table, columns, notes)
 
 
 def soft_table(
@@ -221,4 +264,4 @@ def _describe_constants(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

@@ -2,24 +2,30 @@
 tables 1 to 4, figures 7 and 9).
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
+from pydantic import Field, model_validator
 
 from neural_shadows.evaluation.soft_metrics import read_soft_metrics
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.reports import phrases
-from neural_shadows.reports.published_kpnsm import PAPER, read_published_kpnsm, titled
-from neural_shadows.reports.soft_looks import UNITS, light_name
-from neural_shadows.reports.tables.frame_means import ABOUT_EDGES, OFF_EDGES, describe_units
-from neural_shadows.reports.tables.screen_rows import describe_trainings
-from neural_shadows.reports.tables.soft_costs import describe_times
-from neural_shadows.reports.tables.soft_summary_rows import MOVES, Row, summary_table, with_printed
-from neural_shadows.reports.tables.width_notes import describe_widths
-from neural_shadows.reports.tables.writing import interval_cells, number_cells, write_twins
+from neural_shadows.layout import soft_methods
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.frame_means import ABOUT_EDGES, OFF_EDGES, describe_units
+from neural_shadows.reports.data.lights import UNITS, light_name
+from neural_shadows.reports.data.published_kpnsm import PAPER, read_published_kpnsm, titled
+from neural_shadows.reports.data.screen_rows import describe_trainings
+from neural_shadows.reports.data.soft_costs import describe_times
+from neural_shadows.reports.data.soft_summary_rows import MOVES, Row, summary_table, with_printed
+from neural_shadows.reports.data.table import Column, Table, filled, intervals, numbers, write_table
+from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.frame_tables import MethodsTable
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import Model, Name, Text, section_or
 
 HEADS = {
     "mse": ("MSE × 10⁻⁴ ↓", "{:.2f}", 1e4),
@@ -29,7 +35,87 @@ HEADS = {
 }
 
 
-def write(
+class SummaryRow(Model):
+    """A row of a summary that is more than a name."""
+
+    method: Name = Field(description="as those of `soft_methods`")
+    label: Text | None = Field(None, description="without it the method's own label")
+    published: Name | None = Field(None, description="its row in published_kpnsm.csv")
+    column: Name | None = Field(
+        None,
+        description="its column there, of the first metric; without it they are called as the metrics",
+    )
+
+
+class Settings(MethodsTable):
+    """Methods for soft shadows over all lights together, beside printed numbers."""
+
+    kind: Literal["soft_summary"] = Field(description="`soft_summary`")
+    published: str | None = Field(
+        None, pattern=r"^kpnsm\.[1-4]$", description="`kpnsm.` and the paper's number of this table"
+    )
+    methods: list[section_or(SummaryRow, "method")] = Field(
+        min_length=1, description="in the table's order"
+    )
+    over: Literal["trained", "unseen"] = Field(
+        "trained", description="whose test frames: those of the set's `scenes` or of its `unseen`"
+    )
+    by: Literal["scene", "radius"] | None = Field(
+        None, description="a part of the table for each; without it one row a method"
+    )
+    metrics: list[Literal["mse", "ssim", "time", "temporal_error"]] = Field(
+        ["mse", "ssim"],
+        min_length=1,
+        description="`temporal_error` is of sequences, of the set's first scene",
+    )
+
+    @model_validator(mode="after")
+    def _check_metrics(self):
+        if self.by and (wrong := {"time", "temporal_error"} & set(self.metrics)):
+            raise ValueError(f"metrics: {min(wrong)} is not available with `by: {self.by}`")
+        return self
+
+    def methods_shown(self) -> list[str]:
+        return [row.method for row in self.methods]
+
+    def needs_sequence(self) -> bool:
+        return "temporal_error" in self.metrics
+
+    def check(self, config: Sections, key: str) -> None:
+        super().check(config, key)
+        if self.over == "unseen" and not getattr(config.frame_sets[self.frame_set], "unseen", ()):
+            raise ValueError(f"{key}.over: frame_sets.{self.frame_set} has no `unseen`")
+
+
+def files(layout: Layout, table: str) -> dict[str, Any]:
+    frame_set = soft_methods.frame_set(layout, table)
+    return {
+        "frames_json": soft_methods.tests(layout, frame_set)[0],
+        "soft_metrics": soft_methods.evaluations(layout, table, "csv"),
+        "soft_times": soft_methods.times(layout, table),
+        "widths_json": soft_methods.widths(layout, frame_set),
+        "trainings": soft_methods.trainings(layout, table),
+        "published_kpnsm_csv": layout.source("config/published_kpnsm.csv"),
+    }
+
+
+def params(layout: Layout, table: str) -> dict[str, Any]:
+    settings = layout.entry("tables", table)
+    available = soft_methods.methods(layout, table)
+    labelled = [
+        row | {"label": row["label"] or soft_methods.label(layout, row["method"])}
+        for row in settings["methods"]
+        if row["method"] in available
+    ]
+    return {
+        **{key: settings[key] for key in ("published", "by", "metrics")},
+        "methods": labelled,
+        "measured": soft_methods.shown_scenes(layout, table),
+        "run": layout.run(),
+    }
+
+
+def table(
     *,
     frames_json: Path,
     soft_metrics: list[Path],
@@ -37,8 +123,6 @@ def write(
     widths_json: Path | None,
     trainings: list[Path],
     published_kpnsm_csv: Path,
-    csv: Path,
-    md: Path,
     title: str,
     published: str | None,
     methods: Sequence[Row],
@@ -46,8 +130,8 @@ def write(
     metrics: Sequence[str],
     measured: Sequence[str],
     run: Mapping[str, Any],
-) -> None:
-    """Write a row for each method, or for each scene or radius and method.
+) -> Table:
+    """A row for each method, or for each scene or radius and method.
 
     CSV: those of `summary_table` and `with_printed`, the radii's unit, and the scale.
 
@@ -66,12 +150,12 @@ def write(
     times = read_json(soft_times) if soft_times else {"methods": {}}
     unit = UNITS[about.get("radius_unit", "metres")]
     radii = about.get("given_radii", about["radii"])
-    numbers = read_published_kpnsm(published_kpnsm_csv)
-    asked = {"methods": methods, "by": by, "metrics": metrics, "measured": measured}
-    table = summary_table(found, times, radii, **asked)
+    printed_numbers = read_published_kpnsm(published_kpnsm_csv)
+    chosen = {"methods": methods, "by": by, "metrics": metrics, "measured": measured}
+    table = summary_table(found, times, radii, **chosen)
     for metric in metrics:
         first = metric == metrics[0]  # a column of the paper's own is of this one
-        table = with_printed(table, metric, first, published, methods, numbers)
+        table = with_printed(table, metric, first, published, methods, printed_numbers)
     table = table.assign(unit=unit, scale=run["scale"])
     notes = [
         *_describe_frames(
@@ -85,14 +169,14 @@ def write(
         phrases.describe_run(run),
     ]
     heading, cells = titled(title, published), _cells(table, by, metrics, unit)
-    write_twins(table, cells, csv, md, title=heading, notes=notes, text_columns=1 + bool(by))
+    return Table(heading, table, cells, notes, text_columns=1 + bool(by))
 
 
 def _cells(
     table: pd.DataFrame, by: str | None, metrics: Sequence[str], unit: str
-) -> dict[str, Sequence[str]]:
+) -> dict[str, Column | Iterable[str]]:
     """What the Markdown shows, by heading; columns without anything are left out."""
-    cells: dict[str, Sequence[str]] = {}
+    cells: dict[str, Column | Iterable[str]] = {}
     if by == "scene":
         cells["scene"] = table["scene"]
     if by == "radius":
@@ -100,19 +184,19 @@ def _cells(
     cells["method"] = table["label"]
     for metric in metrics:
         head, form, factor = HEADS[metric]
-        cells[head] = number_cells(table[metric], form, factor)
+        cells[head] = numbers(table[metric], form, factor)
         if metric == "mse":
-            cells[head] = interval_cells(table, ["mse", "mse_low", "mse_high"], 2, factor)
+            cells[head] = intervals(table, ["mse", "mse_low", "mse_high"], 2, factor)
             ends = [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"]
-            cells["off edges"] = interval_cells(table, ends, 2, factor)
+            cells["off edges"] = intervals(table, ends, 2, factor)
         printed = table[f"printed_{metric}"]
-        cells[f"{head.split(' ×')[0].strip(' ↓↑')}, printed"] = number_cells(printed, form, factor)
+        cells[f"{head.split(' ×')[0].strip(' ↓↑')}, printed"] = numbers(printed, form, factor)
         if metric == "temporal_error":
             for what in MOVES[1:]:
-                cells[f"{what} alone"] = number_cells(table[f"{metric}_{what}"], form, factor)
-            cells["exact shadow's"] = number_cells(table[f"{metric}_reference"], form, factor)
-            cells["MSE × 10⁻⁴ in sequence"] = number_cells(table["mse_sequence"], "{:.1f}", 1e4)
-    return {head: column for head, column in cells.items() if any(column)}
+                cells[f"{what} alone"] = numbers(table[f"{metric}_{what}"], form, factor)
+            cells["exact shadow's"] = numbers(table[f"{metric}_reference"], form, factor)
+            cells["MSE × 10⁻⁴ in sequence"] = numbers(table["mse_sequence"], "{:.1f}", 1e4)
+    return filled(cells)
 
 
 def _records(trainings: Sequence[Path]) -> dict[str, Any]:
@@ -156,4 +240,4 @@ def _describe_sequences(found: pd.DataFrame) -> str:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, write)
+    run_stage(snakemake, table, write_table)

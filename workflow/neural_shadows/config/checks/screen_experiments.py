@@ -1,0 +1,82 @@
+"""What must hold of `screen_experiments`."""
+
+from typing import Any
+
+from neural_shadows.evaluation.soft_registry import FORMATS, LABELS, in_format
+from neural_shadows.networks.screen_space.screen_forms import layers_of
+from neural_shadows.sections.own_frames import OwnFrames, own_parts
+from neural_shadows.sections.screen_trainings import ScreenTraining
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import check_among
+
+
+def check_method_name(key: str, name: str) -> None:
+    """Check that a trained method is not called as another one of soft tables is."""
+    if name in LABELS:
+        raise ValueError(f"{key}: a method of soft tables has this name; choose another")
+    for ending in (in_format("", one) for one in FORMATS):
+        if name.endswith(ending):
+            raise ValueError(
+                f"{key}: {ending!r} ends the name of a network in that number format; leave it out"
+            )
+
+
+def check(config: Sections) -> None:
+    """Check that each network has frames to learn from, and crops that it can take."""
+    trained: dict[str, str] = {}
+    for name, experiment in config.screen_experiments.items():
+        key = f"screen_experiments.{name}"
+        check_method_name(key, name)
+        if name in config.experiments:
+            raise ValueError(f"{key}: an entry of `experiments` has this name; choose another")
+        same = trained.setdefault(experiment.model_dump_json(exclude={"label"}), name)
+        if same != name:
+            raise ValueError(
+                f"{key}: is the same as screen_experiments.{same}, and would train the same network "
+                "twice; use that one, or change the seed"
+            )
+        _check_frames(config, name)
+        network = config.screen_network_of(name)
+        least = 2 ** max(layer.level for layer in layers_of(network.model_dump()))
+        if config.screen_training_of(name).crop < least:
+            raise ValueError(
+                f"{key}.training: crop = {config.screen_training_of(name).crop}: the network's deepest level "
+                f"is 1/{least} of a frame; give {least} pixels or more"
+            )
+        if network.crops_in_pairs and config.screen_training_of(name).crops % 2:
+            raise ValueError(
+                f"{key}.training: crops = {config.screen_training_of(name).crops}: the network's batch norms "
+                "see two crops at a time; give an even number"
+            )
+
+
+def _check_frames(config: Sections, name: str) -> None:
+    key, experiment = f"screen_experiments.{name}", config.screen_experiments[name]
+    frames, where = config.frame_sets[experiment.frame_set], f"frame_sets.{experiment.frame_set}"
+    own = isinstance(frames, OwnFrames)
+    if len(set(experiment.scenes)) < len(experiment.scenes):
+        raise ValueError(f"{key}.scenes = {experiment.scenes}: must name each only once")
+    for scene in experiment.scenes:
+        if scene in getattr(frames, "unseen", ()):
+            raise ValueError(
+                f"{key}.scenes: {scene!r} is among `unseen` of {where}, which no network may train "
+                f"on; allowed: {', '.join(frames.scenes)}"
+            )
+        check_among(f"{key}.scenes", scene, own_parts(frames) if own else frames.scenes)
+    radii = None if own else frames.radii
+    if radii is not None and max(experiment.lights or [0]) >= len(radii):
+        raise ValueError(
+            f"{key}.lights = {experiment.lights}: {where} has {len(radii)} radii, counted from 0"
+        )
+    if not own:  # of a user's own, the stage looks at the files
+        _check_rendered(key, where, frames, config.screen_training_of(name))
+
+
+def _check_rendered(key: str, where: str, frames: Any, training: ScreenTraining) -> None:
+    if frames.train == 0:
+        raise ValueError(f"{key}.frame_set: {where} has train = 0; set it to 1 or more")
+    if training.perturbation > 0 and frames.twins.count == 0:
+        raise ValueError(
+            f"{key}.training: perturbation = {training.perturbation:g} needs twins; give {where} "
+            "`twins: {count: 3}`, or set perturbation: 0"
+        )

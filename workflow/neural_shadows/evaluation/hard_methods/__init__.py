@@ -1,0 +1,1 @@
+"""Families of methods for hard shadows without a network."""

@@ -1,0 +1,1 @@
+"""What computes soft shadows; methods import it when they answer."""

@@ -1,0 +1,131 @@
+"""Denoisers of pictures of visibility by few rays a pixel."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from itertools import repeat
+from typing import Any
+
+import numpy as np
+
+from neural_shadows.denoising.ffx import FfxFilter, TemporalFfx, ffx_like
+from neural_shadows.denoising.oidn import open_image_denoise
+from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma, sigma_like
+from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx, sigma_ffx_like
+from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
+from neural_shadows.denoising.temporal import TemporalFilter
+from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced, ray_traced_penumbrae
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.surface import Surface
+
+
+@dataclass(frozen=True)
+class Denoiser:
+    """A denoiser: the last step, on one thread.
+
+    Attributes:
+        single: of pictures (height, width) float32, the surface and the constants, the smooth
+            picture. They are the visibility by rays and, if `distances`, the penumbrae's radii of
+            `ray_traced_penumbrae`; lit, and −1, where there is no surface.
+        temporal: of a height, a width and the constants, what does so for frames in turn, if it
+            has a history: `next_frame` of the pictures, the surface, and where its points were.
+    """
+
+    single: Callable[..., np.ndarray]
+    temporal: Callable[..., Any] | None = None
+    distances: bool = False
+
+    def pictures(self, frame: SoftFrame, radius: float, samples: int) -> tuple[np.ndarray, ...]:
+        """Pictures of a frame's rays, to be smoothed."""
+        surface = frame.surface
+        if not self.distances:
+            return (surface.image(ray_traced(frame, radius, samples=samples), 1.0),)
+        visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples)
+        return surface.image(visibility, 1.0), surface.image(penumbra, -1.0)
+
+
+def denoised(
+    frame: SoftFrame, radius: float, *, samples: int, denoiser: str, **constants: float
+) -> np.ndarray:
+    """Rays of one frame, then a denoiser: (n,) float32.
+
+    Args:
+        radius: of the light, in the scene's unit; a point's shadow has no noise and stays as it is.
+        samples: rays of each pixel. denoiser: of `BY_KEY`.
+
+    Raises:
+        InputError: the denoiser's package is not installed.
+    """
+    if radius == 0:
+        return ray_traced(frame, radius, samples=samples)
+    pictures = BY_KEY[denoiser].pictures(frame, radius, samples)
+    smooth = BY_KEY[denoiser].single(*pictures, frame.surface, **constants)
+    return smooth.ravel()[frame.surface.pixel]
+
+
+def denoised_sequence(
+    frames: Iterable[SoftFrame],
+    radius: float,
+    *,
+    samples: int,
+    denoiser: str,
+    was: Iterable[np.ndarray | None] | None = None,
+    **constants: float,
+) -> Iterator[np.ndarray]:
+    """Rays of frames in turn, then a denoiser's temporal part.
+
+    (n,) float32 each.
+
+    Args:
+        radius, samples, denoiser: see `denoised`.
+        frames: whose numbers grow. was: of each, where its points were in the one before, (n, 3), if
+            anything moved.
+    """
+    kind, temporal = BY_KEY[denoiser], None
+    for frame, points in zip(frames, repeat(None) if was is None else was):
+        surface = frame.surface
+        if radius == 0:
+            yield ray_traced(frame, radius, samples=samples)
+            continue
+        temporal = temporal or kind.temporal(surface.height, surface.width, **constants)
+        pictures = kind.pictures(frame, radius, samples)
+        yield temporal.next_frame(*pictures, surface, points).ravel()[surface.pixel]
+
+
+# Only the last of a kind is kept: 50 MB for a million pixels, and the frames of a set have one size.
+_svgf_filter, _ffx_filter, _sigma_filter, _sigma_ffx_filter = (
+    lru_cache(maxsize=1)(kind) for kind in (SvgfFilter, FfxFilter, SigmaFilter, SigmaFfxFilter)
+)
+
+
+def _svgf(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
+    filter_ = _svgf_filter(*picture.shape, **constants)
+    return svgf_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
+
+
+def _ffx(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
+    filter_ = _ffx_filter(*picture.shape, **constants)
+    return ffx_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
+
+
+def _sigma(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
+    return sigma_like(_sigma_filter(*picture.shape, **constants), picture, penumbra, surface)
+
+
+def _sigma_ffx(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
+    filter_ = _sigma_ffx_filter(*picture.shape, **constants)
+    return sigma_ffx_like(filter_, picture, penumbra, surface)
+
+
+def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
+    return open_image_denoise(picture, surface.image(surface.n), quality=quality)
+
+
+BY_KEY = {
+    "svgf": Denoiser(_svgf, TemporalFilter),
+    "ffx": Denoiser(_ffx, TemporalFfx),
+    "sigma": Denoiser(_sigma, TemporalSigma, distances=True),
+    "sigma_ffx": Denoiser(_sigma_ffx, TemporalSigmaFfx, distances=True),
+    "oidn_fast": Denoiser(partial(_oidn, quality="fast")),
+    "oidn": Denoiser(partial(_oidn, quality="high")),
+}

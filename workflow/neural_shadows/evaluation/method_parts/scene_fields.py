@@ -1,0 +1,94 @@
+"""The occupancy fields of a scene's objects, kept from frame to frame, and rays through them."""
+
+from collections.abc import Iterable
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.evaluation.method_parts.object_field import (
+    ObjectField,
+    StoredFields,
+    field_key,
+    fitted_field,
+)
+from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes
+from neural_shadows.scenes.scene import Scene
+from neural_shadows.scenes.tracing import Tracer
+
+CELL = 0.0005  # of the scene's size: how wide a field's cells are wanted
+_MOST_KEPT = 64  # objects, of some 5 MiB each
+_kept: dict[str, ObjectField | None] = {}
+_stored: list[StoredFields] = []
+
+
+class SceneFields:
+    """The fields of a scene's closed objects, and a tracer of the others."""
+
+    def __init__(self, scene: Scene):
+        fields = [_field_of(mesh, CELL * scene.size) for mesh in scene.objects]
+        self.fields = [field for field in fields if field is not None]
+        rest = [mesh for mesh, field in zip(scene.objects, fields) if field is None]
+        joined = joined_meshes(rest) if rest else None
+        self.tracer = Tracer(joined.vertices, joined.faces) if rest else None
+
+    def blocked(self, points: np.ndarray, to_light: np.ndarray) -> np.ndarray:
+        """Whether each vector (n, 3) from its point is blocked, (n,) bool."""
+        blocked = np.zeros(len(points), bool)
+        if self.tracer is not None:
+            blocked |= self.tracer.blocked(points, to_light)
+        for field in self.fields:
+            field.block(points, to_light, blocked)
+        return blocked
+
+
+def _field_of(mesh: PreparedMesh, cell: float) -> ObjectField | None:
+    """The field of an object where it stands; None of an open one.
+
+    Kept until other scenes need the room: of a sequence in which one object moves, all others are
+    made once.
+    """
+    key = field_key(mesh, cell)
+    if key not in _kept:
+        if len(_kept) >= _MOST_KEPT:
+            _kept.clear()
+        stored = (one.get(key) for one in _stored)
+        _kept[key] = next(filter(None, stored), None) or fitted_field(mesh, cell)
+    return _kept[key]
+
+
+def take_stored(paths: Iterable[Path]) -> None:
+    """Take fields from files of `write_fields`, fit those in none.
+
+    Raises:
+        InputError: a file is missing or damaged.
+    """
+    _stored[:] = map(StoredFields, paths)
+
+
+def fields_in(scene: Scene) -> dict[str, ObjectField]:
+    """The fields of a scene's closed objects by `field_key`."""
+    cell = CELL * scene.size
+    fields = {field_key(mesh, cell): _field_of(mesh, cell) for mesh in scene.objects}
+    return {key: field for key, field in fields.items() if field is not None}
+
+
+def field_traced(frame: SoftFrame, radius: float, *, samples: int, cells: float) -> np.ndarray:
+    """Share of a pixel's rays unblocked by fields, (n,) float32.
+
+    Args:
+        radius, samples: see `ray_traced`. cells: by how many times `CELL` rays start off the
+            surface, which a field has not quite where the triangles have it.
+    """
+    off = np.float32(cells * CELL * frame.scene.size)
+    starts = frame.surface.p + off * frame.surface.n_g
+    fields = fields_of(frame.scene)
+    return ray_traced(frame, radius, samples=samples, starts=starts, blocked=fields.blocked)
+
+
+@lru_cache(maxsize=2)
+def fields_of(scene: Scene) -> SceneFields:
+    """The fields of a scene, shared by all of its frames."""
+    return SceneFields(scene)

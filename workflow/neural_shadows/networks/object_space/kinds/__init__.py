@@ -1,0 +1,1 @@
+"""Kinds of networks of one object, a file each."""

@@ -1,0 +1,1 @@
+"""Forms of networks of whole frames, a file each."""

@@ -1,0 +1,32 @@
+"""Neural Shadow Mapping's trimmed network at the frame's own size (Datta et al. 2022, 3.5)."""
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import Field
+
+from neural_shadows.frames.feature_names import channels_of
+from neural_shadows.networks.screen_space import widths as counts
+from neural_shadows.networks.settings.screen_space import Channels, Trimmed
+
+
+class Settings(Trimmed):
+    """The trimmed network at the frame's own size."""
+
+    form: Literal["full"] = Field(description="`full`")
+    pool: Literal["average", "max"] = Field("average", description="on the way down")
+    first_skip: bool = Field(False, description="a skip at the frame's own size, too")
+    extraction: Channels | None = Field(
+        None, description="hidden channels of a learned reduction of the features to four"
+    )
+
+
+def convolutions(settings: Mapping[str, Any]) -> list[counts.Convolution]:
+    channels = channels_of(settings["features"])
+    return counts.convolutions("full", settings["widths"], channels, settings.get("extraction"))
+
+
+def network(settings: Mapping[str, Any]) -> Any:
+    from neural_shadows.networks.screen_space.exponent_unet import trimmed_network
+
+    return trimmed_network(**settings)

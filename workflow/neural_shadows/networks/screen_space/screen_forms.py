@@ -1,0 +1,26 @@
+"""The forms of networks of whole frames, by name."""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import Any
+
+from neural_shadows.networks.kind_module import FORMS
+from neural_shadows.networks.screen_space.widths import Convolution
+from neural_shadows.settings.base import not_among
+from neural_shadows.settings.kinds import kinds
+
+
+def form_of(settings: Mapping[str, Any]) -> ModuleType:
+    """The form of an entry of the config's `screen_networks`.
+
+    Raises:
+        KeyError, ValueError: there is no such form.
+    """
+    if settings["form"] not in kinds(FORMS):
+        raise ValueError(f"form {not_among(str(settings['form']), kinds(FORMS))}")
+    return kinds(FORMS)[settings["form"]]
+
+
+def layers_of(settings: Mapping[str, Any]) -> list[Convolution]:
+    """The convolutions of an entry of `screen_networks`, in order."""
+    return form_of(settings).convolutions(settings)

@@ -1,0 +1,1 @@
+"""What a network answers on frames of the user's own."""

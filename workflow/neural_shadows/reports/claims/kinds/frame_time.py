@@ -1,0 +1,116 @@
+"""Ratios of two methods' own times, within bounds."""
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+import scipy
+from pydantic import Field
+
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.tables import unique
+from neural_shadows.reports.claims import row_claims, setting_types
+from neural_shadows.reports.claims.claim_kinds import methods
+from neural_shadows.reports.claims.comparison import Comparison, unjudged
+from neural_shadows.reports.claims.measured import Claim, Measured, labels, needs
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.trained import Row
+from neural_shadows.reports.tables import frame_times
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import Name, check_among
+
+
+class Settings(setting_types.Bounded, row_claims.RowsClaim):
+    """The ratio of two methods' own median times, within bounds."""
+
+    bounded = "a claim on frame_time"
+
+    kind: Literal["frame_time"] = Field(description="`frame_time`")
+    table: Name = Field(description="a table of `frame_times` in `tables`")
+    pairs: setting_types.pairs() = Field(
+        description="methods of one scene; the first's time over the second's"
+    )
+    overhead_ms: float = Field(
+        0.0,
+        ge=0,
+        lt=1e6,
+        description="milliseconds of a frame beside the method, added to both own times",
+    )
+
+    def check(self, config: Sections, key: str) -> None:
+        timed = [n for n, table in config.tables.items() if isinstance(table, frame_times.Settings)]
+        check_among(f"{key}.table", self.table, timed)
+        super().check(config, key)
+        rows = config.tables[self.table].resolved_rows(config)
+        for pair in self.pairs:
+            scene = row_claims.compared_rows(config, pair)[0]["scene"]
+            for method in pair:
+                on_scene = [row["method"] for row in rows if row["scene"] == scene]
+                check_among(f"{key}.pairs", method, on_scene)
+
+
+compared = row_claims.compared_in_pairs
+
+
+def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
+    rows = methods(claim)
+    scenes = unique(row["scene"] for row in rows)
+    times = [layout.paths.frame_times(claim["table"], scene) for scene in scenes]
+    return row_claims.row_files(layout, rows) | {"times": times}
+
+
+def not_comparable(claim: Claim, data: Measured) -> str:
+    """The reason against comparable devices, if any."""
+    devices = {
+        label: data.times[claim["table"], row["scene"]]["methods"][row["method"]]["device"]
+        for pair in claim["pairs"]
+        for label, row in zip(labels(pair), pair)
+    }
+    needed = needs(claim, "device")
+    if len({*devices.values(), needed or min(devices.values())}) == 1:
+        return ""
+    where = ", ".join(f"{label} on {device}" for label, device in devices.items())
+    return f"times of {needed or 'one device'} are needed: {where}"
+
+
+def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
+    """A comparison for each pair (slower, faster) of a scene.
+
+    It is by the median over frames of the ratio of own milliseconds. To both are added the claim's
+    `overhead_ms`, what a frame takes beside the method: the thesis speaks of whole frames, and ours
+    beside the method are not as fast as its. Each frame is answered by all methods in turn, so that
+    a disturbance of the machine meets both, and a median does not see it. Interval and p-values are
+    exact (sign test).
+    """
+    return [_comparison(claim, pair, data) for pair in claim["pairs"]]
+
+
+def _comparison(claim: Claim, pair: Sequence[Row], data: Measured) -> Comparison:
+    timed = data.times[claim["table"], pair[0]["scene"]]["methods"]
+    times = [timed[row["method"]] for row in pair]
+    own, overhead = [np.array(each["own_ms"]) for each in times], claim["overhead_ms"]
+    texts = [
+        f"{label} {short(np.median(ms))} ms (frame {short(np.median(each['ms']))} ms)"
+        for label, ms, each in zip(labels(pair), own, times)
+    ]
+    bounds = setting_types.bounds_of(claim)
+    least, most = bounds.get("at_least", 0.0), bounds.get("at_most", np.inf)
+    kept = {
+        "metric": "own milliseconds",
+        "methods": " against ".join(labels(pair)),
+        "text": f"own time of {' against '.join(texts)}",
+    }
+    ratios = (own[0] + overhead) / (own[1] + overhead)
+    low, high = scipy.stats.quantile_test(ratios).confidence_interval(0.95)
+    if np.isnan([low, high]).any():  # of five frames or fewer
+        return Comparison(**kept, **unjudged(untested=f"{len(ratios)} frames are too few"))
+    with_rest = f", with {overhead:g} ms beside the method" if overhead else ""
+    below = scipy.stats.quantile_test(ratios, q=least, alternative="less").pvalue
+    above = scipy.stats.quantile_test(ratios, q=most, alternative="greater").pvalue
+    return Comparison(
+        **kept,
+        number=f"ratio {short(np.median(ratios))} [{short(low)}, {short(high)}]",
+        remark=f"{with_rest} ({setting_types.in_words(bounds)})",
+        supports=bool(low > least and high < most),
+        against=min(1.0, 2 * min(below, above)),
+    )

@@ -1,0 +1,304 @@
+"""Numbers of tables over each other, within bounds."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import pandas as pd
+import scipy
+from pydantic import Field, model_validator
+
+from neural_shadows.evaluation.soft_registry import UNLEARNED
+from neural_shadows.layout.layout import Layout
+from neural_shadows.metrics.intervals import LEVEL, t_interval
+from neural_shadows.reports.claims import setting_types
+from neural_shadows.reports.claims.comparison import Comparison, of_all_pixels, seeds_of, unjudged
+from neural_shadows.reports.claims.measured import Claim, Measured, needs
+from neural_shadows.reports.claims.network_claims import NetworksClaim, training_files
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.screen_rows import learned_rows
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import Name, check_among, name_in
+
+WITHOUT_TRUNK = "no network with a perceptual loss: it needs a pretrained trunk"
+TIMES = ("runtime", "time")
+SIDES = {"at_least": 1, "at_most": -1}
+Row = Annotated[dict[str, str | bool | int], Field(min_length=1)]
+Size = Annotated[float, Field(gt=0, lt=1e12)]
+
+
+class Ratio(setting_types.Bounded):
+    """A number of a table over another of its column."""
+
+    bounded = "a ratio"
+
+    table: Name = Field(description="a name in `tables`")
+    column: str = Field(min_length=1, description="of the table's CSV")
+    of: Row = Field(description="what finds its row: value by column")
+    to: Row | Annotated[list[Row], Field(min_length=2)] | Size | None = Field(
+        None,
+        description="likewise, of what it is divided by, of several rows their mean; or a number; "
+        "without it the sum of all others",
+    )
+    per: str | None = Field(
+        None, min_length=1, description="a column of the table by which each is divided first"
+    )
+    unlearned: Size | None = Field(
+        None,
+        description="what `of` is of a null predictor, where the table has no row of it",
+    )
+
+    @model_validator(mode="after")
+    def _check_per(self):
+        if self.per is not None and self.to is None:
+            raise ValueError("a ratio to the sum of all others has no `per`")
+        return self
+
+
+class Settings(NetworksClaim):
+    """Numbers of tables over each other, within bounds."""
+
+    kind: Literal["ratio"] = Field(description="`ratio`")
+    ratios: list[Ratio] = Field(min_length=1, description="all of which are to hold")
+    networks: list[name_in("screen_experiments")] = Field(
+        [], description="the trained networks that it is about"
+    )
+    again: setting_types.again(Name) = Field(
+        {},
+        description="by table, those with the same rows of networks from other seeds",
+    )
+
+    def named_networks(self) -> list[str]:
+        return self.networks
+
+    def other_seeds(self, config: Sections) -> Iterator[tuple[str, list[str]]]:
+        for table, others in self.again.items():
+            for network in self._networks_in(config, table):
+                yield network, [x for other in others for x in _same_in(config, network, other)]
+
+    def _networks_in(self, config: Sections, table: str) -> list[str]:
+        shown = config.tables[table].methods_shown()
+        return [network for network in self.networks if network in shown]
+
+    def check(self, config: Sections, key: str) -> None:
+        for ratio in self.ratios:
+            check_among(f"{key}.ratios.table", ratio.table, config.tables)
+        for table, others in self.again.items():
+            check_among(f"{key}.again", table, [ratio.table for ratio in self.ratios])
+            for other in others:
+                check_among(f"{key}.again.{table}", other, config.tables)
+                for network in self._networks_in(config, table):
+                    if not _same_in(config, network, other):
+                        raise ValueError(
+                            f"{key}.again.{table}: {other!r} has no network that differs from "
+                            f"{network!r} in `seed` and `label` alone"
+                        )
+        super().check(config, key)
+
+
+def _same_in(config: Sections, network: str, table: str) -> list[str]:
+    """A network's counterparts in a table, from other seeds."""
+    others = dict.fromkeys(config.tables[table].methods_shown())
+    others = [x for x in others if x in config.screen_experiments and x != network]
+    return [x for x in others if not config.differences(network, x)]
+
+
+def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
+    again = [table for others in claim["again"].values() for table in others]
+    tables = [*(ratio["table"] for ratio in claim["ratios"]), *again]
+    paths = [layout.paths.report(f"{table}.csv") for table in tables]
+    return {"tables": paths, **training_files(layout, claim)}
+
+
+def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
+    """A comparison for each ratio.
+
+    Numbers of trained networks are not judged by fewer trainings than the claim needs: a seed is
+    one of the table, and one each of those in `again`. Of more than one the ratios' logarithms
+    decide, by Student's t.
+    """
+    return [_comparison(claim, ratio, data) for ratio in claim["ratios"]]
+
+
+def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
+    """The ratios of null predictors, by null.
+
+    One takes the place of a network that stands on both sides, else of the one that is to have the
+    smaller number; without networks there is none, and a table without its rows decides nothing.
+    """
+    if not claim["networks"]:
+        return {}
+    return {null: [_of_null(ratio, data, null) for ratio in claim["ratios"]] for null in UNLEARNED}
+
+
+def by_all_pixels(claim: Claim) -> Claim | None:
+    ratios = [ratio | {"column": of_all_pixels(ratio["column"])} for ratio in claim["ratios"]]
+    return {**claim, "ratios": ratios} if ratios != claim["ratios"] else None
+
+
+def of_another_size(table: pd.DataFrame, column: str, device: str | None = None) -> str:
+    """The reason against comparable times, if any."""
+    if column not in TIMES:
+        return ""
+    # Methods for soft shadows are timed on a CPU alone.
+    timed = table["device"] if "device" in table else pd.Series("cpu", table.index)
+    if device and not (timed == device).all():
+        return f"times on {device} are needed"
+    if column == "runtime" and not table["of_printed_size"].all():
+        return "times of frames that have not the paper's size"
+    return ""
+
+
+def _of_null(ratio: Mapping[str, Any], data: Measured, null: str) -> Comparison:
+    """A null's ratio; only within bounds strictly it supports."""
+    value = _null_ratio(data.tables[ratio["table"]], ratio, null)
+    inside = [SIDES[key] * (value - x) > 0 for key, x in setting_types.bounds_of(ratio).items()]
+    kept = {"metric": ratio["column"], "methods": null, "text": null}
+    return Comparison(**kept, number=f"ratio {value:.3g}", supports=all(inside), against=1.0)
+
+
+def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> float:
+    """The ratio with a null for networks, NaN without rows."""
+    of, to = ratio["of"], ratio["to"]
+    if ratio.get("unlearned") is not None:
+        return ratio["unlearned"] / to
+    if "null" not in table or to is None:
+        return float("nan")
+    unlearned, rows = table[table["null"] == null], to if isinstance(to, list) else [to]
+    # A null's rows have all but what names a network.
+    networks = [
+        {
+            key: value
+            for key, value in where.items()
+            if key not in unlearned or not (unlearned[key].astype(str) == str(value)).any()
+        }
+        for where in (of, *rows)
+        if isinstance(where, dict)
+    ]
+    both = all(network == networks[0] for network in networks)
+    winner = of if ratio["at_least"] is None or not isinstance(to, dict) else to
+
+    def number(where: Mapping[str, Any] | float) -> float:
+        if isinstance(where, dict) and (both or where is winner):
+            named = {key: value for key, value in where.items() if key not in networks[0]}
+            return _number_in(unlearned, ratio, named)
+        return _number_in(learned_rows(table), ratio, where)
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return float(np.divide(number(of), np.mean([number(row) for row in rows])))
+
+
+def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Comparison:
+    names = (ratio["table"], *claim["again"].get(ratio["table"], ()))
+    tables = [learned_rows(data.tables[name]) for name in names]
+    column = f"{ratio['column']} per {ratio['per']}" if ratio["per"] else ratio["column"]
+    values = np.array([_values(table, ratio) for table in tables])
+    sides = [_name(ratio[key]) for key in ("of", "to")]
+    means = [f" {value:.4g}" for value in values.mean(axis=0)]
+    if isinstance(ratio["to"], float):
+        means[1] = ""  # is its own name
+    named = " over ".join(f"{side}{mean}" for side, mean in zip(sides, means))
+    kept = {"metric": column, "methods": " over ".join(sides)}
+    kept["text"] = f"{column} of {named} ({ratio['table']})"
+    if why := of_another_size(tables[0], ratio["column"], needs(claim, "device")):
+        return Comparison(**kept, **unjudged(incomparable=why))
+    if not np.isfinite(values).all():
+        return Comparison(**kept, **unjudged(untested=f"no {column} of one of them"))
+    networks = claim["networks"]
+    if needs(claim, "trunk") and all(
+        data.screen_trainings[name]["perceptual"] == "none" for name in networks
+    ):
+        return Comparison(**kept, **unjudged(untested=WITHOUT_TRUNK))
+    ratios, needed = values[:, 0] / values[:, 1], needs(claim, "seeds") or 1
+    bounds, ends = setting_types.bounds_of(ratio), _ends(tables, ratio)
+    limits = f" ({setting_types.in_words(bounds)})"
+    if networks and len(tables) < needed:
+        kept |= {"number": _number(ratios), "remark": limits}
+        untested = seeds_of(len(tables), needed)
+        return Comparison(**kept, supports=False, against=1.0, untested=untested)
+    if ends is not None and not np.isfinite(ends).all():
+        why = f"ratio {ratios[0]:.3g}{limits} without an interval"
+        return Comparison(**kept, **unjudged(untested=why))
+    return Comparison(**kept, remark=limits, **_judged(ratios, ends, bounds))
+
+
+def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
+    value, to = _number_in(table, ratio, ratio["of"]), ratio["to"]
+    if to is None:
+        return [value, table[ratio["column"]].sum() - value]
+    rows = to if isinstance(to, list) else [to]
+    return [value, float(np.mean([_number_in(table, ratio, row) for row in rows]))]
+
+
+def _number_in(
+    table: pd.DataFrame, ratio: Mapping[str, Any], where: Mapping[str, Any] | float
+) -> float:
+    """A row's number, divided by `per`; a given one."""
+    if isinstance(where, float):
+        return where
+    value = _cell(table, ratio["column"], where)
+    return value / _cell(table, ratio["per"], where) if ratio["per"] else value
+
+
+def _cell(table: pd.DataFrame, column: str, where: Mapping[str, Any]) -> float:
+    """A column's number in the only matching row, or NaN."""
+    rows = table
+    for name, value in where.items():
+        rows = rows[rows[name].astype(str) == str(value)] if name in rows else rows[:0]
+    numbers = pd.to_numeric(rows.get(column, pd.Series(dtype=float)), errors="coerce")
+    return float(numbers.iloc[0]) if len(numbers) == 1 else float("nan")
+
+
+def _ends(tables: Sequence[pd.DataFrame], ratio: Mapping[str, Any]) -> np.ndarray | None:
+    """Ends of a number's own interval over a given number."""
+    columns = [f"{ratio['column']}_{end}" for end in ("low", "high")]
+    alone = len(tables) == 1 and isinstance(ratio["to"], float) and not ratio["per"]
+    if not alone or any(column not in tables[0] for column in columns):
+        return None
+    return np.array([_cell(tables[0], column, ratio["of"]) for column in columns]) / ratio["to"]
+
+
+def _number(ratios: np.ndarray) -> str:
+    """The ratio in words, of several their geometric mean."""
+    mean, low, high, _ = np.exp(t_interval(_log(ratios)))
+    interval = f" [{short(low)}, {short(high)}] over {len(ratios)} seeds" if len(ratios) > 1 else ""
+    return f"ratio {short(mean)}{interval}"
+
+
+def _judged(
+    ratios: np.ndarray, ends: np.ndarray | None, bounds: Mapping[str, float]
+) -> dict[str, Any]:
+    """Judge ratios by bounds.
+
+    Several by Student's t, one with an interval of its own by that, another as it is.
+    """
+    number = _number(ratios)
+    inside = [SIDES[key] * _log(ratios / bound) for key, bound in bounds.items()]
+    if ends is not None:
+        number = f"ratio {ratios[0]:.3g} [{ends[0]:.3g}, {ends[1]:.3g}]"
+        # As of a normal distribution whose interval this is.
+        half, wide = np.log(ends[1] / ends[0]) / 2, scipy.stats.norm.ppf((1 + LEVEL) / 2)
+        tests = [(d, d - half, 2 * scipy.stats.norm.sf(wide * -d / half)) for (d,) in inside]
+    elif len(ratios) == 1:
+        tests = [(1, 1, 1.0) if d >= 0 else (-1, -1, 0.0) for (d,) in inside]
+    else:
+        tests = [(mean, low, p) for mean, low, _, p in map(t_interval, inside)]
+    return {
+        "number": number,
+        "supports": all(low > 0 for _, low, _ in tests),
+        "against": float(min((p for mean, _, p in tests if mean < 0), default=1.0)),
+    }
+
+
+def _log(ratios: np.ndarray) -> np.ndarray:
+    """Natural logarithms; of 0, within any upper bound, −∞."""
+    with np.errstate(divide="ignore"):
+        return np.log(ratios)
+
+
+def _name(where: Mapping[str, Any] | Sequence[Mapping[str, Any]] | float | None) -> str:
+    if isinstance(where, float):
+        return f"{where:g}"
+    if isinstance(where, list):
+        return f"the mean of {' and '.join(map(_name, where))}"
+    return "all others" if where is None else ", ".join(map(str, where.values()))

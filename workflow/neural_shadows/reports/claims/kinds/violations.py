@@ -1,0 +1,97 @@
+"""Costs of violated bounds: false shadow or light leaks [5.1]."""
+
+from typing import Any, Literal
+
+import numpy as np
+import pandas as pd
+from pydantic import Field
+
+from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
+from neural_shadows.reports.claims import row_claims, unlearned
+from neural_shadows.reports.claims.comparison import Comparison, judged, unjudged
+from neural_shadows.reports.claims.measured import Claim, Measured, labels
+from neural_shadows.reports.data.trained import Row
+from neural_shadows.sections.sections import Sections
+
+COUNTS_VIOLATIONS = True
+# The number of violations, of those where such an error can be seen, and of those where it is.
+LOWER = ("lower_violations", "lit_of_lower", "false_shadow_of_lower")
+UPPER = ("upper_violations", "shadowed_of_upper", "light_leak_of_upper")
+
+
+class Settings(row_claims.RowsClaim):
+    """Violations of the lower bound against those of the upper.
+
+    Of each network one of the former is to show more often.
+    """
+
+    rows_key = "methods"
+
+    kind: Literal["violations"] = Field(description="`violations`")
+    methods: list[str] = Field(min_length=1, description="networks")
+
+    def compared(self) -> list[list[str]]:
+        return [[method] for method in self.methods]
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        return self.model_dump() | {"methods": row_claims.compared_rows(config, self.methods)}
+
+
+files = row_claims.picture_files
+not_learned = unlearned.by_frames
+
+
+def compared(claim: Claim) -> list[list[Row]]:
+    return [[row] for row in claim["methods"]]
+
+
+def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
+    """A comparison for each network, of its largest budget.
+
+    What is compared is P(false shadow | t < t_lb, point lit) − P(light leak | t > t_ub, point in
+    shadow): the thesis speaks of what a violation costs, however often each bound is violated and
+    however much of the frame is lit. Counts of all views are added.
+    """
+    rows = claim["methods"]
+    return [_comparison(label, row, data) for label, row in zip(labels(rows), rows)]
+
+
+def _comparison(label: str, row: Row, data: Measured) -> Comparison:
+    budget = data.budgets([row])[-1]
+    kept = {
+        "metric": "seen violations",
+        "methods": label,
+        "text": label,
+        "seeds": budget.seeds if budget.runs else None,
+        "samples": budget.samples,
+    }
+    frames = [
+        data.metrics[row["scene"]][method][[*LOWER, *UPPER]] for method in data.methods(row, budget)
+    ]
+    counts = np.stack([frame.to_numpy() for frame in frames])  # (S, V, 6)
+    lower, lit, false, upper, shadowed, leak = counts.sum((0, 1))
+    if not lit or not shadowed:
+        nowhere = "lower bound is violated at no lit" if not lit else "upper bound at no shadowed"
+        return Comparison(**kept, **unjudged(untested=f"the {nowhere} point"))
+    kept["text"] = (
+        f"{label}: false shadow at {100 * false / lit:.3g} % of the {lit:,.0f} points that are "
+        f"lit, of {lower:,.0f} with a violated lower bound, and light leak at "
+        f"{100 * leak / shadowed:.3g} % of the {shadowed:,.0f} in shadow, of {upper:,.0f} with a "
+        "violated upper one"
+    )
+    if len(frames[0]) < FEWEST_VIEWS:
+        return Comparison(**kept, **unjudged(untested=f"{len(frames[0])} views are too few"))
+    groups = frames[0].index.get_level_values("view_set")
+    return Comparison(**kept, **judged(*two_way_interval(counts, _excess, groups)))
+
+
+def _excess(counts: np.ndarray) -> float:
+    _, lit, false, _, shadowed, leak = counts.sum((0, 1))
+    # Without one view there may be no violation of a bound: it then cost nothing.
+    return float(false / max(lit, 1) - leak / max(shadowed, 1))
+
+
+def counts_by_view(metrics: pd.DataFrame) -> pd.DataFrame:
+    """Counts by view; a column a (method, count)."""
+    counts = metrics[metrics["metric"].isin([*LOWER, *UPPER])]
+    return counts.pivot(index=["view_set", "view"], columns=["method", "metric"], values="value")

@@ -1,0 +1,55 @@
+"""Claims on trained networks of frames from several seeds."""
+
+from typing import Any
+
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.claims.measured import Claim, networks_of_frames
+from neural_shadows.sections.any_report import AnyClaim
+from neural_shadows.sections.sections import Sections
+
+
+class NetworksClaim(AnyClaim):
+    """A claim on trained networks of frames.
+
+    Its kind has `named_networks()` and `other_seeds(config)`, networks each with their
+    counterparts.
+    """
+
+    def all_networks(self, config: Sections) -> list[str]:
+        """Its networks from all seeds, as experiments."""
+        others = [name for _, names in self.other_seeds(config) for name in names]
+        by_scene = config.networks_by_scene
+        return [
+            experiment
+            for name in (*self.named_networks(), *others)
+            for experiment in (by_scene[name].experiments if name in by_scene else [name])
+        ]
+
+    def check(self, config: Sections, key: str) -> None:
+        for network, others in self.other_seeds(config):
+            where, seeds = f"{key}.again.{network}", {}
+            for name in others:
+                if unlike := config.differences(network, name):
+                    raise ValueError(
+                        f"{where}: {name!r} has another {unlike[0]} than {network!r}; should "
+                        "differ from it in `seed` and `label` alone"
+                    )
+            for name in (network, *others):
+                seed = config.screen_seed_of(name)
+                if seed in seeds:
+                    raise ValueError(
+                        f"{where}: {name!r} has the seed {seed} of {seeds[seed]!r}; each should "
+                        "have its own"
+                    )
+                seeds[seed] = name
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        return super().resolved(config) | {"networks": self.all_networks(config)}
+
+
+def training_files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
+    """The training.json of each of a claim's networks."""
+    paths = [
+        layout.paths.screen_network("training.json", name) for name in networks_of_frames(claim)
+    ]
+    return {"screen_trainings": paths}

@@ -1,0 +1,64 @@
+"""Types of settings of several kinds of claims."""
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+
+from neural_shadows.reports.claims.measured import Claim
+from neural_shadows.settings.base import Model, Name
+
+Radius = Annotated[int, Field(ge=0)]  # its number
+
+
+def _check_once(values: list[Any]) -> list[Any]:
+    for value in values:
+        if values.count(value) > 1:
+            raise ValueError(f"{value!r} is there twice; should be there once")
+    return values
+
+
+def _check_each_once(again: dict[str, list[str]]) -> dict[str, list[str]]:
+    for name, others in again.items():
+        _check_once([name, *others])
+    return again
+
+
+def metrics(*names: str) -> Any:
+    """A list of some of these metrics, each once."""
+    return Annotated[list[Literal[names]], Field(min_length=1), AfterValidator(_check_once)]
+
+
+def again(name: Any) -> Any:
+    """By name its counterparts from other seeds, each once."""
+    return Annotated[dict[Name, list[name]], AfterValidator(_check_each_once)]
+
+
+def pairs(name: Any = str) -> Any:
+    """Pairs of names."""
+    pair = Annotated[list[name], Field(min_length=2, max_length=2)]
+    return Annotated[list[pair], Field(min_length=1)]
+
+
+class Bounded(Model):
+    """A ratio within bounds."""
+
+    bounded: ClassVar[str]  # in messages
+
+    at_least: float | None = Field(None, gt=0, lt=1e6, description="least ratio")
+    at_most: float | None = Field(None, gt=0, lt=1e6, description="largest ratio")
+
+    @model_validator(mode="after")
+    def _check_bounds(self):
+        if self.at_least is None and self.at_most is None:
+            raise ValueError(f"{self.bounded} needs `at_least`, `at_most`, or both")
+        return self
+
+
+def bounds_of(ratio: Claim) -> dict[str, float]:
+    """The bounds of a ratio, by key."""
+    return {key: ratio[key] for key in ("at_least", "at_most") if ratio[key] is not None}
+
+
+def in_words(bounds: dict[str, float]) -> str:
+    """Bounds in words."""
+    return " and ".join(f"{key.replace('_', ' ')} {bound:g}" for key, bound in bounds.items())

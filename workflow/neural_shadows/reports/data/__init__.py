@@ -1,0 +1,1 @@
+"""What tables, figures, claims and the page share: measured and printed numbers, words, looks."""

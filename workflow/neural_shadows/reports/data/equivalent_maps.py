@@ -1,0 +1,57 @@
+"""What a method's quality is worth in shadow maps: the size of the one that would be as good.
+
+It compares across meshes, views and LPIPS networks better than the quality itself, which all three
+change: the thesis's network on the dragon equals its shadow map of 386² by LPIPS, of 191² by PSNR.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.method_names import family_and_size
+from neural_shadows.metrics.equivalent_resolution import equivalent_resolution
+from neural_shadows.metrics.pooled_psnr import mse_of
+
+
+def equivalent_maps(
+    table: pd.DataFrame, methods: Sequence[str], psnr: str = "psnr_pooled"
+) -> dict[str, list[str]]:
+    """Texels along a side of the shadow map that is as good as each method.
+
+    Args:
+        table: a row a method, with `lpips`, which may be empty, and a column of PSNRs in dB.
+        methods: the rows' keys; those `shadow_map_N` among them are the maps to compare with.
+
+    Returns: `map_lpips` and `map_psnr`, texts: `386`, `< 128` or `> 2048` outside the maps'
+        sizes, and empty for these maps themselves and without two of them.
+    """
+    sizes = np.array([_size(method) for method in methods])
+    return {
+        "map_lpips": _texts(sizes, table["lpips"].to_numpy(float)),
+        "map_psnr": _texts(sizes, mse_of(table[psnr])),
+    }
+
+
+def _size(method: str) -> float:
+    """N of `shadow_map_N`, and NaN of any other method, maps that are filtered among them."""
+    family, size = family_and_size(method)
+    return size if family == "shadow_map" else np.nan
+
+
+def _texts(sizes: np.ndarray, errors: np.ndarray) -> list[str]:
+    known = np.isfinite(sizes) & np.isfinite(errors)
+    if known.sum() < 2:
+        return [""] * len(sizes)
+    measured = sizes[known].astype(int), errors[known]
+    return [
+        "" if np.isfinite(size) or np.isnan(error) else _text(*measured, error)
+        for size, error in zip(sizes, errors)
+    ]
+
+
+def _text(sizes: np.ndarray, errors: np.ndarray, error: float) -> str:
+    if error < errors.min():
+        return f"> {sizes.max()}"
+    found = equivalent_resolution(sizes, errors, error)
+    return f"< {sizes.min()}" if found is None else f"{found:.0f}"

@@ -1,0 +1,72 @@
+"""Viewpoints as the reference and every method show them, drawn anew from what they answered."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.references import References
+from neural_shadows.evaluation.visibilities import read_visibility
+from neural_shadows.rendering.shading import shade
+from neural_shadows.reports.data.method_look import REFERENCE
+from neural_shadows.scenes.cameras import VIEW_SETS
+
+View = tuple[str, int]  # a view set and a number in it
+
+
+@dataclass
+class Frame:
+    """A viewpoint by `reference` and by methods: grey `images` (H, W) float32 in [0, 1].
+
+    `caption` says which it is; `scores` are by method and metric.
+    """
+
+    view: View
+    caption: str
+    images: dict[str, np.ndarray]
+    scores: dict[str, dict[str, float]] = field(default_factory=dict)
+
+
+def read_frames(
+    references: Sequence[Path],
+    visibilities: Sequence[Path],
+    metrics: pd.DataFrame,
+    views: Sequence[View],
+) -> list[Frame]:
+    """Some views of a scene, in their order, by the methods that have both answers and metrics.
+
+    Args:
+        references: batches of the scene, as BATCH.safetensors; visibilities: of its methods, as
+            METHOD.BATCH.npz, whose order the images have.
+        metrics: of the methods, as `read_metrics` gives them.
+
+    Raises:
+        InputError: a file cannot be read.
+    """
+    scores = metrics.pivot(index=["view_set", "view", "method"], columns="metric", values="value")
+    counts = metrics.groupby("view_set")["view"].nunique()
+    frames = {}
+    for path in references:
+        batch = References(path)
+        # Of another batch the key is METHOD.BATCH, of which there are no scores.
+        answered = {one.stem.removesuffix(f".{path.stem}"): one for one in visibilities}
+        for number, view in enumerate((one.view_set, one.index) for one in batch.views):
+            if view not in views:
+                continue
+            frame, truth = batch[number]
+            found = Frame(view, _caption(view, counts[view[0]]), {REFERENCE: shade(frame, truth)})
+            for method, file in answered.items():
+                if (*view, method) in scores.index:
+                    answer = read_visibility(file, number, frame)
+                    found.images[method] = shade(frame, answer)
+                    found.scores[method] = scores.loc[*view, method].dropna().to_dict()
+            frames[view] = found
+    return [frames[view] for view in views if view in frames]
+
+
+def _caption(view: View, count: int) -> str:
+    """Which view of `count` it is, and where the camera is aimed."""
+    view_set, number = view
+    return f"View {number} (of 0 to {count - 1}), {VIEW_SETS[view_set]}"

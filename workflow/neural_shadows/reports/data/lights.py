@@ -1,0 +1,17 @@
+"""Names of the lights of soft shadows, by their radii."""
+
+from collections.abc import Mapping
+from typing import Any
+
+UNITS = {"metres": "m", "scene_sizes": "S"}
+
+
+def light_names(about: Mapping[str, Any]) -> list[str]:
+    """Names of the lights of a part of a frame set, in order; `about`: its JSON."""
+    unit = UNITS[about.get("radius_unit", "metres")]
+    return [light_name(radius, unit) for radius in about.get("given_radii", about["radii"])]
+
+
+def light_name(radius: float, unit: str) -> str:
+    """Name of a light of a radius; `unit`: m, or S for sizes of the scene."""
+    return f"light of {radius:.3g} {unit} radius" if radius else "point light"

@@ -1,0 +1,111 @@
+"""The look of each kind of method for hard shadows, and of networks of one object."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from neural_shadows.evaluation.look import BLACK, BLUE, GREEN, ORANGE, PINK, YELLOW, Look
+from neural_shadows.evaluation.method_names import METHODS, family_and_size, unbiased
+from neural_shadows.evaluation.null_predictors import NULL
+
+REFERENCE = "reference"
+
+# By kind, in a legend's order: by colour what is of one family, and no two of one symbol.
+LOOKS = {
+    REFERENCE: Look(
+        "exact shadow",
+        BLACK,
+        "*",
+        "★",
+        "Follows a ray from each pixel towards the light: exact, and what all others are held to.",
+    ),
+    **{key: method.look for key, method in METHODS.items() if key not in NULL},
+    "frequency": Look(
+        "thesis's network",
+        ORANGE,
+        "o",
+        "●",
+        "The thesis's method: a small neural network is given a ray through the object's sphere, "
+        "and answers the depth behind which all is in shadow.",
+    ),
+    "occupancy_field": Look(
+        "occupancy field",
+        BLUE,
+        "P",
+        "✚",
+        "A grid of small bricks at the object's surface, trained to say what is inside; shadow "
+        "rays are marched through it.",
+    ),
+    "ray_grid": Look(
+        "ray grid",
+        PINK,
+        "v",
+        "▼",
+        "Looks up trained values at points along the ray, and a small network reads them.",
+    ),
+    "occupancy_ray_grid": Look(
+        "clipped ray grid",
+        PINK,
+        "^",
+        "▲",
+        "A ray grid whose points lie only where the surface is.",
+    ),
+    "hash_grid": Look(
+        "hash grid",
+        PINK,
+        "H",
+        "⬣",
+        "A ray grid that keeps its values in hash tables of several resolutions.",
+    ),
+    "mesh": Look(
+        "mesh",
+        GREEN,
+        "h",
+        "⬢",
+        "Traces rays through the triangles themselves, decimated or whole. No training.",
+    ),
+    "distances": Look(
+        "untrained grid",
+        YELLOW,
+        "X",
+        "✕",
+        "The occupancy field's grid, filled with distances to the surface (or with their signs) "
+        "instead of trained.",
+    ),
+    "voxel_dag": Look(
+        "voxels",
+        YELLOW,
+        "<",
+        "◄",
+        "Small cubes that are full or empty, equal ones stored once. No training.",
+    ),
+    "height_map": Look(
+        "heights",
+        YELLOW,
+        ">",
+        "►",
+        "The height of a terrain over its ground plan, marched. No training.",
+    ),
+    **{key: METHODS[key].look for key in NULL},
+}
+
+
+def kind_of(row: Mapping[str, Any]) -> str:
+    """The key in `LOOKS` of the method of a row of `config.rows_of`.
+
+    A kind of network that is not there is a key all the same (`look_of_kind` shows it).
+    """
+    method, encoding = unbiased(row["method"]), row["encoding"]
+    if encoding is not None:
+        built = encoding == "occupancy_field" and not row["trained"]
+        return "distances" if built else encoding
+    return family_and_size(method)[0] or REFERENCE  # `ray_traced` is the same
+
+
+def look_of(row: Mapping[str, Any]) -> Look:
+    """The look of the method of a row of `config.rows_of`."""
+    return look_of_kind(kind_of(row))
+
+
+def look_of_kind(kind: str) -> Look:
+    """The look of a kind of method; of one of the user's own a plain one."""
+    return LOOKS.get(kind, Look(kind.replace("_", " "), "#555555", "8", "⬤", ""))

@@ -1,0 +1,152 @@
+"""Quality of methods on the same views: averages with bootstrap intervals, and paired comparisons."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.null_predictors import NO_SHADOW
+from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.metrics.intervals import mean_interval, pooled_psnr_interval
+from neural_shadows.metrics.pooled_psnr import identical
+from neural_shadows.reports.data.equivalent_maps import equivalent_maps
+from neural_shadows.reports.data.inputs import by_folder
+from neural_shadows.reports.data.learned import advantage, learned_methods
+
+METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
+
+
+def with_ends(metric: str) -> list[str]:
+    """The columns of a metric: its mean and the ends of its interval."""
+    return [metric, f"{metric}_low", f"{metric}_high"]
+
+
+def scene_quality(
+    metrics: Sequence[Path],
+    rows: Sequence[Mapping[str, Any]],
+    margins: Mapping[str, float],
+    against: str | None,
+    seed: int,
+) -> pd.DataFrame:
+    """A row for each method of a scene but ray tracing, which is the reference itself.
+
+    Columns: those of `quality_table`, `learned`, those of `differences` and of `equivalent_maps`.
+
+    Args:
+        metrics: of all methods of the rows.
+        margins: see `learned`.
+        against: the method, among the rows, that others are compared with.
+
+    Raises:
+        InputError: a file cannot be read, or a method lacks a value of a view that others have.
+    """
+    rows = [row for row in rows if row["method"] != RAY_TRACED]
+    wide = values_by_view(read_metrics(metrics), [row["method"] for row in rows])
+    table = quality_table(wide, rows, seed)
+    found = learned_methods(wide, rows, margins, seed)
+    table["learned"] = pd.Series([found.get(row["method"]) for row in rows], dtype=object)
+    table = table.assign(**equivalent_maps(table, [row["method"] for row in rows]))
+    return pd.concat([table, differences(wide, rows, against, seed)], axis=1)
+
+
+def scenes_quality(
+    metrics: Sequence[Path],
+    rows: Sequence[Mapping[str, Any]],
+    margins: Mapping[str, float],
+    against: Mapping[str, str],
+    seed: int,
+) -> pd.DataFrame:
+    """`scene_quality` of each scene of the rows, and their `scene`; `against` by scene."""
+    parts = []
+    for scene, files in by_folder(metrics).items():
+        here = [row for row in rows if row["scene"] == scene]
+        table = scene_quality(files, here, margins, against.get(scene), seed)
+        parts.append(table.assign(scene=scene))
+    return pd.concat(parts, ignore_index=True)
+
+
+def null_leaks(metrics: pd.DataFrame) -> pd.DataFrame:
+    """The light leak of no shadow by `view_set` and `view`: the share of points in cast shadow."""
+    leaks = metrics[metrics["method"].eq(NO_SHADOW) & metrics["metric"].eq("light_leak")]
+    return leaks.set_index(["view_set", "view"])[["value"]]
+
+
+def quality_table(wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], seed: int) -> pd.DataFrame:
+    """A row per method: averages over all views of a scene, and bootstrap intervals.
+
+    Columns `method` (the label), means of the metrics, `<metric>_low` and `<metric>_high` (95 %),
+    `psnr_pooled` with its ends, `psnr_median`, `identical` (how many views equal the reference),
+    `views`. Shares and FLIP are in [0, 1], PSNR in dB. Without LPIPS its columns are empty.
+    `wide` is as `values_by_view` gives it, `seed` of the bootstrap.
+    """
+    records = []
+    for row in rows:
+        record = {"method": row["label"], "views": len(wide)}
+        for metric, values in wide[row["method"]].items():
+            record |= dict(zip(with_ends(metric), mean_interval(values.to_numpy(), seed)))
+        psnr = wide[row["method"], "psnr"].to_numpy()
+        record |= dict(zip(with_ends("psnr_pooled"), pooled_psnr_interval(psnr, seed)))
+        record |= {"psnr_median": np.median(psnr), "identical": identical(psnr)}
+        records.append(record)
+    ends = [end for metric in METRICS for end in with_ends(metric)[1:]]
+    robust = [*with_ends("psnr_pooled"), "psnr_median", "identical"]
+    return pd.DataFrame(records, columns=["method", *METRICS, *ends, *robust, "views"])
+
+
+def differences(
+    wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], against: str | None, seed: int
+) -> pd.DataFrame:
+    """A row per method: how much it differs from one of them on the same views.
+
+    Columns `lpips_difference` (a mean) and `psnr_difference` (of pooled PSNRs, dB), the method's
+    less the other's, with `_low` and `_high` (95 %); empty for the other itself or without one.
+    """
+    columns = [*with_ends("lpips_difference"), *with_ends("psnr_difference")]
+    records = []
+    for row in rows:
+        record = dict.fromkeys(columns, np.nan)
+        if against is not None and row["method"] != against:
+            pair = wide[row["method"]], wide[against]
+            if "lpips" in pair[0]:
+                better, low, high = advantage(*(one["lpips"] for one in pair), "lpips", seed)
+                record |= dict(zip(columns[:3], (-better, -high, -low)))
+            found = advantage(*(one["psnr"] for one in pair), "psnr", seed)
+            record |= dict(zip(columns[3:], found))
+        records.append(record)
+    return pd.DataFrame(records, columns=columns)
+
+
+def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFrame:
+    """Values with a row per view and a column per (method, metric), none of them missing.
+
+    Without LPIPS there are no columns of it.
+
+    Raises:
+        InputError: a method lacks a finite value of a view that others have.
+    """
+    metrics = metrics[metrics["method"].isin(methods)]
+    names = [name for name in METRICS if name != "lpips" or metrics["metric"].eq(name).any()]
+    wide = metrics.pivot(index=["view_set", "view"], columns=["method", "metric"], values="value")
+    wide = wide.reindex(columns=pd.MultiIndex.from_product([methods, names]))
+    gaps = ~np.isfinite(wide)
+    if gaps.any(axis=None):
+        method, metric = gaps.any().idxmax()
+        view_set, view = gaps[method, metric].idxmax()
+        raise InputError(
+            f"{method} has no finite {metric} of {view_set} view {view}: delete its metrics and "
+            "run again"
+        )
+    return wide
+
+
+def context_columns(
+    mesh: Mapping[str, Any], lpips: Mapping[str, Any], run: Mapping[str, Any], seed: int
+) -> dict[str, Any]:
+    """What every row of a table of quality says of where it comes from; seed: of the views."""
+    size = {name: run[name] for name in ("scale", "width", "height")}
+    network = lpips["net"] if lpips["available"] else None
+    return {"mesh": mesh["name"], **size, "lpips_net": network, "seed": seed}

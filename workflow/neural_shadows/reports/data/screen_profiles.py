@@ -1,0 +1,77 @@
+"""What `profile_screen_network` wrote, as tables of times."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from neural_shadows.evaluation.soft_registry import FORMATS
+
+Profile = Mapping[str, Any]
+
+
+def run_key(run: Mapping[str, Any]) -> str:
+    """A column's name for a run: `bfloat16_2`, of two threads, or `bfloat16_gpu`."""
+    place = "gpu" if run["device"] == "cuda" else run["threads"]
+    return f"{run['precision']}_{place}"
+
+
+def run_name(run: Mapping[str, Any]) -> str:
+    """What a run is called."""
+    threads = f"{run['threads']} thread{'s' * (run['threads'] > 1)}"
+    return f"{run['precision']}, {'GPU' if run['device'] == 'cuda' else threads}"
+
+
+def compared(profile: Profile) -> Mapping[str, Any]:
+    """The run that printed times stand beside: on all that the machine has, in 16 bits if it can."""
+    return profile["runs"][-1]
+
+
+def part_times(profile: Profile) -> pd.DataFrame:
+    """A row for each level and part in the order of levels, and a column of ms for each run."""
+    found = {
+        run_key(run): pd.DataFrame(run["parts"]).set_index(["level", "part"])["ms"]
+        for run in profile["runs"]
+    }
+    return pd.DataFrame(found).sort_index(level="level", sort_remaining=False, kind="stable")
+
+
+def product_share(profile: Profile, run: Mapping[str, Any]) -> float:
+    """The whole network's multiply-adds a second, as a share of a matrix product's."""
+    pixels = profile["width"] * profile["height"]
+    macs = pixels * sum(level["macs"] for level in profile["levels"])
+    return macs / (run["whole_ms"] / 1000) / run["product_macs"]
+
+
+def not_timed(profile: Profile) -> str:
+    """Which formats have no times, with why, after a space; empty if all have."""
+    devices = dict.fromkeys(run["device"] for run in profile["runs"])
+    timed = {(run["device"], run["precision"]) for run in profile["runs"]}
+    lacking = [
+        f"{precision} on the {'GPU' if device == 'cuda' else 'CPU'}"
+        for device in devices
+        for precision in FORMATS
+        if (device, precision) not in timed
+    ]
+    if not lacking:
+        return ""
+    return (
+        f" Not timed: {', '.join(lacking)}, which has no instructions for it and would emulate it."
+    )
+
+
+def describe(profile: Profile) -> str:
+    """What was measured, how and where."""
+    machine, size = profile["machine"], profile["product_size"]
+    whole = "; ".join(
+        f"{run_name(run)} {run['whole_ms']:.4g} ms, {100 * product_share(profile, run):.0f} % of the "
+        "product's rate"
+        for run in profile["runs"]
+    )
+    gpu = f", {machine['gpu']}" if any(run["device"] == "cuda" for run in profile["runs"]) else ""
+    return (
+        f"Ours: frames of {profile['width']} × {profile['height']}, channels last, median of "
+        f"{profile['repeats']} after {profile['warm_up']}, on {machine['cpu']}{gpu}. A whole frame, and "
+        f"its multiply-adds a second beside those of a product of {size}² matrices: {whole}."
+        f"{not_timed(profile)}"
+    )

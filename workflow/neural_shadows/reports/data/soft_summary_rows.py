@@ -1,0 +1,119 @@
+"""The numbers of summaries of methods for soft shadows: means over frames and lights, and what is printed."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.soft_registry import UNLEARNED
+from neural_shadows.reports.data.frame_means import OFF_EDGES, by_frame, mean_with_interval
+from neural_shadows.reports.data.published_kpnsm import printed_value
+from neural_shadows.reports.data.soft_costs import cost
+
+MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
+
+Row = Mapping[str, Any]
+
+
+def summary_table(
+    found: pd.DataFrame,
+    times: Mapping[str, Any],
+    radii: Sequence[float],
+    *,
+    methods: Sequence[Row],
+    by: str | None,
+    metrics: Sequence[str],
+    measured: Sequence[str],
+) -> pd.DataFrame:
+    """A row for each method, or for each scene or radius and method.
+
+    Columns: `scene`, or `number` and `radius` of the light, where rows are by these; `method`, `label`;
+    `null`, the method if it learns nothing; of `metrics` those that are named: `mse` with
+    `mse_off_edges`, and `ssim`, with the ends of their intervals, `time` (ms), those of `_in_sequences`.
+
+    Args:
+        found: of `read_soft_metrics`; times: what `time_soft_methods` wrote; radii: of the lights.
+        methods, by, metrics, measured: as the table's `write` is told them.
+    """
+    frames = found[found["scene"].isin(measured)]
+    return pd.DataFrame(
+        [
+            group | _row(some, found, times, row, metrics, len(radii))
+            for group, some in _groups(frames, by, measured, radii)
+            for row in methods
+        ]
+    )
+
+
+def _groups(
+    frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Sequence[float]
+) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
+    """The frames of each part of the table, and the columns that tell it."""
+    match by:
+        case "scene":
+            for scene in scenes:
+                yield {"scene": scene}, frames[frames["scene"] == scene]
+        case "radius":
+            for number, radius in enumerate(radii):
+                yield {"number": number, "radius": radius}, frames[frames["radius"] == number]
+        case _:
+            yield {}, frames
+
+
+def _row(
+    frames: pd.DataFrame,
+    found: pd.DataFrame,
+    times: Mapping[str, Any],
+    row: Row,
+    metrics: Sequence[str],
+    radii: int,
+) -> dict[str, Any]:
+    """A method's row: `method`, `label`, and what `metrics` name."""
+    mine = frames[frames["method"] == row["method"]]
+    values: dict[str, Any] = {"method": row["method"], "label": row["label"]}
+    values["null"] = row["method"] if row["method"] in UNLEARNED else None
+    for metric in ("mse", "ssim"):
+        if metric in metrics:
+            values |= mean_with_interval(by_frame(mine, metric), metric)
+    if "mse" in metrics:
+        values |= mean_with_interval(by_frame(mine, OFF_EDGES), OFF_EDGES)
+    if "time" in metrics:
+        values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
+    if "temporal_error" in metrics:
+        values |= _in_sequences(found[found["method"] == row["method"]])
+    return values
+
+
+def _in_sequences(mine: pd.DataFrame) -> dict[str, float]:
+    """The temporal error by what moves, the exact shadow's own, and the squared error there."""
+    moves = mine["part"].str.rsplit("_", n=1).str[0]
+
+    def mean(metric: str, what: str) -> float:
+        return float(mine[(mine["metric"] == metric) & (moves == what)]["value"].mean())
+
+    return {
+        "temporal_error": mean("temporal_error", MOVES[0]),
+        **{f"temporal_error_{what}": mean("temporal_error", what) for what in MOVES[1:]},
+        "temporal_error_reference": mean("temporal_error_reference", MOVES[0]),
+        "mse_sequence": mean("mse_sequence", MOVES[0]),
+    }
+
+
+def with_printed(
+    table: pd.DataFrame,
+    metric: str,
+    first: bool,
+    published: str | None,
+    methods: Sequence[Row],
+    numbers: pd.Series,
+) -> pd.DataFrame:
+    """The table with `printed_METRIC` and `METRIC_minus_printed`."""
+    printed = [
+        printed_value(numbers, published, row["published"], row["column"] or metric, metric)
+        if first or not row["column"]
+        else np.nan
+        for row in methods
+    ]
+    table = table.assign(**{f"printed_{metric}": printed * (len(table) // len(methods))})
+    return table.assign(**{f"{metric}_minus_printed": table[metric] - table[f"printed_{metric}"]})

@@ -1,0 +1,46 @@
+"""What methods take: the time of a frame, their own part of it, and bytes."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.reports.data.inputs import read_sizes
+
+FRAME_MS = ("frame_ms", "frame_ms_q1", "frame_ms_q3")  # median and quartiles, ms
+OWN_MS = ("own_ms", "own_ms_q1", "own_ms_q3")
+QUANTILES = (0.5, 0.25, 0.75)
+
+
+def timing_table(
+    times: Mapping[str, Mapping[str, Any]],
+    rows: Sequence[Mapping[str, Any]],
+    weights: Sequence[Path],
+) -> pd.DataFrame:
+    """A row for each of the rows; `times` by scene, as `measure_frame_times` wrote them.
+
+    Columns `scene`, `method` (the label), `FRAME_MS`, `OWN_MS`, `repeats`, `device`,
+    `stored_bytes`, `resident_bytes`: what a file of the method holds, and what is in memory while
+    it answers. NaN where a column does not apply.
+    """
+    sizes, records = read_sizes(rows, weights), []
+    for row in rows:
+        timed = times[row["scene"]]["methods"][row["method"]]
+        record = {"scene": row["scene"], "method": row["label"]}
+        record |= dict(zip(FRAME_MS, np.quantile(timed["ms"], QUANTILES)))
+        record |= dict(zip(OWN_MS, np.quantile(timed["own_ms"], QUANTILES)))
+        record |= {"repeats": len(timed["ms"]), "device": timed["device"]}
+        record["stored_bytes"] = sizes[row["method"]]
+        record["resident_bytes"] = timed["resident_bytes"]
+        records.append(record)
+    names = ("scene", "method", *FRAME_MS, *OWN_MS, "repeats", "device")
+    table = pd.DataFrame(records, columns=[*names, "stored_bytes", "resident_bytes"])
+    return table.astype({"resident_bytes": float, "stored_bytes": float})
+
+
+def devices(times: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """The devices that the methods ran on, each once: times of several do not compare."""
+    found = {method["device"] for one in times.values() for method in one["methods"].values()}
+    return sorted(found)

@@ -1,0 +1,106 @@
+"""The thesis's claims as cards: statement, verdict, one number, and the evidence to unfold."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from neural_shadows.reports.data.phrases import describe_samples, section_of
+from neural_shadows.reports.data.verdicts import MEANINGS, SYMBOLS, css_class
+
+COLUMNS = [
+    "claim",
+    "text",
+    "statement",
+    "section",
+    "kind",
+    "verdict",
+    "reason",
+    "number_of",
+    "number",
+    "evidence",
+]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A verdict as cards and filters show it.
+
+    `count`: how many claims have it; `printed`: how many of them by the thesis's own tables.
+    """
+
+    name: str
+    count: int = 1
+    printed: int = 0
+
+    @property
+    def style(self) -> str:
+        """Its class in the style sheet."""
+        return css_class(self.name)
+
+    @property
+    def symbol(self) -> str:
+        """Its sign, which says the same as the colour."""
+        return SYMBOLS[self.name]
+
+    @property
+    def meaning(self) -> str:
+        """What it says of a claim."""
+        return MEANINGS[self.name]
+
+
+@dataclass(frozen=True)
+class Card:
+    """A claim; `number` is of the comparison that speaks most against it, or empty."""
+
+    name: str
+    statement: str
+    section: str
+    verdict: Verdict
+    reason: str
+    number: str
+    evidence: list[str]
+    printed: bool
+
+
+def read_cards(csv: Path) -> list[Card]:
+    """The claims of claims.csv, in its order; one of an older version may have no numbers."""
+    claims = pd.read_csv(csv, dtype=str, keep_default_na=False)
+    claims = claims.reindex(columns=COLUMNS, fill_value="")
+    cards = []
+    for claim in claims.itertuples():
+        evidence = claim.evidence.split("\n")
+        number = number_text(claim.number_of, claim.number, len(evidence))
+        section = section_of({"text": claim.text, "section": claim.section})
+        texts = claim.claim, claim.statement, section
+        told = Verdict(claim.verdict), claim.reason, number, evidence, claim.kind == "printed"
+        cards.append(Card(*texts, *told))
+    return cards
+
+
+def number_text(metric: str, number: str, comparisons: int) -> str:
+    """A number of claims.csv in words; one with a sign is an advantage."""
+    if not number:
+        return ""
+    advantage = "advantage in " if number.startswith(("+", "-")) else ""
+    of = f" ({comparisons} comparisons)" if comparisons > 1 else ""
+    return f"{advantage}{metric}: {number.replace('-', '−')}{of}"
+
+
+def counted(cards: list[Card]) -> list[Verdict]:
+    """The verdicts that claims have, as the verdicts are ordered, and how often each."""
+    found = []
+    for name in reversed(MEANINGS):
+        having = [card for card in cards if card.verdict.name == name]
+        if having:
+            found.append(Verdict(name, len(having), sum(card.printed for card in having)))
+    return found
+
+
+def budget(csv: Path) -> str:
+    """How the run's training samples compare with the thesis's; empty if nothing was trained."""
+    claims = pd.read_csv(csv)
+    claims = claims[claims["text"] == "thesis"] if "text" in claims else claims
+    theirs = claims.get("text_samples", claims.get("thesis_samples")).max()
+    seen = claims["samples"].max()
+    return "" if pd.isna(seen) else describe_samples(seen, theirs)

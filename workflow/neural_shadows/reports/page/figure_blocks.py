@@ -1,0 +1,107 @@
+"""Figures as the page shows them: drawings within it, whose colours follow light and dark."""
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from xml.etree import ElementTree
+
+from markupsafe import Markup
+from PIL import Image
+
+from neural_shadows.reports.drawing.chart import data_of
+from neural_shadows.reports.page.blocks import Block, csv_file, data_uri, webp_uri
+
+LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
+SVG = "{http://www.w3.org/2000/svg}"
+XLINK = "{http://www.w3.org/1999/xlink}"
+
+# The colours of figures that change with the page's.
+THEMED = {
+    "#ffffff": "var(--paper)",
+    "#000000": "var(--ink)",
+    **dict.fromkeys(("#555555", "#666666", "#777777"), "var(--soft)"),
+    **dict.fromkeys(("#b0b0b0", "#bbbbbb", "#cccccc"), "var(--line)"),
+}
+
+
+def figure_blocks(
+    paths: Sequence[Path], titles: Mapping[str, str], tables: Mapping[str, Path]
+) -> list[Block]:
+    """Figures: an SVG as it is or, with pictures in it, as an image; a large one as pixels.
+
+    `figure_4_3` is figure 4.3 of the thesis.
+
+    Args:
+        paths: `.svg` and `.png` of each figure, in order; titles: by name.
+        tables: the CSVs that figures show, by their names.
+    """
+    return [
+        _block(svg, svg in paths, titles.get(svg.stem, svg.stem), tables.get(svg.stem))
+        for svg in dict.fromkeys(path.with_suffix(".svg") for path in paths)
+    ]
+
+
+def _block(svg: Path, drawn: bool, title: str, table: Path | None) -> Block:
+    caption, files = "", csv_file(table) if table else {}
+    if number := re.fullmatch(r"figure_(\d)_(\d+)", svg.stem):
+        caption = f"Figure {number[1]}.{number[2]}"
+    small = drawn and svg.stat().st_size <= LARGEST_SVG
+    if small and b"<image" not in svg.read_bytes():
+        html = inline_svg(svg.read_bytes(), svg.stem, title)
+        if data := data_of(svg.read_bytes()):
+            files = {f"{svg.stem}.csv": data_uri("text/csv", data.encode())}
+    else:
+        if small:
+            source = data_uri("image/svg+xml", svg.read_bytes())
+        else:
+            with Image.open(svg.with_suffix(".png")) as image:
+                source = webp_uri(image, lossless=False)
+        html = Markup('<img alt="{}" src="{}">').format(title, source)
+    title = f"{caption}: {title}" if caption else title
+    return Block("figure", svg.stem, title, html, caption, files=files)
+
+
+def inline_svg(content: bytes, name: str, title: str) -> Markup:
+    """An SVG of matplotlib's for use within a page: no identifier is there twice, no style leaks.
+
+    Args:
+        name: what its identifiers begin with.
+    """
+    root = ElementTree.fromstring(content)
+    for parent in [*root.iter()]:
+        for child in [*parent]:
+            if child.tag.endswith(("}metadata", "}style")):
+                parent.remove(child)
+    width, height = (float(size) for size in root.get("viewBox").split()[2:])
+    root.attrib = {
+        "viewBox": root.get("viewBox"),
+        "class": "chart",
+        "role": "img",
+        "aria-label": title,
+        # Its letters are of 8 points and more: a narrower screen scrolls it.
+        "style": f"min-width: {width:.0f}px; aspect-ratio: {width:g} / {height:g}",
+    }
+    if any(element.get("class") == "says" for element in root.iter()):
+        root.set("tabindex", "0")  # for the arrow keys
+    for element in root.iter():
+        element.tag = element.tag.removeprefix(SVG)
+        if "id" in element.attrib and element.tag not in ("clipPath", "path", "marker"):
+            del element.attrib["id"]  # of a group: nothing refers to it
+        for key, value in [*element.attrib.items()]:
+            del element.attrib[key]
+            element.set(key.removeprefix(XLINK), _renamed(key, value, name))
+    return Markup(ElementTree.tostring(root, encoding="unicode"))
+
+
+def _renamed(key: str, value: str, name: str) -> str:
+    if key == "id":
+        return f"{name}-{value}"
+    if key.endswith("href"):
+        return value.replace("#", f"#{name}-")
+    value = " ".join(value.replace("url(#", f"url(#{name}-").split())
+    return re.sub(r"#[0-9a-f]{6}\b", lambda found: themed(found[0]), value)
+
+
+def themed(colour: str) -> str:
+    """A figure's colour as the page's: black, white and greys change with light and dark."""
+    return THEMED.get(colour, colour)

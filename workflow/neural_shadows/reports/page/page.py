@@ -1,0 +1,154 @@
+"""The one page that shows a run: what it found, claims, frames, tables, figures, and its facts."""
+
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from markupsafe import Markup
+
+from neural_shadows.evaluation.look import Look
+from neural_shadows.evaluation.soft_registry import LABELS, NETWORK_LOOK, look_of
+from neural_shadows.files.whole_files import write_text
+from neural_shadows.reports.data.inputs import read_meshes
+from neural_shadows.reports.data.method_look import LOOKS, look_of_kind
+from neural_shadows.reports.data.phrases import describe_mesh
+from neural_shadows.reports.page.blocks import Block, data_uri
+from neural_shadows.reports.page.claim_cards import budget, counted, read_cards
+from neural_shadows.reports.page.figure_blocks import figure_blocks, themed
+from neural_shadows.reports.page.frame_comparison import frame_comparisons
+from neural_shadows.reports.page.run_facts import run_facts, run_sentence
+from neural_shadows.reports.page.soft_comparison import soft_comparisons
+from neural_shadows.reports.page.table_blocks import table_block
+from neural_shadows.running.stage import run_stage
+
+SCRIPTS = ("reading.js", "script.js")
+
+
+def write_page(
+    *,
+    html: Path,
+    template: list[Path],
+    tables: list[Path],
+    figures: list[Path],
+    viewers: list[Path],
+    claims_json: Path | None,
+    references: list[Path],
+    visibilities: list[Path],
+    metrics: list[Path],
+    soft_parts: list[Path],
+    soft_answers: list[Path],
+    meshes: list[Path],
+    trainings: list[Path],
+    lpips_json: Path | None,
+    titles: Mapping[str, str],
+    front: str | None,
+    data: Mapping[str, str],
+    chapters: Mapping[str, str],
+    networks: Sequence[str],
+    soft_pictures: Sequence[Mapping[str, Any]],
+    folded: Sequence[str],
+    missing: Mapping[str, Sequence[str]],
+    rows: Sequence[Mapping[str, Any]],
+    kinds: Mapping[str, str],
+    run: Mapping[str, Any],
+    scenes: Mapping[str, Mapping[str, Any]],
+    benchmarks: Path,
+) -> None:
+    """Write the page of what is there, any of the lists may be empty, as one self-contained file.
+
+    Args:
+        template: `template.html`, `style.css` and `SCRIPTS`, of one folder.
+        tables: JSON, with a CSV beside each, as beside `claims_json`.
+        figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
+        viewers: self-contained HTML, with a poster, a PNG, beside each; 2 MiB each, so that the
+            first is within the page and the others are named.
+        references, visibilities, metrics: of all batches of each scene, and of each method.
+        soft_parts, soft_answers, soft_pictures: see `soft_comparisons`.
+        front: the figure of quality over bytes that is shown first, if there is one.
+        data: the tables that figures show, by the figures' names.
+        chapters: of the tables and figures, by name: `thesis`, `extensions` or `soft`.
+        networks: what those of frames are called.
+        folded: names of the figures that are shown when asked for: contact sheets.
+        missing: what is asked for and not there, by the section where it would stand.
+        rows: `method`, `scene` and `label` of the methods that have pictures.
+        kinds: of methods (`method_look.kind_of`), by label.
+        benchmarks: Snakemake's, a folder for each rule.
+
+    Raises:
+        InputError: a file is missing or not whole.
+    """
+    described = {s: describe_mesh(mesh, scenes[s]) for s, mesh in read_meshes(meshes).items()}
+    looks = {label: look_of_kind(kind) for label, kind in kinds.items()}
+    claims = table_block(claims_json, looks) if claims_json else None
+    claims_csv = claims_json.with_suffix(".csv") if claims_json else None
+    cards = read_cards(claims_csv) if claims_csv else []
+    soft_looks = {label: look_of(method) for method, label in LABELS.items()}
+    soft_looks |= dict.fromkeys(networks, NETWORK_LOOK)
+    blocks = [table_block(path, soft_looks | looks) for path in tables]
+    csvs = {path.stem: path.with_suffix(".csv") for path in tables}
+    shown = {figure: csvs[table] for figure, table in data.items() if table in csvs}
+    drawings = figure_blocks(figures, titles, shown)
+    figures = [block for block in drawings if block.name != front]
+
+    def of_chapter(some: Sequence[Block], chapter: str) -> list[Block]:
+        return [block for block in some if chapters[block.name] == chapter]
+
+    # Notes that several tables have are shown once, before all tables.
+    notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
+    facts = run_facts(run, described, trainings, lpips_json, benchmarks)
+    folder = template[0].parent
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(folder),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["themed"] = themed
+    scripts = [(folder / name).read_text(encoding="utf-8") for name in SCRIPTS]
+    page = environment.get_template("template.html").render(
+        title=f"Neural shadows: {[*scenes.values()][0]['mesh_name']}, {run['scale']} scale",
+        style=Markup((folder / "style.css").read_text(encoding="utf-8")),
+        script=Markup("\n".join(scripts)),
+        sentence=run_sentence(run, scenes, facts),
+        facts=facts,
+        folded=folded,
+        legend=[look for look in dict.fromkeys(LOOKS.values()) if look in looks.values()],
+        soft_legend=_shown(of_chapter(blocks, "soft"), soft_looks.values()),
+        claims=claims,
+        cards=cards,
+        verdicts=counted(cards),
+        budget=budget(claims_csv) if claims_csv else "",
+        viewer=_viewer(viewers[0]) if viewers else None,
+        other_viewers=[path.name for path in viewers[1:]],
+        missing=missing,
+        front=next((block for block in drawings if block.name == front), None),
+        comparisons=[
+            *frame_comparisons(references, visibilities, metrics, rows, described),
+            *soft_comparisons(soft_parts, soft_answers, soft_pictures),
+        ],
+        tables=of_chapter(blocks, "thesis"),
+        figures=sorted(of_chapter(figures, "thesis"), key=lambda block: block.name),
+        soft=of_chapter([*blocks, *figures], "soft"),
+        extensions=of_chapter([*blocks, *figures], "extensions"),
+        shared_notes=[note for note, count in notes.items() if count > 1],
+    )
+    write_text(html, page)
+
+
+def _shown(blocks: Sequence[Block], looks: Collection[Look]) -> list[Look]:
+    """Those of some looks that tables have, each once, in the tables' order."""
+    used = [look for block in blocks for part in block.parts for look in part.looks]
+    return [look for look in dict.fromkeys(used) if look in looks]
+
+
+def _viewer(html: Path) -> dict[str, str]:
+    """A viewer's poster as an address within the page, and its own page."""
+    poster = data_uri("image/png", html.with_suffix(".png").read_bytes())
+    return {"poster": poster, "html": html.read_text(encoding="utf-8")}
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, write_page)

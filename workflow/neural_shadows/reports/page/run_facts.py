@@ -1,0 +1,88 @@
+"""What a reader must know of a run: scale, meshes, hardware, versions, commits, durations."""
+
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from platform import python_version
+from typing import Any
+
+import pandas as pd
+
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.reports.data.inputs import by_folder
+from neural_shadows.running.origin import CHECKOUT, commit_of
+
+PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
+
+
+def run_facts(
+    run: Mapping[str, Any],
+    meshes: Mapping[str, str],
+    trainings: Sequence[Path],
+    lpips_json: Path | None,
+    benchmarks: Path,
+) -> dict[str, str]:
+    """Names and values of the facts, in the order to show them; `meshes`: a phrase on each."""
+    records = [read_json(path) for path in trainings]
+    facts = {"scale": run["scale"]}
+    facts |= {f"mesh of {scene}": text for scene, text in meshes.items()}
+    facts["frames"] = f"{run['width']} × {run['height']}"
+    if records:
+        facts["networks"] = _networks(records)
+        facts["networks made on"] = "; ".join(
+            dict.fromkeys(_machine(one["machine"]) for one in records)
+        )
+        facts["networks made at"] = "; ".join(dict.fromkeys(one["commit"] for one in records))
+    if lpips_json:
+        lpips = read_json(lpips_json)
+        facts["LPIPS"] = f"network {lpips['net']}" if lpips["available"] else "not available"
+    facts["seed"] = str(run["seed"])
+    packages = ", ".join(f"{package} {version(package)}" for package in PACKAGES)
+    facts["versions"] = f"Python {python_version()}, {packages}"
+    facts["page made at"] = commit_of(CHECKOUT)
+    if spent := by_folder(sorted(benchmarks.glob("*/*.tsv"))):
+        facts["durations"] = "; ".join(_duration(*rule) for rule in spent.items())
+    return facts
+
+
+def run_sentence(
+    run: Mapping[str, Any], scenes: Mapping[str, Mapping[str, Any]], facts: Mapping[str, str]
+) -> str:
+    """What was run and on what, in one sentence; `facts` as `run_facts` gives them."""
+    *first, last = dict.fromkeys(scene["mesh_name"] for scene in scenes.values())
+    meshes = f"meshes {', '.join(first)} and {last}" if first else f"mesh {last}"
+    networks = facts.get("networks", "No network yet").split(",")[0]
+    machines = facts.get("networks made on", "").replace("; ", " and on ")
+    return (
+        f"{networks} beside shadow maps, on the {meshes} ({run['scale']} scale, frames of "
+        f"{facts['frames']}){machines and f'; networks made on {machines}'}."
+    )
+
+
+def _networks(records: Sequence[Mapping[str, Any]]) -> str:
+    """How many networks were trained and on how many samples, and how many only built."""
+    trained = [record for record in records if record["training"]]
+    built = len(records) - len(trained)
+    if not trained:
+        return f"{_counted(built, 'network')}, built without training"
+    samples = sorted({record["samples"] for record in trained})
+    counts = " or ".join(f"{count:,}" for count in samples)
+    said = f"{_counted(len(trained), 'network')}, {counts} samples each"
+    return f"{said}; {built} more built without training" if built else said
+
+
+def _duration(rule: str, jobs: Sequence[Path]) -> str:
+    """How long a rule's jobs took in all, and how many they were, from its benchmark files."""
+    seconds = sum(pd.read_csv(path, sep="\t")["s"].sum() for path in jobs)
+    time = f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+    time = f"{seconds:.0f} s" if seconds < 120 else time
+    return f"{rule.replace('_', ' ')} {time} ({_counted(len(jobs), 'job')})"
+
+
+def _machine(machine: Mapping[str, Any]) -> str:
+    gpu = f", {machine['gpu']}" if machine["gpu"] else ""
+    return f"{machine['cpu']}, {_counted(machine['cores'], 'core')}{gpu}"
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'s' if count != 1 else ''}"

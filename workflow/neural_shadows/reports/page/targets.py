@@ -1,0 +1,215 @@
+"""What a run makes unless it is asked for less, and what its page shows."""
+
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.layout import kinds, tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.claims import inputs as claims
+from neural_shadows.reports.data.method_look import kind_of
+from neural_shadows.reports.drawing import opengl
+from neural_shadows.reports.figures import soft_pictures
+
+
+def all_reports(layout: Layout) -> list[str]:
+    """Everything that `rule all` makes."""
+    names = [
+        *(
+            f"{name}{ending}"
+            for name in default_tables(layout)
+            for ending in (".csv", ".md", ".json")
+        ),
+        *(f"{name}{ending}" for name in default_figures(layout) for ending in (".png", ".svg")),
+        *(
+            f"scenes/{one}{ending}"
+            for one in layout.settings["scenes"]
+            for ending in (".png", ".svg")
+        ),
+        *(f"{name}.html" for name in layout.settings["viewers"]),
+        *(f"claims{ending}" for ending in (".csv", ".md", ".json") if layout.settings["claims"]),
+        "index.html",
+    ]
+    return [layout.paths.report(name) for name in names]
+
+
+def default_tables(layout: Layout) -> list[str]:
+    """Names of the tables that are made without being asked for."""
+    entries = layout.settings["tables"].items()
+    return [name for name, table in entries if not table["on_request"]]
+
+
+def default_figures(layout: Layout) -> list[str]:
+    """Names of the figures that are: those of no table, or of such a table, that can be drawn."""
+    shown = [None, *default_tables(layout)]
+    drawn = opengl.available()
+    return [
+        name
+        for name, figure in layout.settings["figures"].items()
+        if figure.get("table") in shown and (drawn or not figure["needs_opengl"])
+    ]
+
+
+def page_files(layout: Layout) -> dict[str, Any]:
+    """All that the page shows of a whole run."""
+    settings, paths = layout.settings, layout.paths
+    rows = pictured(layout)
+    scenes = tables.unique(row["scene"] for row in rows)
+    figures = default_figures(layout)
+    shown = _reports(layout, default_tables(layout), figures) | soft_pictures.shown_files(
+        layout, figures
+    )
+    return shown | {
+        "claims_json": [paths.report("claims.json")] if settings["claims"] else [],
+        "viewers": [paths.report(f"{name}.html") for name in settings["viewers"]],
+        "references": tables.references(layout, scenes),
+        "visibilities": tables.visibilities(layout, rows),
+        "metrics": tables.metrics(layout, rows),
+        "meshes": [paths.scene("mesh.json", scene) for scene in settings["scenes"]],
+        "trainings": tables.networks(layout, rows, "training.json"),
+        "lpips_json": [paths.lpips],
+    }
+
+
+def _reports(layout: Layout, tables: Iterable[str], figures: Iterable[str]) -> dict[str, Any]:
+    """The files of some tables and figures that a page shows."""
+    report, endings = layout.paths.report, ("svg", "png")
+    return {
+        "tables": [report(f"{name}.json") for name in tables],
+        "figures": [report(f"{name}.{ending}") for name in figures for ending in endings],
+    }
+
+
+def pictured(layout: Layout) -> list[tables.Row]:
+    """The methods that default tables and claims show, each once by scene."""
+    rows = [
+        *(row for claim in layout.settings["claims"].values() for row in claims.methods(claim)),
+        *(
+            r
+            for name in default_tables(layout)
+            for r in layout.settings["tables"][name].get("rows", ())
+        ),
+    ]
+    # Of a method that is in several tables, the label of the last.
+    # Ray tracing is the reference itself, and all dark shows nothing.
+    unseen = (RAY_TRACED, "all_dark")
+    found = {(row["scene"], row["method"]): row for row in rows if row["method"] not in unseen}
+    return list(found.values())
+
+
+def page_arguments(layout: Layout) -> dict[str, Any]:
+    """What `write_page` is told beside its files."""
+    figures = layout.settings["figures"]
+    return {
+        "titles": {name: one["title"] for name, one in figures.items()},
+        "front": front(layout),
+        "data": {name: one["table"] for name, one in figures.items() if "table" in one},
+        "chapters": chapters(layout),
+        "networks": [
+            one["label"]
+            for section in ("screen_experiments", "networks_by_scene")
+            for one in layout.settings[section].values()
+        ],
+        "soft_pictures": soft_pictures.shown(layout),
+        "folded": [name for name, one in figures.items() if one["folded"]],
+        "missing": {},
+        "rows": pictured(layout),
+        "kinds": {
+            row["label"]: kind_of(row)
+            for table in layout.settings["tables"].values()
+            for row in table.get("rows", ())
+        },
+        "run": layout.run(),
+        "scenes": layout.scenes(layout.settings["scenes"]),
+        "benchmarks": layout.paths.benchmarks,
+    }
+
+
+def method_modules(layout: Layout) -> set[Path]:
+    """The modules of the methods of all tables: the page shows their looks."""
+    modules = (kinds.method_modules(layout, "tables", name) for name in layout.settings["tables"])
+    return {path for paths in modules for path in paths}
+
+
+def available(layout: Layout) -> dict[str, Any]:
+    """Of `page_files` those that are there now, reports on request among them."""
+    found = page_files(layout) | _reports(layout, *map(layout.settings.get, ("tables", "figures")))
+    return {name: [path for path in paths if Path(path).exists()] for name, paths in found.items()}
+
+
+def available_arguments(layout: Layout) -> dict[str, Any]:
+    """What `write_page` is told for a page of these."""
+    return page_arguments(layout) | available(layout) | {"missing": missing(layout)}
+
+
+def missing(layout: Layout) -> dict[str, list[str]]:
+    """What a whole run's page shows and is not there now, by the section where it would stand."""
+    first, chapter = front(layout), chapters(layout)
+    tables = default_tables(layout)
+    figures = [name for name in default_figures(layout) if name != first]
+    reports = {
+        "found": [f"{name}.html" for name in layout.settings["viewers"]],
+        "tables": [f"{name}.json" for name in tables if chapter[name] == "thesis"],
+        "figures": [f"{name}.svg" for name in figures if chapter[name] == "thesis"],
+    }
+    reports["found"] += [f"{first}.svg"] if first else []
+    for one in ("extensions", "soft"):
+        reports[one] = [f"{name}.json" for name in tables if chapter[name] == one]
+        reports[one] += [f"{name}.svg" for name in figures if chapter[name] == one]
+    absent = {
+        section: [name for name in names if not Path(layout.paths.report(name)).exists()]
+        for section, names in reports.items()
+    }
+    return absent | {"compare": _missing_frames(layout)}
+
+
+def _missing_frames(layout: Layout) -> list[str]:
+    """Of how many methods of each scene the frames are not whole."""
+    rows, said = pictured(layout), []
+    for scene in tables.unique(row["scene"] for row in rows):
+        shared = tables.references(layout, [scene])
+        here = [row for row in rows if row["scene"] == scene]
+        paths = [[*shared, *tables.visibilities(layout, [row])] for row in here]
+        count = sum(not all(Path(path).exists() for path in some) for some in paths)
+        if count:
+            said.append(f"frames of {count} of {len(here)} methods on {scene}")
+    return said
+
+
+def newest(layout: Layout) -> float:
+    """When the last of these was written, in seconds: with a newer one their page is old."""
+    paths = [Path(path) for paths in available(layout).values() for path in paths]
+    return max((path.stat().st_mtime for path in paths), default=0.0)
+
+
+def chapters(layout: Layout) -> dict[str, str]:
+    """The page's chapter of each table and figure, by name."""
+    entries = [*layout.settings["tables"].items(), *layout.settings["figures"].items()]
+    return {name: entry["chapter"] for name, entry in entries}
+
+
+def front(layout: Layout) -> str | None:
+    """The first figure of quality over stored bytes alone: what a page shows before all others."""
+    for name in default_figures(layout):
+        if layout.settings["figures"][name].get("costs") == ["stored_bytes"]:
+            return name
+    return None
+
+
+def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
+    """What a run that made `outputs` says: a table or two, cut to the terminal, and what to open."""
+    reports = [path for path in outputs if path.startswith(f"{layout.paths.reports}/")]
+    written = [path for path in reports if path.endswith(".md")]
+    width, lines = shutil.get_terminal_size().columns, []
+    for path in written if len(written) <= 2 else ():
+        for line in Path(path).read_text(encoding="utf-8").splitlines():
+            if line.startswith(("#", "|")):  # not the notes
+                lines.append(line if len(line) <= width else f"{line[: width - 1]}…")
+    pages = [path for path in reports if path.endswith(".html")]
+    # The page of the run holds the viewer.
+    whole = [path for path in pages if path.endswith("/index.html")]
+    if opened := whole or pages or [path for path in reports if path.endswith((".png", ".md"))]:
+        lines.append(f"Open {', '.join(opened)}")
+    return "\n".join(lines)

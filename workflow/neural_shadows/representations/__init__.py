@@ -1,0 +1,1 @@
+"""Representations of an object besides its mesh."""

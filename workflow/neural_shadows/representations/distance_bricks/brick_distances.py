@@ -1,0 +1,125 @@
+"""Signed distances of bricks' vertices to a mesh, near its surface."""
+
+import numpy as np
+from numba import njit
+
+from neural_shadows.meshes.prepared_mesh import PreparedMesh
+from neural_shadows.representations.distance_bricks.brick_layout import BrickLayout
+from neural_shadows.representations.distance_bricks.field_marching import BRICK
+from neural_shadows.scenes.tracing import Tracer
+
+# Signed distances end this many cells from the surface. No farther, so that int8 has small steps,
+# but past the vertices of a cell that the surface crosses, 1.7. Ending at 4 cells gave the same
+# (37.6 dB).
+REACH = 2.0
+# A scan has holes, through which a ray gets the wrong side: one ray did of 5 in 10,000 vertices of
+# the Stanford dragon at 256³. The first five agree of 99 in 100; that five agreed and twenty would
+# not was 4 in a million.
+SIGN_RAYS, ENOUGH = 20, 5
+
+
+def signed_distances(mesh: PreparedMesh, layout: BrickLayout, reach: float) -> np.ndarray:
+    """Distance of each vertex of the bricks to the nearest triangle, positive inside.
+
+    (count,) float32 in cells, within [−reach, reach].
+    """
+    half = len(layout.grid) * BRICK / 2  # cells in a radius
+    corners = ((mesh.vertices.astype(np.float64) + 1) * half)[mesh.faces]
+    squared = np.full(layout.count, reach**2, np.float32)
+    _scatter(corners, layout.grid, layout.table, float(reach), squared)
+    points = (layout.places / half - 1).astype(np.float32)
+    return np.where(inside(mesh, points), np.sqrt(squared), -np.sqrt(squared))
+
+
+def inside(mesh: PreparedMesh, points: np.ndarray) -> np.ndarray:
+    """Whether points (n, 3) float32 are inside a mesh, (n,) bool.
+
+    A ray's vote is for it if the first face that it meets turns its back; the majority of 20 rays
+    counts, or the first five where they agree.
+    """
+    tracer = Tracer(mesh.vertices, mesh.faces)
+    votes, rays = np.zeros(len(points), np.int8), np.full(len(points), ENOUGH)
+    open_points = np.arange(len(points))
+    for number, d in enumerate(_even_directions(SIGN_RAYS, ENOUGH), 1):
+        origins = np.take(points, open_points, axis=0)
+        _, face = tracer.first_hit(origins, np.tile(d, (len(open_points), 1)))
+        votes[open_points] += (face >= 0) & (mesh.face_normals[face] @ d > 0)
+        if number == ENOUGH:
+            open_points = np.flatnonzero((votes > 0) & (votes < ENOUGH))
+            rays[open_points] = SIGN_RAYS
+    return 2 * votes > rays
+
+
+def _even_directions(count: int, first: int) -> np.ndarray:
+    """Unit vectors (count, 3) float32, evenly spread over the sphere, and the `first` ones too.
+
+    A Fibonacci spiral from pole to pole, in leaps.
+    """
+    k = np.arange(count).reshape(first, -1).T.ravel() + 0.5
+    z, angle = 1 - 2 * k / count, np.pi * (1 + np.sqrt(5)) * k
+    across = np.sqrt(1 - z**2)
+    spiral = np.stack([across * np.cos(angle), across * np.sin(angle), z], axis=1)
+    return spiral.astype(np.float32)
+
+
+@njit(cache=True, nogil=True)
+def _scatter(corners, grid, table, reach, squared):
+    """Lower `squared` (count,) to the squared distances to the triangles (F, 3, 3), in cells."""
+    size = len(grid)
+    first = np.empty(3, np.int64)
+    last = np.empty(3, np.int64)
+    for f in range(len(corners)):
+        for axis in range(3):
+            first[axis] = np.ceil(corners[f, :, axis].min() - reach)
+            last[axis] = np.floor(corners[f, :, axis].max() + reach)
+        # A vertex on a border belongs to the bricks on either side.
+        low = np.maximum((first - 1) // BRICK, 0)
+        high = np.minimum(last // BRICK, size - 1)
+        for bx in range(low[0], high[0] + 1):
+            for by in range(low[1], high[1] + 1):
+                for bz in range(low[2], high[2] + 1):
+                    brick = grid[bx, by, bz]
+                    if brick < 0:
+                        continue
+                    for x in range(max(first[0], BRICK * bx), min(last[0], BRICK * bx + 4) + 1):
+                        for y in range(max(first[1], BRICK * by), min(last[1], BRICK * by + 4) + 1):
+                            for z in range(
+                                max(first[2], BRICK * bz), min(last[2], BRICK * bz + 4) + 1
+                            ):
+                                at = ((x - BRICK * bx) * 5 + y - BRICK * by) * 5 + z - BRICK * bz
+                                vertex = table[brick, at]
+                                found = _squared_distance(corners[f], x, y, z)
+                                if found < squared[vertex]:
+                                    squared[vertex] = found
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _squared_distance(corners, x, y, z):
+    """From a point to a triangle (3, 3) (Ericson 2005, section 5.1.5)."""
+    a = corners[0]
+    ax, ay, az = a[0] - x, a[1] - y, a[2] - z
+    ux, uy, uz = corners[1, 0] - a[0], corners[1, 1] - a[1], corners[1, 2] - a[2]
+    vx, vy, vz = corners[2, 0] - a[0], corners[2, 1] - a[1], corners[2, 2] - a[2]
+    uu, vv = ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz
+    uv = ux * vx + uy * vy + uz * vz
+    d1, d2 = -(ux * ax + uy * ay + uz * az), -(vx * ax + vy * ay + vz * az)
+    d3, d4, d5, d6 = d1 - uu, d2 - uv, d1 - uv, d2 - vv
+    va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
+    if d1 <= 0 and d2 <= 0:
+        s, t = 0.0, 0.0
+    elif d3 >= 0 and d4 <= d3:
+        s, t = 1.0, 0.0
+    elif d6 >= 0 and d5 <= d6:
+        s, t = 0.0, 1.0
+    elif vc <= 0 and d1 >= 0 and d3 <= 0:
+        s, t = d1 / (d1 - d3), 0.0
+    elif vb <= 0 and d2 >= 0 and d6 <= 0:
+        s, t = 0.0, d2 / (d2 - d6)
+    elif va <= 0 and d4 - d3 >= 0 and d5 - d6 >= 0:
+        t = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        s = 1 - t
+    else:
+        total = va + vb + vc
+        s, t = vb / total, vc / total
+    px, py, pz = ax + s * ux + t * vx, ay + s * uy + t * vy, az + s * uz + t * vz
+    return px * px + py * py + pz * pz

@@ -1,0 +1,188 @@
+"""The first crossing of rays with an occupancy field, on a CPU."""
+
+import numpy as np
+from numba import njit
+from scipy import ndimage
+
+from neural_shadows.representations.depths import LIT
+
+BRICK = 4  # cells along a brick's axis
+BRICK_VERTICES = (BRICK + 1) ** 3
+SOLID = -(1 << 20)  # in the grid: the brick is enclosed by the surface
+# Samples of a ray along an axis. With four, the Stanford dragon at 256³ came out no better (40.2 and
+# 40.3 dB), and each sample is a look-up.
+SAMPLES_PER_CELL = 2
+
+
+def skips(surface: np.ndarray) -> np.ndarray:
+    """How many bricks (B, B, B) int32 a ray may go on before it can meet one that holds values.
+
+    The chessboard distance to the nearest, at least 1.
+    """
+    if not surface.any():
+        return np.full(surface.shape, len(surface), np.int32)
+    distance = ndimage.distance_transform_cdt(~surface, "chessboard")
+    return np.maximum(distance, 1).astype(np.int32)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def trilinear(values, at, u, v, w):
+    """What bricks' flat values are in the cell whose first corner is `at`; u, v, w in [0, 1]."""
+    a = np.float32(values[at])
+    a += (values[at + 1] - a) * w
+    b = np.float32(values[at + 5])
+    b += (values[at + 6] - b) * w
+    c = np.float32(values[at + 25])
+    c += (values[at + 26] - c) * w
+    e = np.float32(values[at + 30])
+    e += (values[at + 31] - e) * w
+    a += (b - a) * v
+    c += (e - c) * v
+    return a + (c - a) * u
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _value(values, x, y, z):
+    """A brick's value at x, y, z in [0, 4]."""
+    i, j, k = min(int(x), BRICK - 1), min(int(y), BRICK - 1), min(int(z), BRICK - 1)
+    return trilinear(values, (i * (BRICK + 1) + j) * (BRICK + 1) + k, x - i, y - j, z - k)
+
+
+_FAR = np.float32(1e9)  # beyond any way
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, level):
+    """Where a ray o + t d, in bricks from the corner −1, first crosses the surface; `end` if nowhere.
+
+    Sample i lies at t = (i + 0.5) step; the first that is looked at is `first`.
+    """
+    size = len(grid)
+    # Inverses: 0 for an axis that the ray does not move on, which never ends a brick.
+    ix = 1 / dx if abs(dx) > 1e-9 else np.float32(0)
+    iy = 1 / dy if abs(dy) > 1e-9 else np.float32(0)
+    iz = 1 / dz if abs(dz) > 1e-9 else np.float32(0)
+    ahead_x, ahead_y, ahead_z = dx > 0, dy > 0, dz > 0
+    zero, half, brick_cells = np.float32(0), np.float32(0.5), np.float32(BRICK)
+    i = first
+    known = first - 2  # the sample whose value is `before`
+    before = zero
+    t = (i + half) * step
+    while t < end:
+        x, y, z = ox + t * dx, oy + t * dy, oz + t * dz
+        bx = min(max(int(x), 0), size - 1)
+        by = min(max(int(y), 0), size - 1)
+        bz = min(max(int(z), 0), size - 1)
+        brick = grid[bx, by, bz]
+        if brick == SOLID:
+            return t
+        # Where the ray leaves the brick, or the empty cube of bricks around it.
+        free = -brick if brick < 0 else 1
+        ex = (bx + free if ahead_x else bx + 1 - free) - x
+        ey = (by + free if ahead_y else by + 1 - free) - y
+        ez = (bz + free if ahead_z else bz + 1 - free) - z
+        tx = ex * ix if ix != 0 else _FAR
+        ty = ey * iy if iy != 0 else _FAR
+        tz = ez * iz if iz != 0 else _FAR
+        leave = t + max(min(tx, ty, tz), zero)
+        if brick < 0:
+            i = max(i + 1, int(np.ceil(leave / step - half)))
+            t = (i + half) * step
+            continue
+        values = bricks[brick]
+        while True:
+            value = _value(
+                values,
+                min(max((x - bx) * brick_cells, zero), brick_cells),
+                min(max((y - by) * brick_cells, zero), brick_cells),
+                min(max((z - bz) * brick_cells, zero), brick_cells),
+            )
+            crossed = value > level
+            if sheet:
+                crossed = known == i - 1 and crossed != (before > level)
+            if crossed:
+                if known == i - 1:
+                    return t - step * (value - level) / (value - before)
+                return t
+            before, known = value, i
+            i += 1
+            t = (i + half) * step
+            if t >= leave or t >= end:
+                break
+            x, y, z = ox + t * dx, oy + t * dy, oz + t * dz
+    return end
+
+
+@njit(cache=True, nogil=True)
+def first_crossings(origins, d, grid, bricks, steps, sheet, level):
+    """t_pred (k,) float32 of parallel rays; `LIT` where there is no crossing.
+
+    Args:
+        origins: (k, 3) float32, on the unit sphere.
+        d: (3,) float32 unit vector, pointing inward.
+        grid: (B, B, B) int32, see `occupancy_field_network.BrickLayout`.
+        bricks: (bricks, 125), values of each brick's vertices on any one scale.
+        steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
+        sheet: whether any change of sign counts, or a value above the level.
+        level: float32, the value at the surface, on the scale of `bricks`.
+    """
+    t_pred = np.empty(len(origins), np.float32)
+    scale = np.float32(len(grid) / 2)  # bricks a radius
+    step = np.float32(2 / steps)
+    dx, dy, dz = d[0] * scale, d[1] * scale, d[2] * scale
+    for ray in range(len(origins)):
+        o = origins[ray]
+        chord = -2 * (o[0] * d[0] + o[1] * d[1] + o[2] * d[2])
+        ox, oy, oz = (o[0] + 1) * scale, (o[1] + 1) * scale, (o[2] + 1) * scale
+        found = _crossing(ox, oy, oz, dx, dy, dz, 0, chord, step, grid, bricks, sheet, level)
+        t_pred[ray] = found if found < chord else np.float32(LIT)
+    return t_pred
+
+
+@njit(cache=True, nogil=True)
+def blocked_ways(points, ways, centre, radius, grid, bricks, steps, level, blocked):
+    """Mark in `blocked` (n,) bool the ways that meet the surface of a solid's field.
+
+    Args:
+        points, ways: (n, 3) float32, in the unit of `centre` and `radius`, which are of the sphere
+            that the field's [−1, 1]³ is about; a way leads from its point to its goal.
+        grid, bricks, steps, level: see `first_crossings`. What is marked already is left alone.
+    """
+    scale, half = np.float32(len(grid) / 2), np.float32(0.5)
+    for ray in range(len(points)):
+        if blocked[ray]:
+            continue
+        x = (points[ray, 0] - centre[0]) / radius
+        y = (points[ray, 1] - centre[1]) / radius
+        z = (points[ray, 2] - centre[2]) / radius
+        u, v, w = ways[ray, 0] / radius, ways[ray, 1] / radius, ways[ray, 2] / radius
+        length = np.sqrt(u * u + v * v + w * w)
+        u, v, w = u / length, v / length, w / length
+        # Where it is inside the sphere.
+        along = x * u + y * v + z * w
+        inside = along * along - (x * x + y * y + z * z - 1)
+        if inside <= 0:
+            continue
+        root = np.sqrt(inside)
+        begin, end = max(-along - root, np.float32(0)), min(-along + root, length)
+        if begin >= end:
+            continue
+        step = np.float32(2 / steps)
+        end = np.float32(end)
+        first = max(int(np.ceil(begin / step - half)), 0)
+        found = _crossing(
+            np.float32((x + 1) * scale),
+            np.float32((y + 1) * scale),
+            np.float32((z + 1) * scale),
+            np.float32(u * scale),
+            np.float32(v * scale),
+            np.float32(w * scale),
+            first,
+            end,
+            step,
+            grid,
+            bricks,
+            False,
+            level,
+        )
+        blocked[ray] = found < end

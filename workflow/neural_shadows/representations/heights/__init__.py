@@ -1,0 +1,1 @@
+"""Heights of a landscape over a grid."""

@@ -1,0 +1,1 @@
+"""Voxels of an object, and their octrees."""

@@ -1,0 +1,155 @@
+"""Rows of tables of methods on scenes: what one may be, and what it resolves to."""
+
+from collections import Counter
+from typing import Any, ClassVar
+
+from pydantic import Field
+
+from neural_shadows.evaluation.method_names import (
+    PATTERNS,
+    RAY_TRACED,
+    biased_key,
+    classic_label,
+    is_classic,
+)
+from neural_shadows.evaluation.null_predictors import is_null
+from neural_shadows.sections.any_report import AnyTable
+from neural_shadows.sections.row_settings import Rows, RowSettings
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import check_among, name_in
+
+Row = dict[str, Any]  # method, label, published, scene, experiment, encoding, trained, bias
+
+
+class RowsTable(AnyTable):
+    """A table of methods on one scene or on several."""
+
+    null_rows: ClassVar[tuple[str, ...]] = ()  # there without being named
+    timed: ClassVar[bool] = False  # it may have ray tracing, the reference, for its time
+
+    def named_rows(self, config: Sections) -> dict[str, list[RowSettings]]:
+        """The rows that the configuration names, by scene."""
+        raise NotImplementedError
+
+    def rows_by_scene(self, config: Sections) -> dict[str, list[RowSettings]]:
+        """The rows by scene, null predictors among them."""
+        return {
+            scene: [*rows, *self._missing_null_rows(rows)]
+            for scene, rows in self.named_rows(config).items()
+        }
+
+    def _missing_null_rows(self, rows: list[RowSettings]) -> list[RowSettings]:
+        named = {row.method for row in rows}
+        return [RowSettings(method=key) for key in self.null_rows if key not in named]
+
+    def resolved_rows(self, config: Sections) -> list[Row]:
+        """The rows, each `row_of` with `published`: its key in published.csv, None if the table is
+        not the thesis's.
+        """
+        return [
+            row_of(config, scene, row)
+            | {"published": (row.published or row.method) if self.published else None}
+            for scene, rows in self.rows_by_scene(config).items()
+            for row in rows
+        ]
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        return self.model_dump() | {"rows": self.resolved_rows(config)}
+
+    def experiments_allowed(self, config: Sections) -> list[str]:
+        """The experiments that may be rows."""
+        return list(config.experiments)
+
+    def check(self, config: Sections, key: str) -> None:
+        """Check that each row of a scene is a method there, with a key and a label of its own."""
+        for scene, rows in self.rows_by_scene(config).items():
+            if not scene:
+                raise ValueError(f"{key}: has shadow maps alone and needs a `scene`")
+            for row in rows:
+                self._check_row(config, f"{key}.rows of {scene}", scene, row)
+            made = [row_of(config, scene, row) for row in rows]
+            for part in ("method", "label"):
+                for value, count in Counter(row[part] for row in made).items():
+                    if count > 1:
+                        raise ValueError(
+                            f"{key}.rows of {scene}: {value!r} is there twice; should be there once"
+                        )
+            against = getattr(self, "against", None)
+            against = against.get(scene) if isinstance(against, dict) else against
+            if against is not None:
+                check_among(f"{key}.against", against, [row["method"] for row in made])
+
+    def _check_row(self, config: Sections, key: str, scene: str, row: RowSettings) -> None:
+        if row.bias is not None and is_null(row.method):
+            raise ValueError(
+                f"{key}: {row.method!r} with a bias: a null predictor has no depth bias; leave it out"
+            )
+        names = self.experiments_allowed(config)
+        allowed = [name for name in names if config.experiments[name].scene == scene]
+        check_among(key, row.method, [*self.classic_allowed(row), *allowed])
+
+    def classic_allowed(self, row: RowSettings) -> list[str]:
+        """The methods without a network that a row may be, its own among them if it is one."""
+        own = [row.method] * is_classic(row.method)
+        timed = [RAY_TRACED] * (self.timed and row.bias is None)
+        return [*own, *PATTERNS, *timed]
+
+
+class TableOfOneScene(RowsTable):
+    """A table of methods on one scene."""
+
+    rows: Rows = Field(description="methods, in the table's order")
+    scene: name_in("scenes") | None = Field(
+        None, description="a name in `scenes`; without it that of the rows' experiments"
+    )
+
+    def check(self, config: Sections, key: str) -> None:
+        if not self.scene and not any(row.method in config.experiments for row in self.rows):
+            for row in self.rows:  # a misspelt experiment has no scene
+                allowed = [*self.classic_allowed(row), *self.experiments_allowed(config)]
+                check_among(f"{key}.rows", row.method, allowed)
+        super().check(config, key)
+
+    def named_rows(self, config: Sections) -> dict[str, list[RowSettings]]:
+        experiments = [config.experiments.get(row.method) for row in self.rows]
+        scenes = {experiment.scene for experiment in experiments if experiment}
+        return {self.scene or min(scenes, default=""): self.rows}
+
+
+class TableByScene(RowsTable):
+    """A table of methods on several scenes."""
+
+    rows: dict[name_in("scenes"), Rows] = Field(min_length=1, description="methods, by scene")
+
+    def named_rows(self, config: Sections) -> dict[str, list[RowSettings]]:
+        return self.rows
+
+
+def row_of(config: Sections, scene: str, row: RowSettings) -> Row:
+    """What a row of a scene resolves to.
+
+    Returns: `method`, the method's key; `label`; `published`, None; `scene`; `experiment` and the
+        network's `encoding`, or None if it is none, and whether it is `trained`; `bias`, a number,
+        `held_out`, or None if it has none.
+    """
+    method, own, label = row.method, None, row.label
+    if experiment := config.experiments.get(row.method):
+        label, own = config.label_of(row.method, row.label), experiment.bias
+    elif method == RAY_TRACED:
+        label = label or "Ray traced"
+    else:
+        label = label or classic_label(method)
+    bias = row.bias or own
+    if bias != own:  # of a method whose own depth bias the row changes
+        method = biased_key(method)
+        label = label if row.label else f"{label}, with bias"
+    return {
+        "method": method,
+        "label": label,
+        "published": None,
+        "scene": scene,
+        "experiment": row.method if experiment else None,
+        "encoding": config.network_of(row.method).encoding if experiment else None,
+        "trained": bool(experiment and config.training_of(row.method)),
+        "bias": bias,
+    }

@@ -1,0 +1,1 @@
+"""What all settings are made of: models that refuse unknown keys, and kinds that are found by file."""
