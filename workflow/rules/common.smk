@@ -37,7 +37,13 @@ from neural_shadows.config.targets import check_targets
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import REFERENCES, hard_modules
 from neural_shadows.evaluation.soft_registry import method_module
-from neural_shadows.layout import frame_sets, kinds, parts, screen_networks, soft_methods
+from neural_shadows.layout import (
+    frame_sets,
+    kinds,
+    parts,
+    screen_networks,
+    soft_methods,
+)
 from neural_shadows.layout import tables, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import form_module, kind_module
@@ -132,8 +138,16 @@ def code(stage, encodings=(), generators=(), methods=(), forms=(), modules=()):
     As inputs the modules would be compared by their content as well, and looked at by the scheduler
     before each job: a hundred of them and more for each that is ready.
     """
-    sources = [STAGES / f"{stage}.py", *map(kind_module, encodings), *map(form_module, forms)]
-    sources += [*map(generator_module, generators), *map(method_module, methods), *modules]
+    sources = [
+        STAGES / f"{stage}.py",
+        *map(kind_module, encodings),
+        *map(form_module, forms),
+    ]
+    sources += [
+        *map(generator_module, generators),
+        *map(method_module, methods),
+        *modules,
+    ]
     return digest({module for source in sources for module in modules_of(source)})
 
 

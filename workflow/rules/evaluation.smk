@@ -175,4 +175,3 @@ rule measure_frame_times:
         "Timing frames of {wildcards.scene} for {wildcards.table}"
     script:
         "../neural_shadows/evaluation/measure_frame_times.py"
-
