@@ -25,6 +25,7 @@ from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import Scene, open_scene
+from neural_shadows.settings.records import ViewSettings
 
 WARM_UP = 2  # frames of each method before the timed ones
 
@@ -84,7 +85,7 @@ def measure_frame_times(
     *,
     methods: Sequence[str],
     scene: Mapping[str, Any],
-    frames: Mapping[str, Any],
+    frames: ViewSettings,
     frame_times: Mapping[str, int],
     device: str = "auto",
     precision: str = "auto",

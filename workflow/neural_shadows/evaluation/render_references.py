@@ -14,6 +14,7 @@ from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
+from neural_shadows.settings.records import ViewSettings
 
 
 def render_references(
@@ -21,7 +22,7 @@ def render_references(
     references: Path,
     *,
     scene: Mapping[str, Any],
-    frames: Mapping[str, Any],
+    frames: ViewSettings,
     first: int,
     last: int,
     reference: str = "exact",

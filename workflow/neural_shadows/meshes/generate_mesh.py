@@ -1,8 +1,6 @@
 """The stage that makes procedural meshes."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import trimesh
 
@@ -11,6 +9,7 @@ from neural_shadows.meshes.fence import make_fence
 from neural_shadows.meshes.landscape import make_landscape
 from neural_shadows.meshes.wyrm import make_wyrm
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import MeshSource
 
 MAKERS = {
     "wyrm": make_wyrm,
@@ -19,7 +18,7 @@ MAKERS = {
 }
 
 
-def generate_mesh(generated_ply: Path, mesh: Mapping[str, Any]) -> None:
+def generate_mesh(generated_ply: Path, mesh: MeshSource) -> None:
     """Write a procedural mesh as binary PLY.
 
     Args:

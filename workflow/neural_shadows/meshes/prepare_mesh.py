@@ -1,9 +1,7 @@
 """The stage that turns a mesh file into a clean mesh in its unit sphere [3.3.1]."""
 
 import hashlib
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import trimesh
@@ -17,12 +15,13 @@ from neural_shadows.meshes.thesis_meshes import is_thesis_mesh
 from neural_shadows.running import progress
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import MeshSource
 
 _DROPPED = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "duplicate_faces")
 
 
 def prepare_mesh(
-    source: Path, mesh_ply: Path, mesh_json: Path, mesh: Mapping[str, Any], name: str
+    source: Path, mesh_ply: Path, mesh_json: Path, mesh: MeshSource, name: str
 ) -> None:
     """Read, clean and normalise a mesh: x' = (x - c) / r, its minimal bounding sphere [3.3.1].
 

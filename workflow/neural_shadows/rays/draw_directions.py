@@ -11,6 +11,7 @@ from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.lights import arc_directions, axis_vector, draw_light, lowest_elevation
+from neural_shadows.settings.records import LightSettings
 
 
 def draw_directions(
@@ -18,7 +19,7 @@ def draw_directions(
     directions_npy: Path,
     sampling: Mapping[str, Any],
     seed: int,
-    light: Mapping[str, Any] | None = None,
+    light: LightSettings | None = None,
     up: str = "y",
 ) -> None:
     """Draw the view directions of a ray set and write `directions.npy`, (D, 3) float32.

@@ -10,6 +10,7 @@ import numpy as np
 
 from neural_shadows.scenes.lights import axis_vector
 from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.settings.records import LightSettings
 
 if TYPE_CHECKING:
     from neural_shadows.meshes.prepared_mesh import PreparedMesh
@@ -55,7 +56,7 @@ class Scene:
 
 
 def make_scene(
-    *objects: "PreparedMesh", up: np.ndarray, ground: bool, light: Mapping[str, Any] | None
+    *objects: "PreparedMesh", up: np.ndarray, ground: bool, light: LightSettings | None
 ) -> Scene:
     """A scene of objects as they lie, under which a ground plane may lie.
 
@@ -73,7 +74,7 @@ def make_scene(
     return Scene(objects, lights, up, height, Tracer(joined.vertices, joined.faces))
 
 
-def open_scene(mesh_ply: Path, *, up: str, ground: bool, light: Mapping[str, Any]) -> Scene:
+def open_scene(mesh_ply: Path, *, up: str, ground: bool, light: LightSettings) -> Scene:
     """Read a prepared mesh and build its acceleration structure.
 
     Args:

@@ -17,8 +17,7 @@ from neural_shadows.sections.any_report import AnyTable
 from neural_shadows.sections.row_settings import Rows, RowSettings
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import check_among, name_in
-
-Row = dict[str, Any]  # method, label, published, scene, experiment, encoding, trained, bias
+from neural_shadows.settings.records import Row
 
 
 class RowsTable(AnyTable):

@@ -22,6 +22,7 @@ from neural_shadows.networks.weight_file import save_network
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import TrainingSettings
 from neural_shadows.training.batches import DeviceRays, batch_indices, batch_source
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
 from neural_shadows.training.cuda_graph import recorded
@@ -39,7 +40,7 @@ def train(
     loss_csv: Path,
     training_json: Path,
     network: Mapping[str, Any],
-    training: Mapping[str, Any] | None,
+    training: TrainingSettings | None,
     seed: int,
     experiment: str,
     directions_npy: Path | None = None,

@@ -23,6 +23,7 @@ from neural_shadows.networks.screen_space.screen_networks import (
 )
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import TrainingSettings
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
 from neural_shadows.training.perceptual import Perceptual
 from neural_shadows.training.screen_batches import ScreenFrames
@@ -51,7 +52,7 @@ def train_screen(
     loss_csv: Path,
     training_json: Path,
     network: Mapping[str, Any],
-    training: Mapping[str, Any],
+    training: TrainingSettings,
     scenes: Sequence[str],
     seed: int,
     experiment: str,
@@ -134,7 +135,7 @@ def train_screen(
     write_json(training_json, {**header, **about, **describe_origin(), "threads": threads})
 
 
-def _check_twins(frames: ScreenFrames, train: Sequence[Path], training: Mapping[str, Any]) -> None:
+def _check_twins(frames: ScreenFrames, train: Sequence[Path], training: TrainingSettings) -> None:
     if training["perturbation"] > 0 and frames.twins == 0:
         raise InputError(
             f"{train[0].parent}: its frames have no twins, which `perturbation` needs; give the "

@@ -1,6 +1,5 @@
 """Where a viewer starts from, and its still."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -15,11 +14,12 @@ from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.scenes.cameras import VIEW_SETS, Viewpoint
 from neural_shadows.scenes.lights import arc_directions
 from neural_shadows.scenes.scene import Scene
+from neural_shadows.settings.records import ViewSettings
 
 POSTER = (960, 640)  # pixels
 
 
-def shown_views(scene: Scene, frames: Mapping[str, Any], count: int) -> list[dict[str, Any]]:
+def shown_views(scene: Scene, frames: ViewSettings, count: int) -> list[dict[str, Any]]:
     """The whole object, and the evaluation's `count` viewpoints of each set, with their lights.
 
     Args:

@@ -22,6 +22,7 @@ from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
+from neural_shadows.settings.records import Row, ViewSettings
 from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays
 from neural_shadows.viewer.network_arrays import network_arrays
 from neural_shadows.viewer.packed import packed
@@ -41,9 +42,9 @@ def write_viewer(
     weights: list[Path],
     depth_biases: list[Path],
     name: str,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     scene: Mapping[str, Any],
-    frames: Mapping[str, Any],
+    frames: ViewSettings,
     views: int,
     about: Mapping[str, Any],
     run: Mapping[str, Any],
@@ -118,9 +119,7 @@ def write_viewer(
     write_text(html, page)
 
 
-def _network(
-    weights: Path, row: Mapping[str, Any], depth_biases: Mapping[str, Path]
-) -> dict[str, Any]:
+def _network(weights: Path, row: Row, depth_biases: Mapping[str, Path]) -> dict[str, Any]:
     """What the viewer is told of a network."""
     network, header = load_network(weights)
     depth_bias = row["bias"]

@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypedDict
 
 import pandas as pd
 
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
+from neural_shadows.settings.records import SceneInfo
 
 # Training samples of networks by text: rays of the thesis, pixels of the papers. Own claims are of
 # methods that are not trained.
@@ -26,7 +27,33 @@ NO_SHADOW_ROW = {
     "bias": None,
 }
 
-Claim = Mapping[str, Any]  # as `Settings.resolved` of its kind gives it
+
+class Claim(TypedDict, total=False):
+    """A claim as `Settings.resolved` of its kind gives it; a kind has some of the keys."""
+
+    kind: str
+    text: str
+    section: str
+    statement: str
+    needs: dict[str, Any]
+    pairs: list[Any]  # of rows, or of keys of methods on frames
+    methods: list[Any]
+    metrics: list[str]
+    table: str
+    radii: list[int] | None
+    again: dict[str, list[str]]
+    networks: list[str]
+    bases: dict[str, str]
+    null: str  # in the networks' place
+    at_least: float | None
+    at_most: float | None
+    overhead_ms: float
+    row: str | None
+    equivalent_to: int | None
+    ratios: list[dict[str, Any]]
+    column: str
+    to: str
+    rather_than: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +70,7 @@ class Measured(Trained):
     """
 
     times: Mapping[tuple[str, str], Mapping[str, Any]]
-    scenes: Mapping[str, Mapping[str, Any]]
+    scenes: Mapping[str, SceneInfo]
     published: pd.DataFrame
     margins: Mapping[str, float]
     soft: Mapping[str, Any] = field(default_factory=dict)

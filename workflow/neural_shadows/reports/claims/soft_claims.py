@@ -25,6 +25,7 @@ from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.own_frames import OwnFrames
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name, check_among, name_in
+from neural_shadows.settings.records import SoftTimes
 
 ITS_BASE = "base"  # a null of each network: the shadow that it is given, or the light's map
 # What values are multiplied by, as their names in `NAMES` have it.
@@ -108,7 +109,7 @@ class SoftTable:
 
     values: pd.DataFrame
     labels: Mapping[str, str]
-    times: Mapping[str, Any] | None
+    times: SoftTimes | None
     radii: Sequence[str]
 
     def milliseconds(self, method: str, radius: int | None) -> float:

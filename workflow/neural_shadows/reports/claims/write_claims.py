@@ -24,6 +24,7 @@ from neural_shadows.reports.data.table import Table, write_table
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
 from neural_shadows.reports.data.verdicts import MEANINGS, VERDICTS
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import CurvePoint, Run, SceneInfo
 from neural_shadows.training.loss_curve import read_loss
 
 COLUMNS = [
@@ -47,10 +48,10 @@ def claims(
     screen_trainings: list[Path],
     published_csv: Path,
     claims: Mapping[str, Mapping[str, Any]],
-    learning_curves: Mapping[str, Sequence[Mapping[str, Any]]],
+    learning_curves: Mapping[str, Sequence[CurvePoint]],
     soft_tables: Mapping[str, Mapping[str, Any]],
-    run: Mapping[str, Any],
-    scenes: Mapping[str, Mapping[str, Any]],
+    run: Run,
+    scenes: Mapping[str, SceneInfo],
 ) -> Table:
     """A table of the texts' claims with our verdicts.
 
@@ -150,9 +151,7 @@ def _lead(verdicts: pd.Series, data: Measured) -> str:
     return "\n".join([first, "", *meanings])
 
 
-def _notes(
-    data: Measured, run: Mapping[str, Any], scenes: Mapping[str, Mapping[str, Any]]
-) -> list[str]:
+def _notes(data: Measured, run: Run, scenes: Mapping[str, SceneInfo]) -> list[str]:
     notes = [
         "An advantage is counted so that positive is in the claim's favour; of PSNR it is of "
         "pooled PSNR, that of the mean squared error over views. Its 95 % interval is over seeds "

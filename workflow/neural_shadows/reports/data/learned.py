@@ -1,7 +1,6 @@
 """Whether a network has learned: whether it is better than drawing no shadow at all."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import pandas as pd
 
@@ -11,6 +10,7 @@ from neural_shadows.metrics.intervals import (
     paired_difference,
     pooled_psnr_difference,
 )
+from neural_shadows.settings.records import Row
 
 Advantage = tuple[float, float, float]  # a value and the ends of its 95 % interval
 
@@ -67,7 +67,7 @@ def learned(
 
 def learned_methods(
     wide: pd.DataFrame,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     margins: Mapping[str, float],
     seed: int,
 ) -> dict[str, bool]:

@@ -1,12 +1,11 @@
 """Names of the lights of soft shadows, by their radii."""
 
-from collections.abc import Mapping
-from typing import Any
+from neural_shadows.settings.records import PartRecord
 
 UNITS = {"metres": "m", "scene_sizes": "S"}
 
 
-def light_names(about: Mapping[str, Any]) -> list[str]:
+def light_names(about: PartRecord) -> list[str]:
     """Names of the lights of a part of a frame set, in order; `about`: its JSON."""
     unit = UNITS[about.get("radius_unit", "metres")]
     return [light_name(radius, unit) for radius in about.get("given_radii", about["radii"])]

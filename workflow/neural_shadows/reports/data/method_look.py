@@ -1,11 +1,9 @@
 """The look of each kind of method for hard shadows, and of networks of one object."""
 
-from collections.abc import Mapping
-from typing import Any
-
 from neural_shadows.evaluation.look import BLACK, BLUE, GREEN, ORANGE, PINK, YELLOW, Look
 from neural_shadows.evaluation.method_names import METHODS, family_and_size, unbiased
 from neural_shadows.evaluation.null_predictors import NULL
+from neural_shadows.settings.records import Row
 
 REFERENCE = "reference"
 
@@ -89,7 +87,7 @@ LOOKS = {
 }
 
 
-def kind_of(row: Mapping[str, Any]) -> str:
+def kind_of(row: Row) -> str:
     """The key in `LOOKS` of the method of a row of `config.rows_of`.
 
     A kind of network that is not there is a key all the same (`look_of_kind` shows it).
@@ -101,7 +99,7 @@ def kind_of(row: Mapping[str, Any]) -> str:
     return family_and_size(method)[0] or REFERENCE  # `ray_traced` is the same
 
 
-def look_of(row: Mapping[str, Any]) -> Look:
+def look_of(row: Row) -> Look:
     """The look of the method of a row of `config.rows_of`."""
     return look_of_kind(kind_of(row))
 

@@ -1,16 +1,25 @@
 """Sentences that several reports share, each worded once: equal notes are shown once on the page."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import pandas as pd
 
 from neural_shadows.reports.data.digits import short
+from neural_shadows.settings.records import (
+    DepthBias,
+    FrameTimes,
+    Lpips,
+    MeshReport,
+    Row,
+    Run,
+    SceneInfo,
+    TrainingRecord,
+)
 
 AT_END = "the first or last that was tried: a better one may lie beyond"
 
 
-def titled(title: str, published: str | None, mesh: Mapping[str, Any] | None = None) -> str:
+def titled(title: str, published: str | None, mesh: MeshReport | None = None) -> str:
     """A table's heading: what it shows, on which mesh, and whether the thesis has the same.
 
     `mesh` is what `prepare_mesh` wrote; None for a table of several meshes or of none.
@@ -33,19 +42,19 @@ def section_of(claim: Mapping[str, str]) -> str:
     return f"{TEXTS.get(claim['text'], '')} {claim['section']}".strip()
 
 
-def describe_run(run: Mapping[str, Any]) -> str:
+def describe_run(run: Run) -> str:
     """One sentence on the scale; no date, with which the same run would give other bytes."""
     return f"Scale: {run['scale']}."
 
 
-def describe_frames(run: Mapping[str, Any]) -> str:
+def describe_frames(run: Run) -> str:
     """One sentence on the frames whose quality is measured."""
     shadow_map = "a 32768² shadow map, as in the thesis"
     reference = "an exact shadow ray per pixel" if run["reference"] == "exact" else shadow_map
     return f"Frames of {run['width']} × {run['height']}; reference: {reference}."
 
 
-def is_own_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> bool:
+def is_own_mesh(mesh: MeshReport, scene: SceneInfo) -> bool:
     """Whether a scene has the thesis's own mesh, and none made to its description.
 
     Of the latter `thesis_mesh` is true, too: the thesis's numbers may stand beside it.
@@ -53,7 +62,7 @@ def is_own_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> bool:
     return mesh["thesis_mesh"] and not scene["procedural"]
 
 
-def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
+def describe_mesh(mesh: MeshReport, scene: SceneInfo) -> str:
     """One phrase on a mesh: name, what it is, size, whether it is closed."""
     stand_in = "a procedural stand-in, " if scene["procedural"] else ""
     kind = "" if is_own_mesh(mesh, scene) else f" ({stand_in}not the thesis's mesh)"
@@ -61,7 +70,7 @@ def describe_mesh(mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
     return f"{mesh['name']}{kind}, {mesh['faces']:,} triangles, {closed}"
 
 
-def describe_scene(name: str, mesh: Mapping[str, Any], scene: Mapping[str, Any]) -> str:
+def describe_scene(name: str, mesh: MeshReport, scene: SceneInfo) -> str:
     """One sentence on a scene's mesh and the seed of its viewpoints."""
     return f"Mesh of {name}: {describe_mesh(mesh, scene)}; seed {scene['seed']}."
 
@@ -76,7 +85,7 @@ def describe_shadows(scene: str, leaks: pd.DataFrame) -> str:
     return f"Cast shadow on {scene}, of the points that are seen: {sets}."
 
 
-def describe_training(record: Mapping[str, Any]) -> str:
+def describe_training(record: TrainingRecord) -> str:
     """One sentence on how a network was trained or built, and on what machine."""
     training, machine, threads = record["training"], record["machine"], record["threads"]
     device = f"{machine['cpu']} CPU"
@@ -96,7 +105,7 @@ def describe_training(record: Mapping[str, Any]) -> str:
     )
 
 
-def describe_budgets(records: Sequence[Mapping[str, Any]]) -> list[str]:
+def describe_budgets(records: Sequence[TrainingRecord]) -> list[str]:
     """One sentence on what each kind of network learned from, where several kinds stand together."""
     trained = [record for record in records if record["training"]]
     kinds = {record["network"]["encoding"] for record in trained}
@@ -142,7 +151,7 @@ def describe_devices(devices: Sequence[str]) -> list[str]:
     ]
 
 
-def describe_times(times: Mapping[str, Any]) -> str:
+def describe_times(times: FrameTimes) -> str:
     """One sentence on how the frame times of a scene were measured."""
     machine, ran = times["machine"], {one["device"] for one in times["methods"].values()}
     where = {"cpu": f"one thread of {machine['cpu']}", "cuda": machine["gpu"]}
@@ -154,9 +163,7 @@ def describe_times(times: Mapping[str, Any]) -> str:
     )
 
 
-def describe_biases(
-    rows: Sequence[Mapping[str, Any]], biases: Mapping[tuple[str, str], Mapping[str, Any]]
-) -> list[str]:
+def describe_biases(rows: Sequence[Row], biases: Mapping[tuple[str, str], DepthBias]) -> list[str]:
     """A sentence for each row that is given a depth bias; `biases` as `read_biases` gives them."""
     sentences = []
     for row in rows:
@@ -171,7 +178,7 @@ def describe_biases(
     return sentences
 
 
-def describe_lpips(lpips: Mapping[str, Any]) -> str:
+def describe_lpips(lpips: Lpips) -> str:
     """One sentence on LPIPS's network, or on how to get it where it is missing."""
     if lpips["available"]:
         return (

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from neural_shadows.reports.data.equivalent_maps import equivalent_maps
+from neural_shadows.settings.records import MeshReport, Row
 
 OF_ANY_MESH = ("size_kib", "memory_mib")
 
@@ -59,11 +59,11 @@ def printed_networks(published: pd.Series, scene: str) -> pd.DataFrame:
 
 def add_printed(
     frame: pd.DataFrame,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     columns: Sequence[str],
     number: str | None,
     published_csv: Path,
-    meshes: Mapping[str, Mapping[str, Any]],
+    meshes: Mapping[str, MeshReport],
 ) -> pd.DataFrame:
     """The frame with `thesis_<column>` and `<column>_minus_thesis`; NaN where none is printed.
 

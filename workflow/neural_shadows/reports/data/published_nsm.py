@@ -2,12 +2,12 @@
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from neural_shadows.reports.data.published import by_cell
+from neural_shadows.settings.records import Profile
 
 PAPER = "Datta et al. 2022"
 
@@ -35,7 +35,7 @@ def titled(title: str, table: str | None) -> str:
     return title if table is None else f"{title} (table {table[4:].upper()} of {PAPER})"
 
 
-def beside(profile: dict[str, Any], published: pd.Series) -> str:
+def beside(profile: Profile, published: pd.Series) -> str:
     """A note on what the printed times and sizes are of, and whether ours are of that size."""
     width, height = printed_size(published)
     told = (

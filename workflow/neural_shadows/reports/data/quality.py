@@ -16,6 +16,7 @@ from neural_shadows.metrics.pooled_psnr import identical
 from neural_shadows.reports.data.equivalent_maps import equivalent_maps
 from neural_shadows.reports.data.inputs import by_folder
 from neural_shadows.reports.data.learned import advantage, learned_methods
+from neural_shadows.settings.records import Lpips, MeshReport, Row, Run
 
 METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
 
@@ -27,7 +28,7 @@ def with_ends(metric: str) -> list[str]:
 
 def scene_quality(
     metrics: Sequence[Path],
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     margins: Mapping[str, float],
     against: str | None,
     seed: int,
@@ -55,7 +56,7 @@ def scene_quality(
 
 def scenes_quality(
     metrics: Sequence[Path],
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     margins: Mapping[str, float],
     against: Mapping[str, str],
     seed: int,
@@ -75,7 +76,7 @@ def null_leaks(metrics: pd.DataFrame) -> pd.DataFrame:
     return leaks.set_index(["view_set", "view"])[["value"]]
 
 
-def quality_table(wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], seed: int) -> pd.DataFrame:
+def quality_table(wide: pd.DataFrame, rows: Sequence[Row], seed: int) -> pd.DataFrame:
     """A row per method: averages over all views of a scene, and bootstrap intervals.
 
     Columns `method` (the label), means of the metrics, `<metric>_low` and `<metric>_high` (95 %),
@@ -98,7 +99,7 @@ def quality_table(wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], seed: i
 
 
 def differences(
-    wide: pd.DataFrame, rows: Sequence[Mapping[str, Any]], against: str | None, seed: int
+    wide: pd.DataFrame, rows: Sequence[Row], against: str | None, seed: int
 ) -> pd.DataFrame:
     """A row per method: how much it differs from one of them on the same views.
 
@@ -143,9 +144,7 @@ def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFram
     return wide
 
 
-def context_columns(
-    mesh: Mapping[str, Any], lpips: Mapping[str, Any], run: Mapping[str, Any], seed: int
-) -> dict[str, Any]:
+def context_columns(mesh: MeshReport, lpips: Lpips, run: Run, seed: int) -> dict[str, Any]:
     """What every row of a table of quality says of where it comes from; seed: of the views."""
     size = {name: run[name] for name in ("scale", "width", "height")}
     network = lpips["net"] if lpips["available"] else None

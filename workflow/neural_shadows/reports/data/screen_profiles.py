@@ -6,17 +6,16 @@ from typing import Any
 import pandas as pd
 
 from neural_shadows.evaluation.soft_registry import FORMATS
+from neural_shadows.settings.records import Profile, ProfileRun
 
-Profile = Mapping[str, Any]
 
-
-def run_key(run: Mapping[str, Any]) -> str:
+def run_key(run: ProfileRun) -> str:
     """A column's name for a run: `bfloat16_2`, of two threads, or `bfloat16_gpu`."""
     place = "gpu" if run["device"] == "cuda" else run["threads"]
     return f"{run['precision']}_{place}"
 
 
-def run_name(run: Mapping[str, Any]) -> str:
+def run_name(run: ProfileRun) -> str:
     """What a run is called."""
     threads = f"{run['threads']} thread{'s' * (run['threads'] > 1)}"
     return f"{run['precision']}, {'GPU' if run['device'] == 'cuda' else threads}"
@@ -36,7 +35,7 @@ def part_times(profile: Profile) -> pd.DataFrame:
     return pd.DataFrame(found).sort_index(level="level", sort_remaining=False, kind="stable")
 
 
-def product_share(profile: Profile, run: Mapping[str, Any]) -> float:
+def product_share(profile: Profile, run: ProfileRun) -> float:
     """The whole network's multiply-adds a second, as a share of a matrix product's."""
     pixels = profile["width"] * profile["height"]
     macs = pixels * sum(level["macs"] for level in profile["levels"])

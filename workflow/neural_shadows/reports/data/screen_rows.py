@@ -1,12 +1,12 @@
 """What tables of networks on frames have in common."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from neural_shadows.evaluation.soft_registry import LABELS, UNLEARNED
+from neural_shadows.settings.records import TrainingRecord
 
 ABOUT_NULLS = (
     "The CSV also has rows of what learns nothing (no shadow, all dark, the light's map as it is), "
@@ -42,7 +42,7 @@ def with_printed(
 
 
 def describe_trainings(
-    records: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]
+    records: Mapping[str, TrainingRecord], labels: Mapping[str, str]
 ) -> list[str]:
     """How networks were trained, those that were trained alike in one sentence; and which died."""
     alike: dict[str, list[str]] = {}

@@ -1,12 +1,11 @@
 """What methods for soft shadows cost, as `time_soft_methods` wrote it."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
+from neural_shadows.settings.records import SoftTimes
 
-def cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float]:
+
+def cost(times: SoftTimes, method: str, number: int) -> dict[str, float]:
     """Milliseconds and bytes at a radius, counted from 0; NaN where nothing was timed."""
     if method not in times["methods"]:
         return dict.fromkeys(("own_ms", "map_ms", "ms", "bytes"), np.nan)
@@ -17,7 +16,7 @@ def cost(times: Mapping[str, Any], method: str, number: int) -> dict[str, float]
     return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": held}
 
 
-def describe_times(times: Mapping[str, Any]) -> list[str]:
+def describe_times(times: SoftTimes) -> list[str]:
     """A note on how times were measured; none if nothing was timed."""
     if not times["methods"]:
         return []
@@ -31,7 +30,7 @@ def describe_times(times: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def describe_bytes(times: Mapping[str, Any]) -> list[str]:
+def describe_bytes(times: SoftTimes) -> list[str]:
     """A note on what counts as bytes; none if nothing was timed."""
     if not times["methods"]:
         return []

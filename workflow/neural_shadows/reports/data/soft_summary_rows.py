@@ -1,6 +1,6 @@
 """The numbers of summaries of methods for soft shadows: means over frames and lights, and what is printed."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,15 +10,14 @@ from neural_shadows.evaluation.soft_registry import UNLEARNED
 from neural_shadows.reports.data.frame_means import OFF_EDGES, by_frame, mean_with_interval
 from neural_shadows.reports.data.published_kpnsm import printed_value
 from neural_shadows.reports.data.soft_costs import cost
+from neural_shadows.settings.records import Row, SoftTimes
 
 MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
-
-Row = Mapping[str, Any]
 
 
 def summary_table(
     found: pd.DataFrame,
-    times: Mapping[str, Any],
+    times: SoftTimes,
     radii: Sequence[float],
     *,
     methods: Sequence[Row],
@@ -64,7 +63,7 @@ def _groups(
 def _row(
     frames: pd.DataFrame,
     found: pd.DataFrame,
-    times: Mapping[str, Any],
+    times: SoftTimes,
     row: Row,
     metrics: Sequence[str],
     radii: int,

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from neural_shadows.reports.data.inputs import read_sizes
+from neural_shadows.settings.records import FrameTimes, Row
 
 FRAME_MS = ("frame_ms", "frame_ms_q1", "frame_ms_q3")  # median and quartiles, ms
 OWN_MS = ("own_ms", "own_ms_q1", "own_ms_q3")
@@ -15,8 +15,8 @@ QUANTILES = (0.5, 0.25, 0.75)
 
 
 def timing_table(
-    times: Mapping[str, Mapping[str, Any]],
-    rows: Sequence[Mapping[str, Any]],
+    times: Mapping[str, FrameTimes],
+    rows: Sequence[Row],
     weights: Sequence[Path],
 ) -> pd.DataFrame:
     """A row for each of the rows; `times` by scene, as `measure_frame_times` wrote them.
@@ -40,7 +40,7 @@ def timing_table(
     return table.astype({"resident_bytes": float, "stored_bytes": float})
 
 
-def devices(times: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def devices(times: Mapping[str, FrameTimes]) -> list[str]:
     """The devices that the methods ran on, each once: times of several do not compare."""
     found = {method["device"] for one in times.values() for method in one["methods"].values()}
     return sorted(found)

@@ -8,11 +8,10 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.metrics.error_scale import error_of
+from neural_shadows.settings.records import CurvePoint, MeshReport, Row
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
 LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
-
-Row = Mapping[str, Any]  # as `sections.rows.row_of` gives it
 
 
 @dataclass(frozen=True)
@@ -47,8 +46,8 @@ class Trained:
     metrics: Mapping[str, pd.DataFrame]
     losses: Mapping[str, pd.DataFrame]
     trainings: Mapping[str, Mapping[str, Any]]
-    meshes: Mapping[str, Mapping[str, Any]]
-    curves: Mapping[str, Sequence[Mapping[str, Any]]]
+    meshes: Mapping[str, MeshReport]
+    curves: Mapping[str, Sequence[CurvePoint]]
     seed: int
 
     def budgets(self, rows: Iterable[Row]) -> list[Budget]:

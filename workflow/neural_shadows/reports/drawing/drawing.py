@@ -16,9 +16,10 @@ from neural_shadows.rays.quadtree import build_quadtree
 from neural_shadows.rays.sampling import sample_quads
 from neural_shadows.rays.silhouette import plane_basis, silhouette
 from neural_shadows.reports.drawing.mesh_slice import MeshSlice, SliceRays, slice_mesh
-from neural_shadows.reports.drawing.style import Section, new_figure
+from neural_shadows.reports.drawing.style import new_figure
 from neural_shadows.scenes.scene import open_scene
 from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.settings.records import SamplingSettings, SceneSettings
 
 SHADE = "#b9c2cc"
 OUTLINE = "#222222"
@@ -28,7 +29,7 @@ FEW_RAYS = 25
 
 
 def open_figure(
-    mesh_ply: Path, mesh_json: Path, scene: Section, title: str, *size: float
+    mesh_ply: Path, mesh_json: Path, scene: SceneSettings, title: str, *size: float
 ) -> tuple[MeshSlice, Figure]:
     """The slice of a scene that the figures show, and an empty figure whose title names the mesh.
 
@@ -113,7 +114,7 @@ class SilhouetteDrawing:
         axes.scatter(*points.T, transform=self._upright + axes.transData, **style)
 
 
-def slice_silhouette(cut: MeshSlice, sampling: Section) -> SilhouetteDrawing:
+def slice_silhouette(cut: MeshSlice, sampling: SamplingSettings) -> SilhouetteDrawing:
     """The silhouette along a slice's normal, in a sampling's resolution.
 
     A sampling has `silhouette_resolution` and `min_quad` also if its sampler does without.

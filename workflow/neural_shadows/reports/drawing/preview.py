@@ -13,10 +13,11 @@ from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.reports.drawing.drawing import SilhouetteDrawing, draw_disk
 from neural_shadows.reports.drawing.hero_view import DISTANCE, FOV, hero_view
-from neural_shadows.reports.drawing.style import Section, new_figure, note_below, write_figure
+from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import Viewpoint, camera_axes
 from neural_shadows.scenes.scene import Scene, open_scene
+from neural_shadows.settings.records import SceneSettings
 
 PIXELS = 700  # of the picture of the object, square
 RESOLUTION = 128  # of the silhouette, as in the default config
@@ -24,7 +25,7 @@ CORNERS = 1.3  # radii: the quadtree is turned with the view, and wider than the
 AXIS_COLOURS = dict(zip("xyz", (COLOURS[1], COLOURS[2], COLOURS[0])))
 
 
-def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: Section) -> None:
+def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: SceneSettings) -> None:
     """Draw the object in its bounding sphere, and a silhouette of it with its quadtree.
 
     Raises:

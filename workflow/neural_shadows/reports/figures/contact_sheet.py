@@ -20,6 +20,7 @@ from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
 from neural_shadows.sections.table_figures import MethodsFigure
+from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,8 +70,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[Row],
+    run: Run,
 ) -> None:
     """Draw the views of each view set by each method.
 

@@ -18,6 +18,7 @@ from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.table_figures import MethodsFigure
+from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
     from neural_shadows.evaluation.references import References
@@ -75,8 +76,8 @@ def draw(
     *,
     title: str,
     scene: Mapping[str, Any],
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[Row],
+    run: Run,
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,

@@ -1,6 +1,6 @@
 """Loss and quality over training samples, and what the smaller budgets predict of the largest."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -22,6 +22,7 @@ from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTE
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import RowsFigure
+from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,8 +57,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[Row],
+    run: Run,
 ) -> None:
     """Draw the learning curves of a scene.
 

@@ -19,6 +19,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import AnyFigure
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Model, Text, name_in, section_or
+from neural_shadows.settings.records import Run
 from neural_shadows.training.loss_curve import read_loss
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def draw(
     *,
     title: str,
     curves: Sequence[Mapping[str, str]],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> None:
     """Draw the loss curves of experiments.
 

@@ -1,6 +1,6 @@
 """Quality over what it costs: bytes in a file and in memory, time, building [5.4.1]."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -23,6 +23,7 @@ from neural_shadows.reports.tables import networks
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.table_figures import RowsFigure
 from neural_shadows.settings.base import Name
+from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,8 +84,8 @@ def draw(
     title: str,
     scene: str,
     costs: Sequence[str],
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[Row],
+    run: Run,
 ) -> None:
     """Draw a scene of a table of networks.
 

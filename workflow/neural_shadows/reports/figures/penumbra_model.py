@@ -1,6 +1,6 @@
 """The width that Neural Shadow Mapping's model gives penumbrae, beside what they measure (3.6)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -16,6 +16,7 @@ from neural_shadows.sections.any_report import AnyFigure, Chapter
 from neural_shadows.sections.own_frames import OwnFrames
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import name_in
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -59,7 +60,7 @@ def draw(
     svg: Path,
     *,
     title: str,
-    run: Mapping[str, Any],
+    run: Run,
 ) -> None:
     """Draw each penumbra pixel's width by the model over its measured width, for each radius.
 

@@ -26,6 +26,7 @@ from neural_shadows.sections.scenes import ViewSet
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import MethodsFigure
 from neural_shadows.settings.base import check_among
+from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,9 +88,9 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     view_sets: Sequence[str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> None:
     """Draw a frame of each view set by every method, whole and as two crops.
 

@@ -16,6 +16,7 @@ from neural_shadows.reports.tables import screen_temporal
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -61,7 +62,7 @@ def draw(
     *,
     title: str,
     labels: Mapping[str, str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> None:
     """Draw a line a method, and the exact shadow above them: a picture for each sequence.
 

@@ -1,6 +1,5 @@
 """The time of a network of whole frames by level, stacked by part, beside the printed one."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -19,6 +18,7 @@ from neural_shadows.reports.tables.screen_parts import NAMES, PRINTED
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +45,7 @@ def params(layout: Layout, figure: str) -> dict[str, Any]:
     return {"run": layout.run()}
 
 
-def draw(table: Path, png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Run) -> None:
     """Draw the CSV of a table of `screen_parts`.
 
     Raises:

@@ -1,6 +1,5 @@
 """How much of a network's answer hangs on each feature (Datta et al. 2022, figure 3)."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -18,6 +17,7 @@ from neural_shadows.reports.tables.screen_features import LEAST_SHARE
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,7 +42,7 @@ def params(layout: Layout, figure: str) -> dict[str, Any]:
     return {"run": layout.run()}
 
 
-def draw(table: Path, png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Run) -> None:
     """Draw the CSV of a table of `screen_features`.
 
     Raises:

@@ -1,6 +1,6 @@
 """Error over milliseconds of every method for soft shadows, on one thread of one device."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -20,6 +20,7 @@ from neural_shadows.reports.tables import soft_methods
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import RadiiFigure
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -54,7 +55,7 @@ def draw(
     *,
     title: str,
     radii: Sequence[int] | None,
-    run: Mapping[str, Any],
+    run: Run,
 ) -> None:
     """Draw a panel for each radius.
 

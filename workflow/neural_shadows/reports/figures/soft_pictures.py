@@ -27,6 +27,7 @@ from neural_shadows.sections.frame_sets import measured_scenes
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import RadiiFigure
 from neural_shadows.settings.base import check_among, name_in
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -133,7 +134,7 @@ def draw(
     title: str,
     labels: Mapping[str, str],
     radii: Sequence[int],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> None:
     """Draw the first frame of a part: a line a method, two pictures for each radius.
 

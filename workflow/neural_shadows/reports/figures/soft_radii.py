@@ -1,6 +1,5 @@
 """Error over the light's radius, a line a method (Hu et al. 2025, figure 9)."""
 
-from collections.abc import Mapping
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -21,6 +20,7 @@ from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import TableFigure
 from neural_shadows.settings.base import Name
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -52,7 +52,7 @@ def params(layout: Layout, figure: str) -> dict[str, Any]:
     return {"run": layout.run()}
 
 
-def draw(table: Path, png: Path, svg: Path, *, title: str, run: Mapping[str, Any]) -> None:
+def draw(table: Path, png: Path, svg: Path, *, title: str, run: Run) -> None:
     """Draw the CSV of a table of `soft_summary` that is by radius.
 
     Raises:

@@ -19,6 +19,7 @@ from neural_shadows.reports.tables import frame_times
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import TableFigure
+from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,8 +60,8 @@ def draw(
     svg: Path,
     *,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[Row],
+    run: Run,
 ) -> None:
     """Draw the networks of a table of frame times.
 

@@ -16,6 +16,7 @@ from neural_shadows.reports.data.frames import Frame, read_frames
 from neural_shadows.reports.data.inputs import by_folder
 from neural_shadows.reports.data.method_look import LOOKS, REFERENCE, look_of
 from neural_shadows.reports.page.blocks import webp_uri
+from neural_shadows.settings.records import Row
 
 MAP_LEVELS = 64  # of a FLIP map: steps of 0.016, and files a third as large as of 256
 REFERENCE_NAME = f"{LOOKS[REFERENCE].symbol} Reference"
@@ -32,7 +33,7 @@ def frame_comparisons(
     references: Sequence[Path],
     visibilities: Sequence[Path],
     metrics: Sequence[Path],
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     meshes: Mapping[str, str],
 ) -> list[dict[str, Any]]:
     """The frames, errors and FLIP maps of each scene that has some, as data for the page's script.

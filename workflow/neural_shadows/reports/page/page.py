@@ -22,6 +22,7 @@ from neural_shadows.reports.page.run_facts import run_facts, run_sentence
 from neural_shadows.reports.page.soft_comparison import soft_comparisons
 from neural_shadows.reports.page.table_blocks import table_block
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import Row, Run, SceneInfo
 
 SCRIPTS = ("reading.js", "script.js")
 
@@ -50,10 +51,10 @@ def write_page(
     soft_pictures: Sequence[Mapping[str, Any]],
     folded: Sequence[str],
     missing: Mapping[str, Sequence[str]],
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     kinds: Mapping[str, str],
-    run: Mapping[str, Any],
-    scenes: Mapping[str, Mapping[str, Any]],
+    run: Run,
+    scenes: Mapping[str, SceneInfo],
     benchmarks: Path,
 ) -> None:
     """Write the page of what is there, any of the lists may be empty, as one self-contained file.

@@ -11,12 +11,13 @@ import pandas as pd
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.data.inputs import by_folder
 from neural_shadows.running.origin import CHECKOUT, commit_of
+from neural_shadows.settings.records import Run, SceneInfo, TrainingRecord
 
 PACKAGES = ("snakemake", "torch", "embreex", "trimesh", "numpy", "lpips")
 
 
 def run_facts(
-    run: Mapping[str, Any],
+    run: Run,
     meshes: Mapping[str, str],
     trainings: Sequence[Path],
     lpips_json: Path | None,
@@ -45,9 +46,7 @@ def run_facts(
     return facts
 
 
-def run_sentence(
-    run: Mapping[str, Any], scenes: Mapping[str, Mapping[str, Any]], facts: Mapping[str, str]
-) -> str:
+def run_sentence(run: Run, scenes: Mapping[str, SceneInfo], facts: Mapping[str, str]) -> str:
     """What was run and on what, in one sentence; `facts` as `run_facts` gives them."""
     *first, last = dict.fromkeys(scene["mesh_name"] for scene in scenes.values())
     meshes = f"meshes {', '.join(first)} and {last}" if first else f"mesh {last}"
@@ -59,7 +58,7 @@ def run_sentence(
     )
 
 
-def _networks(records: Sequence[Mapping[str, Any]]) -> str:
+def _networks(records: Sequence[TrainingRecord]) -> str:
     """How many networks were trained and on how many samples, and how many only built."""
     trained = [record for record in records if record["training"]]
     built = len(records) - len(trained)

@@ -23,6 +23,7 @@ from neural_shadows.reports.data.table import Column, Table, numbers, write_tabl
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableOfOneScene
+from neural_shadows.settings.records import Row, Run, SceneInfo
 
 PRINTED = ("lpips", "psnr", "ssim")  # what the thesis's tables give, in its order
 
@@ -79,9 +80,9 @@ def table(
     title: str,
     published: str | None,
     against: str | None,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
-    scenes: Mapping[str, Mapping[str, Any]],
+    rows: Sequence[Row],
+    run: Run,
+    scenes: Mapping[str, SceneInfo],
 ) -> Table:
     """A comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
 
@@ -127,7 +128,7 @@ def table(
 
 def add_printed_maps(
     frame: pd.DataFrame,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Row],
     published: pd.Series,
     number: str | None,
 ) -> pd.DataFrame:

@@ -1,6 +1,6 @@
 """Frame time, quality and size of networks over their width [4.4.1, table 4.6]."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -19,6 +19,7 @@ from neural_shadows.reports.data.quality import scenes_quality, with_ends
 from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.rows import TableByScene
+from neural_shadows.settings.records import Row, Run
 
 PRINTED = ("frame_ms", "lpips", "size_kib")  # what the thesis prints, in its order
 
@@ -64,8 +65,8 @@ def table(
     published_csv: Path,
     title: str,
     published: str | None,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[Row],
+    run: Run,
 ) -> Table:
     """A table of frame times, in the order of `rows`.
 

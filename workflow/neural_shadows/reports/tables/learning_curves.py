@@ -29,6 +29,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.row_settings import RowSettings
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.records import CurvePoint, Run, SceneInfo
 from neural_shadows.training.loss_curve import read_loss
 
 # Headings, and decimals as the thesis prints them.
@@ -101,9 +102,9 @@ def table(
     title: str,
     published: str | None,
     rows: Sequence[Row],
-    curves: Mapping[str, Sequence[Mapping[str, Any]]],
-    run: Mapping[str, Any],
-    scenes: Mapping[str, Mapping[str, Any]],
+    curves: Mapping[str, Sequence[CurvePoint]],
+    run: Run,
+    scenes: Mapping[str, SceneInfo],
 ) -> Table:
     """The table of `curve_table` as CSV; as Markdown a row for each method and metric.
 

@@ -1,6 +1,6 @@
 """Memory of networks and shadow maps [4.4.2, table 4.7]."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,6 +15,7 @@ from neural_shadows.reports.data.published import add_printed
 from neural_shadows.reports.data.table import Table, numbers, write_table
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.rows import TableOfOneScene
+from neural_shadows.settings.records import Row, Run
 
 
 class Settings(TableOfOneScene):
@@ -46,8 +47,8 @@ def table(
     published_csv: Path,
     title: str,
     published: str | None,
-    rows: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    rows: Sequence[Row],
+    run: Run,
 ) -> Table:
     """The bytes of each method beside the thesis's numbers, which stand beside any mesh."""
     sizes = read_sizes(rows, weights)

@@ -34,13 +34,12 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.settings.base import name_in
+from neural_shadows.settings.records import Row, Run, SceneInfo
 
 # What a method is, beside its quality; empty where it does not apply.
 FACTS = ("encoding", "parameters", "stored_bytes", "coded", "resident_bytes", "build_seconds")
 FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end", "unfit")
 SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
-
-Row = Mapping[str, Any]
 
 
 class Settings(TableByScene):
@@ -101,8 +100,8 @@ def table(
     against: Mapping[str, str],
     durations: Mapping[str, Sequence[str]],
     rows: Sequence[Row],
-    run: Mapping[str, Any],
-    scenes: Mapping[str, Mapping[str, Any]],
+    run: Run,
+    scenes: Mapping[str, SceneInfo],
 ) -> Table:
     """The table in the order of `rows`, scenes kept together.
 

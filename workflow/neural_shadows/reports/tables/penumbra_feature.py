@@ -2,7 +2,6 @@
 2025, 4.1).
 """
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,6 +18,7 @@ from neural_shadows.reports.data.published_kpnsm import PAPER
 from neural_shadows.reports.data.table import Table, numbers, write_table
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.settings.records import Run
 
 if TYPE_CHECKING:
     from neural_shadows.frames.frame_set import FrameSetPart
@@ -46,7 +46,7 @@ def table(
     *,
     parts: list[Path],
     title: str,
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each light but points, and one for all of them.
 

@@ -15,6 +15,7 @@ from neural_shadows.reports.data import phrases
 from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
+from neural_shadows.settings.records import Run
 
 WIDE = 95  # percentile of the widths by which the paper chooses the network's levels
 
@@ -46,7 +47,7 @@ def table(
     parts: list[Path],
     meshes: list[Path],
     title: str,
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each scene and light: widths as measured and as modelled.
 

@@ -28,6 +28,7 @@ from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.base import Name, name_in
+from neural_shadows.settings.records import Run, TrainingRecord
 
 SUFFICES = 2.0  # times a row's least error: what is worse has too few levels (claim 3.6)
 
@@ -76,7 +77,7 @@ def table(
     published: str | None,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each scene and network: squared error of the largest light's shadow.
 
@@ -133,7 +134,7 @@ def depth_table(
     radius: int,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
-    records: Mapping[str, Mapping[str, Any]],
+    records: Mapping[str, TrainingRecord],
 ) -> pd.DataFrame:
     """A row for each scene and network, and for what learns nothing.
 
@@ -164,7 +165,7 @@ def _of(mine: pd.Series, metric: str) -> pd.Series:
     return mine[mine.index.get_level_values("metric") == metric]
 
 
-def _describe_learning(records: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]) -> str:
+def _describe_learning(records: Mapping[str, TrainingRecord], labels: Mapping[str, str]) -> str:
     """Errors over the steps: a deeper network may be behind only because it has learned too little."""
     told = []
     for name, record in records.items():

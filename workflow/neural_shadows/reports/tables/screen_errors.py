@@ -27,6 +27,7 @@ from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.base import name_in
+from neural_shadows.settings.records import Run, TrainingRecord
 
 TRAINING, VALIDATION, SEQUENCES = "training", "validation", "sequences"
 ALL = "all"  # lights of all radii
@@ -65,7 +66,7 @@ def table(
     widths_json: Path | None = None,
     title: str,
     labels: Mapping[str, str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each network, kind of frames and light.
 
@@ -100,7 +101,7 @@ def table(
 
 def errors_table(
     found: pd.DataFrame,
-    records: Mapping[str, Mapping[str, Any]],
+    records: Mapping[str, TrainingRecord],
     labels: Mapping[str, str],
     radii: Sequence[float],
 ) -> pd.DataFrame:
@@ -135,7 +136,7 @@ def errors_table(
     return table.assign(ratio=table["mse"].to_numpy() / base.reindex(keys).to_numpy())
 
 
-def _learned(record: Mapping[str, Any], same: bool) -> Iterator[dict[str, Any]]:
+def _learned(record: TrainingRecord, same: bool) -> Iterator[dict[str, Any]]:
     """What the training measured itself; nothing if that was of other lights."""
     for frames, name in ((TRAINING, "train_mse"), (VALIDATION, "validation_mse")):
         values = np.array(record[name], float) if same else np.array([])  # of None NaN
@@ -146,7 +147,7 @@ def _learned(record: Mapping[str, Any], same: bool) -> Iterator[dict[str, Any]]:
 
 
 def _unlearned(
-    null: str, record: Mapping[str, Any], radii: Sequence[float]
+    null: str, record: TrainingRecord, radii: Sequence[float]
 ) -> Iterator[dict[str, Any]]:
     """What learns nothing, on validation frames; in place of training frames, which are like them."""
     name = {"hard": "hard_map"}.get(null, null)
@@ -156,7 +157,7 @@ def _unlearned(
         yield from _learned(own, True)
 
 
-def _tested(mine: pd.DataFrame, record: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def _tested(mine: pd.DataFrame, record: TrainingRecord) -> Iterator[dict[str, Any]]:
     """Of each scene's test frames, and of sequences."""
     for scene, frames in mine.groupby("scene", sort=False):
         learned = scene in record["scenes"]

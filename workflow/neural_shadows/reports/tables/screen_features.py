@@ -32,6 +32,7 @@ from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.base import Name, name_in
+from neural_shadows.settings.records import Run
 
 LEAST_SHARE = 0.015  # of a feature that is kept (3.2)
 
@@ -80,7 +81,7 @@ def table(
     published: str | None,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each set of features: error, and the share of each feature's sensitivity.
 

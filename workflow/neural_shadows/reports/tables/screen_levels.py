@@ -1,6 +1,5 @@
 """A network of whole frames by level: time, multiply-adds, weights, storage (NSM, table S2)."""
 
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
@@ -24,6 +23,7 @@ from neural_shadows.reports.data.table import Table, filled, numbers, write_tabl
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import NsmTable
 from neural_shadows.settings.base import name_in
+from neural_shadows.settings.records import Run
 
 # Column, its unit, and the digits that the paper prints.
 COLUMNS = {
@@ -59,7 +59,7 @@ def table(
     published_nsm_csv: Path,
     title: str,
     published: str | None,
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """Write `level_table`; `profile_json`: what `profile_screen_network` wrote.
 

@@ -16,6 +16,7 @@ from neural_shadows.reports.data.table import Table, filled, numbers, write_tabl
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import NsmTable
 from neural_shadows.settings.base import Model, Name, name_in, section_or
+from neural_shadows.settings.records import Run
 
 
 class NetworkRow(Model):
@@ -64,7 +65,7 @@ def table(
     title: str,
     published: str | None,
     networks: Sequence[Mapping[str, Any]],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """Write `network_table`."""
     printed_numbers = read_published_nsm(published_nsm_csv)

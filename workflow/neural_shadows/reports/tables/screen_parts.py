@@ -1,6 +1,5 @@
 """The time of a network of whole frames by level and part (NSM, table S3)."""
 
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
@@ -24,6 +23,7 @@ from neural_shadows.reports.data.table import Table, filled, numbers, write_tabl
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import NsmTable
 from neural_shadows.settings.base import name_in
+from neural_shadows.settings.records import Run
 
 # What the paper calls the parts of `ShadowUnet.parts`.
 PRINTED = {
@@ -60,7 +60,7 @@ def table(
     published_nsm_csv: Path,
     title: str,
     published: str | None,
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """Write `part_table`; `profile_json`: what `profile_screen_network` wrote.
 

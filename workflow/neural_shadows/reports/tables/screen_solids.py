@@ -25,6 +25,7 @@ from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.base import name_in
+from neural_shadows.settings.records import Run
 
 
 class Settings(FramesTable):
@@ -57,7 +58,7 @@ def table(
     widths_json: Path | None = None,
     title: str,
     labels: Mapping[str, str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each network and number of solids.
 

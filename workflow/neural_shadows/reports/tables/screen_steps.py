@@ -44,6 +44,7 @@ from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.base import Model, Name, name_in
+from neural_shadows.settings.records import Profile, Run
 
 COLUMNS = (
     *("row", "null", "network", "precision", "run", "device", "runtime", "share", "size"),
@@ -111,7 +112,7 @@ def table(
     published: str | None,
     steps: Mapping[str, Mapping[str, Any]],
     labels: Mapping[str, str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each step: time, size and error, each beside the printed.
 
@@ -175,7 +176,7 @@ def table(
 
 def steps_table(
     steps: Mapping[str, Mapping[str, Any]],
-    profiles: Mapping[str, Mapping[str, Any]],
+    profiles: Mapping[str, Profile],
     found: pd.DataFrame | None,
 ) -> pd.DataFrame:
     """A row for each step, and for the errors of what learns nothing.

@@ -23,6 +23,7 @@ from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.settings.base import Name
+from neural_shadows.settings.records import Run
 
 
 class Settings(MethodsTable):
@@ -58,7 +59,7 @@ def table(
     widths_json: Path | None = None,
     title: str,
     labels: Mapping[str, str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """Two rows for each method: as it is, and each frame averaged with the one before.
 

@@ -31,6 +31,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name
+from neural_shadows.settings.records import Run, SoftTimes
 
 WITH_INTERVALS = ("mse", OFF_EDGES, "l1")
 ERRORS = ("mse", OFF_EDGES)
@@ -97,7 +98,7 @@ def table(
     labels: Mapping[str, str],
     left_out: Sequence[str],
     unseen: Sequence[str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each radius and method, in the order of `labels`.
 
@@ -171,7 +172,7 @@ def table(
 def soft_table(
     found: pd.DataFrame,
     radii: Sequence[float],
-    times: Mapping[str, Any],
+    times: SoftTimes,
     labels: Mapping[str, str],
     unseen: Sequence[str],
 ) -> pd.DataFrame:

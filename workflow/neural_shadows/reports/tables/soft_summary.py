@@ -2,7 +2,7 @@
 tables 1 to 4, figures 7 and 9).
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -26,6 +26,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Model, Name, Text, section_or
+from neural_shadows.settings.records import PartRecord, Run
 
 HEADS = {
     "mse": ("MSE × 10⁻⁴ ↓", "{:.2f}", 1e4),
@@ -129,7 +130,7 @@ def table(
     by: str | None,
     metrics: Sequence[str],
     measured: Sequence[str],
-    run: Mapping[str, Any],
+    run: Run,
 ) -> Table:
     """A row for each method, or for each scene or radius and method.
 
@@ -206,7 +207,7 @@ def _records(trainings: Sequence[Path]) -> dict[str, Any]:
 def _describe_frames(
     frames: pd.DataFrame,
     metrics: Sequence[str],
-    about: Mapping[str, Any],
+    about: PartRecord,
     radii: Sequence[float],
     unit: str,
     by_scene: bool,
