@@ -1,4 +1,4 @@
-"""Neural Shadow Ray Queries (Spanhoff 2026) as a reproducible pipeline; see README.md."""
+"""Neural Shadow Ray Queries (Spanhoff 2026), see README.md."""
 
 from snakemake.utils import min_version
 
@@ -35,9 +35,9 @@ rule all:
 
 
 onsuccess:
-    # Snakemake has now taken note of all networks.
+    # Snakemake has recorded all networks by now.
     for networks in ("networks", "screen_networks"):
         remove_finished(Path(PATHS.results) / networks)
-    made = [path for job in workflow.dag.finished_jobs for path in job.output]
-    if words := targets.closing_words(LAYOUT, made):
+    outputs = [path for job in workflow.dag.finished_jobs for path in job.output]
+    if words := targets.closing_words(LAYOUT, outputs):
         print(words)

@@ -34,13 +34,13 @@ def scene(methods, null=WORST):
     """Metrics of a scene.
 
     `methods`: {method: {metric: a mean, or values by view}}. Of the thesis's metrics each has `FAIR`
-    values, no shadow the `WORST`, where none are given.
+    values by default, no shadow the `WORST`.
     """
     methods = {method: FAIR | means for method, means in methods.items()}
     values = {
-        (method, metric): given if np.ndim(given) else views(given, seed=(i, j))
+        (method, metric): value if np.ndim(value) else views(value, seed=(i, j))
         for i, (method, means) in enumerate({**methods, "no_shadow": WORST | null}.items())
-        for j, (metric, given) in enumerate(means.items())
+        for j, (metric, value) in enumerate(means.items())
     }
     return pd.DataFrame(values, index=INDEX)
 
@@ -53,8 +53,13 @@ def loss_curve(end, start=1.0, points=100):
 def record(samples=THESIS_SAMPLES, seed=0, **changes):
     """The part of a training.json for claims."""
     training = {"steps": samples // 1000, "batch_size": 1000, "seed": seed}
-    made = {"samples": samples, "training": training, "no_shadow_loss": 0.5, "died_at_step": None}
-    return made | changes
+    defaults = {
+        "samples": samples,
+        "training": training,
+        "no_shadow_loss": 0.5,
+        "died_at_step": None,
+    }
+    return defaults | changes
 
 
 def points(name, budgets, seeds):
@@ -69,8 +74,8 @@ def points(name, budgets, seeds):
 def measured(scenes=None, curves=None, **changes):
     """All measured values; the experiments are the curves' and `trainings`."""
     curves = curves or {}
-    trainings = {point["experiment"]: record() for some in curves.values() for point in some}
-    given = {
+    trainings = {point["experiment"]: record() for curve in curves.values() for point in curve}
+    values = {
         "metrics": scenes or {},
         "losses": {},
         "trainings": trainings | changes.pop("trainings", {}),
@@ -82,7 +87,7 @@ def measured(scenes=None, curves=None, **changes):
         "curves": curves,
         "seed": 1,
     }
-    return Measured(**given | changes)
+    return Measured(**values | changes)
 
 
 def violated(false, leak):

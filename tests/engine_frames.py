@@ -31,11 +31,11 @@ def engine_images(rendered: MeasuredFrame) -> Images:
     frame, about = rendered.frame, rendered.part.about
     surface = frame.surface
     eye = surface.camera.eye - surface.p
-    z, d = (np.linalg.norm(ways, axis=1) for ways in (frame.ways, eye))
+    z, d = (np.linalg.norm(ways, axis=1) for ways in (frame.from_light, eye))
     points = {
         "z": z,
         "d": d,
-        "c_e": -np.einsum("ij,ij->i", frame.ways, surface.n) / z,
+        "c_e": -np.einsum("ij,ij->i", frame.from_light, surface.n) / z,
         "c_v": np.einsum("ij,ij->i", eye, surface.n) / d,
         **dict(zip(("n_x", "n_y", "n_z"), surface.n.T)),
     }

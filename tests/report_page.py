@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
-from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
 from neural_shadows.reports.page.page import write_page
 
 TEMPLATE = sorted((Path(__file__).parents[1] / "workflow" / "report" / "page").iterdir())
@@ -76,7 +76,7 @@ def make_page(folder: Path, **changes) -> Path:
     axes = chart.subplots()
     for x, text in enumerate((HOSTILE, *POINTS)):
         (point,) = axes.plot([x], [2], "o")
-        say(point, text)
+        add_tooltip(point, text)
     write_chart(chart, drawing.with_suffix(".png"), drawing)
     viewer = folder / "viewer.html"
     viewer.write_text(VIEWER)

@@ -23,7 +23,7 @@ from neural_shadows.frames.draw_settings import FrameKind, draw_setting, light_m
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.meshes.prepared_mesh import PreparedMesh
-from neural_shadows.rendering.light_samples import ring_ways
+from neural_shadows.rendering.light_samples import ring_vectors
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.tracing import NEARLY_ALL, EmbreeSingly
 
@@ -87,7 +87,7 @@ def _rays(scene: SoftScene) -> tuple[np.ndarray, np.ndarray]:
     frame = SoftFrame(scene.at_rest, surface, setting.centre, light_map)
     ways = np.empty((len(frame.starts), SAMPLES, 3), np.float32)
     light = frame.centre, np.array([RADIUS]), np.array([SAMPLES])
-    ring_ways(frame.starts, surface.pixel, 0, *light, ways)
+    ring_vectors(frame.starts, surface.pixel, 0, *light, ways)
     return np.repeat(frame.starts, SAMPLES, axis=0), ways.reshape(-1, 3)
 
 

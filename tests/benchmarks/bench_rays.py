@@ -9,7 +9,7 @@ from measurement import Row, median_seconds
 
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.rendering.light_samples import ring_ways
+from neural_shadows.rendering.light_samples import ring_vectors
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.embree_packets import EmbreePackets
 from neural_shadows.scenes.tracing import NEARLY_ALL, EmbreeSingly
@@ -45,7 +45,7 @@ def rows(quick: bool) -> list[Row]:
         for samples in SAMPLES:
             ways = np.empty((len(starts), samples, 3), np.float32)
             light = setting.centre, np.array([radius]), np.array([samples])
-            ring_ways(starts, surface.pixel, 0, *light, ways)
+            ring_vectors(starts, surface.pixel, 0, *light, ways)
             points = np.repeat(starts, samples, axis=0)
             stage = f"shadow rays, light of {radius} m, {samples} a pixel"
             add(stage, "occluded", points, ways.reshape(-1, 3), NEARLY_ALL)

@@ -16,7 +16,7 @@ from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.pretrained_trunk import MODELS
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 from neural_shadows.training.perceptual import Perceptual
-from neural_shadows.training.screen_crops import Crops, Place
+from neural_shadows.training.screen_crops import Crops, CropSample
 from neural_shadows.training.screen_loss import ScreenLoss
 from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.training_state import gradient_pool
@@ -56,7 +56,7 @@ class RandomFrames:
     def __len__(self) -> int:
         return 1
 
-    def crop(self, place: Place, side: int, aligned: bool) -> Crops:
+    def crop(self, place: CropSample, side: int, aligned: bool) -> Crops:
         """The same each time."""
         return self._crops
 
@@ -104,7 +104,7 @@ def _convolutions(run: ScreenRun, trunk: Path | None):
         return hook
 
     crops = run.frames.crop(None, SIDE, False)
-    parts = [(run._computing, 2, (True, True))]
+    parts = [(run._working_copy, 2, (True, True))]
     if trunk is not None:
         parts.append((run.loss._perceptual._layers, 3, (True, False)))
     hooks = [
@@ -114,7 +114,7 @@ def _convolutions(run: ScreenRun, trunk: Path | None):
         if isinstance(layer, torch.nn.Conv2d)
     ]
     with torch.no_grad():
-        run.loss.terms(run.answer(crops.features), crops.valid, [], 1)
+        run.loss.terms(run.predict(crops.features), crops.valid, [], 1)
     for hook in hooks:
         hook.remove()
 

@@ -135,7 +135,7 @@ def _frame(scene: SoftScene, width: int) -> SoftFrame:
     surface = see_surface(scene.at_rest, setting.camera, kind.width, kind.height)
     light_map = light_map_of(settings, scene, setting.centre)
     frame = SoftFrame(scene.at_rest, surface, setting.centre, light_map)
-    for name in ("ways", "cosines", "bias", "starts", "depths"):
+    for name in ("from_light", "cosines", "bias", "starts", "depths"):
         getattr(frame, name)
     return frame
 
@@ -143,12 +143,12 @@ def _frame(scene: SoftScene, width: int) -> SoftFrame:
 def numpy_disc(frame: SoftFrame, texels: float, samples: int = 128) -> np.ndarray:
     """Percentage-closer filtering over a disc, a sample of all pixels at a time."""
     angle = texels * 2 * frame.light_map.half / frame.light_map.resolution
-    return _lit_share(frame, np.full(len(frame.ways), angle), samples)
+    return _lit_share(frame, np.full(len(frame.from_light), angle), samples)
 
 
 def numpy_pcss(frame: SoftFrame, searched: int = 64, samples: int = 128) -> np.ndarray:
     """Percentage-closer soft shadows likewise."""
-    distance = np.linalg.norm(frame.ways, axis=1)
+    distance = np.linalg.norm(frame.from_light, axis=1)
     total, count = np.zeros((2, len(distance)))
     for texels in _looked_up(frame, RADIUS * 3 / distance, searched):
         depth = np.where(texels < 0, np.inf, frame.depths[texels])
@@ -161,7 +161,7 @@ def numpy_pcss(frame: SoftFrame, searched: int = 64, samples: int = 128) -> np.n
 
 
 def _lit_share(frame: SoftFrame, angles: np.ndarray, samples: int) -> np.ndarray:
-    distance, lit = np.linalg.norm(frame.ways, axis=1), 0
+    distance, lit = np.linalg.norm(frame.from_light, axis=1), 0
     for texels in _looked_up(frame, angles, samples):
         first = np.where(texels < 0, np.inf, frame.depths[texels])
         lit = lit + (distance <= first + frame.bias)
@@ -170,7 +170,7 @@ def _lit_share(frame: SoftFrame, angles: np.ndarray, samples: int) -> np.ndarray
 
 def _looked_up(frame: SoftFrame, angles: np.ndarray, samples: int):
     """Texels of each sample of a disc of directions round each point's; −1 off a map of one face."""
-    forward = frame.ways / np.linalg.norm(frame.ways, axis=1, keepdims=True)
+    forward = frame.from_light / np.linalg.norm(frame.from_light, axis=1, keepdims=True)
     right = np.cross(forward, np.array([0.3, 0.5, 0.8], np.float32))
     right /= np.linalg.norm(right, axis=1, keepdims=True)
     down = np.cross(forward, right)
@@ -199,9 +199,11 @@ def numpy_moments(frame: SoftFrame) -> np.ndarray:
     kernel, moments = box(9), q[..., None] ** np.arange(1, 5)
     for axis in (0, 1):
         moments = np.apply_along_axis(np.convolve, axis, moments, kernel, "same")
-    texels = np.maximum(_numpy_texels(frame.light_map, frame.light_map.faces[0] @ frame.ways.T), 0)
+    texels = np.maximum(
+        _numpy_texels(frame.light_map, frame.light_map.faces[0] @ frame.from_light.T), 0
+    )
     b = (1 - MOMENT_BIAS) * moments.reshape(-1, 4)[texels] + MOMENT_BIAS / 2
-    z = (np.linalg.norm(frame.ways, axis=1) - frame.bias) / far
+    z = (np.linalg.norm(frame.from_light, axis=1) - frame.bias) / far
     one = np.ones_like(z)
     rows_ = [[one, b[:, 0], b[:, 1]], [b[:, 0], b[:, 1], b[:, 2]], [b[:, 1], b[:, 2], b[:, 3]]]
     hankel = np.moveaxis(np.array(rows_), -1, 0) + 1e-9 * np.eye(3)

@@ -39,7 +39,7 @@ def test_in_an_overlay(fresh, tmp_path):
     twice = tmp_path / "twice.yaml"
     twice.write_text("networks:\n  small: {frequencies: 1}\n  small: {frequencies: 2}\n")
     said = refused(fresh, overlays=[twice])
-    assert "twice.yaml, line 3: 'small' is there twice; give each name once" in said
+    assert "twice.yaml, line 3: 'small' is defined twice. Define it once" in said
 
 
 @pytest.mark.parametrize(

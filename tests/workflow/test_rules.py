@@ -62,7 +62,7 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
 
 def test_an_argument_that_is_no_wildcard_is_refused(workflow):
     answer = workflow.globals["of"](lambda layout, scnee: scnee)
-    with pytest.raises(WorkflowError, match="'scnee' is no wildcard of the rule; .* scene"):
+    with pytest.raises(WorkflowError, match="'scnee' is no wildcard of the rule. .* scene"):
         answer(Wildcards(fromdict={"scene": "dragon"}))
 
 

@@ -1,5 +1,6 @@
-"""The checked configuration and the names that the rules share."""
+"""The checked configuration and shared names of the rules."""
 
+import functools
 import hashlib
 import inspect
 import os
@@ -8,16 +9,16 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-# The package of this checkout, for the rules and for the stages that they start; of the checkout
-# that the file lies in, for as a module another workflow's Snakefile is the main one.
+# The package of this file's checkout, for the rules and their stages: as a module, the main Snakefile
+# is another workflow's.
 WORKFLOW = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parent
 sys.path.insert(0, str(WORKFLOW))
 SEARCH_PATH = "PYTHONPATH"
 inherited = [path for path in [os.environ.get(SEARCH_PATH)] if path]
 os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
 
-# numba keeps compiled kernels by the age of their own file: one that calls a kernel of another
-# module would stay as it was when that module is edited. Keyed by the package's content it cannot.
+# numba caches kernels by the age of their own file: a kernel that calls one of another, edited module
+# would be stale. The cache's folder is therefore named by the package's content.
 package = b"".join(
     path.read_bytes() for path in sorted(WORKFLOW.glob("neural_shadows/**/*.py"))
 )
@@ -26,8 +27,8 @@ kernels = os.path.abspath(
 )
 os.environ.update(NUMBA_CACHE_DIR=kernels)
 
-# glibc hands arrays back to the system and asks for them again, which clears their pages: of 20 CPU s
-# of `evaluate_soft` 3.2 went there. It shall keep up to 256 MiB, and take those below 32 MiB from it.
+# glibc returns arrays to the system and requests them again, which clears their pages: 3.2 of 20 CPU
+# seconds of `evaluate_soft`. Keep up to 256 MiB, and serve arrays below 32 MiB from them.
 os.environ.setdefault("MALLOC_MMAP_THRESHOLD_", str(32 << 20))
 os.environ.setdefault("MALLOC_TRIM_THRESHOLD_", str(256 << 20))
 
@@ -37,14 +38,8 @@ from neural_shadows.config.targets import check_targets
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method_names import REFERENCES, hard_modules
 from neural_shadows.evaluation.soft_registry import method_module
-from neural_shadows.layout import (
-    frame_sets,
-    kinds,
-    parts,
-    screen_networks,
-    soft_methods,
-)
-from neural_shadows.layout import tables, viewers
+from neural_shadows.layout import frame_sets, kinds, parts, screen_networks
+from neural_shadows.layout import soft_methods, tables, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import form_module, kind_module
 from neural_shadows.reports.claims import inputs as claims
@@ -76,7 +71,7 @@ VIEWER = [
 ]
 STAGES = WORKFLOW / "neural_shadows"
 
-# What a job that computes networks reserves; with `device: auto` a GPU is used, not reserved.
+# GPUs of a job that computes networks; with `device: auto` a GPU is used, not reserved.
 GPUS = int(COMPUTE["device"] == "cuda")
 
 
@@ -90,53 +85,52 @@ wildcard_constraints:
     batch=f"[0-9]+|{parts.HELD_OUT}",
     frame_set="[a-z][a-z0-9_]*",
     part="[a-z]+_[0-9]+",
-    # Names that no entry of the configuration has are refused by what looks them up.
+    # Names without an entry in the configuration are refused by the functions below.
     table=r"(?!claims\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",
     viewer="viewer(_[a-z0-9_]+)?",
 
 
 def setting(path):
-    """A param: what stands at a path of the configuration, whose names may be wildcards.
+    """A param: the setting at a path with wildcards.
 
-    Snakemake's own `lookup` walks all settings for each: 17 of 24 s in which everything was planned.
+    Snakemake's own `lookup` walks all settings for each: 17 of 24 s of planning.
     """
     keys = path.split("/")
 
-    def answer(wildcards):
-        found = SETTINGS
+    def value_of(wildcards):
+        value = SETTINGS
         for key in keys:
-            found = found[key.format(**wildcards)]
-        return found
+            value = value[key.format(**wildcards)]
+        return value
 
-    return answer
+    return value_of
 
 
 def of(function):
-    """An input or a param: what a function of the layout answers for the wildcards it names."""
-    needed = [*inspect.signature(function).parameters]
+    """An input or a param: a layout function of wildcards."""
+    names = [*inspect.signature(function).parameters]
 
-    def answer(wildcards):
-        given = {"layout": LAYOUT, **dict(wildcards.items())}
-        if unknown := [name for name in needed if name not in given]:
+    def value_of(wildcards):
+        arguments = {"layout": LAYOUT, **dict(wildcards.items())}
+        if unknown := [name for name in names if name not in arguments]:
             raise WorkflowError(
-                f"{function.__name__}: {unknown[0]!r} is no wildcard of the rule; name one of "
-                f"{', '.join(given)}"
+                f"{function.__name__}: {unknown[0]!r} is no wildcard of the rule. Name one of "
+                f"{', '.join(arguments)}"
             )
-        return function(**{name: given[name] for name in needed})
+        return function(**{name: arguments[name] for name in names})
 
-    return answer
+    return value_of
 
 
 def code(stage, encodings=(), generators=(), methods=(), forms=(), modules=()):
-    """A param: what the package's modules hold that the result of a stage depends on, as a digest.
+    """A param: a digest of the modules behind a stage's result.
 
-    A network's module is imported by its kind's name, of whole frames by its form's, that of a scene by
-    its generator's, that of a method for soft shadows by its key, so that they are among them only for
-    the jobs that use such a network, such a scene, or such a method; other `modules` likewise.
+    Modules imported by name are included only for the jobs that use them: of networks by kind, of
+    screen-space networks by form, of scenes by generator, of methods for soft shadows by key, and
+    other `modules`.
 
-    As inputs the modules would be compared by their content as well, and looked at by the scheduler
-    before each job: a hundred of them and more for each that is ready.
+    As inputs, a hundred modules and more would be checked by the scheduler for each ready job.
     """
     sources = [
         STAGES / f"{stage}.py",
@@ -148,11 +142,17 @@ def code(stage, encodings=(), generators=(), methods=(), forms=(), modules=()):
         *map(method_module, methods),
         *modules,
     ]
+    return digest_of(frozenset(sources))
+
+
+@functools.cache
+def digest_of(sources):
+    """The digest of some modules and of all that they import."""
     return digest({module for source in sources for module in modules_of(source)})
 
 
 def usual(mem_mb, minutes):
-    """Memory and minutes of a job: as much again for each attempt after a failed one."""
+    """Memory and minutes of a job, in proportion to attempts."""
     return {
         "mem_mb": lambda wildcards, attempt: mem_mb * attempt,
         "runtime": lambda wildcards, attempt: minutes * attempt,

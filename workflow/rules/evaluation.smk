@@ -1,4 +1,4 @@
-"""References, methods and metrics on batches of viewpoints; times [4.1, 4.4]."""
+"""References and methods on viewpoints, and times [4.1, 4.4]."""
 
 
 rule find_lpips:
@@ -8,7 +8,7 @@ rule find_lpips:
         lpips_json=PATHS.lpips,
     log:
         PATHS.log("find_lpips"),
-    # It may download: on a cluster, nodes that compute often have no network.
+    # May download: compute nodes of clusters often have no network.
     localrule: True
     conda:
         ENVIRONMENT
@@ -18,7 +18,7 @@ rule find_lpips:
         code=code("metrics/find_lpips"),
         net=setting("metrics/lpips/net"),
     message:
-        "Looking for LPIPS's pretrained trunk"
+        "Finding LPIPS's pretrained backbone"
     script:
         "../neural_shadows/metrics/find_lpips.py"
 
@@ -152,7 +152,7 @@ rule measure_frame_times:
         PATHS.benchmark("measure_frame_times", "table", "scene")
     conda:
         ENVIRONMENT
-    # It computes on one: with all that a training takes, nothing disturbs it on a small machine.
+    # It computes on one thread; reserving those of a training keeps a small machine undisturbed.
     threads: COMPUTE["threads"]
     resources:
         **usual(4000, minutes=120),

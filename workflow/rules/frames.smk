@@ -1,4 +1,4 @@
-"""Frames of scenes in metres: buffers, and the exact soft shadows of lights of several radii."""
+"""Frames of scenes in metres: buffers and exact soft shadows."""
 
 
 rule render_frames:
@@ -16,7 +16,7 @@ rule render_frames:
         PATHS.benchmark("render_frames", "scene", "frame_set", "part")
     conda:
         ENVIRONMENT
-    # One, for there are many parts: in turn on two threads they kept two cores busy for three quarters.
+    # There are many parts: one after the other on two threads, they used three quarters of two cores.
     threads: 1
     resources:
         **usual(4000, minutes=120),

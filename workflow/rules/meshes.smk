@@ -1,4 +1,4 @@
-"""Mesh source → clean mesh in normalised space, with its bounding sphere."""
+"""Mesh source → clean mesh in normalised space."""
 
 
 rule generate_mesh:
@@ -16,7 +16,7 @@ rule generate_mesh:
         code=code("meshes/generate_mesh"),
         mesh=setting("scenes/{scene}/mesh"),
     message:
-        "Making the mesh of scene {wildcards.scene}"
+        "Generating the mesh of scene {wildcards.scene}"
     script:
         "../neural_shadows/meshes/generate_mesh.py"
 
@@ -27,7 +27,7 @@ rule download_mesh:
     log:
         PATHS.log("download_mesh", "scene"),
     retries: 2
-    # On a cluster, nodes that compute often have no network.
+    # Compute nodes of clusters often have no network.
     localrule: True
     conda:
         ENVIRONMENT

@@ -16,7 +16,7 @@ rule train:
         ENVIRONMENT
     threads: COMPUTE["threads"]
     resources:
-        # Minutes are not more for each attempt: it goes on from its last checkpoint.
+        # The same minutes for each attempt: it resumes from its last checkpoint.
         **usual(8000, minutes=600) | {"runtime": 600},
         gpu=lambda wildcards: GPUS * LAYOUT.is_trained(wildcards.experiment),
     params:

@@ -1,4 +1,4 @@
-"""Tables, figures, claims and the page, from what was measured."""
+"""Tables, figures, claims and the page."""
 
 
 rule table:
@@ -148,7 +148,7 @@ rule page:
         "../neural_shadows/reports/page/page.py"
 
 
-# What it shows are params, not inputs: nothing is made, or made again, for it.
+# Shown reports are params, not inputs, so that none is made for it.
 use rule page as available with:
     input:
         template=TEMPLATE,
@@ -161,4 +161,4 @@ use rule page as available with:
         settings=of(targets.available_arguments),
         beside=of(targets.newest),
     message:
-        "Writing a page of the reports that are there"
+        "Writing a page of the available reports"

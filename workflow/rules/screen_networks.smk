@@ -1,4 +1,4 @@
-"""Networks that answer whole frames."""
+"""Screen-space networks."""
 
 
 rule profile_screen_network:
@@ -10,7 +10,7 @@ rule profile_screen_network:
         PATHS.benchmark("profile_screen_network", "network")
     conda:
         ENVIRONMENT
-    # All that a training takes, so that nothing disturbs it on a small machine.
+    # The threads of a training keep a small machine undisturbed.
     threads: COMPUTE["threads"]
     resources:
         **usual(8000, minutes=60),
@@ -44,7 +44,7 @@ rule train_screen:
         ENVIRONMENT
     threads: COMPUTE["threads"]
     resources:
-        # Minutes are not more for each attempt: it goes on from its last checkpoint.
+        # The same minutes for each attempt: it resumes from its last checkpoint.
         **usual(8000, minutes=600) | {"runtime": 600},
         gpu=GPUS,
     params:
@@ -83,6 +83,6 @@ rule measure_sensitivity:
         ),
         seed=SETTINGS["seed"],
     message:
-        "Measuring what each feature is worth to {wildcards.experiment}"
+        "Measuring the sensitivity of {wildcards.experiment} to its features"
     script:
         "../neural_shadows/evaluation/measure_sensitivity.py"

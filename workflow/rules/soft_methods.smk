@@ -72,7 +72,7 @@ rule measure_widths:
     params:
         code=code("evaluation/measure_widths"),
     message:
-        "Measuring how wide the penumbrae of {wildcards.frame_set} are"
+        "Measuring widths of penumbrae in {wildcards.frame_set}"
     script:
         "../neural_shadows/evaluation/measure_widths.py"
 
@@ -98,7 +98,7 @@ rule measure_occluders:
             generators=frame_sets.generators(LAYOUT, [wildcards.scene]),
         ),
     message:
-        "Measuring what blocks the light in {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"
+        "Measuring occluders in {wildcards.part} of {wildcards.scene} for {wildcards.frame_set}"
     script:
         "../neural_shadows/evaluation/measure_occluders.py"
 
@@ -166,7 +166,7 @@ rule answer_frames:
         label=of(soft_methods.label),
         by_scene=of(soft_methods.by_scene),
     message:
-        "Answering the frames of {wildcards.frame_set} by {wildcards.method}"
+        "Evaluating {wildcards.method} on the frames of {wildcards.frame_set}"
     script:
         "../neural_shadows/reports/answers/answer_frames.py"
 
@@ -186,7 +186,7 @@ rule time_soft_methods:
         PATHS.benchmark("time_soft_methods", "table")
     conda:
         ENVIRONMENT
-    # It computes on one: with all that a training takes, nothing disturbs it on a small machine.
+    # It computes on one thread; reserving those of a training keeps a small machine undisturbed.
     threads: COMPUTE["threads"]
     resources:
         **usual(4000, minutes=120),

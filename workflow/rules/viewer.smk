@@ -1,4 +1,4 @@
-"""What leaves for a renderer or a browser: a network as ONNX, a scene in which the light is dragged."""
+"""Exports: networks as ONNX, and scenes with a movable light."""
 
 
 rule export_network:
@@ -49,6 +49,6 @@ rule viewer:
         ),
         settings=of(viewers.arguments),
     message:
-        "Writing {wildcards.viewer}: a scene in which the light can be dragged"
+        "Writing {wildcards.viewer}: a scene with a movable light"
     script:
         "../neural_shadows/viewer/write_viewer.py"

@@ -14,31 +14,31 @@ claims.slower_than_shadow_maps.kind | null | claims.slower_than_shadow_maps: the
 networks.thesis.encoding | wavelet | encoding = 'wavelet': should be one of 'frequency', 'hash_grid'
 experiments.dragon_hash_grid.network.table_size | 1000 | table_size: 1000 is not a power of two
 trainings.base.learning_rate | 1e-3 | = '1e-3': is text to YAML; write a number with a
-scale | networks | scale = 'networks': is the name of a folder of results
-scenes.dragon.mesh.path | x.ply | (an overlay drops a key of the default by setting it to null)
-scenes.landscape.light.axis | y | must be horizontal, not `up`; allowed: x, z
+scale | networks | scale = 'networks': is a folder of results
+scenes.dragon.mesh.path | x.ply | (an overlay removes a key of the default by setting it to null)
+scenes.landscape.light.axis | y | must be horizontal, not `up`. Allowed: x, z
 scenes.landscape.view_sets | [shadow] | 'shadow' needs a scene with ground: true
 experiments.dragon.scene | dog | experiments.dragon.scene: 'dog' is not among dragon, fence
 experiments.dragon.network | thesi | experiments.dragon.network: 'thesi' (did you mean 'thesis'?)
-experiments.dragon_biased | {like: dragon} | experiments.dragon_biased: '_biased' ends a row's name
-experiments.twin | {like: dragon} | experiments.twin: is the same as experiments.dragon
-tables.maps | {rows: [shadow_map_64], title: x} | tables.maps: has shadow maps alone and needs a `scene`
+experiments.dragon_biased | {like: dragon} | experiments.dragon_biased: '_biased' is the ending of rows with a bias
+experiments.twin | {like: dragon} | experiments.twin: equals experiments.dragon
+tables.maps | {rows: [shadow_map_64], title: x} | tables.maps: has shadow maps only. Add `scene`
 tables.table_4_3.rows.0 | dragn | tables.table_4_3.rows of dragon: 'dragn' (did you mean 'dragon
-tables.table_4_3.rows.0 | shadow_map_512 | 'shadow_map_512' is there twice
+tables.table_4_3.rows.0 | shadow_map_512 | 'shadow_map_512' is listed twice
 figures.figure_4_4.view_sets | [centre] | figure_4_4.view_sets: 'centre' is not among shadow, su
 figures.figure_beyond_dragon.table | table_4_6 | 'table_4_6' is not among beyond, ablations
 figures.figure_beyond_slice.experiment | dragon | experiment: 'dragon' (did you mean 'dragon_fi
 viewers.viewer.scene | dragn | viewers.viewer.scene: 'dragn' (did you mean 'dragon'?) is not among
-viewers.viewer.networks | [shadow_map_64] | 'shadow_map_64' is no experiment; shadow maps are there
-viewers.viewer.networks | [fence] | viewers.viewer.networks: 'fence' is of scene 'fence', the viewer of
-viewers.viewer.networks | [dragon_hash_grid] | is a hash_grid; a viewer can show frequency, occupancy_field
+viewers.viewer.networks | [shadow_map_64] | 'shadow_map_64' is not an experiment. Remove it; shadow maps are
+viewers.viewer.networks | [fence] | viewers.viewer.networks: 'fence' has the scene 'fence', the viewer
+viewers.viewer.networks | [dragon_hash_grid] | is a hash_grid, without a shader. Allowed: frequency, occupancy_field
 viewers.table | {scene: dragon} | viewers.table
-claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | one of them should be an experiment
+claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | no experiment among them. Add one
 claims.learning_rate.pairs | [[dragon, dragon]] | 'dragon' is compared with itself
 claims.learning_rate.pairs | [[dragon, dragon_field]] | 'dragon_field' of encoding 'occupancy_field' has another loss
 claims.learning_rate.pairs | [[dragon, dragn]] | learning_rate.pairs.0.1: 'dragn' (did you mean
-claims.sampling.pairs | [[no_shadow_biased, dragon]] | has no depth bias; write 'no_shadow'
-claims.sampling.metrics | [lpips, lpips] | claims.sampling.metrics: 'lpips' is there twice
+claims.sampling.pairs | [[no_shadow_biased, dragon]] | has no depth bias. Write 'no_shadow'
+claims.sampling.metrics | [lpips, lpips] | claims.sampling.metrics: 'lpips' is listed twice
 claims.sampling.needs | {device: tpu} | needs.device = 'tpu': Input should be 'cuda' or 'cpu'
 claims.sampling.needs | {seeds: many} | needs.seeds = 'many': Input should be a valid integer
 claims.sampling.needs | {seeds: 0} | needs.seeds = 0: Input should be greater than or equal to 1
@@ -50,46 +50,46 @@ claims.printed_comparable_to_512.equivalent_to | 64 | 'shadow_map_64' (did you m
 claims.printed_comparable_to_512.equivalent_to | null | needs `pairs`, or `row` and `equivalent
 claims.printed_wider_is_worse_on_the_landscape.metrics | [psnr] | metrics of table 4.6: 'psnr' is
 learning_curves | {experiments: [dragon], steps: [500, 1000], seeds: 3} | learning_curves.steps: [500, 1000] are fewer than 3 budgets
-learning_curves | {experiments: [dragon], steps: [1, 3, 2], seeds: 3} | steps: [1, 3, 2]: must grow
+learning_curves | {experiments: [dragon], steps: [1, 3, 2], seeds: 3} | steps: [1, 3, 2]: must be ascending
 learning_curves | {experiments: [dragn], steps: [1, 2, 3], seeds: 3} | experiments.0: 'dragn' (did you
-learning_curves | {experiments: [fence, fence], steps: [1, 2, 3], seeds: 3} | 'fence' is there twice
+learning_curves | {experiments: [fence, fence], steps: [1, 2, 3], seeds: 3} | 'fence' is listed twice
 tables.curves | {kind: learning_curves, title: x, rows: {dragon: [dragon]}} | tables.curves.kind: 'learning_curves' needs the section `learning_curves`
-tables.table_4_3.rows.0 | {method: no_shadow, bias: held_out} | tables.table_4_3.rows of dragon: 'no_shadow' with a bias: a null predictor has no depth bias
+tables.table_4_3.rows.0 | {method: no_shadow, bias: held_out} | tables.table_4_3.rows of dragon: 'no_shadow' is a null predictor and has no depth bias
 tables.table_4_3.rows.0 | {method: ray_traced, bias: held_out} | 'ray_traced' is not among shadow_map_N
 tables.table_4_3.rows.0 | shadow_map_512_biased | 'shadow_map_512_biased' (did you mean
 tables.table_4_3.against | dragon_64 | table_4_3.against: 'dragon_64' (did you mean
 tables.beyond.against | {fence: dragon} | tables.beyond.against: 'dragon' is not among ray_traced
 experiments.tiny | {scene: dragon, network: {encoding: mesh, triangles: 3}} | experiments.tiny.network.triangles = 3: Input should be greater than or equal to 4
-experiments.tiny | {scene: dragon, network: {encoding: mesh, stored: coded, bits: 24}} | experiments.tiny.network: bits = 24: a coded mesh has at most 23
-experiments.tiny | {scene: dragon, network: {encoding: mesh}, training: base} | experiments.tiny: a network of the kind 'mesh' is built and not trained
-experiments.dragon_field.training | muon | experiments.dragon_field.training: optimiser = 'muon': is for matrices between two layers of neurons
+experiments.tiny | {scene: dragon, network: {encoding: mesh, stored: coded, bits: 24}} | experiments.tiny.network: bits: 24: more than the 23 of a coded mesh
+experiments.tiny | {scene: dragon, network: {encoding: mesh}, training: base} | experiments.tiny: a network of the kind 'mesh' has no training
+experiments.dragon_field.training | muon | experiments.dragon_field.training: optimiser = 'muon': needs matrices between two hidden layers
 tables.table_4_7.against | dragon | tables.table_4_7: unknown key: 'against' is not among
 tables.table_4_6.against | {dragon: dragon} | tables.table_4_6: unknown key: 'against' is not among
 experiments.landscape_heights.network.up | z | network: unknown key: 'up'
-experiments.tiny | {scene: dragon, sampling: uniform, network: {encoding: ray_grid, hidden_layers: 1}, training: muon} | this network of the kind 'ray_grid' has none; use adam
-networks.sheet_256.start | distances | start: distances needs an inside
-networks.sheet_256.start | fitted | start: fitted needs an inside
+experiments.tiny | {scene: dragon, sampling: uniform, network: {encoding: ray_grid, hidden_layers: 1}, training: muon} | this network of the kind 'ray_grid' has none. Use adam
+networks.sheet_256.start | distances | start: distances: surface: sheet has no inside
+networks.sheet_256.start | fitted | start: fitted: surface: sheet has no inside
 experiments.dragon_field.training | null | experiments.dragon_field.training: this key is missing
 experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tables has a name like
-experiments.dragon.training | null | experiments.dragon.training: this key is missing; a network
-experiments.dragon.sampling | null | experiments.dragon.sampling: this key is missing; a network
+experiments.dragon.training | null | experiments.dragon.training: this key is missing. A trained network
+experiments.dragon.sampling | null | experiments.dragon.sampling: this key is missing. A trained network
 claims.slower_than_shadow_maps.pairs | [[dragon, shadow_map_8]] | 'shadow_map_8' (did you me
-frame_sets.frames.scenes | [dragon] | scenes.0: 'dragon' is in `scenes` and has no metres; let it
+frame_sets.frames.scenes | [dragon] | scenes.0: 'dragon' is in `scenes`, whose unit is unknown. Insert it
 frame_sets.frames.scenes | [rom] | frame_sets.frames.scenes.0: 'rom' (did you mean 'room'?) is not among
-frame_sets.frames.unseen | [hall] | frame_sets.frames: unseen: hall is among `scenes`, too
-frame_sets.nsm.scenes | [garden] | 'garden' is a garden, which no network may
-frame_sets.frames.unseen | [room] | frame_sets.frames.unseen: 'room' is a room, which networks train on here, and nothing in it is new
+frame_sets.frames.unseen | [hall] | frame_sets.frames: unseen: hall is also in `scenes`
+frame_sets.nsm.scenes | [garden] | 'garden' has the generator 'garden', which is for tests only
+frame_sets.frames.unseen | [room] | frame_sets.frames.unseen: 'room' has the generator 'room' and no object beyond
 frame_sets.nsm.twins | {count: 3, light_texels: 1, light: 0.01} | frame_sets.nsm.twins: unknown key: 'light' (did you mean
 frame_sets.nsm.twins | {count: 3, eye_pixels: 1} | frame_sets.nsm.twins: unknown key: 'eye_pixels'
 soft_scenes.room.penumbra | 90 | soft_scenes.room.penumbra: needs `generate: plate` and one object
 frame_sets.frames.radii | [-0.1, 0.2] | frame_sets.frames.radii.0 = -0.1: Input should be greater than
-frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: must grow
-frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence has two frames or more
-frame_sets.windows.of | {width: 64, height: 64} | frame_sets.windows: of = 64 × 64: must not be smaller
+frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: must be ascending
+frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence needs at least two frames
+frame_sets.windows.of | {width: 64, height: 64} | frame_sets.windows: of = 64 × 64: must be at least the window
 frame_sets.frames.light_map.resolution | 100 | light_map.resolution: 100 is not a power of two
 soft_scenes.room.seed | -1 | soft_scenes.room.seed = -1: Input should be greater than or equal to 0
-soft_scenes.court_3.seed | 1 | frame_sets.frames: 'court_1' and 'court_3' are one scene and would count
-soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each only once
+soft_scenes.court_3.seed | 1 | frame_sets.frames: 'court_1' and 'court_3' are the same scene
+soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each object once
 tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'
 claims.pcss_better_than_msm.radii | [-1] | radii.0 = -1: Input should be greater than or equal to 0
@@ -101,9 +101,9 @@ screen_networks.layers_7.widths | [16, 0] | widths.1 = 0: Input should be greate
 screen_networks.original.widths | [32, [64, 32]] | screen_networks.original.widths.1 = [64, 32]: Input should be a valid integer
 screen_networks.nsm.pool | max | screen_networks.nsm: unknown key: 'pool' is not among
 screen_networks.nsm.features | [ratoi] | screen_networks.nsm.features: 'ratoi' (did you mean 'ratio'?) is not among c_e, view
-screen_networks.nsm.features | [z, z] | screen_networks.nsm.features: 'z' is there twice
+screen_networks.nsm.features | [z, z] | screen_networks.nsm.features: 'z' is listed twice
 screen_experiments.pcss | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | screen_experiments.pcss: a method of soft tables has this name
-screen_experiments.mine_bfloat16 | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | screen_experiments.mine_bfloat16: '_bfloat16' ends the name of a network in that number
+screen_experiments.mine_bfloat16 | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | screen_experiments.mine_bfloat16: '_bfloat16' is the ending of networks in that number
 networks_by_scene.rt_4 | {label: x, experiments: [nsm, kpnsm]} | networks_by_scene.rt_4: a method of soft tables has this name
 tables.nsm_temporal.frame_set | nsm_between | tables.nsm_temporal.frame_set: frame_sets.nsm_between has sequence = 0
 tables.nsm_temporal.methods | [pcs] | tables.nsm_temporal.methods: 'pcs' (did you mean 'pcss'?)
@@ -126,8 +126,8 @@ def test_mistakes(message, values, mistake):
 def test_maps_need_a_scene(message, values):
     values["frame_sets"]["mine"] = {"path": "mine"}
     values["tables"]["soft_windows"]["frame_set"] = "mine"
-    told = "soft_windows.methods: 'exact_centre' needs a scene to look at, and frames of"
-    assert told in message(values)
+    words = "soft_windows.methods: 'exact_centre' needs the scene's geometry, and a user's own"
+    assert words in message(values)
 
 
 def test_networks_need_none(values):

@@ -24,7 +24,7 @@ def test_dragon_shorthand(message, shorthand, mesh):
     before = copy.deepcopy(given)
     assert read_config(given).scenes["dragon"].mesh == mesh
     assert given == before  # what Snakemake holds is not changed
-    assert "is empty; allowed: wyrm" in message({**given, "dragon": ""})
+    assert "is empty. Allowed: wyrm" in message({**given, "dragon": ""})
     del given["scenes"]["dragon"]
     assert "no scene named `dragon`" in message(given)
 
@@ -36,7 +36,7 @@ def test_null_drops_a_key(message, values):
     config = read_config(values)
     assert config.scenes["dragon"].mesh == MeshFile(path="x.ply")
     assert "ablations" not in config.tables
-    # What it was named by is then told.
+    # The message names the referring key.
     assert "tables.table_4_3.figures.0: 'figure_4_4'" in message("figures.figure_4_4", None)
 
 
@@ -48,7 +48,7 @@ def test_mesh_files(values, tmp_path, monkeypatch):
     for path, words in (
         ("stanfrod", "'stanfrod' (did you mean 'stanford'?) is not among wyrm, stanford, and"),
         ("none.ply", "= 'none.ply': no such file"),
-        ("there.fbx", "mesh there.fbx: the format is not known by this suffix; give one of"),
+        ("there.fbx", "mesh there.fbx: unknown suffix. Give one of"),
     ):
         with pytest.raises(InputError, match=re.escape(words)):
             check_files(read_config({**values, "dragon": path}))
@@ -59,8 +59,8 @@ def test_what_yaml_lets_pass(tmp_path):
     path.write_text("one:\n  a: 1\ntwo:\n  a: 1\n")
     check_duplicates([path])
     for text, words in (
-        ("one:\n  a: 1\ntwo:\n  a: 1\n  a: 2\n", r"mine\.yaml, line 5: 'a' is there twice"),
-        ("- 3", "holds no sections"),
+        ("one:\n  a: 1\ntwo:\n  a: 1\n  a: 2\n", r"mine\.yaml, line 5: 'a' is defined twice"),
+        ("- 3", "has no sections"),
     ):
         path.write_text(text)
         with pytest.raises(InputError, match=words):

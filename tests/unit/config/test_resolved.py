@@ -191,7 +191,7 @@ def test_a_network_that_is_built_and_not_trained(changed, message):
     curves = {"experiments": ["built"], "steps": [1, 2, 3], "seeds": 1}
     pair = {"kind": "lower_loss", "section": "4", "statement": "x", "pairs": [["built", "dragon"]]}
     for wrong, words in (
-        ({"learning_curves": curves}, "learning_curves.experiments: 'built' is not trained"),
-        ({"claims": {"loss": pair}}, "claims.loss.pairs: 'built' is not trained, and has no loss"),
+        ({"learning_curves": curves}, "learning_curves.experiments: 'built' has no training"),
+        ({"claims": {"loss": pair}}, "claims.loss.pairs: 'built' is not trained and has no loss"),
     ):
         assert words in message(values | wrong)

@@ -1,4 +1,4 @@
-"""What a network of whole frames may be trained on, told in one line; the trunk that it gets."""
+"""Checks of screen-space experiments, with one-line messages; pretrained weights."""
 
 import pytest
 from shipped import shipped
@@ -24,16 +24,16 @@ def read(frames=None, metrics=None, **changes):
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "words"),
     [
-        ({"scenes": ["garden"]}, "'garden' is among `unseen` of frame_sets.few"),
+        ({"scenes": ["garden"]}, "'garden' is in `unseen` of frame_sets.few"),
         ({"scenes": ["atrim"]}, "did you mean 'atrium'"),
         ({"lights": [1, 2]}, "frame_sets.few has 2 radii, counted from 0"),
         ({"frames": {"train": 0}}, "frame_sets.few has train = 0"),
-        ({"frames": {"twins": {"count": 0}}}, "perturbation = 3 needs twins"),
+        ({"frames": {"twins": {"count": 0}}}, "perturbation = 3 needs perturbed frames"),
         (
             {"training": {"steps": 1, "crops": 1, "crop": 15, "learning_rate": 1.0}},
-            "give 16 pixels",
+            "Set 16 or more",
         ),
         ({"network": "original_5"}, "not among nsm, trimmed"),
         (
@@ -52,21 +52,21 @@ def read(frames=None, metrics=None, **changes):
                 "network": {"form": "direct", "widths": [4, 8], "features": ["c_e"]},
                 "training": {"steps": 1, "crops": 3, "crop": 64, "learning_rate": 1.0},
             },
-            "crops = 3: .* give an even number",
+            "crops = 3: .* Set an even number",
         ),
         (
             {"training": BRIEF | {"schedule": "steps"}},
-            r"tenth_from = \[\]: goes with `schedule: st",
+            r"tenth_from = \[\]: needs one step or more with `schedule: st",
         ),
         ({"training": BRIEF | {"tenth_from": [2]}}, r"= \[2\]: .*the schedule is 'cosine'"),
         (
             {"training": BRIEF | {"schedule": "steps", "tenth_from": [4, 10]}},
-            r"= \[4, 10\]: must grow .* end below steps = 10",
+            r"= \[4, 10\]: must be ascending, .* end below steps = 10",
         ),
     ],
 )
-def test_what_cannot_be_trained_is_refused(changes, told):
-    with pytest.raises(InputError, match=f"config: screen_experiments.mine.*{told}"):
+def test_what_cannot_be_trained_is_refused(changes, words):
+    with pytest.raises(InputError, match=f"config: screen_experiments.mine.*{words}"):
         read(**changes)
 
 
@@ -84,11 +84,11 @@ def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "words"),
     [
         (
             {"networks_by_scene": {"mine": {"experiments": ["nsm", "nsm_plain"], "label": "Mine"}}},
-            "networks_by_scene.mine.experiments: 'room' is learned by two of them",
+            "networks_by_scene.mine.experiments: 'room' has two networks",
         ),
         (
             {"networks_by_scene": {"nsm": {"experiments": ["nsm"], "label": "Mine"}}},
@@ -116,43 +116,43 @@ def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
         ),
         (
             {"claims": {"kpnsm_leaks_less": {"again": {"kpnsm": ["kpnsm_basic"]}}}},
-            "kpnsm_leaks_less.again.kpnsm: 'kpnsm_basic' has another network than 'kpnsm'; .*seed",
+            "kpnsm_leaks_less.again.kpnsm: 'kpnsm_basic' has another network than 'kpnsm'. .*seed",
         ),
         (
             {"claims": {"kpnsm_leaks_less": {"again": {"kpnsm": ["kpnsm"]}}}},
-            "claims.kpnsm_leaks_less.again: 'kpnsm' is there twice",
+            "claims.kpnsm_leaks_less.again: 'kpnsm' is listed twice",
         ),
         (
             {"claims": {"nsm_wider_with_the_light": {"again": {"nsm_between": ["nsm_between"]}}}},
-            "claims.nsm_wider_with_the_light.again: 'nsm_between' is there twice",
+            "claims.nsm_wider_with_the_light.again: 'nsm_between' is listed twice",
         ),
         (
             {"tables": {"kpnsm_unseen": {"methods": ["kpnsm", {"method": "kpnsm", "label": "K"}]}}},
-            "tables.kpnsm_unseen.methods: 'kpnsm' is there twice",
+            "tables.kpnsm_unseen.methods: 'kpnsm' is listed twice",
         ),
         (
             {"tables": {"soft_methods": {"methods": ["pcss", "pcss"]}}},
-            "tables.soft_methods.methods: 'pcss' is there twice",
+            "tables.soft_methods.methods: 'pcss' is listed twice",
         ),
     ],
 )
-def test_what_tables_and_claims_cannot_have_is_refused(changes, told):
-    with pytest.raises(InputError, match=told):
+def test_what_tables_and_claims_cannot_have_is_refused(changes, words):
+    with pytest.raises(InputError, match=words):
         read_config(shipped(**changes))
 
 
 @pytest.mark.parametrize(
-    ("claim", "again", "told"),
+    ("claim", "again", "words"),
     [
         (
             "kpnsm_leaks_less",
             {"kpnsm": ["kpnsm_seed_1", "kpnsm_seed_1"]},
-            "again: 'kpnsm_seed_1' is there twice",
+            "again: 'kpnsm_seed_1' is listed twice",
         ),
         (
             "kpnsm_leaks_less",
             {"kpnsm": ["kpnsm_seed_2", "kpnsm_seed_1"]},
-            "again.kpnsm: 'kpnsm_seed_1' has the seed 1 of 'kpnsm'; each should have its own",
+            "again.kpnsm: 'kpnsm_seed_1' has the seed 1 of 'kpnsm'. Give each its own",
         ),
         (
             "kpnsm_half_ends_err_little_more",
@@ -171,10 +171,10 @@ def test_what_tables_and_claims_cannot_have_is_refused(changes, told):
         ),
     ],
 )
-def test_other_seeds_are_other_ones_of_the_same_network(claim, again, told):
+def test_other_seeds_are_other_ones_of_the_same_network(claim, again, words):
     values = shipped("nsm_seeds", "kpnsm_seeds", seed=1)
     values["claims"] = {claim: values["claims"][claim] | {"again": again}}
-    with pytest.raises(InputError, match=f"claims.{claim}.{told}"):
+    with pytest.raises(InputError, match=f"claims.{claim}.{words}"):
         read_config(values)
 
 

@@ -231,11 +231,11 @@ def without(*names):
             r"MyShadowMap.msm.15:G: msm is from 0 to 255; should be in \[0, 1\]",
         ),
         (with_value("d", -1), r"distV.15:R: d is from -1 to .*; should be 0 or more"),
-        (lambda images: images | {NAMES["z"]: 0 * images[NAMES["z"]]}, "nothing is seen"),
-        (without(NAMES["z"]), r"distE.15:R: missing; each frame needs z"),
+        (lambda images: images | {NAMES["z"]: 0 * images[NAMES["z"]]}, "no pixel shows a surface"),
+        (without(NAMES["z"]), r"distE.15:R: missing. Each frame needs z"),
         (
             without("Pass2:R"),
-            r"missing, where the frame has other targets",
+            r"missing, but the frame has other targets",
         ),
         (
             lambda images: images | {NAMES["msm"]: images[NAMES["msm"]][1:]},
@@ -255,7 +255,7 @@ def test_nothing_is_imported_of_damaged_ones(here, rendered, spoil, told):
 def test_a_file_without_the_channel_says_which_it_has(here, rendered):
     write_exr(here / "f", engine_images(rendered))
     images = FrameImages(here / "f")
-    with pytest.raises(InputError, match=r"ce.15.exr: G: no such channel; there is R"):
+    with pytest.raises(InputError, match=r"ce.15.exr: G: no such channel. Allowed: R"):
         images.image("MyGBuffer.ce.15:G")
     (here / "f/MyGBuffer.ce.15.exr").write_bytes(b"no picture")
     with pytest.raises(InputError, match=r"ce.15.exr: damaged"):

@@ -6,7 +6,8 @@ from evaluated import SCENE, make_evaluated
 from neural_shadows.evaluation import find_depth_bias as stage
 from neural_shadows.evaluation.find_depth_bias import BIASES, find_depth_bias
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.networks.object_space.shadow_network import LIT, ShadowNetwork
+from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.representations.depths import LIT
 
 BALL = 0.5
 

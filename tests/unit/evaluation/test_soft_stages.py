@@ -184,7 +184,7 @@ def test_all_is_timed_on_the_one_thread_that_tables_name(folder, monkeypatch):
     def answer(frame, radius):
         pools = {one["num_threads"] for one in threadpool_info()}
         seen.append(pools | {torch.get_num_threads()})
-        return np.ones(len(frame.ways), np.float32)
+        return np.ones(len(frame.from_light), np.float32)
 
     recording = SoftMethod(answer)
     monkeypatch.setattr(timing, "soft_method", lambda name, weights: recording)
@@ -241,5 +241,5 @@ def test_of_frames_without_a_scene_the_buffers_can_be_measured(folder, tmp_path)
     ours = next(measured_frames([folder / "test_000.json"], []))
     held, asked = own.answered(soft_method("base_hard"), 0.1, {}), soft_method("hard")
     assert np.mean(held != ours.answered(asked, 0.1, {})) < 0.01
-    with pytest.raises(InputError, match="has no 'scene' to look at; .* base_hard, base_pcf"):
+    with pytest.raises(InputError, match=r"has no 'scene' to look at\. .* base_hard, base_pcf"):
         own.answered(asked, 0.1, {})

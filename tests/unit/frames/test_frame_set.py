@@ -75,7 +75,7 @@ def test_nothing_is_left_where_a_frame_fails_after_others(tmp_path, monkeypatch)
 @pytest.mark.parametrize(
     "change, told",
     [
-        ({"width": 31}, "holds float16 .* belongs"),
+        ({"width": 31}, "is float16 .*, not float16"),
         ({"radii": [0, -0.1, 0.2]}, "radius below 0"),
         ({"channels": ["z", "depth"]}, "channels z, depth; should be z and others of z, gap"),
         ({"size": None}, "'size'"),

@@ -116,7 +116,7 @@ def test_a_window_has_its_frames_cosines():
 
 def test_what_is_lacking_is_named():
     one = np.ones((2, 2), np.float32)
-    with pytest.raises(InputError, match="'colour' is no feature; use some of c_e, view"):
+    with pytest.raises(InputError, match="'colour' is not a feature. Use c_e, view"):
         named_features((*MAIN[:1], "colour"), {"c_e": one}, HEAD_ON, LIGHT)
     with pytest.raises(InputError, match="the features n_e need the buffer e_y, e_z"):
         named_features(("n_e",), {"e_x": one}, HEAD_ON, LIGHT)

@@ -49,7 +49,7 @@ def test_the_thesis_s_meshes_are_known_and_sheets_reported(tmp_path, monkeypatch
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     report, _ = prepare(tmp_path, obj(square, [[0, 1, 2, 3]]), ".obj", generate="wyrm")
     assert report["sheet"] and not report["thesis_mesh"]
-    assert "source.obj: open and thin" in capsys.readouterr().out
+    assert "source.obj: an open sheet" in capsys.readouterr().out
 
 
 def test_normalised_vertices_do_not_depend_on_unit_or_offset(tmp_path):

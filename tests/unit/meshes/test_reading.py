@@ -111,7 +111,7 @@ DRACO = b'{"extensionsRequired": ["KHR_draco_mesh_compression"]}'
         ("nothing.ply", None, "cannot be read .No such file"),
         ("empty.ply.gz", b"", "is empty"),
         ("no_faces.ply", ascii_ply(TETRAHEDRON, []), "no triangles"),
-        ("cut_row.ply", PLY[:-12], "7 rows where its header says 8"),
+        ("cut_row.ply", PLY[:-12], "7 rows instead of the header's 8"),
         ("cut.stl", BOX.export(file_type="stl")[:-7], "a truncated file"),
         ("index.ply", PLY.replace("3 1 2 3", "3 1 2 4"), r"face 3 .* \[1, 2, 4\] of 4"),
         ("index.obj", OBJ + "f 1 2 4\n", r"face 1 .* \[0, 1, 3\] of 3"),

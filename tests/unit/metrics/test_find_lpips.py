@@ -26,7 +26,7 @@ def test_features_of_a_whole_classifier(features, tmp_path):
     ("content", "named"),
     [
         (None, "No such file"),
-        (b"<html>403 Forbidden</html>", "no whole PyTorch file of squeezenet1_1's"),
+        (b"<html>403 Forbidden</html>", "not a whole PyTorch file of squeezenet1_1's"),
         ({"0.bias": torch.full((64,), np.nan)}, "not finite"),
     ],
 )
@@ -36,7 +36,7 @@ def test_what_is_no_trunk_is_named(content, named, features, tmp_path):
         path.write_bytes(content)
     elif content:
         torch.save(features | content, path)
-    with pytest.raises(InputError, match=f"trunk.pth .*{named}.*metrics.lpips.trunk"):
+    with pytest.raises(InputError, match=f"trunk.pth: .*{named}.*metrics.lpips.trunk"):
         find_lpips(path, tmp_path / "lpips.json", net="squeeze")
 
 

@@ -90,7 +90,7 @@ def test_what_both_arms_have_in_common_cancels_in_their_difference():
         (noisy(1), 29 * SAMPLES[-1], ""),
         (noisy(1), 3200 * SAMPLES[-1], "3,200 times the largest budget, 30 at most"),
         (noisy(1, samples=SAMPLES[:2]), SAMPLES[-1], "2 budgets: 3 are needed"),
-        (Curve(REVIEW, IDENTITY), REVIEW[-1], "one seed does not say how sure the fit is"),
+        (Curve(REVIEW, IDENTITY), REVIEW[-1], "one seed gives no uncertainty of the fit"),
         (Curve(SAMPLES[:3], np.zeros((3, 2))), SAMPLES[-1], "an error of 0 has no power law"),
     ],
 )
@@ -100,7 +100,7 @@ def test_licence(curve, samples, why):
 
 def test_a_dead_training_and_seeds_that_hold_any_prediction_license_nothing():
     died = power_law.licensed([noisy(1)], BEYOND, seed=1, died=True)
-    assert died == (False, "a training died")
+    assert died == (False, "a training diverged")
     # As in the review the last budget is missed by 14 %, within the interval of these seeds.
     wild = Curve(REVIEW, IDENTITY * np.exp([[-0.3, 0.0, 0.3]]))
     held = power_law.hold_out(wild, seed=1)

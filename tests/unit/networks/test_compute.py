@@ -1,4 +1,4 @@
-"""Devices and number formats are those of the machine, and wrong wishes are refused."""
+"""Choice of device and number format by the machine."""
 
 import os
 import subprocess
@@ -22,19 +22,19 @@ def test_automatic_choices(monkeypatch, native):
     monkeypatch.setattr(compute, "_used_by_onednn", lambda dtype: True)
     assert choose_device("auto").type == ("cuda" if native else "cpu")
     for device in ("cpu", "cuda"):
-        wanted = torch.bfloat16 if native else torch.float32
-        assert choose_dtype("auto", torch.device(device)) == wanted
+        expected = torch.bfloat16 if native else torch.float32
+        assert choose_dtype("auto", torch.device(device)) == expected
 
 
 @pytest.mark.parametrize(
-    ("name", "wanted"), [("znver4", torch.bfloat16), ("emeraldrapids", torch.float32)]
+    ("name", "expected"), [("znver4", torch.bfloat16), ("emeraldrapids", torch.float32)]
 )
-def test_a_format_that_is_slower_than_float32_is_not_chosen(monkeypatch, name, wanted):
+def test_formats_slower_than_float32_are_not_chosen(monkeypatch, name, expected):
     """Where AMX is hidden; who asks for it gets it."""
     monkeypatch.setattr(torch.cpu, "get_capabilities", lambda: {"avx512_bf16": True})
     monkeypatch.setattr(compute, "_used_by_onednn", lambda dtype: True)
     monkeypatch.setattr(compute, "get_host_cpu_name", lambda: name)
-    assert choose_dtype("auto", CPU) == wanted
+    assert choose_dtype("auto", CPU) == expected
     assert choose_dtype("bfloat16", CPU) == torch.bfloat16
 
 
@@ -55,7 +55,7 @@ print(*(is_native(getattr(torch, name), torch.device("cpu")) for name in {FORMAT
         ({"architecture": "aarch64", "bf16": True}, ["float32", "bfloat16"]),
     ],
 )
-def test_a_format_that_the_processor_lacks_is_refused(monkeypatch, capabilities, native):
+def test_formats_without_instructions_are_refused(monkeypatch, capabilities, native):
     monkeypatch.setattr(torch.cpu, "get_capabilities", lambda: capabilities)
     monkeypatch.setattr(compute, "_used_by_onednn", lambda dtype: True)
     assert [name for name in FORMATS if is_native(getattr(torch, name), CPU)] == native
@@ -67,7 +67,7 @@ def test_a_format_that_the_processor_lacks_is_refused(monkeypatch, capabilities,
                 choose_dtype(name, CPU)
 
 
-def test_what_onednn_may_not_use_is_not_native():
+def test_formats_forbidden_to_onednn_are_not_native():
     """By a variable of its own, which it reads once: whatever the processor has."""
     if torch.cpu.get_capabilities()["architecture"] != "x86_64":
         pytest.skip("the variable is for x86-64")
@@ -77,7 +77,7 @@ def test_what_onednn_may_not_use_is_not_native():
     assert limited.stdout.split() == ["True", "False", "False"]
 
 
-def test_a_gpu_that_is_not_there(monkeypatch):
+def test_a_missing_gpu_is_refused(monkeypatch):
     monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
-    with pytest.raises(InputError, match="device: cuda.*set device: auto or cpu"):
+    with pytest.raises(InputError, match="device: cuda.*Set device: auto or cpu"):
         choose_device("cuda")

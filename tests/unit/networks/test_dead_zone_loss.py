@@ -1,4 +1,4 @@
-"""The dead-zone loss is zero between its bounds and the distance to them outside."""
+"""Dead-zone loss and gradient inside and outside its bounds."""
 
 import math
 
@@ -21,8 +21,8 @@ from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 @pytest.mark.parametrize("weight", [1, 3])
 def test_value_and_gradient(t, t_lb, t_ub, loss, gradient, weight):
     prediction = torch.tensor([t], requires_grad=True)
-    found = DeadZone(false_shadow=weight)(prediction, torch.tensor([t_lb]), torch.tensor([t_ub]))
-    found.sum().backward()
+    losses = DeadZone(false_shadow=weight)(prediction, torch.tensor([t_lb]), torch.tensor([t_ub]))
+    losses.sum().backward()
     factor = weight if t < t_lb else 1
-    assert found.tolist() == [factor * loss]
+    assert losses.tolist() == [factor * loss]
     assert prediction.grad.tolist() == [factor * gradient]  # NaN equals nothing

@@ -1,4 +1,4 @@
-"""The network against the thesis's sizes, a direct float64 formula, and its dead outputs."""
+"""The thesis's network: sizes, float64 formula, initialisation."""
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def test_encoding_against_float64():
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_no_seed_gives_a_dead_network(width):
+def test_no_seed_starts_without_output(width):
     means = []
     for seed in range(64):
         with torch.inference_mode():

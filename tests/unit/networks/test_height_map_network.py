@@ -1,4 +1,4 @@
-"""Height maps: exact on what they hold exactly, and refused where there is no height field."""
+"""Height maps: exact depths, and refusal of other meshes."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.representations.depths import LIT
 
 
-def made(shape: trimesh.Trimesh, tmp_path, resolution: int, bits: int = 16, up: str = "y"):
+def build_network(shape: trimesh.Trimesh, tmp_path, resolution: int, bits: int = 16, up: str = "y"):
     """A network of a shape as it comes back from its file."""
     shape.export(tmp_path / "mesh.ply")
     settings = {"encoding": "height_map", "up": up, "resolution": resolution, "bits": bits}
@@ -24,7 +24,7 @@ def made(shape: trimesh.Trimesh, tmp_path, resolution: int, bits: int = 16, up: 
     return load_network(tmp_path / "weights.safetensors")[0]
 
 
-def asked(network, o: np.ndarray, d: np.ndarray) -> np.ndarray:
+def trace(network, o: np.ndarray, d: np.ndarray) -> np.ndarray:
     return network(torch.from_numpy(o), torch.from_numpy(d), torch.float32).numpy()
 
 
@@ -40,7 +40,7 @@ def test_it_is_exact_on_a_tilted_plane(tmp_path, up):
     shape = trimesh.Trimesh(corners, [[0, 1, 2], [0, 2, 3]], process=False)
     o, d = ball_rays(5000)[:2]
     expected = traced(shape, o, d)
-    t = asked(made(shape, tmp_path, 9, up=up), o, d)
+    t = trace(build_network(shape, tmp_path, 9, up=up), o, d)
     assert 0.1 < (expected < LIT).mean() < 0.9
     # 16 bits of a height of 0.5 are 8e-6, and a ray may graze; or pass the rim on either side.
     assert (np.abs(t - expected) < 1e-4).mean() > 0.998
@@ -49,7 +49,7 @@ def test_it_is_exact_on_a_tilted_plane(tmp_path, up):
 def test_a_level_plane_has_no_heights(tmp_path):
     o = np.array([[0, 1, 0], [0.8, 0.6, 0]], np.float32)
     d = np.array([[0, -1, 0], [-0.8, -0.6, 0]], np.float32)
-    t = asked(made(sheet(0.25, 0.5), tmp_path, 3), o, d)
+    t = trace(build_network(sheet(0.25, 0.5), tmp_path, 3), o, d)
     np.testing.assert_allclose(t, [0.75, 0.35 / 0.6], atol=1e-6)
 
 
@@ -59,7 +59,7 @@ def test_a_landscape_of_as_many_vertices_is_exact_but_for_rounding(tmp_path, bit
     shape = trimesh.Trimesh(vertices * 0.65, faces, process=False)
     o, d = ball_rays(8000)[:2]
     expected = traced(shape, o, d)
-    t = asked(made(shape, tmp_path, 33, bits), o, d)
+    t = trace(build_network(shape, tmp_path, 33, bits), o, d)
     assert 0.3 < (expected < LIT).mean() < 0.99
     assert (np.abs(t - expected) < close).mean() > 0.99
 
@@ -77,6 +77,6 @@ def without(shape: trimesh.Trimesh, faces: np.ndarray) -> trimesh.Trimesh:
         (sheet(0.1, 0.5), "x"),
     ],
 )
-def test_what_is_no_height_field_is_refused(tmp_path, shape, up):
-    with pytest.raises(InputError, match=f"no height field along {up}: .*give another `up`"):
-        made(shape, tmp_path, 9, up=up)
+def test_other_meshes_are_refused(tmp_path, shape, up):
+    with pytest.raises(InputError, match=f"no height field along {up}: .*Give another `up`"):
+        build_network(shape, tmp_path, 9, up=up)

@@ -1,4 +1,4 @@
-"""The mesh as a network: it answers as the tracer does, and its bytes are what they are."""
+"""The mesh as a network, against the tracer; its size."""
 
 import itertools
 import os
@@ -24,7 +24,7 @@ from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.running.module_graph import PACKAGE
 
 
-def made(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16, stored="packed"):
+def build_network(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16, stored="packed"):
     """A network of a shape as it comes back from its file."""
     settings = {"encoding": "mesh", "triangles": triangles, "bits": bits, "stored": stored}
     shape.export(tmp_path / "mesh.ply")
@@ -39,36 +39,36 @@ def made(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16, stored="pack
 )
 def test_rays_end_where_the_mesh_is(tmp_path, triangles, bits, error):
     shape = bumpy_sphere(4)
-    network = made(shape, tmp_path, triangles, bits)
+    network = build_network(shape, tmp_path, triangles, bits)
     o, d, *_ = ball_batch(5000)
     t, face = prepared(shape)[1].first_hit(o.numpy(), d.numpy())
-    found = network(o, d, torch.float32).numpy()
-    both = (face >= 0) & (found < LIT)
+    result = network(o, d, torch.float32).numpy()
+    both = (face >= 0) & (result < LIT)
     assert 0.5 < both.mean() < 1
     # Where a ray grazes a bump, one of them may miss it.
-    assert ((face >= 0) == (found < LIT)).mean() > 0.97
-    assert (np.abs(found - t)[both] < error).mean() > 0.97
+    assert ((face >= 0) == (result < LIT)).mean() > 0.97
+    assert (np.abs(result - t)[both] < error).mean() > 0.97
 
 
 @pytest.mark.parametrize("bias", [0.0, 0.03, -0.02])
-def test_an_occlusion_ray_is_the_depth_test(tmp_path, bias):
+def test_occlusion_rays_equal_the_depth_test(tmp_path, bias):
     """`lit` by a ray towards the light against `ShadowNetwork.lit` by the first hit's depth."""
-    network = made(bumpy_sphere(4), tmp_path)
+    network = build_network(bumpy_sphere(4), tmp_path)
     light = torch.nn.functional.normalize(torch.tensor([0.3, 1.0, -0.5]), dim=0)
     p = torch.randn(20_000, 3, generator=torch.Generator().manual_seed(0))
     rays = sphere_rays(p, light)
-    found, expected = (
-        asked(rays, -light, torch.float32)(bias)
-        for asked in (network.lit, lambda *of: ShadowNetwork.lit(network, *of))
+    result, expected = (
+        target(rays, -light, torch.float32)(bias)
+        for target in (network.lit, lambda *of: ShadowNetwork.lit(network, *of))
     )
     assert 0.1 < expected.float().mean() < 0.9
     # Edges of triangles and the sphere's rim, where either may be right.
-    assert (found == expected).float().mean() > 0.999
+    assert (result == expected).float().mean() > 0.999
 
 
 def test_bytes(tmp_path):
     """Of an icosphere of 642 vertices and 1,280 faces."""
-    network = made(trimesh.creation.icosphere(3), tmp_path, bits=14)
+    network = build_network(trimesh.creation.icosphere(3), tmp_path, bits=14)
     stored = {name: tensor.nbytes for name, tensor in network.stored().items()}
     # ⌈log₂ 642⌉ = 10 bits an index.
     assert stored == {"counts": 8, "vertices": -(-642 * 3 * 14 // 8), "faces": 1280 * 3 * 10 // 8}
@@ -86,16 +86,20 @@ def corners_of(steps, faces) -> set[tuple]:
 )
 def test_a_coded_mesh_is_the_quantised_one_exactly(tmp_path, triangles, bits):
     """The same triangles between the same places, in fewer bytes; only their order is another."""
-    found, expected = (
-        made(bumpy_sphere(4), tmp_path, triangles, bits, stored) for stored in ("coded", "packed")
+    result, expected = (
+        build_network(bumpy_sphere(4), tmp_path, triangles, bits, stored)
+        for stored in ("coded", "packed")
     )
-    assert corners_of(found._steps, found._faces) == corners_of(expected._steps, expected._faces)
-    assert len(found._faces) == len(expected._faces)
-    assert sorted(found._steps.tolist()) == sorted(expected._steps.tolist())
-    sizes = [sum(one.nbytes for one in network.stored().values()) for network in (found, expected)]
+    assert corners_of(result._steps, result._faces) == corners_of(expected._steps, expected._faces)
+    assert len(result._faces) == len(expected._faces)
+    assert sorted(result._steps.tolist()) == sorted(expected._steps.tolist())
+    sizes = [
+        sum(parameter.nbytes for parameter in network.stored().values())
+        for network in (result, expected)
+    ]
     assert 1.9 * sizes[0] < sizes[1]
     rays = ball_batch(2000)[:2]
-    depths = [network(*rays, torch.float32) for network in (found, expected)]
+    depths = [network(*rays, torch.float32) for network in (result, expected)]
     assert (torch.isclose(*depths, atol=1e-6) | (depths[0] == depths[1])).float().mean() > 0.999
 
 
@@ -106,8 +110,8 @@ def test_an_edge_of_many_triangles_is_coded_exactly():
     assert corners_of(*decoded(coded(steps, faces, 12))) == corners_of(steps, faces)
 
 
-def test_a_coded_mesh_that_is_damaged_is_refused(tmp_path):
-    network = made(bumpy_sphere(2), tmp_path, stored="coded")
+def test_damaged_coded_meshes_are_refused(tmp_path):
+    network = build_network(bumpy_sphere(2), tmp_path, stored="coded")
     whole = network.stored()["mesh"]
     for wrong in (whole[:0], whole[:-3], torch.zeros(100, dtype=torch.uint8)):
         with pytest.raises(ValueError, match="no mesh that Draco reads"):
@@ -121,7 +125,7 @@ def test_a_coded_mesh_that_is_damaged_is_refused(tmp_path):
     path = tmp_path / "weights.safetensors"
     settings = {"encoding": "mesh", "triangles": None, "bits": 16, "stored": "coded"}
     save_tensors(path, {"mesh": whole[:-3]}, {"network": settings})
-    with pytest.raises(InputError, match="weights do not fit the header .* delete it and train"):
+    with pytest.raises(InputError, match="weights do not fit the header .* Delete it and train"):
         load_network(path)
 
 
@@ -142,9 +146,9 @@ print((held_bytes() - before) / 4)
 """
 
 
-def test_resident_bytes_are_what_embree_holds(tmp_path):
+def test_resident_bytes_are_embrees_memory(tmp_path):
     shape = trimesh.creation.icosphere(5)
-    network = made(shape, tmp_path)
+    network = build_network(shape, tmp_path)
     np.save(tmp_path / "vertices.npy", shape.vertices.astype(np.float32))
     np.save(tmp_path / "faces.npy", shape.faces.astype(np.int32))
     command = [sys.executable, "-c", MEASURE, tmp_path / "vertices.npy", tmp_path / "faces.npy"]
@@ -154,17 +158,17 @@ def test_resident_bytes_are_what_embree_holds(tmp_path):
 
 
 @pytest.mark.parametrize("triangles", [4, 200, 1279, 1280, 5000])
-def test_no_more_triangles_than_asked(triangles):
+def test_decimation_reaches_the_number_of_triangles(triangles):
     shape = trimesh.creation.icosphere(3)
     vertices, faces = decimated(shape.vertices, shape.faces, triangles)
-    asked = min(triangles, 1280)
-    assert asked - 2 <= len(faces) <= asked
+    target = min(triangles, 1280)
+    assert target - 2 <= len(faces) <= target
     radii = np.linalg.norm(vertices[faces], axis=2)
     # A regular polyhedron of so many faces has at least this edge.
-    assert np.abs(radii - 1).max() < 8 / asked
+    assert np.abs(radii - 1).max() < 8 / target
 
 
-def test_a_decimation_that_cannot_go_on_says_so(capsys):
+def test_a_stuck_decimation_prints_a_line(capsys):
     """All triangles between eight points: each edge is of six."""
     corners = np.random.default_rng(1).uniform(-1, 1, (8, 3))
     faces = np.array(list(itertools.combinations(range(8), 3)), np.int32)
@@ -172,7 +176,7 @@ def test_a_decimation_that_cannot_go_on_says_so(capsys):
     assert f"to 4 triangles ends at {len(left)}:" in capsys.readouterr().out
 
 
-def test_a_decimation_that_leaves_nothing_is_refused():
+def test_an_empty_decimation_is_refused():
     """Twelve triangles round one edge."""
     angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     rim = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
@@ -181,11 +185,11 @@ def test_a_decimation_that_leaves_nothing_is_refused():
         decimated(np.concatenate([[[0, 0, 0], [0, 0, 1]], rim]), faces, 4)
 
 
-def test_a_file_whose_faces_have_no_vertices_is_refused(tmp_path):
-    network = made(trimesh.creation.icosphere(1), tmp_path)
+def test_faces_beyond_the_vertices_are_refused(tmp_path):
+    network = build_network(trimesh.creation.icosphere(1), tmp_path)
     tensors = network.stored()
     tensors["faces"].fill_(255)
-    with pytest.raises(ValueError, match="other than its 42 vertices"):
+    with pytest.raises(ValueError, match="vertices beyond its 42"):
         network.restore(tensors)
     with pytest.raises(ValueError, match="packed bits"):
         network.restore(network.stored() | {"counts": torch.tensor([42, 81])})

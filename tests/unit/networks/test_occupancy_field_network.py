@@ -1,4 +1,4 @@
-"""Occupancy fields: what they interpolate, where rays cross them, and that they learn surfaces."""
+"""Occupancy fields: interpolation, crossings, training."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ SOLID_32 = {"encoding": "occupancy_field", "resolution": 32, "surface": "solid",
 SHEET_32 = SOLID_32 | {"surface": "sheet"}
 
 
-def made(shape: trimesh.Trimesh, tmp_path, settings):
+def build_network(shape: trimesh.Trimesh, tmp_path, settings):
     shape.export(tmp_path / "mesh.ply")
     network = make_network(settings)
     network.prepare(tmp_path / "mesh.ply")
@@ -33,7 +33,7 @@ def positions(network) -> torch.Tensor:
     """Where the network's values are, (count, 3)."""
     size = network.resolution // 4
     layout = lay_out(network.grid.view(size, size, size).numpy() >= 0, False)
-    return torch.from_numpy(layout.places / (network.resolution / 2) - 1).float()
+    return torch.from_numpy(layout.vertices / (network.resolution / 2) - 1).float()
 
 
 def set_logits(network, function) -> None:
@@ -48,8 +48,8 @@ def ball(p):
 
 
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
-def test_rays_cross_a_ball_where_it_is(tmp_path, settings):
-    network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)
+def test_crossings_of_a_ball(tmp_path, settings):
+    network = build_network(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)
     set_logits(network, ball)
     batch = ball_batch(3000)
     o, d, t_lb, t_ub = batch
@@ -67,10 +67,10 @@ def test_rays_cross_a_ball_where_it_is(tmp_path, settings):
 @pytest.mark.parametrize(
     ("stored", "push"), [("int8", 0), ("float32", 0.1), ("coded", 0), ("sign", -0.1)]
 )
-def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored, push):
+def test_skipping_empty_space_changes_no_depth(tmp_path, settings, stored, push):
     """The CPU's march against the form that looks at every sample, on random logits."""
     settings = settings | {"stored": stored}
-    network = made(bumpy_sphere(4), tmp_path, settings)
+    network = build_network(bumpy_sphere(4), tmp_path, settings)
     set_logits(network, lambda p: 6 * torch.sin(40 * p).prod(1) + 20 * (0.85 - p.norm(dim=1)))
     save_network(tmp_path / "weights.safetensors", network, {"network": settings})
     network, _ = load_network(tmp_path / "weights.safetensors")
@@ -81,13 +81,13 @@ def test_skipping_what_is_empty_changes_no_answer(tmp_path, settings, stored, pu
         o = torch.from_numpy(rng.normal(size=(700, 3))).float()
         o /= o.norm(dim=1, keepdim=True)
         o = o[o @ d < -0.01]
-        found = network.depths(o, d, torch.float32)
+        result = network.depths(o, d, torch.float32)
         with torch.inference_mode():
             expected = network(o, d.expand(len(o), 3), None)
         # A sample on a brick's border may be counted to either side.
-        same = (found - expected).abs() < 1e-4
+        same = (result - expected).abs() < 1e-4
         assert same.float().mean() > 0.99
-        assert (found < -2 * o @ d - 1e-3).float().mean() > 0.3
+        assert (result < -2 * o @ d - 1e-3).float().mean() > 0.3
 
 
 def learn(network, batch: LabelledBatch, steps: int) -> None:
@@ -101,7 +101,7 @@ def learn(network, batch: LabelledBatch, steps: int) -> None:
 
 
 def test_it_learns_a_ball(tmp_path):
-    network = made(trimesh.creation.icosphere(4, radius=0.5), tmp_path, SOLID_32)
+    network = build_network(trimesh.creation.icosphere(4, radius=0.5), tmp_path, SOLID_32)
     learn(network, ball_batch(30_000), 60)
     batch = ball_batch(2000, seed=3)
     o, d, t_lb, t_ub = batch
@@ -114,7 +114,7 @@ def test_it_learns_a_ball(tmp_path):
 @pytest.mark.parametrize("winding", [1, -1])
 def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
     shape = sheet(0.1, 0.6, winding)
-    network = made(shape, tmp_path, SHEET_32)
+    network = build_network(shape, tmp_path, SHEET_32)
     _, tracer = prepared(shape)
     o, d = ball_rays(20_000)[:2]
     batch = LabelledBatch(*map(torch.from_numpy, (o, d, *dual_bounds(tracer, o, d))))
@@ -135,10 +135,10 @@ def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
 
 @pytest.mark.parametrize("resolution", [32, 64])
 @pytest.mark.parametrize("stored", ["int8", "float32", "sign"])
-def test_untrained_distances_are_a_ball_that_can_be_pushed_out(tmp_path, resolution, stored):
+def test_untrained_distances_of_a_ball_and_their_push(tmp_path, resolution, stored):
     """Rays through the centre end where the ball of a radius of 0.5 and so many cells does."""
     settings = SOLID_32 | {"resolution": resolution, "stored": stored, "start": "distances"}
-    network = made(trimesh.creation.icosphere(5, radius=0.5), tmp_path, settings)
+    network = build_network(trimesh.creation.icosphere(5, radius=0.5), tmp_path, settings)
     save_network(tmp_path / "weights.safetensors", network, {"network": settings})
     network, _ = load_network(tmp_path / "weights.safetensors")
     o = torch.nn.functional.normalize(ball_batch(1000)[0], dim=1)
@@ -159,7 +159,7 @@ def test_untrained_distances_are_a_ball_that_can_be_pushed_out(tmp_path, resolut
 
 def test_a_trained_surface_is_not_pushed(tmp_path):
     settings = SOLID_32 | {"start": "distances"}
-    network = made(bumpy_sphere(3), tmp_path, settings)
+    network = build_network(bumpy_sphere(3), tmp_path, settings)
     path = tmp_path / "weights.safetensors"
     for training, pushes in [(None, PUSHES), ({"steps": 60}, (0.0,))]:
         save_network(path, network, {"network": settings, "training": training})
@@ -168,7 +168,7 @@ def test_a_trained_surface_is_not_pushed(tmp_path):
 
 def test_signs_take_a_bit_each(tmp_path):
     settings = SOLID_32 | {"stored": "sign", "start": "distances"}
-    network = made(bumpy_sphere(3), tmp_path, settings)
+    network = build_network(bumpy_sphere(3), tmp_path, settings)
     values = network.stored()["values"]
     assert values.dtype == torch.uint8 and len(values) == -(-len(network.values) // 8)
     inside = positions(network).norm(dim=1) < 0.7
@@ -178,12 +178,14 @@ def test_signs_take_a_bit_each(tmp_path):
 def test_a_query_on_a_cpu_holds_the_bricks(tmp_path):
     """Of a solid masks, words of the cells that are crossed, their places and a light's tables."""
     shape = trimesh.creation.icosphere(3, radius=0.5)
-    network = made(shape, tmp_path, SHEET_32)
+    network = build_network(shape, tmp_path, SHEET_32)
     bricks = int((network.grid >= 0).sum())
     assert network.resident_bytes() == 4 * 8**3 + 125 * bricks
     resident = {}
     for bits in (4, 8):
-        network = made(shape, tmp_path, SOLID_32 | {"start": "distances", "corner_bits": bits})
+        network = build_network(
+            shape, tmp_path, SOLID_32 | {"start": "distances", "corner_bits": bits}
+        )
         resident[bits] = network.resident_bytes()
     inside = (network.logits() > 0)[network.table.long()].view(-1, 5, 5, 5)
     cells = inside.unfold(1, 2, 1).unfold(2, 2, 1).unfold(3, 2, 1).flatten(4)
@@ -201,9 +203,9 @@ def test_a_query_on_a_cpu_holds_the_bricks(tmp_path):
 
 
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
-def test_a_point_is_lit_up_to_where_its_ray_crosses(tmp_path, settings):
+def test_points_are_lit_up_to_the_crossing(tmp_path, settings):
     """Whether anything is met, for any depth bias, against where it is met first."""
-    network = made(bumpy_sphere(4), tmp_path, settings)
+    network = build_network(bumpy_sphere(4), tmp_path, settings)
     set_logits(network, lambda p: 6 * torch.sin(20 * p).prod(1) + 20 * (0.85 - p.norm(dim=1)))
     light = torch.nn.functional.normalize(torch.tensor([0.3, -0.5, 0.8]), dim=0)
     rays = sphere_rays(1.5 * torch.from_numpy(ball_rays(5000)[0]) * torch.rand(5000, 1), light)
@@ -211,18 +213,18 @@ def test_a_point_is_lit_up_to_where_its_ray_crosses(tmp_path, settings):
     lit = network.lit(rays, -light, torch.float32)
     for bias in (-0.02, 0.0, 0.05):
         expected = torch.minimum(rays.s, rays.chord) <= t_pred + bias
-        found = lit(bias)
-        assert (found == expected).float().mean() > 0.99
-        assert 0.03 < found.float().mean() < 0.97
+        result = lit(bias)
+        assert (result == expected).float().mean() > 0.99
+        assert 0.03 < result.float().mean() < 0.97
 
 
-def test_training_from_distances_goes_on_where_they_end(tmp_path):
+def test_training_from_distances_starts_with_a_lower_loss(tmp_path):
     """Its first loss is far below that of undecided values."""
     losses = []
     for start in ("distances", "undecided"):
         shape = trimesh.creation.icosphere(4, radius=0.5)
-        network = made(shape, tmp_path, SOLID_32 | {"start": start})
+        network = build_network(shape, tmp_path, SOLID_32 | {"start": start})
         generator = torch.Generator().manual_seed(0)
-        found, _ = network.losses(ball_batch(3000), DeadZone(), torch.float32, generator)
-        losses.append(found.mean().item())
+        result, _ = network.losses(ball_batch(3000), DeadZone(), torch.float32, generator)
+        losses.append(result.mean().item())
     assert losses[0] < 0.3 < 0.6 < losses[1] == pytest.approx(np.log(2), abs=0.01)

@@ -1,4 +1,4 @@
-"""Ray grids: what they interpolate, where their points lie, and that they learn a ball."""
+"""Ray grids: interpolation, sample points, training."""
 
 import pytest
 import torch
@@ -36,7 +36,7 @@ def ball_ply(tmp_path_factory):
     return path
 
 
-def made(kind: str, mesh_ply, **changes):
+def build_network(kind: str, mesh_ply, **changes):
     network = make_network(KINDS[kind] | changes)
     if kind != "ray_grid":
         network.prepare(mesh_ply)
@@ -60,7 +60,7 @@ def test_a_grid_interpolates_linear_functions_exactly():
 def test_points_lie_around_every_hit(tmp_path):
     shape = bumpy_sphere(4)
     shape.export(tmp_path / "mesh.ply")
-    network = made("occupancy_ray_grid", tmp_path / "mesh.ply", occupancy=48)
+    network = build_network("occupancy_ray_grid", tmp_path / "mesh.ply", occupancy=48)
     _, tracer = prepared(shape)
     o, d, *_ = ball_batch(20_000)
     t_lb, t_ub = map(torch.from_numpy, dual_bounds(tracer, o.numpy(), d.numpy()))
@@ -81,7 +81,7 @@ def test_points_lie_around_every_hit(tmp_path):
 @pytest.mark.parametrize("head", ["depth", "depth_confidence"])
 def test_it_learns_a_ball(ball_ply, kind, head):
     """Half of the rays hit; a lit point in front and a shadowed one behind tell right from wrong."""
-    network = made(kind, ball_ply, head=head)
+    network = build_network(kind, ball_ply, head=head)
     batch = ball_batch(4096)
     optimiser = torch.optim.Adam(network.parameters(), lr=5e-3)
     for _ in range(150):
@@ -103,16 +103,16 @@ def test_it_learns_a_ball(ball_ply, kind, head):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(("stored", "error"), [("float32", 0), ("float16", 2e-3), ("int8", 0.1)])
-def test_what_a_file_keeps(tmp_path, ball_ply, kind, stored, error):
+def test_round_trip_of_weight_files(tmp_path, ball_ply, kind, stored, error):
     settings = KINDS[kind] | {"stored": stored}
-    network = made(kind, ball_ply, stored=stored)
+    network = build_network(kind, ball_ply, stored=stored)
     save_network(tmp_path / "weights.safetensors", network, {"network": settings})
     loaded, _ = load_network(tmp_path / "weights.safetensors")
     o, d, *_ = ball_batch(500)
     with torch.inference_mode():
-        expected, found = (net(o, d, torch.float32) for net in (network, loaded))
-    assert (found - expected).abs().max() <= error
+        expected, result = (net(o, d, torch.float32) for net in (network, loaded))
+    assert (result - expected).abs().max() <= error
     # As the answers of a file are those of the network it makes, writing it again is the same.
     save_network(tmp_path / "again.safetensors", loaded, {"network": settings})
     again, _ = load_network(tmp_path / "again.safetensors")
-    assert torch.equal(again(o, d, torch.float32), found)
+    assert torch.equal(again(o, d, torch.float32), result)

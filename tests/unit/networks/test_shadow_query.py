@@ -1,4 +1,4 @@
-"""The query with an oracle in place of the network against the exact shadow of a ball."""
+"""Shadow queries by an oracle, against a ball's exact shadow."""
 
 import numpy as np
 import pytest
@@ -127,18 +127,18 @@ def test_depth_bias():
 
 
 @pytest.mark.parametrize("light", LIGHTS)
-def test_rays_of_one_pass_are_those_of_tensors(light):
+def test_loop_and_tensors_give_the_same_rays(light):
     """On a CPU and a GPU: as many, in the same order, of points up to the ground's rim."""
     light = np.array(light)
     p = np.concatenate([points_of(region, light) for region in REGIONS])
     p = torch.from_numpy(np.concatenate([p, 20 * p]))
     light = torch.from_numpy(light.astype(np.float32))
-    one, other = sphere_rays._in_one_pass(p, light), sphere_rays._by_tensors(p, light)
-    assert 0.1 * len(p) < len(one.index) < 0.9 * len(p)
-    assert torch.equal(one.index, other.index)
+    on_cpu, by_tensors_rays = sphere_rays._in_one_pass(p, light), sphere_rays._by_tensors(p, light)
+    assert 0.1 * len(p) < len(on_cpu.index) < 0.9 * len(p)
+    assert torch.equal(on_cpu.index, by_tensors_rays.index)
     for part in ("origins", "s", "chord"):
-        a, b = getattr(one, part), getattr(other, part)
+        a, b = getattr(on_cpu, part), getattr(by_tensors_rays, part)
         assert a.dtype == b.dtype == torch.float32
         # Two roundings of |p| = 84, whose last bit is 8e-6; the shorter a chord, the more is left of it.
         away = (a - b).abs() if a.ndim == 1 else (a - b).abs().amax(1)
-        assert (away * other.chord).max() <= 4e-5
+        assert (away * by_tensors_rays.chord).max() <= 4e-5

@@ -1,4 +1,4 @@
-"""Voxel DAGs: against voxels marched through one by one, a sphere, and the octree."""
+"""Voxel DAGs against a dense march, a sphere and the octree."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ from neural_shadows.representations.voxels.voxel_dag import merged, octree, word
 from neural_shadows.representations.voxels.voxel_inside import inside_of
 
 
-def made(shape: trimesh.Trimesh, tmp_path, resolution: int, surface: str):
+def build_network(shape: trimesh.Trimesh, tmp_path, resolution: int, surface: str):
     """A network of a shape as it comes back from its file."""
     shape.export(tmp_path / "mesh.ply")
     settings = {"encoding": "voxel_dag", "resolution": resolution, "surface": surface}
@@ -37,23 +37,23 @@ def march(cells: np.ndarray, o: np.ndarray, d: np.ndarray) -> np.ndarray:
     """Where rays enter their first cell, by every border that they cross, in float64."""
     n = len(cells)
     borders = np.linspace(-1, 1, n + 1)
-    found = np.full(len(o), LIT)
-    for i, (start, way) in enumerate(zip(o.astype(float), d.astype(float))):
-        end = -2 * start @ way
-        t = np.concatenate([(borders - start[k]) / way[k] for k in range(3) if way[k]])
+    entries = np.full(len(o), LIT)
+    for i, (start, direction) in enumerate(zip(o.astype(float), d.astype(float))):
+        end = -2 * start @ direction
+        t = np.concatenate([(borders - start[k]) / direction[k] for k in range(3) if direction[k]])
         t = np.sort(np.append(t[(t > 0) & (t < end)], [0, end]))
-        middles = start + (t[:-1] + t[1:])[:, None] / 2 * way
+        middles = start + (t[:-1] + t[1:])[:, None] / 2 * direction
         x, y, z = np.clip((middles + 1) / 2 * n, 0, n - 1).astype(int).T
         met = np.flatnonzero(cells[x, y, z])
         if len(met):
-            found[i] = t[met[0]]
-    return found
+            entries[i] = t[met[0]]
+    return entries
 
 
 @pytest.mark.parametrize("surface", ["solid", "sheet"])
-def test_rays_end_in_the_first_voxel_that_brute_force_finds(tmp_path, surface):
+def test_rays_end_in_the_first_voxel_of_a_dense_march(tmp_path, surface):
     shape = holed_sphere()
-    network = made(shape, tmp_path, 32, surface)
+    network = build_network(shape, tmp_path, 32, surface)
     cells = surface_cells(shape.vertices, shape.faces, 32)
     if surface == "solid":
         cells = enclosed_cells(cells)
@@ -72,7 +72,7 @@ def test_rays_end_in_the_first_voxel_that_brute_force_finds(tmp_path, surface):
 
 @pytest.mark.parametrize(("surface", "nearest", "farthest"), [("solid", -1, 0), ("sheet", 0, 1)])
 def test_rays_end_within_a_voxel_of_a_balls_surface(tmp_path, surface, nearest, farthest):
-    network = made(trimesh.creation.icosphere(6, radius=0.5), tmp_path, 128, surface)
+    network = build_network(trimesh.creation.icosphere(6, radius=0.5), tmp_path, 128, surface)
     batch = ball_batch(3000)
     o, d, t_lb, t_ub = batch
     t = network(o, d, torch.float32)
@@ -88,19 +88,19 @@ def test_rays_end_within_a_voxel_of_a_balls_surface(tmp_path, surface, nearest, 
 def test_an_open_shell_has_no_inside(tmp_path):
     shape = bumpy_sphere(3)
     shell = trimesh.Trimesh(shape.vertices, shape.faces[: len(shape.faces) // 2], process=False)
-    network = made(shell, tmp_path, 64, "solid")
+    network = build_network(shell, tmp_path, 64, "solid")
     assert network.resident_bytes() == 4
     assert (network(*ball_batch(100)[:2], torch.float32) == LIT).all()
 
 
-def test_words_that_point_beyond_themselves_are_refused(tmp_path):
-    network = made(bumpy_sphere(3), tmp_path, 64, "solid")
+def test_offsets_beyond_the_words_are_refused(tmp_path):
+    network = build_network(bumpy_sphere(3), tmp_path, 64, "solid")
     words = network.stored()["words"]
     assert len(words) > 100
-    place = int((words[:40] > 255).nonzero()[0])
+    index = int((words[:40] > 255).nonzero()[0])
     for bad in (len(words), len(words) - 1, -1):
         changed = words.clone()
-        changed[place] = bad
+        changed[index] = bad
         with pytest.raises(ValueError, match=f"a node beyond its {len(words)} words"):
             network.restore({"words": changed})
     for bad in (words[:-1], words[:1], words[:0]):

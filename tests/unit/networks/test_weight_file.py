@@ -1,4 +1,4 @@
-"""Network files keep every bit, and whatever else is given is refused and not run."""
+"""Weight files: exact round trips, and refusal of other files."""
 
 import pickle
 from pathlib import Path
@@ -40,16 +40,16 @@ class Bomb:
         return Path.touch, (self.path,)
 
 
-@pytest.mark.parametrize("kept", [0, 100, -1, pickle.dump, torch.save])
-def test_a_truncated_file_is_named_and_a_pickle_not_run(tmp_path, network, kept):
+@pytest.mark.parametrize("content", [0, 100, -1, pickle.dump, torch.save])
+def test_truncated_files_and_pickles_are_refused(tmp_path, network, content):
     path, exploded = tmp_path / "weights.safetensors", tmp_path / "exploded"
-    if callable(kept):
+    if callable(content):
         with path.open("wb") as file:
-            kept(Bomb(exploded), file)
+            content(Bomb(exploded), file)
     else:
         save_network(path, network, HEADER)
-        path.write_bytes(path.read_bytes()[:kept])
-    with pytest.raises(InputError, match=r"weights.safetensors: damaged .*delete it and run again"):
+        path.write_bytes(path.read_bytes()[:content])
+    with pytest.raises(InputError, match=r"weights.safetensors: damaged.*Delete it and run again"):
         load_network(path)
     assert not exploded.exists()
 
@@ -62,7 +62,7 @@ def test_a_truncated_file_is_named_and_a_pickle_not_run(tmp_path, network, kept)
         (SETTINGS | {"encoding": "../../evil"}, "evil"),
     ],
 )
-def test_a_header_that_does_not_fit_is_named(tmp_path, network, settings, reason):
+def test_weights_unfit_for_the_header_are_refused(tmp_path, network, settings, reason):
     path = tmp_path / "weights.safetensors"
     save_network(path, network, HEADER | {"network": settings})
     with pytest.raises(InputError, match=f"weights.safetensors: .*do not fit the header.*{reason}"):

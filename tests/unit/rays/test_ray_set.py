@@ -130,7 +130,7 @@ def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
 @pytest.mark.parametrize(
     ("first", "error", "message"),
     [
-        (0, InputError, r"origins.npy: holds .*\(19, 400, 3\)"),  # another range's
+        (0, InputError, r"origins.npy: is float32 \(19, 400, 3\)"),  # another range's
         (11, RuntimeError, r"labels .*bounds.npy \(seed 3\): ray \d+ of direction \d+ from"),
     ],
 )

@@ -10,7 +10,7 @@ from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.scene import make_scene
 
 UP = np.array([0.0, 1.0, 0.0])
-HIGH = np.array([0.0, 1000.0, 0.0])  # a light from which ways are upright, to a thousandth
+HIGH = np.array([0.0, 1000.0, 0.0])  # a light with upright rays, to a thousandth
 
 
 def moved(shape, *way):

@@ -41,9 +41,9 @@ def test_points_are_found_where_they_were_and_hidden_ones_are_not(scene):
     found = looked_up(before.image(before.p)[..., 0], places[:, accepted])
     assert np.abs(found - now.p[accepted, 0]).max() < 5e-3
     # Ground that the cube hid before is not accepted.
-    ways = before.camera.eye - now.p
+    to_eye = before.camera.eye - now.p
     hidden = scene.tracer.blocked(
-        (now.p + 1e-3 * now.n_g).astype(np.float32), ways.astype(np.float32)
+        (now.p + 1e-3 * now.n_g).astype(np.float32), to_eye.astype(np.float32)
     )
     assert hidden.any() and accepted[hidden].mean() < 0.2
 

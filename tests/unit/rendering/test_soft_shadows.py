@@ -5,7 +5,7 @@ import pytest
 import trimesh
 from shapes import prepared, sheet
 
-from neural_shadows.rendering.light_samples import ring_shares, ring_ways
+from neural_shadows.rendering.light_samples import ring_shares, ring_vectors
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
@@ -110,9 +110,9 @@ def test_rings_add_up_to_the_disc():
     assert np.allclose(shares.sum(1), 1)
     assert np.allclose(shares[2], np.array([1, 3, 12]) / 16)
     points, count = np.zeros((1, 3), np.float32), np.full(3, 4096)
-    ways = np.empty((1, count.sum(), 3), np.float32)
-    ring_ways(points, np.array([7]), 0, CENTRE, radii, count, ways)
-    away = (ways[0] - CENTRE).astype(float)
+    to_light = np.empty((1, count.sum(), 3), np.float32)
+    ring_vectors(points, np.array([7]), 0, CENTRE, radii, count, to_light)
+    away = (to_light[0] - CENTRE).astype(float)
     assert np.abs(away[:, 1]).max() < 1e-6  # across the way to the centre
     radius = np.hypot(away[:, 0], away[:, 2]).reshape(3, -1)
     edges = np.concatenate([[0], radii])

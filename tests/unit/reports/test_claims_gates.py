@@ -73,7 +73,7 @@ def test_the_first_test_that_fails_decides():
 
 
 def orders(kind, share, seeds, spoilt):
-    """A supported claim of a kind, on data spoilt by verdict."""
+    """A kind's supported claim on data spoilt by verdict."""
     bad = {name: name in spoilt for name in verdicts.VERDICTS}
     share = share / 10 if bad[verdicts.TOO_SMALL] else share
     curves = {name: points(name, [share * THESIS_SAMPLES], seeds) for name in ("a", "b")}
@@ -86,8 +86,8 @@ def orders(kind, share, seeds, spoilt):
         data = measured(curves=curves, losses=losses, meshes=own, scenes=[])
         return pairs(("a", "b")), replace(data, scenes={"dragon": {"procedural": False}})
     lpips = 0.3 if bad[verdicts.NOT_LEARNED] else 0.1
-    seen = violated(10, 30) if bad[verdicts.CONTRADICTED] else violated(40, 15)
-    methods = {run: {"lpips": lpips} | seen for run in runs["a"]}
+    violations = violated(10, 30) if bad[verdicts.CONTRADICTED] else violated(40, 15)
+    methods = {run: {"lpips": lpips} | violations for run in runs["a"]}
     return [row("a")], measured({"dragon": scene(methods)}, curves, meshes=own)
 
 
@@ -130,8 +130,8 @@ def test_nothing_is_contradicted_below_a_thirtieth_of_the_samples(share, expecte
     assert outcome["verdict"] == expected
     assert f"against the claim at {100 * share:.2g} % of the thesis's samples" in outcome["reason"]
     assert ("which says nothing of more" in outcome["reason"]) == (share < 1 / 30)
-    kept = judge(claim, case(share=share))
-    assert (kept["verdict"], kept["reason"].split("favour ")[1]) == (
+    supported = judge(claim, case(share=share))
+    assert (supported["verdict"], supported["reason"].split("favour ")[1]) == (
         "supported",
         f"at {100 * share:.2g} % of the thesis's samples",
     )
@@ -182,8 +182,8 @@ def test_a_network_must_have_learned_at_the_budget_that_is_compared():
     lpips = {"a_0": 0.35, "a_1": 0.1, "b_0": 0.2}
     methods = {
         point["experiment"]: {"lpips": lpips[point["experiment"][:3]]}
-        for some in curves.values()
-        for point in some
+        for curve in curves.values()
+        for point in curve
     }
     methods["shadow_map_256"] = {"lpips": 0.2}
     data = measured({"dragon": scene(methods)}, curves)
@@ -209,7 +209,7 @@ def test_a_network_that_is_only_built_has_no_seeds_and_need_not_have_learned():
 
 def test_order_of_scenes_that_no_shadow_has_too_is_vacuous():
     seeds = points("a", [THESIS_SAMPLES], 2), points("b", [THESIS_SAMPLES], 2)
-    names = [[point["experiment"] for point in some] for some in seeds]
+    names = [[point["experiment"] for point in curve] for curve in seeds]
     scenes = {
         "dragon": scene(dict.fromkeys(names[0], {"lpips": 0.1}), {"lpips": 0.2}),
         "fence": scene(dict.fromkeys(names[1], {"lpips": 0.3}), {"lpips": 0.5}),
@@ -260,8 +260,8 @@ def test_losses_that_end_above_no_shadow_have_not_learned(ends, changes, expecte
     ],
 )
 def test_a_claim_of_many_comparisons_is_contradicted_by_holms_correction(p_values, expected):
-    some = [Comparison("lpips", "a", "a", "+1", supports=False, against=p) for p in p_values]
-    assert verdict_of(some) == expected
+    comparisons = [Comparison("lpips", "a", "a", "+1", supports=False, against=p) for p in p_values]
+    assert verdict_of(comparisons) == expected
 
 
 def test_a_support_needs_every_comparison():
@@ -271,12 +271,14 @@ def test_a_support_needs_every_comparison():
 
 
 def test_the_number_of_a_claim_is_of_the_comparison_that_decides():
-    few = Comparison("lpips", "a", "a", "", False, 1.0, untested="6 views are too few")
-    held = Comparison("psnr", "b", "b", "+1.2e+03", True, 1.0)
+    untested = Comparison("lpips", "a", "a", "", False, 1.0, untested="6 views are too few")
+    supporting = Comparison("psnr", "b", "b", "+1.2e+03", True, 1.0)
     chance = Comparison("ssim", "c", "c", "-1", False, 0.4)
     lost = Comparison("flip", "d", "d", "-0.1", False, 0.001)
-    assert most_against([few, held, chance, lost]) is lost  # not the first that is negative
-    assert most_against([few, held]) is held and most_against([few]) is None
+    assert (
+        most_against([untested, supporting, chance, lost]) is lost
+    )  # not the first that is negative
+    assert most_against([untested, supporting]) is supporting and most_against([untested]) is None
     outcome = judged(**FAILURES[verdicts.CONTRADICTED])
     assert (outcome["number_of"], outcome["number"][:6]) == ("LPIPS", "-0.05 ")
 

@@ -109,8 +109,8 @@ def test_trainings_are_compared_at_the_largest_budget_and_by_the_seeds_that_both
     values = {"a_0": 0.2, "a_1": 0.1, "b_0": 0.15, "b_1": 0.05}
     methods = {
         point["experiment"]: {"lpips": values[point["experiment"][:3]]}
-        for some in curves.values()
-        for point in some
+        for curve in curves.values()
+        for point in curve
     }
     (comparison,) = comparisons(better(("a", "b")), measured({"dragon": scene(methods)}, curves))
     assert (comparison.samples, comparison.seeds) == (2000, 2)
@@ -157,7 +157,9 @@ def test_losses_of_three_seeds_are_wrong_about_nothing_in_one_of_twenty(spread):
     claim = {"kind": "lower_loss", "pairs": pairs(("a", "b"))}
     decided = 0
     for _ in range(400):
-        ends = {p["experiment"]: rng.normal(0.2, spread) for some in curves.values() for p in some}
+        ends = {
+            p["experiment"]: rng.normal(0.2, spread) for curve in curves.values() for p in curve
+        }
         losses = {run: pd.DataFrame({"loss": [end] * 10}) for run, end in ends.items()}
         decided += verdict(claim, measured(curves=curves, losses=losses)) != "undecided"
     assert 8 <= decided <= 32  # 20 expected, 4.4 their standard deviation
@@ -176,7 +178,7 @@ def timed(devices=("cpu", "cpu"), frames=15):
 
 
 @pytest.mark.parametrize(
-    ("least", "most", "expected"),
+    ("lower", "upper", "expected"),
     [
         (None, 2.5, "supported"),
         (None, 1.5, "contradicted"),
@@ -185,9 +187,9 @@ def timed(devices=("cpu", "cpu"), frames=15):
         (2, 3, "undecided"),
     ],
 )
-def test_own_times_are_compared_as_ratios_of_frames(least, most, expected):
+def test_own_times_are_compared_as_ratios_of_frames(lower, upper, expected):
     claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
-    claim |= {"at_least": least, "at_most": most, "overhead_ms": 0.0}
+    claim |= {"at_least": lower, "at_most": upper, "overhead_ms": 0.0}
     outcome = judge(claim, timed())
     assert outcome["verdict"] == expected
     assert (outcome["number_of"], outcome["number"][:7]) == ("own milliseconds", "ratio 2")

@@ -13,14 +13,14 @@ from neural_shadows.reports.data.trained import THESIS_SAMPLES
 SHARES = np.array([1 / 81, 1 / 27, 1 / 9, 1 / 3, 1])  # of the largest budget
 
 
-def followed(a, b, most, *, seeds=3, noise=0.002, metric="lpips", as_loss=False):
+def outcome_of(a, b, largest, *, seeds=3, noise=0.002, metric="lpips", as_loss=False):
     """Judge a claim on curves with errors by the share.
 
-    `most`: the largest budget as a share of the thesis's samples. Each training's error is off by
+    `largest`: the largest budget as a share of the thesis's samples. Each training's error is off by
     a factor of its own.
     """
     rng = np.random.default_rng(7)
-    budgets = [int(share * most * THESIS_SAMPLES) for share in SHARES]
+    budgets = [int(share * largest * THESIS_SAMPLES) for share in SHARES]
     curves = {name: points(name, budgets, seeds) for name in ("a", "b")}
     errors = {
         point["experiment"]: law(point["samples"] / budgets[-1]) * np.exp(rng.normal(0, noise))
@@ -48,20 +48,20 @@ AHEAD_LATER = power_law(0.0112, 0.0388), power_law(0.04, 0.005)
 
 @pytest.mark.parametrize("as_loss", [False, True])
 def test_a_licensed_extrapolation_decides(as_loss):
-    outcome = followed(*AHEAD_LATER, most=0.05, as_loss=as_loss)
+    outcome = outcome_of(*AHEAD_LATER, largest=0.05, as_loss=as_loss)
     assert outcome["verdict"] == "supported"
     assert "at the thesis's samples, extrapolated" in outcome["reason"]
     assert (outcome["direction"], outcome["trend"] > 0) == ("towards", True)
     assert "(20 times the largest budget, the hold-out tries 3 times)" in outcome["evidence"]
     at = float(outcome["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
     assert at == pytest.approx(0.04 + 0.005 / 20**0.5 - 0.0112 - 0.0388 / 20**0.5, abs=0.002)
-    ahead_no_more = followed(*AHEAD_LATER[::-1], most=0.05, as_loss=as_loss)
+    ahead_no_more = outcome_of(*AHEAD_LATER[::-1], largest=0.05, as_loss=as_loss)
     assert (ahead_no_more["verdict"], ahead_no_more["direction"]) == ("contradicted", "away")
 
 
 def test_an_extrapolation_of_psnr_is_one_of_squared_errors():
     # A factor of two of the errors is 3.01 dB at all budgets.
-    outcome = followed(power_law(0, 1e-3), power_law(0, 2e-3), 0.05, metric="psnr")
+    outcome = outcome_of(power_law(0, 1e-3), power_law(0, 2e-3), 0.05, metric="psnr")
     assert outcome["verdict"] == "supported"
     at = outcome["evidence"].split("at the thesis's samples ")[1].split(" ")[0]
     assert float(at) == pytest.approx(3.01, abs=0.05)
@@ -69,7 +69,7 @@ def test_an_extrapolation_of_psnr_is_one_of_squared_errors():
 
 
 def test_more_than_thirtyfold_is_not_licensed():
-    outcome = followed(*AHEAD_LATER, most=0.02)
+    outcome = outcome_of(*AHEAD_LATER, largest=0.02)
     assert outcome["verdict"] == verdicts.TOO_SMALL
     missing = (
         "2 % of the thesis's samples, 10 % are needed; an extrapolation needs 1/30: 2.2 billion"
@@ -84,13 +84,13 @@ def test_a_curve_that_bends_is_not_licensed():
     def bending(share):
         return 0.1 * share**-0.1 if share < 0.9 else 0.05
 
-    outcome = followed(bending, AHEAD_LATER[1], most=0.05)
+    outcome = outcome_of(bending, AHEAD_LATER[1], largest=0.05)
     assert outcome["verdict"] == verdicts.TOO_SMALL
     assert "no extrapolation: the hold-out is missed by" in outcome["reason"]
 
 
 def test_one_seed_has_a_trend_without_an_interval():
-    outcome = followed(*AHEAD_LATER, most=0.05, seeds=1)
+    outcome = outcome_of(*AHEAD_LATER, largest=0.05, seeds=1)
     assert outcome["verdict"] == verdicts.TOO_SMALL
     assert outcome["reason"].startswith("1 seed of 2; ")
     assert np.isfinite(outcome["trend"]) and np.isnan(outcome["trend_low"])
@@ -98,7 +98,7 @@ def test_one_seed_has_a_trend_without_an_interval():
 
 
 def test_a_gap_that_closes_only_since_both_errors_fall_moves_neither_way():
-    outcome = followed(power_law(0, 0.05), power_law(0, 0.04), most=0.02, as_loss=True)
+    outcome = outcome_of(power_law(0, 0.05), power_law(0, 0.04), largest=0.02, as_loss=True)
     assert outcome["trend_low"] > 0
     assert outcome["direction"] == "neither"
     assert outcome["reason"].endswith("moving neither towards the claim nor away")

@@ -1,4 +1,4 @@
-"""Claims on proportional columns, from made tables."""
+"""Claims on proportional columns, on synthetic tables."""
 
 import numpy as np
 import pandas as pd

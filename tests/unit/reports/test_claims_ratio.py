@@ -1,4 +1,4 @@
-"""Claims on ratios of tables' numbers, from made tables."""
+"""Claims on ratios of tables' numbers, on synthetic tables."""
 
 import pandas as pd
 import pytest

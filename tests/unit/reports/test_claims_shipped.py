@@ -46,11 +46,11 @@ def ranks(claim):
 def errors_of(claim, share, contrary):
     """Learning curves, and errors that double from rank to rank."""
     order = ranks(claim)
-    most, rng = max(order.values()), np.random.default_rng(3)
+    last_rank, rng = max(order.values()), np.random.default_rng(3)
     curves, errors = {}, {}
     for row in methods(claim):
         method = row["method"]
-        level = 0.02 * 2.0 ** (most - order[method] if contrary else order[method])
+        level = 0.02 * 2.0 ** (last_rank - order[method] if contrary else order[method])
         if not row["trained"]:
             errors[method] = level
             continue
@@ -85,7 +85,7 @@ def data_of(claim, share, contrary):
 
 
 def runs_of(curves):
-    return [point["experiment"] for some in curves.values() for point in some]
+    return [point["experiment"] for curve in curves.values() for point in curve]
 
 
 def scenes_of(claim, curves, errors, counts=()):
@@ -154,7 +154,7 @@ def test_a_claim_has_the_verdict_that_its_data_carry(name, share, contrary):
 
 @functools.cache
 def with_all_seeds():
-    """A configuration with all seeds of networks of frames."""
+    """A configuration with all seeds of screen-space networks."""
     return read_config(shipped("nsm_seeds", "kpnsm_seeds", "nsm_scenes"))
 
 
@@ -182,23 +182,23 @@ def numbers_of(name):
     """A table by its settings or by a reference."""
     layout = of_all_seeds()
     table = layout.entry("tables", name)
-    made = [path for where in ("*", "earlier/*") for path in REFERENCE.glob(f"{where}/{name}.csv")]
+    paths = [path for where in ("*", "earlier/*") for path in REFERENCE.glob(f"{where}/{name}.csv")]
     match table["kind"]:
         case "screen_steps":
             return pd.DataFrame({"row": [*table["steps"]]}).assign(
                 **dict.fromkeys(("runtime", "size", "error", "error_off_edges"), 1.0)
             )
         case "screen_temporal":
-            columns = dict.fromkeys(pd.read_csv(made[0]), 1.0)
+            columns = dict.fromkeys(pd.read_csv(paths[0]), 1.0)
             return pd.DataFrame(columns | {"label": with_taa(labels_of(name))})
-        case "screen_errors" if not made:
+        case "screen_errors" if not paths:
             frames = layout.entry("frame_sets", table["frame_set"])
             lights = [*range(len(frames["radii"])), "all"]
             rows = product(labels_of(name), frames["scenes"], lights)
             return pd.DataFrame(rows, columns=["label", "frames", "light"]).assign(
                 mse=1.0, mse_off_edges=1.0
             )
-    table = pd.read_csv(made[0])
+    table = pd.read_csv(paths[0])
     for column in ("mse", "error"):  # of references that are older than these columns
         if column in table:
             table = table.assign(**{f"{column}_off_edges": table[column]})

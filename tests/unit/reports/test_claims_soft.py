@@ -1,4 +1,4 @@
-"""Claims on methods for soft shadows, from made frames."""
+"""Claims on methods for soft shadows, on synthetic frames."""
 
 import numpy as np
 import pandas as pd
@@ -79,12 +79,15 @@ def test_frames_are_compared_in_pairs(pair, verdict):
 def test_noise_and_few_frames_decide_nothing():
     pairs = [["pcss", "msm_15"]]
     assert judge(claim("soft_better", pairs=pairs), data(noise=0.05))["verdict"] == "undecided"
-    few = judge(claim("soft_better", pairs=pairs), data(frames=6))
-    assert few["verdict"] == verdicts.TOO_SMALL and "6 frames are too few" in few["reason"]
+    outcome_of_few = judge(claim("soft_better", pairs=pairs), data(frames=6))
+    assert (
+        outcome_of_few["verdict"] == verdicts.TOO_SMALL
+        and "6 frames are too few" in outcome_of_few["reason"]
+    )
 
 
 def test_as_many_rays_as_fit_into_the_time():
-    """PCSS takes 35 ms, as one ray, and 45 ms, as four."""
+    """PCSS takes 35 ms like one ray, 45 like four."""
     outcome = judge(claim("soft_equal_time", methods=["pcss"]), data())
     first, second = outcome["evidence"].split("\n")
     assert "1 ray" in first and "(10 ms) against PCSS" in first
@@ -267,11 +270,14 @@ def test_a_network_s_lead_that_what_learns_nothing_has_too_is_vacuous(nulls, nam
 def test_rays_that_beat_a_map_as_well_are_vacuous_below_a_thirtieth():
     lost = [-gain for gain in GAINS]
     changes = {"kind": "soft_equal_time", "nulls": [("hard", 0.02)]}
-    whole = judge(*of_networks(3, lost, **changes))
-    assert (whole["verdict"], whole["null_verdict"]) == (verdicts.SUPPORTED, "supported")
-    few = judge(*of_networks(3, lost, **changes, samples=TEXT_SAMPLES["nsm"] // 240))
-    assert few["verdict"] == verdicts.VACUOUS
-    assert few["reason"].endswith("they do at 0.42 % of Datta et al. 2022's pixels")
+    outcome_of_all = judge(*of_networks(3, lost, **changes))
+    assert (outcome_of_all["verdict"], outcome_of_all["null_verdict"]) == (
+        verdicts.SUPPORTED,
+        "supported",
+    )
+    outcome_of_few = judge(*of_networks(3, lost, **changes, samples=TEXT_SAMPLES["nsm"] // 240))
+    assert outcome_of_few["verdict"] == verdicts.VACUOUS
+    assert outcome_of_few["reason"].endswith("they do at 0.42 % of Datta et al. 2022's pixels")
 
 
 @pytest.mark.parametrize(

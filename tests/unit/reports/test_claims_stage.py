@@ -38,7 +38,7 @@ NOTHING = {
 
 @pytest.fixture
 def written(tmp_path):
-    """Claims on a network of three seeds and its rivals."""
+    """Claims on a network of three seeds and its baselines."""
     runs = [point["experiment"] for point in CURVE]
     quality = dict.fromkeys(METRICS, 0.2) | {"psnr": 20.0, "ssim": 0.9}
     means = dict.fromkeys(runs, quality)
@@ -118,15 +118,15 @@ def test_a_reader_meets_the_scale_and_the_meanings_before_the_first_verdict(writ
         ([], "No network was trained for these claims."),
         (
             [500, 2000],
-            "Networks of frames saw at most 2,000 pixels each in this run, and 62.9 billion and 168 "
+            "Screen-space networks saw at most 2,000 pixels each in this run, and 62.9 billion and 168 "
             "billion in Datta et al. 2022 and Hu et al. 2025.",
         ),
     ],
 )
-def test_networks_of_frames_are_trained_too(tmp_path, samples, lead):
+def test_screen_space_networks_are_trained_too(tmp_path, samples, lead):
     records = [
-        write_record(tmp_path / "frames" / str(i) / "training.json", {"samples": seen})
-        for i, seen in enumerate(samples)
+        write_record(tmp_path / "frames" / str(i) / "training.json", {"samples": count})
+        for i, count in enumerate(samples)
     ]
     printed = {"printed": THESIS | CLAIMS["printed"]}
     _, md = written_table(

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import pandas as pd
 from PIL import Image
 
-from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
 from neural_shadows.reports.drawing.style import new_figure, write_figure
 from neural_shadows.reports.page.figure_blocks import LARGEST_SVG, figure_blocks, inline_svg
 
@@ -57,6 +57,6 @@ def test_a_chart_s_own_data_can_be_saved(tmp_path):
     assert "a, b" not in block.html
     assert "tabindex" not in block.html  # it has no point that the arrow keys could choose
     (point,) = figure.subplots().plot([1], [2], "o")
-    say(point, "a: 2")
+    add_tooltip(point, "a: 2")
     write_chart(figure, svg.with_suffix(".png"), svg)
     assert 'tabindex="0"' in figure_blocks([svg], {}, {})[0].html

@@ -1,4 +1,4 @@
-"""Signed distances at the vertices of bricks against those of a ball and a box."""
+"""Signed distances of brick vertices against a ball and a box."""
 
 import numpy as np
 import pytest
@@ -13,18 +13,18 @@ BRICKS, REACH = 8, 2.0
 CELL = 2 / (4 * BRICKS)
 
 
-def found(shape: trimesh.Trimesh) -> tuple[np.ndarray, np.ndarray]:
+def distances_of(shape: trimesh.Trimesh) -> tuple[np.ndarray, np.ndarray]:
     """Positions (count, 3) of the vertices, and their distances in cells."""
     mesh, _ = prepared(shape)
     layout = lay_out(surface_cells(mesh.vertices, mesh.faces, BRICKS), True)
-    return layout.places * CELL - 1, signed_distances(mesh, layout, REACH)
+    return layout.vertices * CELL - 1, signed_distances(mesh, layout, REACH)
 
 
 def test_a_box(angle=0.3):
     """Turned, so that faces, edges and corners are all nearest to some vertex."""
     turn = trimesh.transformations.rotation_matrix(angle, [1, 2, 3])
-    places, distances = found(box(0.7, 0.9, 1.1).apply_transform(turn))
-    q = np.abs(places @ turn[:3, :3]) - [0.35, 0.45, 0.55]
+    positions, distances = distances_of(box(0.7, 0.9, 1.1).apply_transform(turn))
+    q = np.abs(positions @ turn[:3, :3]) - [0.35, 0.45, 0.55]
     outside = np.linalg.norm(np.maximum(q, 0), axis=1)
     expected = -(outside + np.minimum(q.max(1), 0)) / CELL
     assert np.abs(distances - expected.clip(-REACH, REACH)).max() < 1e-5
@@ -36,8 +36,8 @@ def test_a_ball_with_a_hole_has_an_inside(hole):
     """Through a hole of some triangles few rays of a point leave."""
     shape = trimesh.creation.icosphere(4, radius=0.5)
     shape.update_faces(np.arange(len(shape.faces)) >= hole)
-    places, distances = found(shape)
-    depth = 0.5 - np.linalg.norm(places, axis=1)
+    positions, distances = distances_of(shape)
+    depth = 0.5 - np.linalg.norm(positions, axis=1)
     clear = np.abs(depth) > 0.01
     assert ((distances > 0) == (depth > 0))[clear].all()
     assert 0.2 < (distances > 0).mean() < 0.8

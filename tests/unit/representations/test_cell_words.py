@@ -1,4 +1,4 @@
-"""Corners of cells in four or eight bits each: what lies between them, and how they are rounded."""
+"""Words of cells: interpolation, and rounding of corners."""
 
 import numpy as np
 import pytest
@@ -16,19 +16,19 @@ RNG = np.random.default_rng(3)
 
 
 @njit
-def signs(words, places):
+def signs(words, points):
     """Whether each word (n,) is positive at each of its places (n, k, 3) in 2^−PART cells."""
-    found = np.empty(places.shape[:2], np.bool_)
+    result = np.empty(points.shape[:2], np.bool_)
     for n in range(len(words)):
-        for k in range(places.shape[1]):
-            x, y, z = places[n, k]
-            found[n, k] = positive_at(words[n], words.itemsize == 8, x, y, z)
-    return found
+        for k in range(points.shape[1]):
+            x, y, z = points[n, k]
+            result[n, k] = positive_at(words[n], words.itemsize == 8, x, y, z)
+    return result
 
 
-def between(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
+def between(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Interpolated values (n, k) of corners (n, 8) at places (n, k, 3) in cells."""
-    shares = np.abs(1 - CORNERS - places[:, :, None]).prod(axis=3)
+    shares = np.abs(1 - CORNERS - points[:, :, None]).prod(axis=3)
     return np.einsum("nkc,nc->nk", shares, corners)
 
 
@@ -53,40 +53,40 @@ def values_of(words: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("bits", [4, 8])
 def test_the_sign_between_corners_is_exact(bits):
     words = RNG.integers(0, 1 << 8 * bits, 2000, dtype=WORDS[bits])
-    places = RNG.integers(0, 1 << PART, (2000, 20, 3))
+    points = RNG.integers(0, 1 << PART, (2000, 20, 3))
     if bits == 8:
-        places[..., 2] &= 255 << PART - 8  # its first axis is looked up in so many bits
-    places[:, 0] = 0
-    expected = between(values_of(words), places / 2**PART)
+        points[..., 2] &= 255 << PART - 8  # its first axis is looked up in so many bits
+    points[:, 0] = 0
+    expected = between(values_of(words), points / 2**PART)
     clear = np.abs(expected) > 1e-9  # exactly 0 is not positive, and float64 may not be exact
     assert clear.mean() > 0.999
-    assert np.array_equal(signs(words, places)[clear], (expected > 0)[clear])
+    assert np.array_equal(signs(words, points)[clear], (expected > 0)[clear])
 
 
 def test_values_that_are_levels_keep_their_ratios():
     levels = RNG.integers(-7, 7, (500, 8)) + 0.5
     levels[:, 0] = 7.5 * RNG.choice([-1, 1], 500)
-    found = values_of(words_of(levels.astype(np.float32) * 3e-3, 4))
-    assert np.allclose(found, levels)
+    result = values_of(words_of(levels.astype(np.float32) * 3e-3, 4))
+    assert np.allclose(result, levels)
 
 
-def test_planes_are_where_they_were():
+def test_planes_move_little():
     """How far a plane through a cell is moved by rounding, along its normal, in cells."""
     normals = RNG.normal(size=(3000, 3))
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     through = RNG.uniform(0.1, 0.9, (3000, 1, 3))
     corners = ((CORNERS - through) * normals[:, None]).sum(axis=2)
     # Places on the plane, inside the cell.
-    places = RNG.uniform(0, 1, (3000, 30, 3))
-    places -= ((places - through) * normals[:, None]).sum(axis=2, keepdims=True) * normals[:, None]
-    inside = ((places > 0) & (places < 1)).all(axis=2)
+    points = RNG.uniform(0, 1, (3000, 30, 3))
+    points -= ((points - through) * normals[:, None]).sum(axis=2, keepdims=True) * normals[:, None]
+    inside = ((points > 0) & (points < 1)).all(axis=2)
 
-    def moved(found: np.ndarray) -> float:
+    def moved(result: np.ndarray) -> float:
         """Root of the mean square; the gradient's length is that of the plane fitted to corners."""
         slopes = np.linalg.norm(
-            (found - found.mean(axis=1, keepdims=True)) @ (CORNERS - 0.5) / 2, axis=1
+            (result - result.mean(axis=1, keepdims=True)) @ (CORNERS - 0.5) / 2, axis=1
         )
-        return np.sqrt(np.square((between(found, places) / slopes[:, None])[inside]).mean())
+        return np.sqrt(np.square((between(result, points) / slopes[:, None])[inside]).mean())
 
     nearest = np.floor(corners * 8 / np.abs(corners).max(axis=1, keepdims=True)).clip(-8, 7) + 0.5
     assert moved(corners) < 1e-6

@@ -1,4 +1,4 @@
-"""A coded field is read back bit by bit, and takes few bytes where a surface is smooth."""
+"""Coded fields: exact round trips, and size of smooth fields."""
 
 import numpy as np
 import pytest
@@ -26,14 +26,14 @@ def laid_out(shape: trimesh.Trimesh) -> BrickLayout:
 
 def of_crossed_cells(layout: BrickLayout, inside: np.ndarray) -> np.ndarray:
     """Vertices of a cell with both signs, one cell after the other."""
-    sides = dict(zip(map(tuple, layout.places.tolist()), inside.tolist()))
-    found = set()
+    sides = dict(zip(map(tuple, layout.vertices.tolist()), inside.tolist()))
+    crossed_vertices = set()
     for x, y, z in 4 * np.argwhere(layout.grid >= 0):
         for i, j, k in np.ndindex(4, 4, 4):
             corners = [(x + i + a, y + j + b, z + k + c) for a, b, c in np.ndindex(2, 2, 2)]
             if len({sides[corner] for corner in corners}) == 2:
-                found.update(corners)
-    return np.array([place in found for place in map(tuple, layout.places.tolist())])
+                crossed_vertices.update(corners)
+    return np.array([vertex in crossed_vertices for vertex in map(tuple, layout.vertices.tolist())])
 
 
 @pytest.mark.parametrize("spread", [0.0, 0.4, 5.0])
@@ -41,14 +41,16 @@ def test_levels_come_back(spread):
     """Of a smooth field, of a noisy one, and of noise alone, whose cells are nearly all crossed."""
     layout = laid_out(bumpy_sphere(3))
     noise = np.random.default_rng(0).normal(scale=spread, size=layout.count)
-    levels = levels_of(HALF * (0.85 - np.linalg.norm(layout.places / HALF - 1, axis=1)) + noise)
+    levels = levels_of(HALF * (0.85 - np.linalg.norm(layout.vertices / HALF - 1, axis=1)) + noise)
     tensors = coded(layout, levels)
-    again, found = decoded(tensors, BRICKS, True)
+    again, crossed_vertices = decoded(tensors, BRICKS, True)
     assert np.array_equal(again.grid, layout.grid)
     near = of_crossed_cells(layout, levels >= 0)
     assert 0.1 < near.mean()
-    assert np.array_equal(found, np.where(near, levels, np.where(levels < 0, -MOST, MOST - 1)))
-    repeated = coded(again, found)
+    assert np.array_equal(
+        crossed_vertices, np.where(near, levels, np.where(levels < 0, -MOST, MOST - 1))
+    )
+    repeated = coded(again, crossed_vertices)
     assert all(torch.equal(repeated[name], tensors[name]) for name in tensors)
 
 
@@ -60,7 +62,7 @@ def test_a_level_is_a_sixteenth_of_a_cell():
 def test_a_plane_takes_hardly_a_byte():
     """All is as expected but at the bricks' ends; of noise nothing is, and nothing is saved."""
     layout = laid_out(box(1.02, 1.02, 1.02))
-    depth = HALF * (0.51 - np.abs(layout.places / HALF - 1).max(axis=1))
+    depth = HALF * (0.51 - np.abs(layout.vertices / HALF - 1).max(axis=1))
     smooth = coded(layout, levels_of(depth))
     noise = np.random.default_rng(0).integers(-MOST, MOST, layout.count).astype(np.int8)
     rough = coded(layout, noise)
@@ -69,7 +71,7 @@ def test_a_plane_takes_hardly_a_byte():
 
 
 @pytest.mark.parametrize("name", ["bricks", "signs", "levels"])
-def test_what_was_not_coded_is_told(name):
+def test_other_tensors_are_refused(name):
     layout = laid_out(bumpy_sphere(3))
     tensors = coded(layout, levels_of(np.linspace(-2, 2, layout.count)))
     with pytest.raises(ValueError):

@@ -1,4 +1,4 @@
-"""Distances from bricks' corners to the surface of a field."""
+"""Distances of brick corners to a field's surface."""
 
 import numpy as np
 import trimesh
@@ -13,8 +13,8 @@ def test_of_a_sphere():
     field = fitted_field(prepared(trimesh.creation.icosphere(5))[0], 0.04)
     around = distances_around(field.grid, field.bricks)
     size = len(field.grid)
-    places = (np.indices((size + 1,) * 3) * (2 / size) - 1).reshape(3, -1)
-    exact = np.linalg.norm(places, axis=0) - 1 / field.radius
+    points = (np.indices((size + 1,) * 3) * (2 / size) - 1).reshape(3, -1)
+    exact = np.linalg.norm(points, axis=0) - 1 / field.radius
     assert around.shape == (size + 1,) * 3 and np.mean(exact < 0) > 0.2
     away = np.abs(around.ravel() - exact) * field.resolution / 2  # in cells
     assert away.max() < 0.6 and away.mean() < 0.15

@@ -49,42 +49,42 @@ SPHERE = trimesh.creation.icosphere(4), past_sphere
 SLAB = trimesh.creation.box((3, 3, 0.2)), past_slab
 
 
-def walked(shape, x, walks, push=0.0, cell=0.04):
+def marched(shape, x, walks, push=0.0, cell=0.04):
     field = fitted_field(prepared(shape)[0], cell)
     points = points_below(x)
-    ways, normals = np.tile(FAR * UP, (len(x), 1)), np.tile(UP, (len(x), 1))
-    visible = above_plane(normals, ways, np.float32(SLOPE * FAR))
+    to_light, normals = np.tile(FAR * UP, (len(x), 1)), np.tile(UP, (len(x), 1))
+    visible = above_plane(normals, to_light, np.float32(SLOPE * FAR))
     around = field.centre, field.radius, field.cone_field
-    told = split_disc(walks), np.float32(push)
-    dim_by_field(points, normals, ways, np.float32(SLOPE * FAR), *around, *told, visible)
+    arguments = split_disc(walks), np.float32(push)
+    dim_by_field(points, normals, to_light, np.float32(SLOPE * FAR), *around, *arguments, visible)
     return visible
 
 
 @pytest.mark.parametrize("shape, past", [SPHERE, SLAB], ids=["sphere", "slab"])
 @pytest.mark.parametrize("walks, most", [(1, 0.25), (8, 0.04)])
-def test_an_edge_hides_what_it_should(shape, past, walks, most):
+def test_visibility_past_an_edge(shape, past, walks, most):
     x = np.linspace(0.2, 2.4, 60)
     disc = disc_points(4000)
     rays = np.column_stack([SLOPE * disc, np.ones(len(disc))])
     exact = np.array([np.mean(past(point, rays)) for point in points_below(x)])
     assert exact[0] == 0 and exact[-1] == 1 and np.mean((exact > 0) & (exact < 1)) > 0.15
-    found = walked(shape, x, walks)
-    assert np.abs(found - exact).max() < most and np.abs(found - exact).mean() < most / 4
-    assert found[0] < 0.03 and found[-1] == 1
+    result = marched(shape, x, walks)
+    assert np.abs(result - exact).max() < most and np.abs(result - exact).mean() < most / 4
+    assert result[0] < 0.03 and result[-1] == 1
 
 
-def test_splitting_sees_past_both_sides_of_a_rod():
+def test_splitting_resolves_a_rod():
     """One walk knows one edge; the rod covers the middle of the light, 2 · 0.036 / 0.3 of its width."""
     rod = trimesh.creation.box((0.072, 2, 0.072))
     disc = SLOPE * DROP * disc_points(4000)
     exact = np.mean(np.abs(disc[:, 0]) > 0.036)
-    one, eight = (walked(rod, np.zeros(1), walks, cell=0.01)[0] for walks in (1, 8))
-    assert abs(eight - exact) < 0.08 < abs(one - exact)
+    single, eight = (marched(rod, np.zeros(1), walks, cell=0.01)[0] for walks in (1, 8))
+    assert abs(eight - exact) < 0.08 < abs(single - exact)
 
 
-def test_what_is_pushed_out_hides_more():
+def test_pushing_out_lowers_visibility():
     x = np.linspace(1.0, 1.4, 20)
-    plain, pushed = (walked(SPHERE[0], x, 1, push) for push in (0.0, 2.0))
+    plain, pushed = (marched(SPHERE[0], x, 1, push) for push in (0.0, 2.0))
     assert np.all(pushed <= plain) and pushed.sum() < plain.sum() - 0.1
 
 
@@ -92,15 +92,15 @@ def test_a_plane_hides_its_side_of_the_light_once():
     """Of a point on an object, the object's own face does not hide that part of the light again."""
     tilts = np.array([-2, -0.5, 0, 0.5, 2]) * SLOPE
     normals = np.stack([np.ones(5), np.zeros(5), tilts], axis=1).astype(np.float32)
-    ways = np.tile(FAR * UP, (5, 1))
+    to_light = np.tile(FAR * UP, (5, 1))
     size = np.float32(SLOPE * FAR)
-    visible = above_plane(normals, ways, size)
+    visible = above_plane(normals, to_light, size)
     exact = [0, 0.1955, 0.5, 0.8045, 1]  # segments of a disc
     np.testing.assert_allclose(visible, exact, atol=1e-3)
     field = fitted_field(prepared(trimesh.creation.box((1, 1, 1)))[0], 0.01)
     points = np.tile(np.array([5, 5, 0], np.float32), (5, 1))
-    told = field.centre, field.radius, field.cone_field, split_disc(1), np.float32(0)
-    dim_by_field(points, normals, ways, size, *told, visible)
+    arguments = field.centre, field.radius, field.cone_field, split_disc(1), np.float32(0)
+    dim_by_field(points, normals, to_light, size, *arguments, visible)
     np.testing.assert_allclose(visible, exact, atol=1e-3)
 
 

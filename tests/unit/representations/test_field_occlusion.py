@@ -1,4 +1,4 @@
-"""Shadow in a solid's field against looking at every sample in numpy, and against Embree."""
+"""Occlusion by a solid's field, against numpy and Embree."""
 
 import numpy as np
 import pytest
@@ -35,23 +35,23 @@ def shell(size: int, radii) -> tuple[np.ndarray, np.ndarray]:
 
 def every_sample(origins, d, ends, grid, values, level, steps):
     """Whether the field is above the level at a sample before the end, or at the end."""
-    found = np.zeros(len(origins), bool)
+    result = np.zeros(len(origins), bool)
     middles = 2 * (np.arange(steps) + 0.5) / steps
     for ray, (o, end) in enumerate(zip(origins.astype(np.float64), ends)):
         t = np.append(middles[middles < end], end)
-        place = (o + t[:, None] * d + 1) * (len(grid) / 2)
-        place = place[((place >= 0) & (place < len(grid))).all(1)]
-        brick = place.astype(int)
+        position = (o + t[:, None] * d + 1) * (len(grid) / 2)
+        position = position[((position >= 0) & (position < len(grid))).all(1)]
+        brick = position.astype(int)
         row = grid[tuple(brick.T)]
-        cell = np.minimum(((place - brick) * 4).astype(int), 3)
-        part = (place - brick) * 4 - cell
+        cell = np.minimum(((position - brick) * 4).astype(int), 3)
+        part = (position - brick) * 4 - cell
         sums = np.zeros(len(row))
         for corner in np.ndindex(2, 2, 2):
             weight = np.prod(np.where(corner, part, 1 - part), axis=1)
             at = ((cell + corner) * [25, 5, 1]).sum(1)
             sums += weight * values[np.maximum(row, 0), at]
-        found[ray] = end > 0 and ((row == SOLID) | ((row >= 0) & (sums > level))).any()
-    return found
+        result[ray] = end > 0 and ((row == SOLID) | ((row >= 0) & (sums > level))).any()
+    return result
 
 
 def rays_along(d, count: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
@@ -73,7 +73,7 @@ def rays_along(d, count: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
     ],
 )
 @pytest.mark.parametrize(("level", "corner_bits"), [(0.0, 4), (-4.0, 4), (-4.0, 8)])
-def test_it_is_what_looking_at_every_sample_finds(size, radii, level, corner_bits):
+def test_equals_a_test_of_every_sample(size, radii, level, corner_bits):
     grid, values = shell(size, np.array(radii))
     bricks, steps = field_bricks(grid, values, level, corner_bits), 8 * size
     rng = np.random.default_rng(1)
@@ -86,9 +86,9 @@ def test_it_is_what_looking_at_every_sample_finds(size, radii, level, corner_bit
         o[::2] -= (
             d * ((o[::2] @ d) + np.sqrt((o[::2] @ d) ** 2 - (o[::2] ** 2).sum(1) + 1))[:, None]
         )
-        found = occluded(o, d, ends, bricks, steps)
+        result = occluded(o, d, ends, bricks, steps)
         expected = every_sample(o, d, ends, grid, values, level, steps)
-        differ.append(found != expected)
+        differ.append(result != expected)
         assert 0.05 < expected.mean() < 0.95
     # Of a sample on a brick's border, where these values jump, rounding decides.
     assert np.concatenate(differ).mean() < 0.005
@@ -106,9 +106,9 @@ def test_rays_on_the_borders_of_bricks():
             o = np.insert(across, axis, along, axis=1).astype(np.float32)
             d = (sign * np.eye(3)[axis]).astype(np.float32)
             ends = np.full(len(o), 2 * np.abs(along), np.float32)
-            found = occluded(o, d, ends, bricks, 64)
+            result = occluded(o, d, ends, bricks, 64)
             expected = every_sample(o, d, ends, grid, values, 0.0, 64)
-            assert (found == expected).mean() > 0.98
+            assert (result == expected).mean() > 0.98
 
 
 def test_an_empty_field_shadows_nothing():
@@ -132,15 +132,15 @@ def test_shadows_of_a_mesh(shape, corner_bits):
         light = torch.nn.functional.normalize(torch.tensor(light, dtype=torch.float32), dim=0)
         rays = sphere_rays(p, light)
         ends = torch.minimum(rays.s, rays.chord).numpy()
-        found = occluded(rays.origins.numpy(), -light.numpy(), ends, bricks, 256)
+        result = occluded(rays.origins.numpy(), -light.numpy(), ends, bricks, 256)
         at = p[rays.index].numpy()
         expected = tracer.occluded(at, np.tile(light.numpy(), (len(at), 1)))
         inside = np.abs(np.linalg.norm(at, axis=1) - 0.7) < 0.3
-        assert (found != expected)[~inside].mean() < 5e-3
+        assert (result != expected)[~inside].mean() < 5e-3
         assert 0.1 < expected.mean() < 0.9
 
 
-def test_no_light_has_larger_tables_than_said():
+def test_no_light_exceeds_the_largest_tables():
     grid, values = shell(13, np.array([0.3, 0.9, 0.5]))
     bricks = field_bricks(grid, values, 0.0, 4)
     lights = [*np.random.default_rng(0).normal(size=(20, 3)), *AXES, [0.99, 1, 0.99]]

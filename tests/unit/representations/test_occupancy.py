@@ -1,4 +1,4 @@
-"""Cells of an occupancy grid against planes, boxes and the distance to triangles."""
+"""Occupancy cells against planes, boxes and triangle distances."""
 
 import numpy as np
 import pytest

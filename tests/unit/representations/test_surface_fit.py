@@ -1,4 +1,4 @@
-"""Fitted distances: which edges of a mesh rays touch, and where the field's surface then is."""
+"""Fitted distances: convex edges, and the fitted surface."""
 
 import numpy as np
 import pytest
@@ -47,14 +47,14 @@ def test_edges_that_no_ray_touches_are_left_out():
     assert (inner > 1e-3).sum() == 0
 
 
-def interpolated(layout: BrickLayout, values: np.ndarray, places: np.ndarray) -> np.ndarray:
+def interpolated(layout: BrickLayout, values: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Values at places (n, 3) in cells, corner by corner."""
     whole = np.full((4 * BRICKS + 1,) * 3, np.nan)
-    whole[tuple(layout.places.T)] = values
-    cell = np.floor(places).astype(int)
-    total = np.zeros(len(places))
+    whole[tuple(layout.vertices.T)] = values
+    cell = np.floor(points).astype(int)
+    total = np.zeros(len(points))
     for corner in np.ndindex(2, 2, 2):
-        share = np.abs(1 - np.array(corner) - (places - cell)).prod(axis=1)
+        share = np.abs(1 - np.array(corner) - (points - cell)).prod(axis=1)
         total += share * whole[tuple((cell + corner).T)]
     return total
 
@@ -71,15 +71,15 @@ def test_the_surface_of_a_ball(ball):
     """Interpolation cuts a ball of radius r off by up to 1/(4 r) cells; the fit does not."""
     mesh, layout, distances = ball
     directions = np.random.default_rng(0).normal(size=(2000, 3))
-    places = directions / np.linalg.norm(directions, axis=1, keepdims=True) * 0.5 * HALF + HALF
-    before = interpolated(layout, distances, places)
-    after = interpolated(layout, fitted_distances(mesh, layout, distances), places)
+    points = directions / np.linalg.norm(directions, axis=1, keepdims=True) * 0.5 * HALF + HALF
+    before = interpolated(layout, distances, points)
+    after = interpolated(layout, fitted_distances(mesh, layout, distances), points)
     assert -1 / (4 * 8) < before.mean() < -0.01
     assert abs(after.mean()) < 0.003
     assert np.abs(after).mean() < 0.5 * np.abs(before).mean()
 
 
-def test_what_is_far_stays(ball):
+def test_far_distances_are_unchanged(ball):
     """Vertices of cells without the surface keep their distances, moved out by as much as all."""
     mesh, layout, distances = ball
     far = np.abs(distances) > 1.9

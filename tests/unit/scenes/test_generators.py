@@ -60,8 +60,8 @@ def test_lights_cameras_and_spots_are_free(name):
     eyes = np.array([drawn.cameras.draw(rng) for _ in range(64)])
     assert np.mean(clearances(scene(name), eyes) > 0.2) >= 0.9
     for spot in drawn.spots:
-        middle = spot.place + [0, spot.height / 2, 0]
-        assert clearances(scene(name), middle[None])[0] > 0.45 * spot.height, spot.place
+        middle = spot.position + [0, spot.height / 2, 0]
+        assert clearances(scene(name), middle[None])[0] > 0.45 * spot.height, spot.position
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -88,13 +88,13 @@ def test_inserted_objects_stand_on_their_spots(name):
     whole = scene_of(drawn, balls)
     for spot, mesh in zip(drawn.spots, whole.objects[len(drawn.objects) :], strict=True):
         low, high = mesh.vertices.min(0), mesh.vertices.max(0)
-        np.testing.assert_allclose(low[1], spot.place[1], atol=1e-5)
+        np.testing.assert_allclose(low[1], spot.position[1], atol=1e-5)
         assert 0.99 * spot.height < high[1] - low[1] < 1.001 * spot.height
-        np.testing.assert_allclose((low + high)[[0, 2]] / 2, spot.place[[0, 2]], atol=1e-5)
+        np.testing.assert_allclose((low + high)[[0, 2]] / 2, spot.position[[0, 2]], atol=1e-5)
         # Straight under it is what it stands on.
-        foot = (spot.place + [0, 0.01, 0]).astype(np.float32)[None]
+        foot = (spot.position + [0, 0.01, 0]).astype(np.float32)[None]
         t, _ = scene(name).tracer.first_hit(foot, np.array([[0, -1, 0]], np.float32))
-        assert abs(t[0] - 0.01) < 2e-3, spot.place
+        assert abs(t[0] - 0.01) < 2e-3, spot.position
     with pytest.raises(InputError, match=f"{name}: .* but {len(balls)} spots"):
         scene_of(drawn, balls | {"one more": ball})
 
@@ -111,7 +111,7 @@ def test_a_motion_moves_only_the_mover(name):
 
 def test_scenes_by_name():
     assert all(generator_module(name).is_file() for name in NAMES)
-    with pytest.raises(InputError, match="'cellar' is no scene; use one of room"):
+    with pytest.raises(InputError, match="'cellar' is not a generator. Use one of room"):
         arrange("cellar", 0)
 
 

@@ -29,8 +29,8 @@ KERNELS = {"box": box(3), "gaussian": gaussian(15, 3.0)}
 
 
 def directions(count=500):
-    ways = np.random.default_rng(0).normal(size=(count, 3))
-    return ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    from_light = np.random.default_rng(0).normal(size=(count, 3))
+    return from_light / np.linalg.norm(from_light, axis=1, keepdims=True)
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
@@ -38,13 +38,15 @@ def directions(count=500):
 @pytest.mark.parametrize("name", METHODS)
 def test_constant_depth_is_lit_everywhere_and_dark_behind(name, kind, kernel):
     of, visibility = METHODS[name]
-    light_map, ways = MAPS[kind], directions()
+    light_map, from_light = MAPS[kind], directions()
     depths = np.full(light_map.count, 2, np.float32)
-    moments = filtered_moments(light_map, depths, ways, of=of, far=FAR, kernel=KERNELS[kernel])
-    on_map = light_map.texels_of(ways) >= 0
+    moments = filtered_moments(
+        light_map, depths, from_light, of=of, far=FAR, kernel=KERNELS[kernel]
+    )
+    on_map = light_map.texels_of(from_light) >= 0
     assert np.allclose(moments[on_map], of(np.array([2 / FAR])))
-    assert visibility(moments, np.full(len(ways), 1.99 / FAR)).min() > 0.99
-    behind = visibility(moments, np.full(len(ways), 3 / FAR))
+    assert visibility(moments, np.full(len(from_light), 1.99 / FAR)).min() > 0.99
+    behind = visibility(moments, np.full(len(from_light), 3 / FAR))
     assert behind[on_map].max() < 0.02 and np.all(behind[~on_map] > 0.99)
 
 
@@ -62,19 +64,19 @@ def test_an_edge_is_half_lit_and_shadow_grows_behind_it():
     light_map = perspective_map(CENTRE, np.array([0, 0, 1.0]), 90.0, 64)
     right = light_map.directions_of(np.arange(light_map.count))[:, 0] > 0
     texels = np.linspace(-8, 8, 65)
-    ways = np.stack([texels / 32, np.full_like(texels, 0.013), np.ones_like(texels)], axis=1)
+    from_light = np.stack([texels / 32, np.full_like(texels, 0.013), np.ones_like(texels)], axis=1)
     depths = np.where(right, 2, 5).astype(np.float32)
     for of, visibility in METHODS.values():
-        moments = filtered_moments(light_map, depths, ways, of=of, far=FAR, kernel=box(9))
-        lit = visibility(moments, np.full(len(ways), 5 / FAR))
+        moments = filtered_moments(light_map, depths, from_light, of=of, far=FAR, kernel=box(9))
+        lit = visibility(moments, np.full(len(from_light), 5 / FAR))
         assert np.allclose(lit, np.clip(0.5 - texels / 9, 0, 1), atol=5e-3)
 
 
 def test_moments_go_on_over_a_seam():
     """Of a depth that is smooth in direction: no step from one face to the next."""
     cube = cube_map(CENTRE, 64)
-    ways = cube.directions_of(np.arange(cube.count))
-    depths = (3 + ways @ np.array([0.9, 0.4, -0.6])).astype(np.float32)
+    from_light = cube.directions_of(np.arange(cube.count))
+    depths = (3 + from_light @ np.array([0.9, 0.4, -0.6])).astype(np.float32)
     around = np.radians(45 + np.array([-1e-4, 1e-4]))
     for height in (-0.5, 0.1, 0.7):
         pair = np.stack([np.sin(around), np.full(2, height), np.cos(around)], axis=1)

@@ -17,21 +17,21 @@ RADIUS, NEAREST = 0.15, 0.5
 
 @pytest.fixture(scope="module", params=MAPS)
 def seen(request):
-    """A map of noise with holes, and receivers all round: ways, normals, biases, keys."""
+    """A map of noise with holes, and receivers all round: from_light, normals, biases, keys."""
     light_map, rng = MAPS[request.param], np.random.default_rng(3)
     depths = rng.uniform(0.6, 1.4, light_map.count).astype(np.float32)
     depths[rng.random(light_map.count) < 0.1] = np.inf
-    ways = rng.normal(size=(3000, 3)).astype(np.float32)
-    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-    normals = rng.normal(size=(3000, 3)) - 2 * ways  # most face the light, some aslant
+    from_light = rng.normal(size=(3000, 3)).astype(np.float32)
+    from_light /= np.linalg.norm(from_light, axis=1, keepdims=True)
+    normals = rng.normal(size=(3000, 3)) - 2 * from_light  # most face the light, some aslant
     normals = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).astype(np.float32)
-    receivers = ways, normals, np.full(len(ways), 0.01, np.float32)
+    receivers = from_light, normals, np.full(len(from_light), 0.01, np.float32)
     return light_map, depths, receivers, rng.permutation(3000)
 
 
-def samples_of(light_map, ways, angles, keys, count):
+def samples_of(light_map, from_light, angles, keys, count):
     """Texels that discs look up, (n, count), and which discs lie within one face."""
-    x, y, z = ways.T.astype(np.float64)
+    x, y, z = from_light.T.astype(np.float64)
     sign = np.where(z >= 0, 1, -1)
     a = -1 / (sign + z)
     one = np.stack([1 + sign * x * x * a, sign * x * y * a, -sign * x], axis=1)
@@ -39,19 +39,19 @@ def samples_of(light_map, ways, angles, keys, count):
     turn = 2 * np.pi * (keys * 0.6180339887498949 % 1)[:, None]
     u, v = np.cos(turn) * one + np.sin(turn) * two, np.cos(turn) * two - np.sin(turn) * one
     p, q = vogel_disc(count).astype(np.float64)[:, None, :, None] * angles[:, None, None]
-    all_ways = (ways[:, None] + p * u[:, None] + q * v[:, None]).reshape(-1, 3)
-    faces = light_map.places_of(all_ways)[0].reshape(len(ways), count)
+    directions = (from_light[:, None] + p * u[:, None] + q * v[:, None]).reshape(-1, 3)
+    faces = light_map.places_of(directions)[0].reshape(len(from_light), count)
     whole = (faces == faces[:, :1]).all(1) & (faces[:, 0] >= 0)
-    return light_map.texels_of(all_ways).reshape(len(ways), count), whole
+    return light_map.texels_of(directions).reshape(len(from_light), count), whole
 
 
 def hidden(light_map, depths, texels, receivers):
     """Which samples lie before their receiver's plane, and their depths."""
-    ways, normals, bias = (one.astype(np.float64) for one in receivers)
+    from_light, normals, bias = (one.astype(np.float64) for one in receivers)
     depth = np.where(texels < 0, np.inf, depths[texels])
     to_texels = light_map.directions_of(np.maximum(texels, 0).ravel()).astype(np.float64)
     there = np.einsum("nkj,nj->nk", to_texels.reshape(*texels.shape, 3), normals)
-    ratio = np.clip(there / np.einsum("nj,nj->n", ways, normals)[:, None], 0.5, 2)
+    ratio = np.clip(there / np.einsum("nj,nj->n", from_light, normals)[:, None], 0.5, 2)
     return 1 / ratio - bias[:, None] > depth, depth
 
 
@@ -59,10 +59,10 @@ def hidden(light_map, depths, texels, receivers):
 def test_discs_within_a_face_and_over_its_rim(seen, radius):
     """Each a whole number of samples: another at a texel's border, where float32 rounds."""
     light_map, depths, receivers, keys = seen
-    ways = receivers[0]
+    from_light = receivers[0]
     found = disc_visibility(light_map, depths, *receivers, texels=radius, samples=64, keys=keys)
-    angles = np.full(len(ways), radius * 2 * light_map.half / light_map.resolution)
-    texels, whole = samples_of(light_map, ways, angles, keys, 64)
+    angles = np.full(len(from_light), radius * 2 * light_map.half / light_map.resolution)
+    texels, whole = samples_of(light_map, from_light, angles, keys, 64)
     wrong = found - (1 - hidden(light_map, depths, texels, receivers)[0].mean(1))
     for some in (whole, ~whole):
         assert some.sum() > 100
@@ -73,17 +73,17 @@ def test_discs_within_a_face_and_over_its_rim(seen, radius):
 
 def test_blocker_search_within_a_face_and_over_its_rim(seen):
     light_map, depths, receivers, keys = seen
-    ways = receivers[0]
+    from_light = receivers[0]
     told = {"radius": RADIUS, "nearest": NEAREST, "searched": 32, "samples": 64, "keys": keys}
     found = soft_disc_visibility(light_map, depths, *receivers, **told)
-    distance = np.linalg.norm(ways, axis=1)
+    distance = np.linalg.norm(from_light, axis=1)
     widest = RADIUS * (1 / (NEAREST * distance) - 1 / distance)
-    texels, _ = samples_of(light_map, ways, widest, keys, 32)
+    texels, _ = samples_of(light_map, from_light, widest, keys, 32)
     blocks, depth = hidden(light_map, depths, texels, receivers)
     blocker = np.where(blocks, depth, 0).sum(1) / np.maximum(blocks.sum(1), 1)
     angles = RADIUS * (distance - blocker) / (distance * np.maximum(blocker, 0.1))
     angles = np.maximum(angles, light_map.half / light_map.resolution)
-    texels, whole = samples_of(light_map, ways, angles, keys, 64)
+    texels, whole = samples_of(light_map, from_light, angles, keys, 64)
     lit = np.where(blocks.any(1), 1 - hidden(light_map, depths, texels, receivers)[0].mean(1), 1)
     assert lit.min() < 0.7 and lit.max() == 1
     for some in (whole, ~whole):

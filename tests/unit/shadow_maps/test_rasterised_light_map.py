@@ -26,24 +26,24 @@ def test_a_z_buffer_finds_what_rays_find(name):
 
 
 def test_neighbourhoods():
-    """Inside a face the texels are a square; over an edge they are those along the same ways."""
+    """Inside a face the texels are a square; over an edge they are those along the same directions."""
     light_map = cube_map(np.zeros(3), 16)
     rng = np.random.default_rng(0)
-    ways = rng.normal(size=(2000, 3)).astype(np.float32)
-    texels, fractions = neighbourhood(light_map, ways, reach=1)
+    directions = rng.normal(size=(2000, 3)).astype(np.float32)
+    texels, fractions = neighbourhood(light_map, directions, reach=1)
     assert texels.shape == (2000, 4, 4) and texels.min() >= 0
     assert fractions.min() >= 0 and fractions.max() < 1
-    nearest = light_map.texels_of(ways)
+    nearest = light_map.texels_of(directions)
     right, down = (fractions > 0.5).astype(int).T
     heaviest = texels[np.arange(2000), 1 + down, 1 + right]
     row, column = nearest // 16 % 16, nearest % 16
     inner = (row > 1) & (row < 14) & (column > 1) & (column < 14)
     assert np.array_equal(heaviest[inner], nearest[inner])
     # Every texel of a neighbourhood looks nearly the same way.
-    unit = ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
     looks = light_map.directions_of(texels.ravel()).reshape(-1, 4, 4, 3)
     assert np.einsum("nabk,nk->nab", looks, unit).min() > np.cos(np.radians(24))
     outside = neighbourhood(
-        perspective_map(np.zeros(3), [0, -1, 0], 60, 8), -ways * 0 + [0, 1, 0], 1
+        perspective_map(np.zeros(3), [0, -1, 0], 60, 8), -directions * 0 + [0, 1, 0], 1
     )
     assert np.all(outside[0] == -1)

@@ -1,4 +1,4 @@
-"""Samples of a step: drawn evenly, the same on every device, wherever the rays lie."""
+"""Samples of a step: uniform, and equal on every device."""
 
 import numpy as np
 import pytest
@@ -59,5 +59,5 @@ def test_rays_on_a_device_are_those_on_disk(ray_set):
     indices = torch.from_numpy(np.random.default_rng(0).permutation(ray_set.count))
     expected = ray_set.gather(indices.numpy())
     for source in (HostRays(ray_set, CPU), DeviceRays(ray_set, CPU)):
-        for found, part in zip(source.gather(indices), expected, strict=True):
-            assert torch.equal(found, torch.from_numpy(part))
+        for gathered, part in zip(source.gather(indices), expected, strict=True):
+            assert torch.equal(gathered, torch.from_numpy(part))

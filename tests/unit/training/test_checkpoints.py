@@ -1,4 +1,4 @@
-"""A checkpoint's name says what made it; it goes when the network is there, and only then."""
+"""Names and lifetime of checkpoints."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The loss of answering no shadow: the way from the second hit to the sphere's far side."""
+"""Loss of predicting no shadow, against its closed form."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from neural_shadows.training import no_shadow
 from neural_shadows.training.no_shadow import no_shadow_loss
 
 
-def test_that_of_a_ball(tmp_path, monkeypatch):
+def test_loss_of_a_ball(tmp_path, monkeypatch):
     """Five eighths of the rays hit, evenly over the disk of radius 1/2.
 
     Beyond the ball there is left √(1 − r²) − √(1/4 − r²), whose mean over the disk is

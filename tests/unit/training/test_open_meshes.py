@@ -1,4 +1,4 @@
-"""A field of an open, thin mesh: which surface it takes by itself, and what says that it is unfit."""
+"""Fields of open, thin meshes: surface and fitness."""
 
 import json
 
@@ -110,8 +110,8 @@ def test_a_field_of_an_open_mesh_is_a_sheet_by_itself_and_far_better_so(folder, 
     assert 10 * error < wrong
 
 
-def test_a_surface_that_is_not_chosen_is_refused():
-    with pytest.raises(ValueError, match="surface: auto: is no surface yet"):
+def test_an_unresolved_surface_is_refused():
+    with pytest.raises(ValueError, match="surface: auto: not resolved"):
         make_network(FIELD | {"surface": "auto"})
 
 
@@ -130,5 +130,5 @@ def test_a_surface_that_is_not_chosen_is_refused():
     ],
 )
 def test_which_surface_a_network_takes(sheet, network, surface, unfit):
-    found = with_surface(network, {"sheet": sheet})
-    assert found.get("surface") == surface and is_unfit(found, {"sheet": sheet}) == unfit
+    chosen = with_surface(network, {"sheet": sheet})
+    assert chosen.get("surface") == surface and is_unfit(chosen, {"sheet": sheet}) == unfit

@@ -1,4 +1,4 @@
-"""Each term of the loss has a gradient, none of it through a twin or through what does not count."""
+"""Gradients of the terms of the screen-space loss."""
 
 import pytest
 import torch
@@ -47,26 +47,27 @@ def test_each_term_moves_the_output_and_nothing_else(trunk, alpha, against):
 
 def test_the_mean_square_and_its_gradient():
     a, b = (torch.randn(2, 3, 5, 7, requires_grad=True) for _ in range(2))
-    found = MeanSquare.apply(a, b)
+    result = MeanSquare.apply(a, b)
     expected = torch.nn.functional.mse_loss(a, b)
-    assert found.item() == pytest.approx(expected.item(), rel=1e-5)
-    gradients = [torch.autograd.grad(3 * one, a)[0] for one in (found, expected)]
+    assert result.item() == pytest.approx(expected.item(), rel=1e-5)
+    gradients = [torch.autograd.grad(3 * value, a)[0] for value in (result, expected)]
     assert torch.allclose(*gradients, rtol=1e-5)
     reduced = MeanSquare.apply(a.bfloat16(), b.bfloat16())
     assert reduced.item() == pytest.approx(expected.item(), rel=0.02)
 
 
-def test_a_twin_that_is_the_same_costs_nothing(trunk):
+def test_an_identical_perturbed_frame_adds_no_loss(trunk):
     output, target, _ = pictures()
     loss = ScreenLoss(0.9, 3.0, perceptual(trunk))
     loss.factor = 1.0
     alone, both = (
-        loss(output, target, EVERY, 1024, *told) for told in ((), (output.detach(), EVERY))
+        loss(output, target, EVERY, 1024, *arguments)
+        for arguments in ((), (output.detach(), EVERY))
     )
     assert both.item() == alone.item() > 0
 
 
-def test_what_does_not_count_has_no_part(trunk):
+def test_invalid_pixels_have_no_gradient(trunk):
     output, target, _ = pictures()
     valid = EVERY.clone()
     valid[..., :16] = False
@@ -89,10 +90,10 @@ def test_at_its_factor_the_perceptual_term_is_half_of_l1(trunk):
 @pytest.mark.parametrize(
     ("net", "key"), [("squeeze", "metrics.lpips.trunk"), ("vgg19", "perceptual.trunk")]
 )
-def test_a_trunk_that_is_none_is_named(tmp_path, net, key):
+def test_unusable_backbones_are_refused(tmp_path, net, key):
     for content in (None, b"not found"):
         path = tmp_path / f"{net}.pth"
         if content:
             path.write_bytes(content)
-        with pytest.raises(InputError, match=f"{net}.pth cannot be used: .*{key} "):
+        with pytest.raises(InputError, match=f"{key}: {net}.pth: unusable .*Set {key} "):
             Perceptual(net, path, torch.device("cpu"), torch.float32)

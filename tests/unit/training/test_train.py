@@ -1,4 +1,4 @@
-"""Training learns an analytic scene, repeats itself to the bit, and goes on where it was stopped."""
+"""Training on rays: convergence, reproducibility, resuming."""
 
 import json
 import math
@@ -108,11 +108,11 @@ def test_learns_the_ball(tmp_path):
 def test_files_of_a_run(tmp_path):
     run_training(tmp_path, **TINY)
     _, header = load_network(tmp_path / "ball" / "weights.safetensors")
-    made = {"seed": 1, "device": "cpu", "precision": "float32"}
+    platform = {"seed": 1, "device": "cpu", "precision": "float32"}
     assert header == {
         "name": "ball",
         "network": TINY["network"],
-        "training": TINY["training"] | made,
+        "training": TINY["training"] | platform,
         "data": {"rays": RAYS},
     }
     record = json.loads((tmp_path / "ball" / "training.json").read_text())
@@ -171,7 +171,7 @@ def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network, optimiser)
 
 
 @pytest.mark.parametrize(("value", "layer"), [(0, "output"), (math.inf, "layers.0")])
-def test_a_run_that_dies_is_a_result(tmp_path, monkeypatch, capsys, value, layer):
+def test_a_diverged_run_is_a_result(tmp_path, monkeypatch, capsys, value, layer):
     """Its output is the same for every ray, or its loss is no number: it ends, and is written."""
     initialise = FrequencyNetwork.initialise
 
@@ -183,7 +183,7 @@ def test_a_run_that_dies_is_a_result(tmp_path, monkeypatch, capsys, value, layer
     assert run_training(tmp_path, interval=0.0, **TINY) == 1
     record = json.loads((tmp_path / "ball" / "training.json").read_text())
     assert (record["died_at_step"], record["samples"]) == (1, 32)
-    assert "warning: training ball died at step 1: " in capsys.readouterr().err
+    assert "warning: training ball diverged at step 1: " in capsys.readouterr().err
     curve = read_loss(tmp_path / "ball" / "loss.csv")
     assert curve["step"].tolist() == [1]
     if value == 0:  # t = 0 everywhere costs the mean t_lb
@@ -200,7 +200,7 @@ def test_a_run_that_dies_is_a_result(tmp_path, monkeypatch, capsys, value, layer
     assert (record["died_at_step"], record["samples"]) == (1, 32)
 
 
-def test_a_network_that_is_not_trained_is_only_built(tmp_path, monkeypatch):
+def test_untrained_networks_are_only_built(tmp_path, monkeypatch):
     """What `make_network` and `initialise` give is written; no rays are needed."""
     folder = tmp_path / "ball"
     stage.train(
@@ -224,7 +224,7 @@ def test_a_network_that_is_not_trained_is_only_built(tmp_path, monkeypatch):
     assert list(read_loss(folder / "loss.csv")) == ["step", "samples", "learning_rate", "loss"]
 
 
-def test_the_seconds_of_building_are_not_those_of_compiling(tmp_path, monkeypatch):
+def test_seconds_exclude_compilation(tmp_path, monkeypatch):
     """A clock in whose seconds a mesh's first preparation takes 100, and each later one 1."""
     clock, prepare, before = [0.0], OccupancyFieldNetwork.prepare, []
 
@@ -254,11 +254,11 @@ def test_the_seconds_of_building_are_not_those_of_compiling(tmp_path, monkeypatc
 
 def test_a_recorded_step_gives_the_same_bytes(tmp_path, monkeypatch):
     """The loop that a GPU runs, with a recording that does the step instead of replaying it."""
-    aside = []
-    monkeypatch.setattr(cuda_graph, "aside", lambda step: (aside.append(1), step()))
+    warm_up = []
+    monkeypatch.setattr(cuda_graph, "on_side_stream", lambda step: (warm_up.append(1), step()))
     monkeypatch.setattr(cuda_graph, "capture", lambda step: SimpleNamespace(replay=step))
     run_training(tmp_path / "plain", **TINY)
     monkeypatch.setattr(stage, "DeviceRays", HostRays)
     run_training(tmp_path / "recorded", **TINY)
-    assert len(aside) == cuda_graph.WARM_UP
+    assert len(warm_up) == cuda_graph.WARM_UP
     assert contents(tmp_path / "recorded") == contents(tmp_path / "plain")

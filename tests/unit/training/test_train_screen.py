@@ -1,4 +1,4 @@
-"""Networks of whole frames learn, repeat themselves to the bit, and go on where they were stopped."""
+"""Training of screen-space networks: convergence, reproducibility, resuming."""
 
 import itertools
 import json
@@ -16,9 +16,9 @@ from neural_shadows.frames.setting import setting_of
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.rendering.gbuffer import axis_cosines
 from neural_shadows.training import steps
-from neural_shadows.training.crop_places import crop_places
+from neural_shadows.training.crop_samples import crop_samples
 from neural_shadows.training.screen_batches import ScreenFrames
-from neural_shadows.training.screen_crops import Place
+from neural_shadows.training.screen_crops import CropSample
 from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.train_screen import train_screen
 
@@ -67,7 +67,7 @@ def run(folder: Path, part: Path, *, stop_after=None, **changes) -> dict:
             raise KeyboardInterrupt
         TRAIN_STEP(self, number, pool)
 
-    told = {"train": [part], "validation": [part], **SETTINGS, **changes}
+    arguments = {"train": [part], "validation": [part], **SETTINGS, **changes}
     results = folder / "nsm"
     paths = [results / name for name in ("weights.safetensors", "loss.csv", "training.json")]
     seconds = steps.CHECKPOINT_SECONDS if stop_after is None else 0.0
@@ -75,7 +75,7 @@ def run(folder: Path, part: Path, *, stop_after=None, **changes) -> dict:
         mock.patch.object(ScreenRun, "train_step", step),
         mock.patch.object(steps, "CHECKPOINT_SECONDS", seconds),
     ):
-        train_screen(**dict(zip(("weights", "loss_csv", "training_json"), paths)), **told)
+        train_screen(**dict(zip(("weights", "loss_csv", "training_json"), paths)), **arguments)
     return json.loads(paths[2].read_text())
 
 
@@ -87,27 +87,27 @@ def test_learns_frames_without_the_hard_map(tmp_path):
     """As a user's own may be; then nothing is said of it."""
     part = write_frames(tmp_path)
     about, file = json.loads(part.read_text()), part.with_suffix(".buffers.npy")
-    kept = [number for number, name in enumerate(about["channels"]) if name != "hard"]
-    part.write_text(json.dumps(about | {"channels": [about["channels"][k] for k in kept]}))
-    np.save(file, np.load(file)[:, :, kept])
+    numbers = [number for number, name in enumerate(about["channels"]) if name != "hard"]
+    part.write_text(json.dumps(about | {"channels": [about["channels"][k] for k in numbers]}))
+    np.save(file, np.load(file)[:, :, numbers])
     assert [*run(tmp_path, part)["null_mse"]] == ["no_shadow"]
 
 
-def test_learns_a_frame_by_heart(tmp_path):
+def test_overfits_a_frame(tmp_path):
     """A hard shadow and the softest at once: the size is told apart, and no sign is wrong."""
     part = write_frames(tmp_path)
     training = TRAINING | {"steps": 200, "crop": 64, "crops": 4, "learning_rate": 3e-3}
     training |= {"perturbation": 0, "flips": False}
     network = SETTINGS["network"] | {"widths": [32, 64, 128]}
-    found = run(tmp_path, part, network=network, training=training)
-    assert found["null_mse"]["hard_map"][1] > 0.01
-    assert max(found["validation_mse"]) < 1e-3  # 0.0001 each
-    assert found["train_mse"] == found["validation_mse"]  # of the same frame
-    assert [one["step"] for one in found["validations"]] == list(range(20, 200, 20))
-    assert found["samples"] == 200 * 4 * HEIGHT * WIDTH
+    result = run(tmp_path, part, network=network, training=training)
+    assert result["null_mse"]["hard_map"][1] > 0.01
+    assert max(result["validation_mse"]) < 1e-3  # 0.0001 each
+    assert result["train_mse"] == result["validation_mse"]  # of the same frame
+    assert [entry["step"] for entry in result["validations"]] == list(range(20, 200, 20))
+    assert result["samples"] == 200 * 4 * HEIGHT * WIDTH
     network, header = load_screen_network(tmp_path / "nsm" / "weights.safetensors")
-    told = {"features": FEATURES, "radii": [0, 0.25], "scenes": ["wall"], "perceptual": "none"}
-    assert header.items() >= told.items() and network.features == tuple(FEATURES)
+    arguments = {"features": FEATURES, "radii": [0, 0.25], "scenes": ["wall"], "perceptual": "none"}
+    assert header.items() >= arguments.items() and network.features == tuple(FEATURES)
 
 
 @pytest.mark.usefixtures("any_format")
@@ -125,36 +125,36 @@ def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, pr
     part = write_frames(tmp_path, count=3)
     training = TRAINING | {"optimiser": optimiser, "adam_rate": 1e-3, "crops": 4, **schedule}
     training |= {"aligned": network == KERNELS}
-    told = {"network": network, "training": training, "precision": precision}
-    run(tmp_path / "whole", part, **told)
+    arguments = {"network": network, "training": training, "precision": precision}
+    run(tmp_path / "whole", part, **arguments)
     with pytest.raises(KeyboardInterrupt):
-        run(tmp_path / "killed", part, stop_after=4, **told)
+        run(tmp_path / "killed", part, stop_after=4, **arguments)
     assert [*(tmp_path / "killed").glob("checkpoints/nsm-*/state.safetensors")]
-    killed = run(tmp_path / "killed", part, **told)
-    threads = run(tmp_path / "threads", part, threads=2, **told)
-    run(tmp_path / "other", part, seed=2, **told)
+    killed = run(tmp_path / "killed", part, **arguments)
+    threads = run(tmp_path / "threads", part, threads=2, **arguments)
+    run(tmp_path / "other", part, seed=2, **arguments)
     whole = contents(tmp_path / "whole")
     assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
     assert contents(tmp_path / "other") != whole
-    assert [one["step"] for one in killed["validations"]] == [1, 2, 3, 4, 5]
+    assert [entry["step"] for entry in killed["validations"]] == [1, 2, 3, 4, 5]
     # In the file too they are the same, key by key.
     assert json.dumps(killed["validations"]) == json.dumps(threads["validations"])
     bases = ["base_hard"] if network == KERNELS else []  # what it is given is no merit of its own
     assert [*killed["null_mse"]] == ["no_shadow", "hard_map", *bases]
 
 
-def test_an_exponent_learns_by_logarithms_and_answers_visibility(tmp_path):
+def test_an_exponent_trains_on_logarithms(tmp_path):
     """It leaves what the map shows lit as it is, whatever its light, and darkens what lies behind."""
     part = write_frames(tmp_path)
     training = TRAINING | {"steps": 60, "crop": 64, "perturbation": 0, "optimiser": "adam"}
-    found = run(tmp_path, part, network=EXPONENT, training=training)
-    assert found["null_mse"]["no_shadow"][0] > 0.3 and found["validation_mse"][0] < 1e-3
+    result = run(tmp_path, part, network=EXPONENT, training=training)
+    assert result["null_mse"]["no_shadow"][0] > 0.3 and result["validation_mse"][0] < 1e-3
     # Of a soft shadow the half beyond the map's edge is beyond it: 8 columns of 62, of 0 to a half.
     beyond = np.mean((np.arange(0.5, 4) / 8 - 0.5) ** 2) * 4 / 62
-    assert beyond < found["validation_mse"][1] < found["null_mse"]["hard_map"][1] * 1.05
+    assert beyond < result["validation_mse"][1] < result["null_mse"]["hard_map"][1] * 1.05
 
 
-def test_an_identical_twin_changes_nothing(tmp_path):
+def test_an_identical_perturbed_frame_changes_nothing(tmp_path):
     """With zero jitter the loss against the twin is zero."""
     part = write_frames(tmp_path, shift=0.0)
     moved = write_frames(tmp_path / "moved", shift=2.0)
@@ -168,7 +168,7 @@ def test_an_identical_twin_changes_nothing(tmp_path):
     assert losses[0] == losses[1] < losses[2]
 
 
-def test_twins_have_no_part_before_their_time(tmp_path):
+def test_perturbed_frames_begin_late(tmp_path):
     part = write_frames(tmp_path, shift=2.0)
     losses = []
     for weight, share in ((0, 0.0), (3.0, 0.5), (3.0, 0.2), (3.0, 0.0)):
@@ -184,38 +184,40 @@ def test_twins_have_no_part_before_their_time(tmp_path):
 
 def test_crops_depend_on_seed_and_step_alone(tmp_path):
     frames = ScreenFrames([write_frames(tmp_path, count=3)], FEATURES)
-    told = {"crops": 50, "crop": 16, "flips": True, "twins": True}
-    places = crop_places(frames, 7, seed=1, **told)
+    arguments = {"crops": 50, "crop": 16, "flips": True, "twins": True}
+    drawn = crop_samples(frames, 7, seed=1, **arguments)
     assert (
-        places == crop_places(frames, 7, seed=1, **told) != crop_places(frames, 8, seed=1, **told)
+        drawn
+        == crop_samples(frames, 7, seed=1, **arguments)
+        != crop_samples(frames, 8, seed=1, **arguments)
     )
-    assert {place.frame for place in places} == {0, 1, 2} and {p.radius for p in places} == {0, 1}
-    assert {p.mirrored for p in places} == {p.upside_down for p in places} == {False, True}
-    assert max(place.left for place in places) <= WIDTH - 16
-    for place in places[:8]:
-        crop = frames.crop(place, 16)
-        whole = np.float32(frames.target(place.frame, place.radius))
-        window = whole[place.top :, place.left :][:16, :16][:, :: -1 if place.mirrored else 1]
-        assert np.array_equal(crop.target[0, 0].numpy()[:: -1 if place.upside_down else 1], window)
+    assert {sample.frame for sample in drawn} == {0, 1, 2} and {p.radius for p in drawn} == {0, 1}
+    assert {p.mirrored for p in drawn} == {p.upside_down for p in drawn} == {False, True}
+    assert max(sample.left for sample in drawn) <= WIDTH - 16
+    for sample in drawn[:8]:
+        crop = frames.crop(sample, 16)
+        whole = np.float32(frames.target(sample.frame, sample.radius))
+        window = whole[sample.top :, sample.left :][:16, :16][:, :: -1 if sample.mirrored else 1]
+        assert np.array_equal(crop.target[0, 0].numpy()[:: -1 if sample.upside_down else 1], window)
 
 
-def test_of_some_lights_alone(tmp_path):
+def test_crops_of_chosen_lights(tmp_path):
     frames = ScreenFrames([write_frames(tmp_path)], FEATURES)
-    told = {"seed": 1, "crops": 20, "crop": 16, "flips": False, "twins": False, "lights": [1]}
+    arguments = {"seed": 1, "crops": 20, "crop": 16, "flips": False, "twins": False, "lights": [1]}
     for pairs in (False, True):
-        assert {one.radius for one in crop_places(frames, 3, pairs=pairs, **told)} == {1}
+        assert {entry.radius for entry in crop_samples(frames, 3, pairs=pairs, **arguments)} == {1}
 
 
-def test_of_a_pair_each_has_another_radius(tmp_path):
+def test_radii_of_a_pair_differ(tmp_path):
     part = write_frames(tmp_path)
-    told = {"seed": 1, "crops": 60, "crop": 16, "flips": False, "twins": False, "pairs": True}
+    arguments = {"seed": 1, "crops": 60, "crop": 16, "flips": False, "twins": False, "pairs": True}
     frames = ScreenFrames([part], FEATURES)
-    places = crop_places(frames, 3, **told)
-    assert all(one.radius != other.radius for one, other in zip(places[::2], places[1::2]))
-    assert {place.radius for place in places[::2]} == {0, 1}
+    drawn = crop_samples(frames, 3, **arguments)
+    assert all(entry.radius != other.radius for entry, other in zip(drawn[::2], drawn[1::2]))
+    assert {sample.radius for sample in drawn[::2]} == {0, 1}
 
 
-def test_an_aligned_twin_is_looked_up_where_it_shows_the_same(tmp_path):
+def test_aligned_perturbed_frames_show_the_same(tmp_path):
     """A wall whose edge the twin sees 2 pixels farther right, from 2 pixels farther left."""
     part = write_frames(tmp_path, shift=2.0)
     about = json.loads(part.read_text())
@@ -229,12 +231,14 @@ def test_an_aligned_twin_is_looked_up_where_it_shows_the_same(tmp_path):
     np.save(part.with_suffix(".buffers.npy"), buffers)
     frames = ScreenFrames([part], ["base_hard"])
     for turns in itertools.product((False, True), repeat=2):
-        crop = frames.crop(Place(0, 0, 1, 4, 14, *turns), 24, aligned=True)
-        there = crop.twin.flatten()[crop.twin_at.flatten()].view_as(crop.twin)
-        assert torch.equal(there[crop.twin_valid], crop.features[crop.twin_valid])
+        crop = frames.crop(CropSample(0, 0, 1, 4, 14, *turns), 24, aligned=True)
+        shown = crop.twin.flatten()[crop.twin_at.flatten()].view_as(crop.twin)
+        assert torch.equal(shown[crop.twin_valid], crop.features[crop.twin_valid])
         assert not torch.equal(crop.twin[crop.twin_valid], crop.features[crop.twin_valid])
         assert crop.twin_valid.sum() == 24 * (24 - 2)  # of the rim the twin's crop has nothing
-    (outside,) = frames.crop(Place(0, 0, 1, 4, 0, False, False), 24, aligned=True).twin_valid[0]
+    (outside,) = frames.crop(CropSample(0, 0, 1, 4, 0, False, False), 24, aligned=True).twin_valid[
+        0
+    ]
     assert torch.equal(outside.all(0), torch.arange(24) < 22)
 
 
@@ -247,22 +251,22 @@ def test_running_statistics_are_kept_in_the_weights(tmp_path):
 
 
 @pytest.mark.parametrize("stem", ["buffers", "targets"])
-def test_not_a_number(tmp_path, stem):
+def test_nan_is_refused(tmp_path, stem):
     part = write_frames(tmp_path)
     array = np.load(part.with_suffix(f".{stem}.npy"))
     array[...] = np.nan
     np.save(part.with_suffix(f".{stem}.npy"), array)
-    with pytest.raises(InputError, match="train_000.json: .* frame 0 have NaN or infinity; delete"):
+    with pytest.raises(InputError, match="train_000.json: NaN or infinity .* frame 0. Delete"):
         run(tmp_path, part)
     assert not (tmp_path / "nsm" / "weights.safetensors").exists()
 
 
-def test_frames_without_twins(tmp_path):
-    with pytest.raises(InputError, match="no twins.*or set `perturbation: 0`"):
+def test_missing_perturbed_frames_are_refused(tmp_path):
+    with pytest.raises(InputError, match="no perturbed frames.*or set `perturbation: 0`"):
         run(tmp_path, write_frames(tmp_path, twins=0))
 
 
-def test_frames_that_lack_channels(tmp_path):
+def test_missing_channels_are_refused(tmp_path):
     part = write_frames(tmp_path)
     about = json.loads(part.read_text())
     channels = [name for name in about["channels"] if name != "z"]

@@ -1,4 +1,4 @@
-"""A step's loss, gradient and weights; a saved state is the restored one."""
+"""Loss, gradient and weights of a step; saved states."""
 
 import math
 
@@ -42,16 +42,16 @@ def take_step(run: TrainingRun, rays: slice) -> tuple[float, float]:
 
 
 def assert_same_weights(ours: TrainingRun, theirs: TrainingRun) -> None:
-    for one, other in zip(ours.weights.values(), theirs.weights.values(), strict=True):
-        assert torch.equal(one, other)
+    for first, other in zip(ours.weights.values(), theirs.weights.values(), strict=True):
+        assert torch.equal(first, other)
 
 
 @pytest.mark.parametrize("chunk", [99, 64, 7])
 def test_chunks_add_up_to_the_batch(chunk):
     """The spread of the outputs too: a last chunk of one ray has none of its own."""
     whole, chunked = new_run(), new_run(chunk=chunk)
-    expected, found = take_step(whole, slice(100)), take_step(chunked, slice(100))
-    assert found == pytest.approx(expected, rel=1e-6)
+    expected, result = take_step(whole, slice(100)), take_step(chunked, slice(100))
+    assert result == pytest.approx(expected, rel=1e-6)
     assert expected[1] > 0.01
     for ours, theirs in zip(chunked.weights.values(), whole.weights.values(), strict=True):
         torch.testing.assert_close(ours.grad, theirs.grad, rtol=1e-5, atol=1e-7)
@@ -79,16 +79,16 @@ def test_gradient_against_differences():
 def test_rates_of_schedules():
     """Those of Hu et al. 2025 (5): 0.001, a tenth from step 20,000 on, a hundredth from 40,000."""
     settings = {"learning_rate": 1e-3, "steps": 50_000}
-    places = torch.tensor([0, 19_999, 20_000, 39_999, 40_000, 49_999])
+    step_numbers = torch.tensor([0, 19_999, 20_000, 39_999, 40_000, 49_999])
 
     def rates(schedule, **more):
-        told = settings | {"schedule": schedule, **more}
-        return [learning_rate_at(step, told).item() for step in places]
+        schedule_settings = settings | {"schedule": schedule, **more}
+        return [learning_rate_at(step, schedule_settings).item() for step in step_numbers]
 
     assert rates("constant") == [1e-3] * 6
     falling = [1e-3, 1e-3, 1e-4, 1e-4, 1e-5, 1e-5]
     assert rates("steps", tenth_from=[20_000, 40_000]) == pytest.approx(falling, rel=1e-12)
-    cosine = [5e-4 * (1 + math.cos(math.pi * int(step) / 50_000)) for step in places]
+    cosine = [5e-4 * (1 + math.cos(math.pi * int(step) / 50_000)) for step in step_numbers]
     assert rates("cosine") == pytest.approx(cosine, rel=1e-9)
 
 
@@ -135,7 +135,7 @@ def test_muon_moves_the_hidden_layers_and_adam_the_others():
 
 
 @pytest.mark.parametrize("died_at_step", [None, 1])
-def test_a_state_tells_death(tmp_path, died_at_step):
+def test_a_state_keeps_its_divergence(tmp_path, died_at_step):
     """Its spread is not in the state: without the word a dead run would go on."""
     ours, theirs = new_run(), new_run(seed=1)
     if died_at_step:
@@ -149,11 +149,13 @@ def test_a_state_tells_death(tmp_path, died_at_step):
     assert_same_weights(ours, theirs)
 
 
-def test_muon_is_refused_where_nothing_is_hidden():
+def test_muon_is_refused_without_hidden_layers():
     network = FrequencyNetwork(frequencies=3, width=16, hidden_layers=2)
     network.layers = network.layers[:1]
     settings = SETTINGS | {"optimiser": "muon", "adam_rate": 1e-3}
-    with pytest.raises(InputError, match="muon is for hidden layers.*set optimiser: adam"):
+    with pytest.raises(
+        InputError, match="muon: the network has no hidden layers.*Set optimiser: adam"
+    ):
         TrainingRun(network, settings)
 
 

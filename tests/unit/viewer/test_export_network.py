@@ -117,6 +117,6 @@ def test_an_export_that_answers_otherwise_is_not_kept(tmp_path, export, monkeypa
 
 
 def test_what_is_no_network_is_refused(tmp_path, export):
-    with pytest.raises(InputError, match=r"weights\.safetensors: 'mesh' is no network and has no"):
+    with pytest.raises(InputError, match=r"weights\.safetensors: the encoding 'mesh' has no"):
         export({"encoding": "mesh", "triangles": None, "bits": 16})
     assert not (tmp_path / "network.onnx").exists()

@@ -1,1 +1,1 @@
-"""The configuration: modules named after its sections."""
+"""Reading, checking and describing the configuration."""

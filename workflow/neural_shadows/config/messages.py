@@ -1,4 +1,4 @@
-"""The wording of what is wrong with a configuration."""
+"""Error messages about a configuration."""
 
 import re
 import reprlib
@@ -10,13 +10,13 @@ _NUMBER = re.compile(r"[-+.\d]+(e[-+]?\d+)?$", re.IGNORECASE)
 
 
 def describe(error: ValidationError, values: Any) -> str:
-    """One line for the first problem: key, value, and what is allowed.
+    """Line on the first problem: key, value, allowed values.
 
     Args:
-        values: what was checked; tells the keys in a problem's place from the tags of unions.
+        values: the checked values; they distinguish keys in a problem's path from tags of unions.
     """
-    # A default that is made from other keys is none where these are wrong.
-    problems = [one for one in error.errors() if one["type"] != "default_factory_not_called"]
+    # A default computed from other keys fails where those are wrong.
+    problems = [p for p in error.errors() if p["type"] != "default_factory_not_called"]
     problem, more = problems[0], len(problems) - 1
     key = _key(problem, values)
     message = problem["msg"].removeprefix("Value error, ")
@@ -42,7 +42,7 @@ def describe(error: ValidationError, values: Any) -> str:
 
 
 def _key(problem: Any, values: Any) -> str:
-    """The config key of a problem; `[key]` at the end of its place means the key itself."""
+    """Config key of a problem, without tags of unions."""
     keys = []
     for part in problem["loc"]:
         is_key = isinstance(values, dict) and part in values
@@ -56,7 +56,7 @@ def _key(problem: Any, values: Any) -> str:
 
 
 def _shown(value: Any) -> str:
-    """A value as a message shows it: aliases of aliases in YAML may unfold to gigabytes."""
+    """A shortened value: nested YAML aliases may expand to gigabytes."""
     shown = reprlib.Repr()
     shown.maxstring = shown.maxother = shown.maxlong = 80
     return shown.repr(value)

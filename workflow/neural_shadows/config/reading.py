@@ -1,4 +1,4 @@
-"""Reading the configuration, and the mistakes that YAML lets pass."""
+"""Reading and checking the configuration."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -15,19 +15,19 @@ from neural_shadows.sections.own_frames import OwnFrames, without_frames
 from neural_shadows.sections.scenes import MeshFile
 from neural_shadows.settings.base import not_among
 
-# What `dragon` may be beside a file.
+# Values of `dragon` other than a file.
 MESHES_BY_NAME = {"wyrm": {"generate": "wyrm"}, "stanford": {"download": "stanford_dragon"}}
 
 
 def _without_nulls(value: Any) -> Any:
-    """A section without the keys that are null, by which an overlay drops them."""
+    """A section without its null keys, removed by overlays."""
     if not isinstance(value, dict):
         return value
     return {key: _without_nulls(part) for key, part in value.items() if part is not None}
 
 
 class _NoDuplicates(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
-    """Reads YAML, but refuses a key that is given twice, of which YAML keeps the last."""
+    """YAML loader rejecting repeated keys."""
 
     def construct_mapping(self, node, deep=False):
         seen = set()
@@ -35,18 +35,17 @@ class _NoDuplicates(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
             if str(key.value) in seen:
                 raise InputError(
                     f"config: {key.start_mark.name}, line {key.start_mark.line + 1}: "
-                    f"{key.value!r} is there twice; give each name once"
+                    f"{key.value!r} is defined twice. Define it once"
                 )
             seen.add(str(key.value))
         return super().construct_mapping(node, deep)
 
 
 def check_duplicates(paths: Iterable[str | Path]) -> None:
-    """Check that no section of these config files gives a name twice.
+    """Check config files for repeated keys.
 
     Raises:
-        InputError: one does; one line with the file, the line and the name. Or a file is no
-            YAML, or has no sections.
+        InputError: a key is repeated (with file and line), or a file is not YAML or has no sections.
     """
     for path in paths:
         try:
@@ -56,11 +55,11 @@ def check_duplicates(paths: Iterable[str | Path]) -> None:
             reason = " ".join(str(error).split())[:300]
             raise InputError(f"config: {path}: cannot be read as YAML ({reason})") from error
         if not isinstance(sections, dict):
-            raise InputError(f"config: {path}: holds no sections; write `section: ...` at its top")
+            raise InputError(f"config: {path}: has no sections. Write `section: ...` at its top")
 
 
 def read_config(values: dict[str, Any]) -> Config:
-    """Check a configuration as Snakemake merged it.
+    """Check a configuration merged by Snakemake.
 
     Args:
         values: the merged config files and `--config` values.
@@ -70,16 +69,16 @@ def read_config(values: dict[str, Any]) -> Config:
             name refers to nothing; one line that names key, value and what is allowed.
     """
     if values.get("dragon", "wyrm") in (None, ""):
-        raise InputError("config: dragon: is empty; allowed: wyrm, stanford, or a mesh file")
+        raise InputError("config: dragon: is empty. Allowed: wyrm, stanford, or a mesh file")
     values = _without_nulls(values)
     if isinstance(shorthand := values.get("dragon"), str):
         scenes = values.get("scenes")
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):
-            raise InputError("config: dragon: there is no scene named `dragon` in `scenes`")
+            raise InputError("config: dragon: `scenes` has no scene named `dragon`")
         mesh = MESHES_BY_NAME.get(shorthand, {"path": shorthand})
-        old = scenes["dragon"].get("mesh")
-        # `--config dragon=wyrm` over a scene that is a wyrm already keeps its resolution.
-        if not (isinstance(old, dict) and mesh.items() <= old.items()):
+        configured = scenes["dragon"].get("mesh")
+        # `--config dragon=wyrm` keeps the resolution of a scene with a wyrm.
+        if not (isinstance(configured, dict) and mesh.items() <= configured.items()):
             scenes["dragon"]["mesh"] = mesh
     if (up := values.get("up")) is not None and isinstance(
         dragon := (values.get("scenes") or {}).get("dragon"), dict
@@ -92,13 +91,13 @@ def read_config(values: dict[str, Any]) -> Config:
 
 
 def check_files(config: Config) -> None:
-    """Check that the files that a configuration names are there.
+    """Check that configured files exist.
 
-    Snakemake does not, where an older result exists: it then takes that for up to date.
+    Snakemake does not check inputs of an existing result.
 
     Raises:
-        InputError: a mesh file or LPIPS's trunk is missing, or a mesh file has a suffix that
-            cannot be read; one line with its key.
+        InputError: a mesh, a frame folder or weights are missing, or a mesh has an unknown suffix; one
+            line with the key.
     """
     for name, scene in config.scenes.items():
         if isinstance(scene.mesh, MeshFile):
@@ -106,19 +105,19 @@ def check_files(config: Config) -> None:
             if name == "dragon" and config.dragon == path:
                 key = "dragon"
                 if "." not in path and not Path(path).exists():
-                    told = not_among(path, MESHES_BY_NAME)
-                    raise InputError(f"config: dragon: {told}, and no file")
+                    problem = not_among(path, MESHES_BY_NAME)
+                    raise InputError(f"config: dragon: {problem}, and no file")
             _check_file(key, path)
             try:
                 format_of(path)
             except InputError as error:
                 raise InputError(f"config: {key}: {error}") from error
     for name, frames in config.frame_sets.items():
-        lacking = without_frames(frames) if isinstance(frames, OwnFrames) else None
-        if lacking is not None:
+        missing = without_frames(frames) if isinstance(frames, OwnFrames) else None
+        if missing is not None:
             raise InputError(
-                f"config: frame_sets.{name}.path = {frames.path!r}: {lacking}; "
-                "results/README.md tells the format"
+                f"config: frame_sets.{name}.path = {frames.path!r}: {missing}. "
+                "results/README.md describes the format"
             )
     for name in config.screen_experiments:
         trunk = getattr(config.screen_training_of(name).perceptual, "trunk", None)
@@ -131,6 +130,6 @@ def check_files(config: Config) -> None:
 def _check_file(key: str, path: str) -> None:
     if not Path(path).is_file():
         raise InputError(
-            f"config: {key} = {path!r}: no such file; "
-            "give a path from the working directory, or an absolute one"
+            f"config: {key} = {path!r}: no such file. "
+            "Give a path relative to the working directory, or an absolute one"
         )

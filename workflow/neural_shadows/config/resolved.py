@@ -1,4 +1,4 @@
-"""The checked configuration as plain data with names followed: what rules look up."""
+"""The configuration as plain data for rules."""
 
 import re
 from typing import Any
@@ -12,14 +12,13 @@ Section = dict[str, Any]
 
 
 def resolved(config: Sections) -> Section:
-    """The sections of a configuration as rules look them up.
+    """Sections with names replaced by their entries.
 
     Sections are as in config.yaml, with every default, but: a scene has its `mesh_name`, `scene`
-    (what `open_scene` takes beside the mesh) and `frames` (how its viewpoints are drawn and
-    rendered); an experiment's `network` and `training` are sections, the former with what it takes
-    from its scene, and the points of learning curves are experiments, too; a screen experiment has its
-    sections and a `trunk`; `learning_curves` has those of each (`points_of`); seeds and labels are
-    what holds; tables, figures and claims are as their kinds resolve them.
+    (arguments of `open_scene` besides the mesh) and `frames` (settings of its viewpoints); an experiment's `network` and `training` are sections, the former with keys of its
+    scene, and points of learning curves are experiments as well; a screen experiment has its sections
+    and a `trunk`; `learning_curves` has the points of each (`points_of`); seeds and labels are the
+    effective ones; tables, figures and claims are resolved by their kinds.
     """
     names = config.learning_curves.experiments if config.learning_curves else []
     curves = {name: config.points_of(name) for name in names}
@@ -77,11 +76,14 @@ def _scene(config: Sections, name: str) -> Section:
 
 
 def _soft_scene(config: Sections, name: str) -> Section:
-    """What `SoftScene` takes beside the meshes, of whose names it has the axes that point up."""
+    """Arguments of `SoftScene` besides meshes, with the meshes' vertical axes."""
     scene = config.soft_scenes[name]
-    ups = {inserted: config.scenes[inserted].up for inserted in scene.inserted}
-    drawn = {"generate": scene.generate, "seed": config.layout_seed(name)}
-    return drawn | {"inserted": ups, "penumbra": scene.penumbra}
+    return {
+        "generate": scene.generate,
+        "seed": config.layout_seed(name),
+        "inserted": {inserted: config.scenes[inserted].up for inserted in scene.inserted},
+        "penumbra": scene.penumbra,
+    }
 
 
 def _frame_set(config: Sections, name: str) -> Section:
@@ -104,15 +106,16 @@ def _experiment(config: Sections, name: str) -> Section:
 
 
 def _experiment_at(config: Sections, name: str, point: Section) -> Section:
-    """An experiment as it is trained for a point of its learning curve."""
+    """Experiment of a point of a learning curve."""
     section = _experiment(config, name)
     training = section["training"] | {"steps": point["steps"]}
     return section | {"training": training, "seed": point["seed"]}
 
 
 def _screen_experiment(config: Sections, name: str) -> Section:
-    """Its sections, and the `trunk` of its perceptual distance; in its training the `lights` that it
-    learns. Without a trunk the distance is `none`.
+    """Sections of a screen experiment, with training `lights` and `trunk`.
+
+    Without weights (`trunk`) the perceptual loss is `none`.
     """
     experiment = config.screen_experiments[name]
     training = config.screen_training_of(name).model_dump() | {"lights": experiment.lights}

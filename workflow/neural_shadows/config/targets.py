@@ -1,16 +1,15 @@
-"""Targets of a command line that no rule makes, and what was meant."""
+"""Checks of command-line targets, with suggestions."""
 
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-
-import yaml
 
 from neural_shadows.errors import InputError
 from neural_shadows.sections.sections import Sections
 
 
 def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> None:
-    """Check that targets are of the scale of the run, and files.
+    """Check that targets are files of the run's scale.
 
     Args:
         targets: the command line. folder: of the shipped configuration and its overlays.
@@ -25,22 +24,22 @@ def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> Non
         if top in ("reports", "results") and "/" in rest and scale in scales:
             if scale != config.scale:
                 raise InputError(
-                    f"{target}: is of the scale {scale!r}, and this run is {config.scale!r}. Add "
-                    f"`--configfile {scales[scale]}` behind the targets"
+                    f"{target}: has the scale {scale!r}, and this run {config.scale!r}. Add "
+                    f"`--configfile {scales[scale]}` after the targets"
                 )
         for section, ending in (("tables", "csv"), ("figures", "png"), ("viewers", "html")):
             if target in getattr(config, section):
                 below = "reports" if config.scale == "desk" else f"reports/{config.scale}"
                 raise InputError(
-                    f"{target}: is no file but an entry of `{section}`. Ask for "
+                    f"{target}: is an entry of `{section}`, not a file. Use "
                     f"{below}/{target}.{ending}"
                 )
 
 
 def _scales(folder: Path) -> Mapping[str, str]:
-    """The shipped overlays by their scales."""
+    """Shipped overlays by scale."""
     scales = {}
     for path in sorted(folder.glob("*.yaml")):
-        if scale := yaml.safe_load(path.read_text(encoding="utf-8")).get("scale"):
-            scales.setdefault(scale, f"config/{path.name}")
+        if scale := re.search(r"^scale: (\w+)", path.read_text(encoding="utf-8"), re.MULTILINE):
+            scales.setdefault(scale[1], f"config/{path.name}")
     return scales

@@ -1,7 +1,6 @@
-"""The whole configuration: its sections, explained in the files of their names.
+"""The whole configuration, with kinds of tables, figures and claims.
 
-`python -m neural_shadows.config` prints the JSON schema made from it
-(workflow/schemas/config.schema.json).
+`python -m neural_shadows.config` prints its JSON schema (workflow/schemas/config.schema.json).
 """
 
 from pydantic import Field, model_validator
@@ -24,8 +23,7 @@ Table = union("reports/tables", default="comparison")
 Figure = union("reports/figures")
 Claim = union("reports/claims/kinds")
 
-# Folders below results/ and reports/, where an overlay's own folder of this name would mix with
-# the default's files.
+# Folders of the default scale, with which an overlay's folder of this name would collide.
 RESERVED_SCALES = {
     *("scenes", "rays", "networks", "references", "answers", "evaluations", "depth_biases"),
     *("frame_times", "logs", "benchmarks", "reference"),
@@ -38,18 +36,16 @@ RESERVED_TABLES = ("claims", "index")
 class Config(Sections):
     """The whole configuration."""
 
-    tables: dict[Name, Table] = Field({}, description="by name: `table_` and the thesis's number")
+    tables: dict[Name, Table] = Field({}, description="tables, by name")
     figures: dict[FigureName, Figure] = Field(
         {}, description="figures to draw, by name: `figure_` and the thesis's number"
     )
-    claims: dict[Name, Claim] = Field({}, description="what the thesis concludes, by name")
+    claims: dict[Name, Claim] = Field({}, description="conclusions to be judged, by name")
 
     @model_validator(mode="after")
     def _check(self):
         if self.scale in RESERVED_SCALES:
-            raise ValueError(
-                f"scale = {self.scale!r}: is the name of a folder of results; choose another"
-            )
+            raise ValueError(f"scale = {self.scale!r}: is a folder of results. Choose another name")
         for section in (
             scenes,
             soft_scenes,
@@ -62,7 +58,7 @@ class Config(Sections):
             section.check(self)
         for name in self.tables:
             if name in RESERVED_TABLES:
-                raise ValueError(f"tables.{name}: a report has this name; choose another")
+                raise ValueError(f"tables.{name}: a report has this name. Choose another")
         for section in ("tables", "figures"):
             for name, entry in getattr(self, section).items():
                 entry.check(self, f"{section}.{name}")

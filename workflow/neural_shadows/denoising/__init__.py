@@ -1,1 +1,1 @@
-"""What makes a smooth picture of few shadow rays a pixel."""
+"""Denoisers of pictures of few shadow rays a pixel."""

@@ -1,9 +1,9 @@
-"""An exponential that a processor computes of many numbers at once."""
+"""A vectorisable exponential."""
 
 import numpy as np
 from numba import njit
 
-_RARE = np.float32(20)  # what is below 2e-9 is 0, off numbers that are slow
+_RARE = np.float32(20)  # exp(−20) = 2e-9 and less become 0: denormals are slow
 _PART = np.float32(1 / 1024)
 
 

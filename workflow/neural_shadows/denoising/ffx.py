@@ -41,7 +41,7 @@ class FfxFilter:
         self._images = np.empty((4, height, width), np.float32)
 
     def see(self, depth: np.ndarray, normal: np.ndarray) -> None:
-        """Take the surface at which weights stop.
+        """Set the surface guiding the weights.
 
         Args:
             depth: (H, W) float32 along the camera's axis; 0 where there is no surface.
@@ -51,7 +51,7 @@ class FfxFilter:
         self._guides[1:] = np.moveaxis(normal, 2, 0)
 
     def neighbourhood(self, visibility: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Gaussian means over 17 × 17 pixels, and variances of a ray by them: (H, W) float32 each.
+        """Gaussian means over 17 × 17 pixels, and variances: (H, W) float32.
 
         Args:
             visibility: (H, W) float32 in [0, 1]. Where it is 0 or 1 all around, the next `smooth`
@@ -62,7 +62,7 @@ class FfxFilter:
         return mean, np.maximum(mean - mean * mean, 0)
 
     def smooth(self, visibility: np.ndarray, variance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The picture (H, W) float32 after its first and after its last pass.
+        """Smooth a picture (H, W) float32: after the first and last pass.
 
         Args:
             visibility: (H, W) float32 in [0, 1]. variance: (H, W) float32, of its noise.
@@ -89,7 +89,7 @@ class FfxFilter:
 
 
 def ffx_like(filter_: FfxFilter, visibility: np.ndarray, depth: np.ndarray, normal: np.ndarray):
-    """One picture without what was before it, (H, W) float32; see `FfxFilter`."""
+    """Filter one picture without history, (H, W) float32; see `FfxFilter`."""
     filter_.see(depth, normal)
     _, noise = filter_.neighbourhood(visibility)
     return filter_.smooth(visibility, (_BOOST - 1) * noise)[1]
@@ -98,7 +98,7 @@ def ffx_like(filter_: FfxFilter, visibility: np.ndarray, depth: np.ndarray, norm
 class TemporalFfx:
     """The filter for a sequence of frames (height, width), given one by one.
 
-    What a frame's first pass has smoothed is what the next one is added to.
+    The history is the output of a frame's first pass.
 
     Args:
         sigma: see SIGMA.
@@ -106,7 +106,7 @@ class TemporalFfx:
 
     def __init__(self, height: int, width: int, sigma: float = SIGMA):
         self._spatial = FfxFilter(height, width, sigma)
-        # The picture, the mean of rays, their squared deviations from it, how many frames these have.
+        # The picture, the mean of rays, their squared deviations from it, and their number of frames.
         self._history = History()
 
     def next_frame(
@@ -124,15 +124,15 @@ class TemporalFfx:
         new[3] = 1
         variance = (_BOOST - 1) * noise
         pixels, past = self._history.at(surface, len(new), was)
-        here = (image.ravel()[pixels] for image in (visibility, mean, noise))
-        new.reshape(len(new), -1)[:, pixels], variance.ravel()[pixels] = _added(past, *here)
+        values = (image.ravel()[pixels] for image in (visibility, mean, noise))
+        new.reshape(len(new), -1)[:, pixels], variance.ravel()[pixels] = _added(past, *values)
         new[0], last = self._spatial.smooth(new[0], variance)
         self._history.keep(surface, new)
         return last
 
 
 def _added(past: np.ndarray, visibility: np.ndarray, mean: np.ndarray, noise: np.ndarray):
-    """A frame's values added to those before: (4, m), see `TemporalFfx`; and their variance (m,).
+    """Add a frame to the history: (4, m), see `TemporalFfx`; and variance (m,).
 
     Args:
         past: (4, m). visibility: (m,) of the frame's rays; mean, noise: (m,), see `neighbourhood`.
@@ -155,7 +155,7 @@ def _added(past: np.ndarray, visibility: np.ndarray, mean: np.ndarray, noise: np
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
 def _fill_next(guides, light, spread, mixed, sharpness, step, next_light, next_spread):
-    """One pass over what is mixed: means by weight of values, by its square of variances."""
+    """One pass over mixed blocks: weighted means, squared weights for variances."""
     height, width = light.shape
     sharp, total, lights, spreads = np.empty((4, SIDE), np.float32)
     for y in range(height):
@@ -209,13 +209,16 @@ def _fill_sharpness(spread, y, begin, end, sharpness, sharp):
 
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
-def _add_tap(here, there, light, light_there, spread_there, sharp, share, total, lights, spreads):
-    """Add a run of pixels to those of another by share · exp(−|Δl| / (σ s) − |Δz| / (σ_z z)) (n·n')³²."""
-    z, nx, ny, nz = here[0], here[1], here[2], here[3]
-    z_, nx_, ny_, nz_ = there[0], there[1], there[2], there[3]
+def _add_tap(guide, tap_guide, light, tap_light, tap_spread, sharp, share, total, lights, spreads):
+    """Add a weighted run of taps.
+
+    The weight is share · exp(−|Δl| / (σ s) − |Δz| / (σ_z z)) (n·n')³².
+    """
+    z, nx, ny, nz = guide[0], guide[1], guide[2], guide[3]
+    z_, nx_, ny_, nz_ = tap_guide[0], tap_guide[1], tap_guide[2], tap_guide[3]
     none, tiny = np.float32(0), np.float32(1e-12)
     for i in range(len(light)):
-        t = abs(light[i] - light_there[i]) * sharp[i]
+        t = abs(light[i] - tap_light[i]) * sharp[i]
         t += abs(z[i] - z_[i]) / (SIGMA_DEPTH * z[i] + tiny)
         cosine = nx[i] * nx_[i] + ny[i] * ny_[i] + nz[i] * nz_[i]
         cosine = none if cosine < _ASLANT else cosine
@@ -223,5 +226,5 @@ def _add_tap(here, there, light, light_there, spread_there, sharp, share, total,
             cosine *= cosine
         weight = share * decayed(t) * cosine
         total[i] += weight
-        lights[i] += weight * light_there[i]
-        spreads[i] += weight * weight * spread_there[i]
+        lights[i] += weight * tap_light[i]
+        spreads[i] += weight * weight * tap_spread[i]

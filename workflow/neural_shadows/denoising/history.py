@@ -1,4 +1,4 @@
-"""What a filter keeps of a sequence's frame for the next one."""
+"""A temporal filter's history."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from neural_shadows.rendering.surface import Surface
 
 
 class History:
-    """Images of the frame before, looked up where its points are now."""
+    """Images of the previous frame, looked up at the current points."""
 
     def __init__(self):
         self._images: np.ndarray | None = None
@@ -16,7 +16,7 @@ class History:
     def at(
         self, surface: Surface, count: int, was: np.ndarray | None = None
     ) -> tuple[np.ndarray, np.ndarray]:
-        """The pixels that the frame before shows as well, and its images there; none at first.
+        """Find pixels seen in the previous frame, and its images there.
 
         Args:
             surface: of the frame now. was: (n, 3), where its points were; see `seen_before`.
@@ -33,5 +33,5 @@ class History:
         return surface.pixel[accepted], values
 
     def keep(self, surface: Surface, images: np.ndarray) -> None:
-        """Take a frame's images (count, H, W) float32 for the next one."""
+        """Store a frame's images (count, H, W) float32."""
         self._images, self._surface = images, surface

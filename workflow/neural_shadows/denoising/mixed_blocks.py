@@ -1,9 +1,9 @@
-"""Which parts of a picture of visibility have any light and any shadow near them."""
+"""Blocks of a visibility picture near both light and shadow."""
 
 import numpy as np
 from numba import njit
 
-SIDE = 32  # pixels of a row that are filtered, or left as they are, together
+SIDE = 32  # pixels of a row filtered, or skipped, together
 REACH = 8  # of a pixel's neighbourhood, to each side
 # A single ray of four a pixel that differs shifts a mean by 5e-5 from the neighbourhood's corner.
 _MIXED = np.float32(1e-5)
@@ -20,11 +20,13 @@ class Neighbourhoods:
         self.mixed = np.empty((height, -(-width // SIDE)), np.bool_)
 
     def see(self, visibility: np.ndarray) -> None:
-        """Fill `mean`, Gaussian over 17 × 17 pixels, and `mixed`, by blocks of `SIDE` in a row:
-        whether it is neither 0 nor 1 for one of them.
+        """Fill `mean` and `mixed`.
+
+        `mean` is Gaussian over 17 × 17 pixels; `mixed` is True for blocks of `SIDE` pixels in a row
+        with a mean neither 0 nor 1.
 
         Args:
-            visibility: (H, W) float32; goes on beyond its rim as it is there.
+            visibility: (H, W) float32, repeated beyond its rim.
         """
         _fill_means(visibility, self._kernel, self._across, self.mean)
         _fill_mixed(self.mean, self.mixed)
@@ -56,5 +58,5 @@ def _fill_mixed(mean, mixed):
     for y in range(height):
         for block in range(mixed.shape[1]):
             begin = block * SIDE
-            some = mean[y, begin : min(begin + SIDE, width)]
-            mixed[y, block] = some.min() < 1 - _MIXED and some.max() > _MIXED
+            block_means = mean[y, begin : min(begin + SIDE, width)]
+            mixed[y, block] = block_means.min() < 1 - _MIXED and block_means.max() > _MIXED

@@ -1,6 +1,6 @@
 """Intel Open Image Denoise, a trained network, on pictures of visibility.
 
-By the package `pyoidn`, which there is for x86-64 alone. Its filter RT for colours in [0, 1], with
+By the package `pyoidn`, for x86-64 alone. Its filter RT for colours in [0, 1], with
 normals and albedo beside them.
 """
 
@@ -12,7 +12,7 @@ from neural_shadows.errors import InputError
 
 # "balanced" is the same network as "high" for colours in [0, 1] (2.5.1 has no larger one for them).
 QUALITIES = ("high", "balanced", "fast")
-# Full light is given as this: the network takes 1 for any brightness that was cut off at 1, and so
+# Value of full light: the network takes 1 for any brightness clipped at 1, and so
 # fills penumbrae with light. At 1 ray a pixel of a room, a mean squared error of 0.031 became 0.006.
 BRIGHTNESS = np.float32(0.5)
 
@@ -25,19 +25,19 @@ def open_image_denoise(
     clean: bool = False,
     threads: int = 1,
 ) -> np.ndarray:
-    """A picture without its noise, (H, W) float32 in [0, 1].
+    """Denoise a picture, (H, W) float32 in [0, 1].
 
     Args:
         visibility: (H, W) float32 in [0, 1].
         normal: (H, W, 3) float32, unit, noise-free; 0 where there is no surface.
-        quality: one of QUALITIES. threads: that the network runs on.
-        clean: `cleanAux`, whether the picture gets the normals' edges as they are. Those at pixels'
-            centres are free of noise, but have steps that a target of several places in a pixel
-            has not: without it errors were 20 to 45 % smaller.
+        quality: one of QUALITIES. threads: of the network.
+        clean: `cleanAux`, keep the normals' edges as they are. Those at pixels' centres are free
+            of noise, but have steps, unlike a target of several places in a pixel: without it
+            errors were 20 to 45 % smaller.
 
     Raises:
         InputError: the package is not installed.
-        RuntimeError: it cannot do its work here.
+        RuntimeError: an error of the library.
     """
     return _network(*visibility.shape, quality, clean, threads)(visibility, normal)
 
@@ -47,15 +47,15 @@ def _package():
         import pyoidn
     except ImportError:
         raise InputError(
-            "Open Image Denoise is not installed (pyoidn, for x86-64 alone); leave out the methods "
-            "rt_N_oidn"
+            "Open Image Denoise is not installed (pyoidn, for x86-64 alone). Leave out the methods "
+            "rt_N_oidn."
         ) from None
     return pyoidn
 
 
 @cache
 def _device(threads: int):
-    """A CPU device that lives as long as the process."""
+    """A CPU device for the process's lifetime."""
     device = _package().Device()
     device.set_int("numThreads", threads)
     # Threads that are bound to cores would stay on those of other processes.
@@ -72,7 +72,7 @@ def _check(device) -> None:
 
 
 class _Network:
-    """The network made ready for pictures of one size, and the buffers that it reads and writes."""
+    """The network for pictures of one size, and its buffers."""
 
     def __init__(self, height: int, width: int, quality: str, clean: bool, threads: int):
         oidn = _package()

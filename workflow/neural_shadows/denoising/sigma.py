@@ -1,8 +1,8 @@
-"""A shadow denoiser like NRD's SIGMA: as blurred as the distances to what blocks the light ask.
+"""A shadow denoiser like NRD's SIGMA: blurred by distances to blockers.
 
 After what is described of NVIDIA's Real-Time Denoisers (4.18), whose code was not used. "Like",
-because what faces away from the light is blurred as all else is, as its rays know what they see
-(errors were a sixth smaller), and the weights that are not described are ours. All on one thread.
+because surfaces turned from the light are blurred like all others (errors were a sixth smaller),
+and the undescribed weights are ours. All on one thread.
 """
 
 import numpy as np
@@ -13,9 +13,9 @@ from neural_shadows.denoising.history import History
 from neural_shadows.denoising.mixed_blocks import SIDE, Neighbourhoods
 from neural_shadows.rendering.surface import Surface
 
-REACH = 0.7  # of a penumbra's radius, how far the sparse taps are
+REACH = 0.7  # radius of the sparse taps, in shares of a penumbra's
 PASSES = 2
-_NEAR = 2  # pixels to each side that dense taps are
+_NEAR = 2  # pixels of dense taps to each side
 _TAPS = 12  # sparse ones
 _SHORT = np.float32(2)  # pixels of radius up to which a pixel keeps a part of its own visibility
 _LONG = np.float32(32)  # pixels that sparse taps reach at most
@@ -23,16 +23,16 @@ _DENSE = np.float32(8)  # weight of the dense taps' mean; of 2, 4, 8 and 16 abou
 _PLANE = np.float32(2)  # pixels off a pixel's own plane, from which on others weigh nothing
 _LEAST = np.float32(1e-12)
 _FRAMES = 7  # of history at most
-_CLAMP = 3.0  # standard deviations of 5 × 5 pixels that history may be off their mean
+_CLAMP = 3.0  # standard deviations of 5 × 5 pixels to which history is clamped
 
 
 def _gaussian(r: np.ndarray) -> np.ndarray:
-    """By distance, in shares of what is reached."""
+    """Weight by distance, in shares of the reach."""
     return np.float32(np.exp(-0.66 * r * r))
 
 
 def _disc() -> np.ndarray:
-    """The sparse taps, evenly over a disc of radius 1 (Vogel): x, y and weight, (taps, 3) float32."""
+    """Sparse taps on the unit disc (Vogel): x, y, weight, (taps, 3) float32."""
     k = np.arange(_TAPS)
     r, angle = np.sqrt((k + 0.5) / _TAPS), k * np.pi * (3 - 5**0.5)
     return np.float32(np.stack([r * np.cos(angle), r * np.sin(angle), _gaussian(r)], axis=1))
@@ -56,7 +56,7 @@ class SigmaFilter:
         self._images = np.empty((6, height, width), np.float32)
 
     def see(self, place: np.ndarray, normal: np.ndarray, pixel: np.ndarray) -> None:
-        """Take the surface whose planes are kept apart.
+        """Set the surface guiding the weights.
 
         Args:
             place, normal: (H, W, 3) float32, of its points and of their faces, in the scene's unit.
@@ -67,13 +67,13 @@ class SigmaFilter:
         self._guides[6] = pixel
 
     def smooth(self, visibility: np.ndarray, penumbra: np.ndarray, turned: int = 0) -> np.ndarray:
-        """The picture (H, W) float32 after both passes.
+        """Smooth a picture (H, W) float32 by both passes.
 
         Args:
             visibility: (H, W) float32 in [0, 1].
-            penumbra: (H, W) float32, the mean radius of the penumbrae of what blocks a pixel's rays,
-                in the scene's unit; below 0 where nothing does.
-            turned: how often the sparse taps were turned before.
+            penumbra: (H, W) float32, the mean radius of the penumbrae of the blockers of a pixel's
+                rays, in the scene's unit; below 0 without blockers.
+            turned: number of earlier turns of the sparse taps.
         """
         self._nearby.see(visibility)
         light, share, width, next_light, next_share, next_width = self._images
@@ -104,7 +104,7 @@ class SigmaFilter:
 
 
 def see_surface_of(filter_: SigmaFilter, surface: Surface) -> None:
-    """Have the filter see a frame's surface."""
+    """Set a filter's surface to a frame's."""
     pixel = surface.depth_image() / np.float32(surface.camera.focal(surface.height))
     filter_.see(surface.image(surface.p), surface.image(surface.n_g), pixel)
 
@@ -112,7 +112,7 @@ def see_surface_of(filter_: SigmaFilter, surface: Surface) -> None:
 def sigma_like(
     filter_: SigmaFilter, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface
 ) -> np.ndarray:
-    """One picture without what was before it, (H, W) float32; see `SigmaFilter`."""
+    """Filter one picture without history, (H, W) float32; see `SigmaFilter`."""
     see_surface_of(filter_, surface)
     return filter_.smooth(visibility, penumbra)
 
@@ -120,7 +120,7 @@ def sigma_like(
 class TemporalSigma:
     """The filter for a sequence of frames (height, width), given one by one.
 
-    What is given out is what the next frame is added to.
+    The history is the output.
 
     Args:
         reach: see REACH.
@@ -128,7 +128,7 @@ class TemporalSigma:
 
     def __init__(self, height: int, width: int, reach: float = REACH):
         self._spatial = SigmaFilter(height, width, reach)
-        self._history = History()  # the picture, and how many frames are in it
+        self._history = History()  # the picture, and its number of frames
         self._frame = 0
 
     def next_frame(
@@ -150,7 +150,7 @@ class TemporalSigma:
         pixels, (past, frames) = self._history.at(surface, 2, was)
         mean, deviation = (image.ravel()[pixels] for image in _nearby(picture))
         clamped = np.clip(past, mean - _CLAMP * deviation, mean + _CLAMP * deviation)
-        # What had to be clamped is of another shadow: its frames count as fewer.
+        # Clamped history is of another shadow: its frames count as fewer.
         frames = 1 + np.minimum(frames, _FRAMES) * (1 - np.abs(past - clamped))
         new = np.stack([picture, np.ones_like(picture)])
         flat = new.reshape(2, -1)
@@ -162,13 +162,13 @@ class TemporalSigma:
 
 def _nearby(picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Means and standard deviations over 5 × 5 pixels, (H, W) float32 each."""
-    mean, square = (uniform_filter(one, 2 * _NEAR + 1) for one in (picture, picture * picture))
+    mean, square = (uniform_filter(image, 2 * _NEAR + 1) for image in (picture, picture * picture))
     return mean, np.sqrt(np.maximum(square - mean * mean, 0))
 
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
 def _fill_next(guides, light, share, width, mixed, reach, turn, next_light, next_share, next_width):
-    """One pass over what is mixed: dense taps, then sparse ones as far as the penumbra is wide."""
+    """One pass over mixed blocks: dense taps, then sparse by penumbra."""
     height, columns = light.shape
     total, lights, shares, widths = np.empty((4, SIDE), np.float32)
     for y in range(height):
@@ -199,7 +199,7 @@ def _fill_next(guides, light, share, width, mixed, reach, turn, next_light, next
                 if guides[6, y, x] <= 0:
                     continue
                 dense = lights[i] / total[i]
-                if shares[i] <= 0:  # nothing is blocked near it
+                if shares[i] <= 0:  # no blocker nearby
                     next_light[y, x] = dense
                     continue
                 next_light[y, x], next_share[y, x], next_width[y, x] = _spread(
@@ -208,10 +208,18 @@ def _fill_next(guides, light, share, width, mixed, reach, turn, next_light, next
 
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
-def _add_tap(here, there, part, light, share, width, total, lights, shares, widths):
-    """Add a run of pixels to those of another by part · max(0, 1 − distance off the plane)."""
-    px, py, pz, nx, ny, nz, pixel = here[0], here[1], here[2], here[3], here[4], here[5], here[6]
-    qx, qy, qz, seen = there[0], there[1], there[2], there[6]
+def _add_tap(guide, tap_guide, part, light, share, width, total, lights, shares, widths):
+    """Add a run of taps weighted part · max(0, 1 − plane distance)."""
+    px, py, pz, nx, ny, nz, pixel = (
+        guide[0],
+        guide[1],
+        guide[2],
+        guide[3],
+        guide[4],
+        guide[5],
+        guide[6],
+    )
+    qx, qy, qz, seen = tap_guide[0], tap_guide[1], tap_guide[2], tap_guide[6]
     none, one = np.float32(0), np.float32(1)
     for i in range(len(px)):
         away = abs(nx[i] * (qx[i] - px[i]) + ny[i] * (qy[i] - py[i]) + nz[i] * (qz[i] - pz[i]))
@@ -257,7 +265,7 @@ def _spread(guides, light, share, width, reach, turn, y, x, dense, penumbra):
 
 @njit(cache=True, nogil=True)
 def _turned(x, y, turn):
-    """Cosine and sine of a pixel's angle, other than its neighbours' (Jimenez 2014)."""
+    """Cosine and sine of a pixel's noise angle (Jimenez 2014)."""
     x, y = x + 5.588238 * turn, y + 5.588238 * turn
     angle = 2 * np.pi * ((52.9829189 * ((0.06711056 * x + 0.00583715 * y) % 1)) % 1)
     return np.float32(np.cos(angle)), np.float32(np.sin(angle))

@@ -1,4 +1,4 @@
-"""The SIGMA-like filter, and the FFX-like one for the noise that it leaves."""
+"""The SIGMA-like filter, then the FFX-like one for remaining noise."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ class SigmaFfxFilter:
 def sigma_ffx_like(
     filter_: SigmaFfxFilter, visibility: np.ndarray, penumbra: np.ndarray, surface: Surface
 ) -> np.ndarray:
-    """One picture without what was before it, (H, W) float32; see `SigmaFilter.smooth`."""
+    """Filter one picture without history, (H, W) float32; see `SigmaFilter.smooth`."""
     wide = sigma_like(filter_.wide, visibility, penumbra, surface)
     return ffx_like(filter_.fine, wide, surface.depth_image(), surface.image(surface.n))
 

@@ -1,8 +1,8 @@
-"""An SVGF-like spatial filter: wavelet passes that stop at edges, guided by an estimate of variance.
+"""An SVGF-like spatial filter: edge-stopping wavelet passes guided by variance.
 
 After Schied et al. 2017, "Spatiotemporal variance-guided filtering". "Like", because depths'
-gradients come from neighbouring pixels instead of a rasteriser, and the weights' exponential is an
-approximation that a processor computes for many pixels at once. All on one thread.
+gradients come from neighbouring pixels instead of a rasteriser, and the weights' exponential is a
+vectorisable approximation. All on one thread.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from neural_shadows.denoising.wavelet import (
     fill_slopes,
 )
 
-SIGMA_LUMINANCE = 4.0  # σ_l: how many standard deviations a value may differ (4.4)
+SIGMA_LUMINANCE = 4.0  # σ_l, in standard deviations (4.4)
 PASSES = 5  # of the 5 × 5 kernel, its taps 1, 2, 4, 8, 16 pixels apart (4.4)
 
 
@@ -32,7 +32,7 @@ class SvgfFilter:
         self._row = np.empty(width, np.float32)
 
     def see(self, depth: np.ndarray, normal: np.ndarray) -> None:
-        """Take the surface at which weights stop.
+        """Set the surface guiding the weights.
 
         Args:
             depth: (H, W) float32 along the camera's axis; 0 where there is no surface.
@@ -43,7 +43,7 @@ class SvgfFilter:
         fill_slopes(self._guides[0], self._guides[4], self._guides[5])
 
     def variance(self, mean: np.ndarray, square: np.ndarray) -> np.ndarray:
-        """The variance of a value over the 7 × 7 pixels round each that see its surface (4.2).
+        """Variance over the same surface's pixels of 7 × 7 (4.2).
 
         Args:
             mean, square: (H, W) float32, the value and its square, or means of them.
@@ -53,7 +53,7 @@ class SvgfFilter:
         return np.maximum(second - first * first, 0)
 
     def smooth(self, visibility: np.ndarray, variance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The picture (H, W) float32 after its first and after its last pass (4.3).
+        """Smooth a picture (H, W) float32: after first and last pass (4.3).
 
         Args:
             visibility: (H, W) float32 in [0, 1]. variance: (H, W) float32, of its noise.
@@ -81,6 +81,6 @@ class SvgfFilter:
 
 
 def svgf_like(filter_: SvgfFilter, visibility: np.ndarray, depth: np.ndarray, normal: np.ndarray):
-    """One picture without what was before it, (H, W) float32; see `SvgfFilter`."""
+    """Filter one picture without history, (H, W) float32; see `SvgfFilter`."""
     filter_.see(depth, normal)
     return filter_.smooth(visibility, filter_.variance(visibility, visibility * visibility))[1]

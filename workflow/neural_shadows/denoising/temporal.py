@@ -1,4 +1,4 @@
-"""The temporal part of an SVGF-like filter: frames of a sequence are added to those before them."""
+"""Temporal accumulation of an SVGF-like filter."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ _ENOUGH = 4  # frames from which a variance over time is taken instead of one ov
 class TemporalFilter:
     """The filter for a sequence of frames (height, width), given one by one.
 
-    What a frame's first pass has smoothed is what the next one is added to (4.3).
+    The history is the output of a frame's first pass (4.3).
 
     Args:
         sigma_luminance: see `SvgfFilter`.
@@ -21,7 +21,7 @@ class TemporalFilter:
 
     def __init__(self, height: int, width: int, sigma_luminance: float = SIGMA_LUMINANCE):
         self._spatial = SvgfFilter(height, width, sigma_luminance)
-        # The picture, its mean, its mean square, and how many frames are in them.
+        # The picture, its mean, its mean square, and their number of frames.
         self._history = History()
 
     def next_frame(
@@ -45,7 +45,7 @@ class TemporalFilter:
         return last
 
     def _add_history(self, new: np.ndarray, surface: Surface, was: np.ndarray | None) -> None:
-        """Mix into new (4, H, W) what the points showed before, where they were seen.
+        """Mix the history of seen points into new (4, H, W).
 
         The first frames of a point are averaged evenly, as the authors' code does.
         """

@@ -1,7 +1,7 @@
-"""Kernels of the SVGF-like filter: weights that stop at edges, and means by them (`SvgfFilter`).
+"""Kernels of the SVGF-like filter: edge-stopping weights and means.
 
 Section numbers are those of Schied et al. 2017. Loops go along rows, one tap of the kernel at a
-time, so that a processor weighs many pixels at once.
+time, so that weights are vectorised.
 """
 
 import numpy as np
@@ -9,25 +9,25 @@ from numba import njit
 
 from neural_shadows.denoising.decay import decayed
 
-SIGMA_DEPTH = 1.0  # σ_z: how many times its own slope a depth may differ (4.4)
+SIGMA_DEPTH = 1.0  # σ_z, in slopes of depth (4.4)
 SIGMA_NORMAL = 128  # σ_n: power of the normals' cosine (4.4)
 _REACH = 3  # variance is that of 7 × 7 pixels (4.2)
 _B3 = np.array([3 / 8, 1 / 4, 1 / 16], np.float32)  # the cubic B-spline's taps, from its middle
-_FLAT = np.float32(1e-4)  # of a depth, by which it may differ on a surface without slope
-_LEAST = np.float32(1e-6)  # standard deviation where there is none
+_FLAT = np.float32(1e-4)  # tolerance on a surface without slope, in shares of depth
+_LEAST = np.float32(1e-6)  # least standard deviation
 _SQUARINGS = int(np.log2(SIGMA_NORMAL))
 
 
 @njit(cache=True, nogil=True)
-def _slope(before, here, after):
-    """Of depths in a row, 0 for none: the smaller of both differences, so not one over an edge."""
+def _slope(before, depth, after):
+    """The smaller difference of depths in a row, 0 for none."""
     if before <= 0 and after <= 0:
         return np.float32(0)
     if before <= 0:
-        return after - here
-    if after <= 0 or abs(here - before) < abs(after - here):
-        return here - before
-    return after - here
+        return after - depth
+    if after <= 0 or abs(depth - before) < abs(after - depth):
+        return depth - before
+    return after - depth
 
 
 @njit(cache=True, nogil=True)
@@ -37,32 +37,32 @@ def fill_slopes(depth, along, down):
     none = np.float32(0)
     for y in range(height):
         for x in range(width):
-            here = depth[y, x]
+            own = depth[y, x]
             left = depth[y, x - 1] if x > 0 else none
             right = depth[y, x + 1] if x + 1 < width else none
             above = depth[y - 1, x] if y > 0 else none
             below = depth[y + 1, x] if y + 1 < height else none
-            along[y, x] = _slope(left, here, right)
-            down[y, x] = _slope(above, here, below)
+            along[y, x] = _slope(left, own, right)
+            down[y, x] = _slope(above, own, below)
 
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
 def _weigh(guides, light, sharpness, y, x, v, u, share, weights):
-    """Weights of the pixels (v, u …) of a row for those of (y, x …), as many as `weights` has.
+    """Weights of a row's pixels (v, u …) for those of (y, x …).
 
     share · exp(−|Δz| / (σ_z |∇z·d| + ε) − |Δl| / (σ_l σ + ε)) · max(0, n·n')^σ_n (4.4).
     """
     n = len(weights)
-    here, there = guides[:, y, x : x + n], guides[:, v, u : u + n]
-    z, nx, ny, nz, along, down = here[0], here[1], here[2], here[3], here[4], here[5]
-    z_, nx_, ny_, nz_ = there[0], there[1], there[2], there[3]
-    light_here, light_there, sharp = light[y, x : x + n], light[v, u : u + n], sharpness[y, x:]
+    guide, tap_guide = guides[:, y, x : x + n], guides[:, v, u : u + n]
+    z, nx, ny, nz, along, down = guide[0], guide[1], guide[2], guide[3], guide[4], guide[5]
+    z_, nx_, ny_, nz_ = tap_guide[0], tap_guide[1], tap_guide[2], tap_guide[3]
+    own_light, tap_light, sharp = light[y, x : x + n], light[v, u : u + n], sharpness[y, x:]
     across, below = np.float32(u - x), np.float32(v - y)
     none, tiny = np.float32(0), np.float32(1e-12)
     sigma, aslant = np.float32(SIGMA_DEPTH), np.float32(0.85)
     for i in range(n):
         expected = sigma * abs(along[i] * across + down[i] * below) + _FLAT * z[i] + tiny
-        t = abs(z[i] - z_[i]) / expected + abs(light_here[i] - light_there[i]) * sharp[i]
+        t = abs(z[i] - z_[i]) / expected + abs(own_light[i] - tap_light[i]) * sharp[i]
         cosine = nx[i] * nx_[i] + ny[i] * ny_[i] + nz[i] * nz_[i]
         cosine = none if cosine < aslant else cosine
         for _ in range(_SQUARINGS):
@@ -72,7 +72,7 @@ def _weigh(guides, light, sharpness, y, x, v, u, share, weights):
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
 def fill_moments(guides, mean, square, row, total, first, second):
-    """Weighted means of two pictures over 7 × 7 pixels; weights without luminance."""
+    """Means of two pictures over 7 × 7 pixels, weighted without luminance."""
     height, width = mean.shape
     flat = np.zeros((height, width), np.float32)
     total[:] = 1
@@ -112,7 +112,7 @@ def fill_sharpness(spread, sigma, sharpness):
 
 @njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
 def fill_next(guides, light, spread, sharpness, step, row, total, next_light, next_spread):
-    """One pass: means by weight of the values, and by its square of their variances (4.3)."""
+    """One pass: weighted means, with squared weights for variances (4.3)."""
     height, width = light.shape
     for y in range(height):
         middle = _B3[0] * _B3[0]

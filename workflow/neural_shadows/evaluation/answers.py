@@ -1,7 +1,7 @@
-"""What a network answered on a batch of frames, on disk between its query and its metrics.
+"""A network's lit points of a batch, on disk before metrics.
 
 One npz file: of each frame by number, `NUMBER.lit`, a bit for each point on the lit side; and
-`violations` (frames, 7) int64, a row of `Violations` for each, or nothing where none are counted.
+`violations` (frames, 7) int64, a row of `Violations` for each, or empty without counts.
 """
 
 from collections.abc import Sequence
@@ -16,14 +16,14 @@ from neural_shadows.rendering.gbuffer import GBuffer
 
 
 def write_answers(path: Path, lit: Sequence[np.ndarray], violations: Sequence[Violations]) -> None:
-    """Write which points on each frame's lit side, (m,) bool, are lit, and the violations of each."""
-    bits = {f"{number}.lit": np.packbits(one) for number, one in enumerate(lit)}
+    """Write lit points (m,) bool and violations of each frame. Points on the lit side."""
+    bits = {f"{number}.lit": np.packbits(points) for number, points in enumerate(lit)}
     with whole_file(path) as part:
         np.savez(part, violations=np.array(violations, np.int64), **bits)
 
 
 class Answers:
-    """The answers of a file."""
+    """A file of a network's lit points."""
 
     def __init__(self, path: Path):
         """Read the file.
@@ -35,8 +35,8 @@ class Answers:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
                 self._arrays = dict(arrays)
             self._violations = self._arrays["violations"]
-        except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
-            raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
+        except Exception as error:  # zipfile and zlib raise many kinds
+            raise InputError(f"{path}: damaged ({error}). Delete it and run again.") from error
 
     def visibility(self, number: int, frame: GBuffer) -> np.ndarray:
         """Visibility (n,) float32 of a frame of the batch, 0 or 1."""
@@ -44,7 +44,7 @@ class Answers:
         return frame.visibility(np.unpackbits(bits, count=len(frame.lit_side)))
 
     def violations(self, number: int) -> Violations | None:
-        """Of a frame of the batch; None where they were not counted."""
+        """Violations of a frame; None without counts."""
         if len(self._violations) == 0:
             return None
         return Violations(*self._violations[number].tolist())

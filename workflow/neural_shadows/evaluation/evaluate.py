@@ -1,4 +1,4 @@
-"""The stage that measures one method against the reference on a batch of viewpoints [4.1]."""
+"""Stage: one method against the reference, by view [4.1]."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -23,7 +23,7 @@ from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
 
-# Of a frame by its number in the batch: its visibility (n,), and what else is counted of it.
+# Of a frame by its number in the batch: its visibility (n,), and further counts.
 Answer = Callable[[int, GBuffer], tuple[np.ndarray, Mapping[str, float]]]
 
 
@@ -40,18 +40,17 @@ def evaluate(
     scene: Mapping[str, Any],
     threads: int = 1,
 ) -> None:
-    """Shade the batch's frames by one method, and measure them.
+    """Shade and measure the batch's frames by one method.
 
     Writes tidy metrics (a row per view and metric), with the numbers of `Violations` where they
-    are counted; and what the method answered, see `write_visibilities`, so that people can look
-    at any frame.
+    are counted; and the method's visibilities, see `write_visibilities`, to draw any frame.
 
     Args:
-        references: what `render_references` wrote.
-        answers: what `query_network` wrote; None for a method that needs no network.
+        references: of `render_references`.
+        answers: of `query_network`; None for a method without a network.
         mesh_ply: prepared, for such a method.
-        depth_bias_json: what `find_depth_bias` wrote for it, if it is one with a bias.
-        lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
+        depth_bias_json: of `find_depth_bias`, for a method with a bias.
+        lpips_json: of `find_lpips`; LPIPS is left out where it is not available.
         method: the method's key.
         scene: `up`, `ground` and `light`, see `open_scene`.
 
@@ -90,8 +89,8 @@ def _of_network(answers: Answers) -> Answer:
 
 
 def _of_classic(method: str, mesh_ply: Path, scene: Mapping[str, Any], bias: float) -> Answer:
-    asked = classic_method(method, open_scene(mesh_ply, **scene))
-    return lambda number, frame: (asked(frame)(bias), {})
+    shadow_method = classic_method(method, open_scene(mesh_ply, **scene))
+    return lambda number, frame: (shadow_method(frame)(bias), {})
 
 
 if "snakemake" in globals():

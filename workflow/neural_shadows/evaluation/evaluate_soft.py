@@ -1,4 +1,4 @@
-"""The stage that measures one method for soft shadows on test frames and sequences."""
+"""Stage: one soft-shadow method on test frames and sequences."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
@@ -45,23 +45,21 @@ def evaluate_soft(
     by_scene: bool = False,
     threads: int = 1,
 ) -> None:
-    """Measure a method on all radii of each test frame, and how much it flickers in sequences.
+    """Measure a method on test frames, and its flicker.
 
-    Writes tidy metrics, see `write_soft_metrics`, and what was answered of each part's first frame,
-    see `write_answers`.
+    Writes tidy metrics, see `write_soft_metrics`, and the images of each part's first frame, see
+    `write_answers`.
 
     Args:
         parts: of test frames. sequences: parts of consecutive frames; may be none.
         meshes: see `measured_frames`.
-        constants_json: what `tune_soft_method` wrote; None for a method without constants.
+        constants_json: of `tune_soft_method`; None for a method without constants.
         weights: of a network; none for any other method.
-        lpips_json: what `find_lpips` wrote; LPIPS is left out where it is not available.
-        occluders: what `measure_occluders` wrote of each part; none for a method whose errors are
-            not told by what blocks the light.
-        fields: what `fit_fields` wrote, for a method that asks them.
-        precision: that a network computes in, see `choose_dtype`.
-        by_scene: whether `weights` are of networks each of which answers the scenes that it
-            learned, and nothing of others.
+        lpips_json: of `find_lpips`; LPIPS is left out where it is not available.
+        occluders: of `measure_occluders`, by part; none for a method without errors by occluder.
+        fields: of `fit_fields`, for a method that needs them.
+        precision: number format of a network, see `choose_dtype`.
+        by_scene: evaluate each of the networks of `weights` on its training scenes alone.
 
     Raises:
         InputError: an input file cannot be read.
@@ -75,78 +73,85 @@ def evaluate_soft(
     images = quick | {"flip": flip} | lpips_metric(lpips_json, threads)
 
     rows: list[Row] = []
-    kept: dict[str, np.ndarray] = {}  # to be drawn
+    answers: dict[str, np.ndarray] = {}  # for figures
     blocking = dict(zip(parts, map(read_occluders, occluders)))
     paths = [*parts, *sequences]
     total = sum(len(FrameSetPart(path)) for path in paths)
     with progress_bar(total, "frames", f"evaluate {method}") as bar:
-        # Of all in one call, for which each scene is opened once.
-        by_part = groupby(measured_frames(paths, meshes), lambda one: one.part.frames_json)
+        # One call for all opens each scene once.
+        by_part = groupby(
+            measured_frames(paths, meshes), lambda measured: measured.part.frames_json
+        )
         for path, frames in by_part:
-            asked = method_of(path.parent.name)
-            if asked is None:
+            scene_method = method_of(path.parent.name)
+            if scene_method is None:
                 bar.update(sum(1 for _ in frames))
                 continue
             if path in sequences:
-                found, maps = _flicker(frames, asked, constants, bar.update)
-                rows += found
-                kept |= {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}
+                sequence_rows, maps = _flicker(frames, scene_method, constants, bar.update)
+                rows += sequence_rows
+                answers |= {
+                    flicker_name(path): maps[""],
+                    flicker_name(path, True): maps["_reference"],
+                }
                 continue
             for measured in frames:
-                for k, found in enumerate(all_radii(measured, asked, constants)):
+                for k, visibility in enumerate(all_radii(measured, scene_method, constants)):
                     metrics = quick
                     if measured.number == 0:
-                        kept[name_of(path, k)] = found
+                        answers[name_of(path, k)] = visibility
                         if k == _middle(measured.part):
                             metrics = images
-                    values = errors_of(measured, found, k, metrics)
+                    values = errors_of(measured, visibility, k, metrics)
                     if path in blocking:
                         target, valid = measured.target[k], measured.valid
                         blocks = blocking[path][measured.number].astype(np.float32)
-                        values |= errors_by_occluders(found, target, valid, *blocks)
+                        values |= errors_by_occluders(visibility, target, valid, *blocks)
                     key = _key(measured.part, measured.number, k)
-                    rows += [{**key, "metric": name, "value": one} for name, one in values.items()]
+                    rows += [
+                        {**key, "metric": name, "value": value} for name, value in values.items()
+                    ]
                 bar.update()
     write_soft_metrics(metrics_csv, rows)
-    write_answers(answers_npz, kept)
+    write_answers(answers_npz, answers)
 
 
 def _flicker(
     frames: Iterable[MeasuredFrame],
     method: SoftMethod,
     constants: Sequence[Constants],
-    told: Callable[[], Any],
+    advance: Callable[[], Any],
 ) -> tuple[list[Row], dict[str, np.ndarray]]:
-    """Instability over a sequence, of the middle radius: the method's, the exact shadow's own, and
-    that of the method's frames each averaged with the one before (`_taa`); with squared errors.
+    """Instability over a sequence, of the middle radius.
 
-    One frame of history is what Datta et al. 2022 (4) compare with. With it, mean changes of each
-    pixel, (height, width).
+    Of the method, the exact shadow, and the method's frames each averaged with the one before
+    (`_taa`); with squared errors. One frame of history is what Datta et al. 2022 (4) compare with.
+    With it, mean changes of each pixel, (height, width).
     """
     changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
     errors: dict[str, list[float]] = {"_sequence": [], "_taa": []}
-    answered = _answered(frames, method, constants)
-    before, last, _ = next(answered)
+    images = _answered(frames, method, constants)
+    before, last, _ = next(images)
     averaged = last
     sums = {name: np.zeros(last.size, np.float32) for name in changes}
-    told()
+    advance()
     part, k = before.part, _middle(before.part)
-    for now, found, (accepted, places) in answered:
-        pixel, places = now.frame.surface.pixel[accepted], places[:, accepted]
+    for now, visibility, (accepted, pixels_before) in images:
+        pixel, pixels_before = now.frame.surface.pixel[accepted], pixels_before[:, accepted]
         target, valid = now.target[k], now.valid
-        mixed = found.copy()
-        mixed.ravel()[pixel] += (looked_up(last, places) - mixed.ravel()[pixel]) / 2
+        blended = visibility.copy()
+        blended.ravel()[pixel] += (looked_up(last, pixels_before) - blended.ravel()[pixel]) / 2
         for name, old, new in (
-            ("", last, found),
+            ("", last, visibility),
             ("_reference", before.target[k], target),
-            ("_taa", averaged, mixed),
+            ("_taa", averaged, blended),
         ):
-            changes[name].append(new.ravel()[pixel] - looked_up(old, places))
+            changes[name].append(new.ravel()[pixel] - looked_up(old, pixels_before))
             sums[name][pixel] += np.abs(changes[name][-1])
-        for name, image in (("_sequence", found), ("_taa", mixed)):
+        for name, image in (("_sequence", visibility), ("_taa", blended)):
             errors[name].append(float(np.square(image - target)[valid].mean()))
-        before, last, averaged = now, found, mixed
-        told()
+        before, last, averaged = now, visibility, blended
+        advance()
     key = _key(part, 0, k)
     pixels = part.about["width"] * part.about["height"]
     values = {f"mse{name}": float(np.mean(each)) for name, each in errors.items()}
@@ -155,7 +160,7 @@ def _flicker(
         values[f"temporal_error{name}"] = root_instability(each, pixels)
     rows = [{**key, "metric": name, "value": value} for name, value in values.items()]
     count = len(errors["_sequence"])
-    return rows, {name: (one / count).reshape(last.shape) for name, one in sums.items()}
+    return rows, {name: (total / count).reshape(last.shape) for name, total in sums.items()}
 
 
 def _middle(part: FrameSetPart) -> int:
@@ -168,13 +173,13 @@ Seen = tuple[np.ndarray, np.ndarray]
 def _answered(
     frames: Iterable[MeasuredFrame], method: SoftMethod, constants: Sequence[Constants]
 ) -> Iterator[tuple[MeasuredFrame, np.ndarray, Seen | None]]:
-    """Each frame, the method's picture of it, and what of it the frame before shows (None at first).
+    """Each frame, the method's image, and what is still visible.
 
-    A method with a history answers all frames in turn.
+    The last is None at first. A method with a history runs through all frames in turn.
     """
     history = None
-    was: list[np.ndarray | None] = []  # of the frame that is asked about
-    asked: list[SoftFrame] = []
+    points_before: list[np.ndarray | None] = []  # of the current frame
+    waiting: list[SoftFrame] = []
     before = None
     for now in frames:
         k = _middle(now.part)
@@ -183,16 +188,18 @@ def _answered(
         if method.sequence is None:
             yield now, now.answered(method, radius, chosen), seen
         else:
-            asked.append(now.frame)
-            was.append(points)
+            waiting.append(now.frame)
+            points_before.append(points)
             if history is None:
-                history = method.sequence(_taken(asked), radius, was=_taken(was), **chosen)
+                history = method.sequence(
+                    _taken(waiting), radius, was=_taken(points_before), **chosen
+                )
             yield now, now.frame.surface.image(next(history), 1.0), seen
         before = now
 
 
 def _taken(waiting: list[Any]) -> Iterator[Any]:
-    """What is put into a list, as soon as it is there, each once."""
+    """Pop items of a growing list."""
     while waiting:
         yield waiting.pop(0)
 
@@ -203,14 +210,15 @@ def _key(part: FrameSetPart, frame: int, radius: int) -> dict[str, Any]:
 
 
 def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[Seen, np.ndarray]:
-    """Which points of a frame count and are seen in the one before, and where (see `seen_before`);
-    and where they were then, (n, 3).
+    """Reprojection of valid points into the previous frame.
+
+    Accepted points and their pixels there (see `seen_before`), and their previous positions (n, 3).
     """
     surface, scene = now.frame.surface, now.scene
     motions = (frame.part.setting(frame.number).motion for frame in (now, before))
-    was = scene.before(now.frame.scene, surface.face, surface.p, *motions)
-    accepted, places = seen_before(surface, before.frame.surface, was)
-    return (accepted & now.valid.ravel()[surface.pixel], places), was
+    points_before = scene.before(now.frame.scene, surface.face, surface.p, *motions)
+    accepted, pixels_before = seen_before(surface, before.frame.surface, points_before)
+    return (accepted & now.valid.ravel()[surface.pixel], pixels_before), points_before
 
 
 if "snakemake" in globals():

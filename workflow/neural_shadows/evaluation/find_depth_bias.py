@@ -1,8 +1,7 @@
-"""The stage that finds the depth bias with which a method errs least, on views no table shows.
+"""Stage: the depth bias of least error, on held-out views.
 
-A depth that is a little short puts lit points in the shadow of the very surface they lie on: a
-bias mends that, and light leaks where it is too large. A distance, whose surface lies where it is
-best on average, may want less than none. Networks and shadow maps have the same chance.
+A depth that is slightly short causes self-shadowing: a bias removes it, and light leaks where it
+is too large. A distance field, whose surface is right on average, may need a negative bias. Networks and shadow maps are treated alike.
 """
 
 from collections.abc import Mapping
@@ -39,13 +38,14 @@ def find_depth_bias(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Write the bias of `BIASES` with the least shadow error over a batch, and all errors.
+    """Write the best bias of `BIASES`, and all errors.
 
-    Of a network that has `pushes`, the best pair of one and a bias. `at_end` says that either is
-    the first or the last that was tried, so that a better one may lie beyond; so does the log.
+    The best has the least shadow error over a batch. Of a network that has `pushes`, the best pair
+    of one and a bias. `at_end`: either is the first or the last of the search, so that a better one
+    may lie beyond; logged as well.
 
     Args:
-        references: what `render_references` wrote of views that no evaluation uses.
+        references: of `render_references`, of views that no evaluation uses.
         mesh_ply: prepared, for a shadow map.
         weights: of a network; None for a shadow map.
         method: the method's key, without a bias.
@@ -63,49 +63,51 @@ def find_depth_bias(
     sums = np.zeros((len(methods), len(BIASES), 2))
     with progress_bar(len(batch), "views", f"find depth bias of {method}") as bar:
         for frame, truth in batch:
-            for i, ask in enumerate(methods.values()):
-                visibility = ask(frame)
+            for i, shadow_method in enumerate(methods.values()):
+                visibility = shadow_method(frame)
                 for j, bias in enumerate(BIASES):
                     error = shadow_error(visibility(bias), truth)
                     sums[i, j] += error.false_shadow, error.light_leak
             bar.update()
-    tried = [(push, bias) for push in methods for bias in BIASES]
+    pairs = [(push, bias) for push in methods for bias in BIASES]
     means = (sums / len(batch)).reshape(-1, 2).tolist()
     errors = [
         {"depth_bias": bias, "push": push, "false_shadow": false_shadow, "light_leak": light_leak}
-        for (push, bias), (false_shadow, light_leak) in zip(tried, means)
+        for (push, bias), (false_shadow, light_leak) in zip(pairs, means)
     ]
     best = min(errors, key=_rank)
-    found = {"depth_bias": best["depth_bias"], "push": best["push"]}
+    best_pair = {"depth_bias": best["depth_bias"], "push": best["push"]}
     searched = {"depth_bias": BIASES, "push": [*methods]}
     ends = [
         key
         for key, values in searched.items()
-        if len(values) > 1 and found[key] in (values[0], values[-1])
+        if len(values) > 1 and best_pair[key] in (values[0], values[-1])
     ]
     for key in ends:
-        print(f"warning: {method}: the best {key.replace('_', ' ')}, {found[key]}, ends the search")
-    found |= {"at_end": bool(ends), "views": len(batch), "errors": errors}
-    write_json(depth_bias_json, found | describe_origin())
+        print(
+            f"warning: {method}: the best {key.replace('_', ' ')}, {best_pair[key]}, ends the search"
+        )
+    best_pair |= {"at_end": bool(ends), "views": len(batch), "errors": errors}
+    write_json(depth_bias_json, best_pair | describe_origin())
 
 
 def _rank(error: Mapping[str, float]) -> tuple[float, float, float]:
-    """Of the same shadow error the smallest bias, then the smallest push."""
+    """Sort key: shadow error, then smallest bias, then smallest push."""
     shadow = error["false_shadow"] + error["light_leak"]
     return shadow, abs(error["depth_bias"]), abs(error["push"])
 
 
 def _pushed(weights: Path, device: str, threads: int, precision: str) -> dict[float, ShadowMethod]:
-    """A network with each of its pushes."""
+    """The method of a network by push."""
     network, dtype = open_network(weights, device, threads, precision)
     method = network_method(network, dtype)
 
     def pushed(push: float) -> ShadowMethod:
-        def ask(frame: GBuffer) -> OfBias:
+        def with_push(frame: GBuffer) -> OfBias:
             network.push = push
             return method(frame)
 
-        return ask
+        return with_push
 
     return {push: pushed(push) for push in network.pushes}
 

@@ -1,4 +1,4 @@
-"""The stage that fits the fields of the objects in a frame set's scenes, once for all methods."""
+"""Stage: distance fields of a frame set's objects, for all methods."""
 
 from pathlib import Path
 
@@ -11,7 +11,9 @@ from neural_shadows.running.stage import run_stage
 
 
 def fit_fields(parts: list[Path], meshes: list[Path], fields_npz: Path) -> None:
-    """Fit a field to each closed object, wherever it stands in a frame, and write them all.
+    """Fit and write a field of each closed object.
+
+    Fields are fitted wherever an object stands in a frame.
 
     Args:
         parts: of test, validation and sequence frames. meshes: see `measured_frames`.
@@ -20,14 +22,14 @@ def fit_fields(parts: list[Path], meshes: list[Path], fields_npz: Path) -> None:
     Raises:
         InputError: an input file cannot be read.
     """
-    found: dict[str, ObjectField] = {}
+    fields: dict[str, ObjectField] = {}
     total = sum(len(FrameSetPart(path)) for path in parts)
     with progress_bar(total, "frames", "fit fields") as bar:
         for measured in measured_frames(parts, meshes):
             motion = measured.part.setting(measured.number).motion
-            found |= fields_in(measured.scene.moved(motion))
+            fields |= fields_in(measured.scene.moved(motion))
             bar.update()
-    write_fields(fields_npz, found)
+    write_fields(fields_npz, fields)
 
 
 if "snakemake" in globals():

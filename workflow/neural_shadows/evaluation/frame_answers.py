@@ -1,4 +1,4 @@
-"""What a method answers on a frame for each radius, and how far that is from the exact shadow."""
+"""A method's visibility of a frame by radius, and its errors."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -13,38 +13,38 @@ from neural_shadows.metrics.visibility_error import visibility_errors
 
 
 def constants_of(path: Path | None, radii: int) -> list[Constants]:
-    """By radius, as `tune_soft_method` wrote them; none of a method that has none (no path)."""
-    return [one["constants"] for one in read_json(path)["radii"]] if path else [{}] * radii
+    """Constants by radius, of `tune_soft_method`; empty without a path."""
+    return [each["constants"] for each in read_json(path)["radii"]] if path else [{}] * radii
 
 
 def all_radii(
     measured: MeasuredFrame, method: SoftMethod, constants: Sequence[Constants]
 ) -> Iterator[np.ndarray]:
-    """The method's picture of each radius; it is asked once where they have the same."""
+    """The method's image of each radius, evaluated once for equal ones."""
     for k, radius in enumerate(measured.part.radii):
         if method.changes_at(constants, k):
-            found = measured.answered(method, radius, constants[k])
-        yield found
+            image = measured.answered(method, radius, constants[k])
+        yield image
 
 
 def errors_of(
-    measured: MeasuredFrame, found: np.ndarray, k: int, images: Mapping[str, Callable]
+    measured: MeasuredFrame, visibility: np.ndarray, k: int, images: Mapping[str, Callable]
 ) -> dict[str, float]:
-    """The metrics of one image; those of pictures see the target where a pixel does not count."""
+    """Metrics of one image. Image metrics see the target at invalid pixels."""
     target, valid = measured.target, measured.valid
-    picture = np.where(valid, found, target[k])
+    image = np.where(valid, visibility, target[k])
     hard = target[0] if measured.part.radii[0] == 0 else None
     return {
-        **visibility_errors(found, target[k], valid, hard, measured.off_edges),
-        **_widths({"": found, "_reference": target[k]}, valid, hard),
-        **{name: metric(picture, target[k]) for name, metric in images.items()},
+        **visibility_errors(visibility, target[k], valid, hard, measured.off_edges),
+        **_widths({"": visibility, "_reference": target[k]}, valid, hard),
+        **{name: metric(image, target[k]) for name, metric in images.items()},
     }
 
 
 def _widths(
     images: Mapping[str, np.ndarray], valid: np.ndarray, hard: np.ndarray | None
 ) -> dict[str, float]:
-    """Mean widths of penumbrae in pixels; none where the edges of hard shadows are not known."""
+    """Mean penumbra widths in pixels; empty without hard shadows."""
     if hard is None:
         return {}
-    return {f"width{name}": penumbra_width(one, valid, hard) for name, one in images.items()}
+    return {f"width{name}": penumbra_width(image, valid, hard) for name, image in images.items()}

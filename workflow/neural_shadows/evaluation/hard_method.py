@@ -1,4 +1,4 @@
-"""A method for hard shadows without a network, as its family describes it."""
+"""A hard-shadow method without a network, and its settings."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 
 from neural_shadows.evaluation.look import Look
 
-if TYPE_CHECKING:  # the graph needs labels and the like alone
+if TYPE_CHECKING:  # the graph needs metadata alone
     from neural_shadows.rendering.gbuffer import GBuffer
     from neural_shadows.scenes.scene import Scene
 
@@ -20,13 +20,13 @@ ShadowMethod = Callable[["GBuffer"], OfBias]
 
 @dataclass(frozen=True)
 class HardMethod:
-    """One method, or one for each size N, whose keys are FAMILY_N.
+    """One method, or one for each size N, as FAMILY_N.
 
     Args:
         label: its name in tables; `{}` stands for N.
         of_scene: of a scene, N and whether to render whole maps (see `classic_method`), the method.
-        sizes: those that N may be; none of a method without one.
-        stored_bytes: that it stores at a size, in a file as in memory; None if it stores nothing.
+        sizes: allowed N; empty of a method without one.
+        stored_bytes: of a size, in a file as in memory; None if it stores nothing.
     """
 
     label: str

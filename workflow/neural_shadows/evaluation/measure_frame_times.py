@@ -1,4 +1,4 @@
-"""The stage that times a frame by each way of shadowing it, on one machine [4.4.1]."""
+"""Stage: frame times by shadow method, on one machine [4.4.1]."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -32,30 +32,32 @@ WARM_UP = 2  # frames of each method before the timed ones
 
 @dataclass(frozen=True)
 class TimedMethod:
-    """A method that says how long its own part of a frame takes."""
+    """A method with the time of its part of a frame."""
 
-    # Of a frame: its visibility (n,), on the CPU, and the seconds of the method's answer alone.
+    # Of a frame: its visibility (n,), on the CPU, and the seconds of the method alone.
     answer: Callable[[GBuffer], tuple[np.ndarray, float]]
-    device: str  # that it answers on: `cpu` or `cuda`
-    resident_bytes: int | None  # in memory while it answers; None if nothing of its own is
+    device: str  # `cpu` or `cuda`
+    resident_bytes: int | None  # of its own in memory; None without any
 
 
 def timed_classic(method: str, scene: Scene) -> TimedMethod:
-    """A method that needs no network; a shadow map is rasterised whole for each frame."""
-    ask = classic_method(method, scene, whole_map=True)
+    """A method without a network. A shadow map is rasterised whole for each frame."""
+    frame_method = classic_method(method, scene, whole_map=True)
 
     def answer(frame: GBuffer) -> tuple[np.ndarray, float]:
         started = time.perf_counter()
-        visibility = ask(frame)(0.0)
+        visibility = frame_method(frame)(0.0)
         return visibility, time.perf_counter() - started
 
     return TimedMethod(answer, "cpu", stored_bytes(method))
 
 
 def timed_network(network: ShadowNetwork, dtype: torch.dtype) -> TimedMethod:
-    """A network; its own part is from points to visibility, on a GPU to the mask that is there.
+    """A network, timed from points to visibility.
 
-    A GPU would shade there too. On a CPU it is the same work as a map's.
+    On a GPU to the mask there, as a GPU would shade there too. On a CPU it is the same work as a
+    map's.
+
     """
 
     def answer(frame: GBuffer) -> tuple[np.ndarray, float]:
@@ -72,7 +74,7 @@ def timed_network(network: ShadowNetwork, dtype: torch.dtype) -> TimedMethod:
 
 
 def _finished(device: torch.device) -> float:
-    """The time, once a GPU has done what it was asked."""
+    """The time once a GPU is idle."""
     if device.type == "cuda":
         torch.cuda.synchronize(device)
     return time.perf_counter()
@@ -99,7 +101,7 @@ def measure_frame_times(
     Args:
         weights: of the networks, in the folder of their experiment each.
         times_json: named for the scene. Of each method `ms` of whole frames, `own_ms` without
-            primary visibility and shading, and what else `TimedMethod` says.
+            primary visibility and shading, and the rest of `TimedMethod`.
         methods: keys. A depth bias, one addition, is left out.
         scene: `up`, `ground` and `light`, see `open_scene`.
         frames: `view_sets` and `seed` of the evaluation's frames; they have another size.
@@ -156,7 +158,7 @@ def measure_frame_times(
             "device": chosen.type,
             "precision": str(choose_dtype(precision, chosen)).removeprefix("torch."),
             **describe_origin(),
-            "sphere_rays": float(np.median(rays)),  # those that a network answers
+            "sphere_rays": float(np.median(rays)),  # a network's
             "methods": {
                 name: {
                     "ms": [1000 * seconds for seconds in whole[name][WARM_UP:]],

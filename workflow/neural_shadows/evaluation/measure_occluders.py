@@ -1,4 +1,4 @@
-"""The stage that measures what blocks the light in test frames: how deep, and how wide it blurs."""
+"""Stage: occluders of test frames, by depth and penumbra width."""
 
 from pathlib import Path
 
@@ -17,9 +17,10 @@ from neural_shadows.running.stage import run_stage
 def measure_occluders(
     parts: list[Path], meshes: list[Path], occluders_npy: Path, *, threads: int = 1
 ) -> None:
-    """Write, of each frame of a part, the solids before the light's centre and the width of the
-    largest light's penumbra in pixels, (F, 2, H, W) float16; 0 without a surface, the latter also
-    where no light has a penumbra.
+    """Write solids before the light and penumbra width, by frame.
+
+    Solids before the light's centre, and the width of the largest light's penumbra in pixels, (F,
+    2, H, W) float16; 0 without a surface, the latter also where no light has a penumbra.
 
     Args:
         parts: one part of a frame set. meshes: see `measured_frames`.
@@ -30,16 +31,16 @@ def measure_occluders(
     (part,) = map(FrameSetPart, parts)
     shape = (len(part), 2, part.about["height"], part.about["width"])
     with (
-        new_array(occluders_npy, shape, np.float16) as found,
+        new_array(occluders_npy, shape, np.float16) as occluders,
         progress_bar(len(part), "frames", "occluders") as bar,
     ):
         for measured in measured_frames(parts, meshes):
-            found[measured.number] = _occluders(measured)
+            occluders[measured.number] = _occluders(measured)
             bar.update()
 
 
 def read_occluders(path: Path) -> np.ndarray:
-    """What it wrote.
+    """Read a file of `measure_occluders`.
 
     Raises:
         InputError: the file is missing or damaged.
@@ -51,13 +52,15 @@ def _occluders(measured: MeasuredFrame) -> np.ndarray:
     frame, surface = measured.frame, measured.frame.surface
     solids = solids_before(frame.scene, surface, frame.centre)
     focal, radius = surface.camera.focal(surface.height), max(measured.part.radii)
-    # Elsewhere nobody asks for a width, and sixteen ways a point are most of the work.
+    # Widths are used nowhere else, and sixteen directions a point are most of the work.
     penumbra = ((measured.target >= UMBRA) & (measured.target <= LIT)).any(0)
-    chosen = np.flatnonzero(penumbra.ravel()[surface.pixel])
+    selected = np.flatnonzero(penumbra.ravel()[surface.pixel])
     widths = np.zeros(len(surface.p))
-    widths[chosen] = model_widths(frame.scene, surface, frame.centre, radius, focal, chosen)
+    widths[selected] = model_widths(frame.scene, surface, frame.centre, radius, focal, selected)
     most = np.finfo(np.float16).max
-    return np.stack([surface.image(one.clip(0, most)) for one in (np.float32(solids), widths)])
+    return np.stack(
+        [surface.image(values.clip(0, most)) for values in (np.float32(solids), widths)]
+    )
 
 
 if "snakemake" in globals():

@@ -1,4 +1,4 @@
-"""The stage that measures how much a network's answer moves with each of its features."""
+"""Stage: sensitivity of a network to each of its features."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,7 +29,7 @@ def measure_sensitivity(
     repeats: int = 2,
     threads: int = 1,
 ) -> None:
-    """Add noise to one feature at a time, and see how far the answer moves (3.2, eq. 1).
+    """Add noise to one feature at a time (3.2, eq. 1).
 
     As printed the difference is signed, and its mean over noise of both signs is 0: ours is
     absolute. Divided by the noise's standard deviation it has the unit of 1 / feature, so that a
@@ -39,7 +39,7 @@ def measure_sensitivity(
     Args:
         parts: of validation frames. seed: of the noise.
         sensitivity_json: `features`, of each `sensitivity`, `share` of their sum, and `as_printed`.
-        frames: how many frames are asked, spread over all, each for all radii.
+        frames: number of frames, spread over all, each for all radii.
         repeats: of the noise.
 
     Raises:
@@ -49,37 +49,37 @@ def measure_sensitivity(
     network, _ = load_screen_network(weights)
     network = network.eval().to(memory_format=torch.channels_last)
     names = network.features
-    places = np.cumsum([0, *(FEATURES[name] for name in names)])
+    offsets = np.cumsum([0, *(FEATURES[name] for name in names)])
     images = [*_features(parts, names, frames)]
-    shown = np.concatenate([image[:, valid] for image, valid in images], axis=1)
-    # One of a vector is as wide as its components are on average.
-    widths = [shown[a:b].std(axis=1).mean() for a, b in zip(places, places[1:])]
+    values = np.concatenate([image[:, valid] for image, valid in images], axis=1)
+    # A vector's width is the mean of its components'.
+    widths = [values[a:b].std(axis=1).mean() for a, b in zip(offsets, offsets[1:])]
     rng = np.random.default_rng(seed)
-    moved = np.zeros(len(names))
+    changes = np.zeros(len(names))
     with progress_bar(len(images) * repeats, "frames", "sensitivity") as bar:
         for image, valid in images:
-            still = _answer(network, image)
+            unchanged = _evaluated(network, image)
             for _ in range(repeats):
-                for k, (a, b) in enumerate(zip(places, places[1:])):
+                for k, (a, b) in enumerate(zip(offsets, offsets[1:])):
                     noisy = image.copy()
                     noise = rng.standard_normal(image[a:b].shape, np.float32)
                     noisy[a:b] += np.float32(NOISE * widths[k]) * noise
-                    moved[k] += np.abs(_answer(network, noisy) - still)[valid].mean()
+                    changes[k] += np.abs(_evaluated(network, noisy) - unchanged)[valid].mean()
                 bar.update()
-    sensitivity = moved / (len(images) * repeats) / NOISE
+    sensitivity = changes / (len(images) * repeats) / NOISE
     printed = np.divide(sensitivity, widths, out=np.zeros_like(sensitivity), where=widths != 0)
-    found = {
+    by_feature = {
         name: {"sensitivity": s, "share": s / sensitivity.sum(), "as_printed": p}
         for name, s, p in zip(names, sensitivity, printed)
     }
     about = {"frames": len(images), "repeats": repeats, "noise": NOISE, "seed": seed}
-    write_json(sensitivity_json, {"features": found, **about, **describe_origin()})
+    write_json(sensitivity_json, {"features": by_feature, **about, **describe_origin()})
 
 
 def _features(
     parts: list[Path], names: tuple[str, ...], count: int
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """The features (C, H, W) of some frames for each radius, and which pixels count."""
+    """Features (C, H, W) for each radius, with valid pixels. Of `count` frames."""
     opened = [FrameSetPart(path) for path in parts]
     numbered = [(part, number) for part in opened for number in range(len(part))]
     for part, number in numbered[:: max(1, len(numbered) // count)][:count]:
@@ -87,13 +87,10 @@ def _features(
         buffers = {name: part.image(number, name) for name in about["channels"]}
         for radius in part.radii:
             light = light_size(radius, max(part.radii), about["size"])
-            yield (
-                named_features(names, buffers, lens, light),
-                part.valid[number, 0],
-            )
+            yield named_features(names, buffers, lens, light), part.valid[number, 0]
 
 
-def _answer(network: torch.nn.Module, features: np.ndarray) -> np.ndarray:
+def _evaluated(network: torch.nn.Module, features: np.ndarray) -> np.ndarray:
     planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
     with torch.inference_mode():
         return network(planes)[0, 0].clamp(0, 1).numpy()

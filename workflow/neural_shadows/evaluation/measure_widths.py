@@ -1,4 +1,4 @@
-"""The stage that measures how wide the penumbrae of a frame set's test frames are."""
+"""Stage: penumbra widths of a frame set's test frames."""
 
 from collections import defaultdict
 from pathlib import Path
@@ -16,7 +16,7 @@ PERCENTILES = (50, 90)
 
 
 def measure_widths(parts: list[Path], widths_json: Path) -> None:
-    """Write the median and the 90th percentile of the widths, in pixels, of each scene and light.
+    """Write median and 90th percentile of widths, in pixels. Of each scene and light.
 
     Over the penumbra pixels of a scene's frames, see `local_widths`. The JSON has by scene, as
     `scenes`, a pair by radius, None of a light without a penumbra; `radii` as they are configured, in
@@ -48,8 +48,8 @@ def measure_widths(parts: list[Path], widths_json: Path) -> None:
     about = opened[0].about
     lights = {"radii": about.get("given_radii", about["radii"])}
     lights["radius_unit"] = about.get("radius_unit", "metres")
-    found = {"widest": WIDEST, **lights, "scenes": by_scene}
-    write_json(widths_json, found | describe_origin())
+    summary = {"widest": WIDEST, **lights, "scenes": by_scene}
+    write_json(widths_json, summary | describe_origin())
 
 
 def _percentiles(widths: np.ndarray) -> list[float] | None:

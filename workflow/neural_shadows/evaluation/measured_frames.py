@@ -1,4 +1,4 @@
-"""Frames of a frame set with their exact soft shadows, opened for methods to answer."""
+"""Frames of a frame set, opened for methods and metrics."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -32,21 +32,21 @@ class MeasuredFrame:
 
     @property
     def scene(self) -> SoftScene:
-        """The scene that it shows.
+        """The scene of the frame.
 
         Raises:
-            InputError: it is of a user's own and has none.
+            InputError: a user's own frame has none.
         """
         if self.opened is None:
             raise InputError(
-                f"{self.part.source}: has no 'scene' to look at; of such frames only what their "
-                f"buffers hold can be asked: {', '.join(f'base_{name}' for name in LIT)}, networks"
+                f"{self.part.source}: has no 'scene' to look at. Evaluate only methods from its "
+                f"buffers: {', '.join(f'base_{name}' for name in LIT)}, networks"
             )
         return self.opened
 
     @cached_property
     def frame(self) -> SoftFrame:
-        """What methods are given."""
+        """Input of methods: scene, surface, light and map."""
         about, setting = self.part.about, self.part.setting(self.number)
         scene = self.scene.moved(setting.motion)
         surface = see_surface(scene, setting.camera, about["width"], about["height"])
@@ -58,23 +58,23 @@ class MeasuredFrame:
         """The exact soft shadow of each radius, (radii, height, width) float32.
 
         Raises:
-            InputError: it is of an engine that did not write one.
+            InputError: an engine's frame without one.
         """
         if not self.part.has_targets:
             raise InputError(
-                f"{self.part.source}: has no exact shadow to measure against; without one a frame can "
-                "be answered (reports/answers/) but stands in no table"
+                f"{self.part.source}: has no exact shadow to measure against. Without one a frame has "
+                "images (reports/answers/) but is in no table."
             )
         return self.part.targets[self.number].astype(np.float32)
 
     @property
     def valid(self) -> np.ndarray:
-        """Which pixels count, bool."""
+        """Mask of pixels in metrics, bool."""
         return self.part.valid[self.number, 0]
 
     @property
     def off_edges(self) -> np.ndarray | None:
-        """Which of them are off the geometry's edges, bool; None where those are not at hand."""
+        """Valid pixels off the geometry's edges, bool; None if unknown."""
         edges = self.part.edges
         return None if edges is None else self.valid & ~edges[self.number]
 
@@ -89,20 +89,20 @@ class MeasuredFrame:
     def answered(
         self, method: SoftMethod, radius: float, constants: Mapping[str, float]
     ) -> np.ndarray:
-        """The method's visibility of a light of a radius, float32; 1 without a surface."""
+        """The method's visibility of a light, float32; 1 without a surface."""
         if method.of_buffers is not None:
             part = self.part
             if self.opened is None and method.check_own is not None:
                 method.check_own(part)
             buffers = {name: self.picture(name) for name in part.about["channels"]}
             lens = part.lens(self.number)
-            found = method.of_buffers(buffers, lens, radius, part.about["size"])
-            return np.where(self.picture("z") > 0, found, np.float32(1))
+            visible = method.of_buffers(buffers, lens, radius, part.about["size"])
+            return np.where(self.picture("z") > 0, visible, np.float32(1))
         if method.channel is not None:
             return self.picture(method.channel)
         if method.constant is not None:
-            seen, lit = self.picture("z") > 0, self.picture("c_e") > 0
-            return np.where(seen, np.float32(method.constant) * lit, np.float32(1))
+            surfaces, lit = self.picture("z") > 0, self.picture("c_e") > 0
+            return np.where(surfaces, np.float32(method.constant) * lit, np.float32(1))
         return self.frame.surface.image(visibility(method, self.frame, radius, constants), 1.0)
 
 
@@ -110,19 +110,19 @@ def measured_frames(parts: Sequence[Path], meshes: Sequence[Path]) -> Iterator[M
     """All frames of some parts, in order.
 
     Args:
-        meshes: prepared, of all objects that are inserted; their folders have the objects' names.
+        meshes: prepared, of all inserted objects, in folders of their names.
 
     Raises:
-        InputError: a part or a mesh is damaged, or a user's own part has values that cannot be.
+        InputError: a part or a mesh is damaged, or a user's own part has impossible values.
     """
-    known, opened = {path.parent.name: path for path in meshes}, {"": None}
+    mesh_paths, scenes = {path.parent.name: path for path in meshes}, {"": None}
     for path in parts:
         part = FrameSetPart(path)
         scene = part.about.get("scene")
         if scene is None:
             check_values(part)
         key = str(scene or "")
-        if key not in opened:
-            opened[key] = SoftScene(scene, [known[name] for name in scene["inserted"]])
+        if key not in scenes:
+            scenes[key] = SoftScene(scene, [mesh_paths[name] for name in scene["inserted"]])
         for number in range(len(part)):
-            yield MeasuredFrame(part, number, opened[key])
+            yield MeasuredFrame(part, number, scenes[key])

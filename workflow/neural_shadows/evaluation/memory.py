@@ -1,4 +1,4 @@
-"""Bytes that networks and shadow maps store [4.4.2]."""
+"""Storage of networks and shadow maps, in bytes [4.4.2]."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ from neural_shadows.evaluation.method_names import METHODS, family_and_size
 
 
 def network_bytes(weights: Path) -> int:
-    """Bytes of all that a file of weights stores; 4 for each weight of the thesis's network."""
+    """Bytes in a file of weights: 4 a weight of the thesis's network."""
     # safetensors: 8 bytes with the length of the header, the header, then the tensors alone.
     with weights.open("rb") as file:
         header = int.from_bytes(file.read(8), "little")
@@ -14,14 +14,13 @@ def network_bytes(weights: Path) -> int:
 
 
 def stored_bytes(stored: str | Path) -> int | None:
-    """Bytes that a method's file holds.
+    """Bytes of a method's file; None if it stores nothing.
 
     Args:
         stored: weights of a network, or the key of another method, without a bias.
 
     Returns:
-        None for what stores nothing of its own: a null predictor, and ray tracing, whose mesh the
-        others need as well.
+        None for a null predictor, and for ray tracing, whose mesh the others need as well.
     """
     if isinstance(stored, Path):
         return network_bytes(stored)

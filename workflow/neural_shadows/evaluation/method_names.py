@@ -1,4 +1,4 @@
-"""Keys of methods: a network's is its experiment's name, others' are in `hard_methods`.
+"""Keys of hard-shadow methods: experiments' names, and `hard_methods`.
 
 Each module of that folder is a family, `METHODS` by key, or by FAMILY for keys FAMILY_N. None is
 imported by a statement, as families of `soft_registry`.
@@ -16,7 +16,7 @@ BIASED_SUFFIX = "_biased"
 _FAMILIES = {
     key: family for family in kinds("evaluation/hard_methods").values() for key in family.METHODS
 }
-METHODS: dict[str, HardMethod] = {key: one.METHODS[key] for key, one in _FAMILIES.items()}
+METHODS: dict[str, HardMethod] = {key: family.METHODS[key] for key, family in _FAMILIES.items()}
 PATTERNS = [
     *(f"{key}_N" for key, method in METHODS.items() if method.sizes),
     *(key for key, method in METHODS.items() if not method.sizes),
@@ -33,7 +33,7 @@ REFERENCES = {"exact": RAY_TRACED, "shadow_map": shadow_map_key(32768)}
 
 
 def family_and_size(method: str) -> tuple[str | None, int]:
-    """The key in `METHODS` of a method without a bias, and its N, or 0.
+    """Key in `METHODS` of an unbiased method, and its N. N is 0 without one.
 
     The key is None of a network, of ray tracing, and of a size that cannot be rendered.
     """
@@ -44,27 +44,27 @@ def family_and_size(method: str) -> tuple[str | None, int]:
 
 
 def is_classic(method: str) -> bool:
-    """Whether a key, without a bias, is of a method that needs no network and may err."""
+    """Check for a key, without bias, of an inexact classic method."""
     return family_and_size(method)[0] is not None
 
 
 def classic_label(method: str) -> str:
-    """What tables call a method of which `is_classic` holds."""
+    """Label in tables of a method with `is_classic`."""
     family, size = family_and_size(method)
     return METHODS[family].label.format(size)
 
 
 def hard_modules(methods: Iterable[str]) -> set[Path]:
-    """The modules of the families of those methods that need no network; keys may have a bias."""
+    """Modules of the methods' families; keys may have a bias."""
     families = {family_and_size(unbiased(method))[0] for method in methods} - {None}
     return {Path(_FAMILIES[family].__file__) for family in families}
 
 
 def biased_key(method: str) -> str:
-    """Key of a method with the depth bias that was found for it on held-out views."""
+    """Key of a method with a depth bias from held-out views."""
     return f"{method}{BIASED_SUFFIX}"
 
 
 def unbiased(method: str) -> str:
-    """The key of a method without such a bias: of a network, its experiment's name."""
+    """Key of a method without bias: of a network, its experiment's."""
     return method.removesuffix(BIASED_SUFFIX)

@@ -1,4 +1,4 @@
-"""Null predictors: what is no better than they are has learned nothing of a scene."""
+"""Null predictors, independent of the object: a lower bound."""
 
 from neural_shadows.evaluation.look import GREY, Look
 
@@ -15,5 +15,5 @@ LOOK = Look(
 
 
 def is_null(method: str) -> bool:
-    """Whether a key is a null predictor's."""
+    """Check for a null predictor's key."""
     return method in NULL

@@ -30,12 +30,12 @@ def read_metrics(paths: Iterable[Path]) -> "pd.DataFrame":
     Raises:
         InputError: a file cannot be read, or is not of metrics.
     """
-    import pandas as pd  # takes a third of a second, which each job that only writes would wait
+    import pandas as pd  # takes a third of a second, which writers save
 
-    found = []
+    tables = []
     for path in paths:
         try:
-            found.append(pd.read_csv(path, dtype=COLUMNS, usecols=list(COLUMNS)))
+            tables.append(pd.read_csv(path, dtype=COLUMNS, usecols=list(COLUMNS)))
         except (OSError, ValueError) as error:
-            raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
-    return pd.concat(found, ignore_index=True)
+            raise InputError(f"{path}: damaged ({error}). Delete it and run again.") from error
+    return pd.concat(tables, ignore_index=True)

@@ -1,4 +1,4 @@
-"""The stage that times a network of whole frames by level and part (Datta et al. 2022, S3)."""
+"""Stage: times of a screen-space network by level and part. As in Datta et al. 2022, S3."""
 
 import time
 from collections import defaultdict
@@ -26,7 +26,7 @@ WARM_UP = 3
 MOST_SECONDS, LEAST = 60, WARM_UP + 3
 PRECISIONS = (torch.float32, torch.bfloat16)
 
-Place = tuple[int, str]  # a level and a part of `ScreenNetwork.parts`
+LevelPart = tuple[int, str]  # a level and a part of `ScreenNetwork.parts`
 
 
 def profile_screen_network(
@@ -37,7 +37,7 @@ def profile_screen_network(
     device: str,
     threads: int,
 ) -> None:
-    """Time a network's answer to one frame, untrained: its times do not depend on its weights.
+    """Time an untrained network on one frame. Its times do not depend on its weights.
 
     Frames, frames by part and matrix products take turns; of each the median counts. A number format
     that a device would emulate is not timed on it: bfloat16 takes 50 times as long with AVX2 alone.
@@ -54,18 +54,18 @@ def profile_screen_network(
         InputError: `device` is cuda, and there is none.
     """
     chosen = choose_device(device)
-    places = [(torch.device("cpu"), count) for count in sorted({1, threads})]
-    places += [(chosen, threads)] * (chosen.type == "cuda")
-    planned = [(*place, one) for place in places for one in PRECISIONS if is_native(one, place[0])]
+    devices = [(torch.device("cpu"), count) for count in sorted({1, threads})]
+    devices += [(chosen, threads)] * (chosen.type == "cuda")
+    planned = [(*on, dtype) for on in devices for dtype in PRECISIONS if is_native(dtype, on[0])]
     runs = []
     with progress_bar(len(planned), "runs", "profile") as bar:
-        for place, count, precision in planned:
+        for on, count, precision in planned:
             torch.set_num_threads(count)
             timed = make_screen_network(network).for_inference()
-            timed = timed.to(place, precision, memory_format=torch.channels_last)
+            timed = timed.to(on, precision, memory_format=torch.channels_last)
             times = _timed(timed, profile)
             name = str(precision).removeprefix("torch.")
-            runs.append({"device": place.type, "threads": count, "precision": name} | times)
+            runs.append({"device": on.type, "threads": count, "precision": name} | times)
             bar.update()
     write_json(
         profile_json,
@@ -82,9 +82,9 @@ def profile_screen_network(
 
 def _counts(network: Mapping[str, Any]) -> list[dict[str, float]]:
     layers = layers_of(network)
-    found = {name: by_level(layers, name) for name in ("weights", "macs", "storage")}
-    levels = found["weights"]
-    return [{"level": k} | {name: each[k] for name, each in found.items()} for k in levels]
+    counts = {name: by_level(layers, name) for name in ("weights", "macs", "storage")}
+    levels = counts["weights"]
+    return [{"level": k} | {name: each[k] for name, each in counts.items()} for k in levels]
 
 
 def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]:
@@ -97,21 +97,21 @@ def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]
     side = profile["product_size"]
     square = torch.rand(side, side, generator=generator).to(**like)
     times: dict[str, list[float]] = defaultdict(list)
-    parts: dict[Place, list[float]] = defaultdict(list)
+    parts: dict[LevelPart, list[float]] = defaultdict(list)
     clock = _clock(weight.device)
 
-    def take(name: str, work: Callable[[], Any]) -> None:
+    def measure(name: str, work: Callable[[], Any]) -> None:
         started = clock()
         work()
         times[name].append(clock() - started)
 
     with torch.inference_mode():
-        until = clock() + MOST_SECONDS
+        deadline = clock() + MOST_SECONDS
         for number in range(WARM_UP + profile["repeats"]):
-            if number >= LEAST and clock() > until:
+            if number >= LEAST and clock() > deadline:
                 break
-            take("whole", lambda: network(x))
-            take("product", lambda: square @ square)
+            measure("whole", lambda: network(x))
+            measure("product", lambda: square @ square)
             with _parts_timed(network, parts, clock):
                 network(x)
     median = {name: float(np.median(each[WARM_UP:])) for name, each in (times | parts).items()}
@@ -119,25 +119,26 @@ def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]
         "whole_ms": 1000 * median["whole"],
         "product_macs": side**3 / median["product"],
         "parts": [
-            {"level": place[0], "part": place[1], "ms": 1000 * median[place]} for place in parts
+            {"level": level, "part": part, "ms": 1000 * median[level, part]}
+            for level, part in parts
         ],
     }
 
 
 @contextmanager
 def _parts_timed(
-    network: ScreenNetwork, found: dict[Place, list[float]], clock: Callable[[], float]
+    network: ScreenNetwork, times: dict[LevelPart, list[float]], clock: Callable[[], float]
 ) -> Iterator[None]:
-    """While it lasts, seconds of each part are added to `found`."""
-    started: dict[Place, float] = {}
+    """Append seconds of each part to `times` in its context."""
+    started: dict[LevelPart, float] = {}
     hooks = []
-    for place, part in network.parts().items():
+    for level_part, part in network.parts().items():
 
-        def begin(*_, place=place) -> None:
-            started[place] = clock()
+        def begin(*_, level_part=level_part) -> None:
+            started[level_part] = clock()
 
-        def end(*_, place=place) -> None:
-            found[place].append(clock() - started[place])
+        def end(*_, level_part=level_part) -> None:
+            times[level_part].append(clock() - started[level_part])
 
         hooks += [part.register_forward_pre_hook(begin), part.register_forward_hook(end)]
     try:
@@ -148,7 +149,7 @@ def _parts_timed(
 
 
 def _clock(device: torch.device) -> Callable[[], float]:
-    """Seconds, when all work that was asked for is done."""
+    """Seconds once all work on a device is done."""
 
     def now() -> float:
         if device.type == "cuda":

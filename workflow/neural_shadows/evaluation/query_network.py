@@ -1,6 +1,6 @@
-"""The stage that asks a network which points of a batch of frames are lit.
+"""Stage: a network's lit points on a batch of frames.
 
-Apart from `evaluate`, so that metrics, which take most of the time and a CPU, hold no GPU.
+Separate from `evaluate`, so that metrics, most of the time and on a CPU, hold no GPU.
 """
 
 from pathlib import Path
@@ -34,14 +34,14 @@ def query_network(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Write which points a network calls lit, and if asked how its depths keep to their bounds.
+    """Write a network's lit points; on request, violations of its depths.
 
     Args:
-        references: what `render_references` wrote.
-        depth_bias_json: what `find_depth_bias` wrote, where `bias` is `held_out`.
+        references: of `render_references`.
+        depth_bias_json: of `find_depth_bias`, where `bias` is `held_out`.
         mesh_ply: prepared, for the labels.
         answers: see `Answers`.
-        method: the name that the network goes by.
+        method: the network's name.
         bias: of the depth test, in sphere radii, or `held_out`.
         violations: count `Violations` too, which takes a CPU two more rays for each point.
 
@@ -55,7 +55,7 @@ def query_network(
         mesh = read_prepared(mesh_ply)
         tracer = Tracer(mesh.vertices, mesh.faces)
     batch = References(references)
-    answered: list[np.ndarray] = []
+    lit_points: list[np.ndarray] = []
     counted: list[Violations] = []
     with progress_bar(len(batch), "views", f"query {method}") as bar:
         for frame, truth in batch:
@@ -64,15 +64,15 @@ def query_network(
             if tracer:
                 t_pred = network.depths(rays.origins, -light, dtype)
             lit = network_lit(network, p, light, dtype=dtype, t_pred=t_pred)(depth_bias)
-            answered.append(lit.cpu().numpy())
+            lit_points.append(lit.cpu().numpy())
             if tracer:
                 index = rays.index.cpu().numpy()
                 t = (t_pred + depth_bias).cpu().numpy()
                 bounds = dual_bounds(tracer, rays.origins.cpu().numpy(), -light.cpu().numpy())
                 true = truth[frame.lit_side][index]
-                counted.append(count_violations(t, *bounds, answered[-1][index], true))
+                counted.append(count_violations(t, *bounds, lit_points[-1][index], true))
             bar.update()
-    write_answers(answers, answered, counted)
+    write_answers(answers, lit_points, counted)
 
 
 if "snakemake" in globals():

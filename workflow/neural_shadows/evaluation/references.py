@@ -1,8 +1,8 @@
-"""A batch of reference frames on disk: the G-buffer and the reference's visibility of each view.
+"""Reference frames on disk: G-buffer and exact visibility by view.
 
 One safetensors file: tensors `NUMBER.NAME` of each view, and in the header the frames' size, the
-ground and the viewpoints. The ground's points follow from these, so that a view of 600 × 400
-takes 2 MB and not 5.
+ground and the viewpoints. The ground's points follow from these: a view of 600 × 400 takes
+2 MB instead of 5.
 """
 
 import json
@@ -33,7 +33,7 @@ _VECTORS = ("eye", "target", "up", "light")
 def write_references(
     path: Path, frames: Iterable[tuple[GBuffer, np.ndarray]], ground: float | None
 ) -> None:
-    """Write frames of one size, each with the visibility (n,) of its n surface points.
+    """Write frames of one size; visibility is (n,) of n points.
 
     Args:
         ground: height of the scene's ground plane.
@@ -57,7 +57,7 @@ def write_references(
 
 
 class References:
-    """The frames of a file, each with its reference visibility (n,); read when asked for."""
+    """Frames of a file with reference visibility (n,), read lazily."""
 
     def __init__(self, path: Path):
         """Open the file.
@@ -69,7 +69,7 @@ class References:
             self._file = safe_open(path, framework="numpy")
             header = json.loads(self._file.metadata()["header"])
         except (OSError, SafetensorError, TypeError, KeyError) as error:
-            raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
+            raise InputError(f"{path}: damaged ({error}). Delete it and run again.") from error
         self.width, self.height = header["width"], header["height"]
         self.ground: float | None = header["ground"]
         self.views = [

@@ -1,4 +1,4 @@
-"""The stage that renders a batch of viewpoints once for all methods [4.1]."""
+"""Stage: reference frames of a batch of viewpoints [4.1]."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -27,12 +27,12 @@ def render_references(
     last: int,
     reference: str = "exact",
 ) -> None:
-    """Draw viewpoints `first` to `last` (exclusive) of each view set, and render them.
+    """Render viewpoints `first` to `last` (exclusive) of each set.
 
     Args:
         references: for the G-buffers and the visibilities, see `References`.
         scene: `up`, `ground` and `light`, see `open_scene`.
-        frames: `width`, `height` (pixels), and what `draw_viewpoints` is told: `view_sets`, `seed`,
+        frames: `width`, `height` (pixels), and the settings of `draw_viewpoints`: `view_sets`, `seed`,
             `least_shadow`.
         reference: `exact`, or the thesis's `shadow_map` of 32768² texels.
 
@@ -40,7 +40,7 @@ def render_references(
         InputError: the mesh cannot be read, or a setting does not fit the scene.
     """
     opened = open_scene(mesh_ply, **scene)
-    answer = classic_method(REFERENCES[reference], opened)
+    reference_method = classic_method(REFERENCES[reference], opened)
     width, height, view_sets, seed = (
         frames[key] for key in ("width", "height", "view_sets", "seed")
     )
@@ -56,7 +56,7 @@ def render_references(
     with progress_bar(len(views), "views", f"render references of {mesh_ply.parent.name}") as bar:
         for view in views:
             frame = render_gbuffer(opened, view, width, height)
-            rendered.append((frame, answer(frame)(0.0)))
+            rendered.append((frame, reference_method(frame)(0.0)))
             bar.update()
     write_references(references, rendered, opened.ground)
 

@@ -1,4 +1,4 @@
-"""A trained network that answers a whole frame from its buffers (Datta et al. 2022; Hu et al. 2025)."""
+"""Trained screen-space networks as methods. From Datta et al. 2022 and Hu et al. 2025."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -18,25 +18,25 @@ from neural_shadows.networks.screen_space.screen_networks import load_screen_net
 from neural_shadows.networks.weight_file import load_tensors
 from neural_shadows.rendering.gbuffer import Lens, lens_of
 
-_CPU = torch.device("cpu")  # where all methods for soft shadows answer
+_CPU = torch.device("cpu")  # device of all methods for soft shadows
 
 
 def screen_method(weights: Path, precision: str = "auto") -> SoftMethod:
-    """The method that a file of weights is, in a number format (see `choose_dtype`).
+    """The method of a file of weights, in a number format. See `choose_dtype`.
 
     Raises:
         InputError: the file is damaged, or its weights are of another table of widths.
     """
-    return _Answers(weights, precision).method()
+    return _OpenedNetwork(weights, precision).method()
 
 
 def computes_in(precision: str) -> bool:
-    """Whether the CPU multiplies in a number format; `auto` is one in which it does."""
+    """Check for native products in a format, or `auto`."""
     return precision == "auto" or is_native(getattr(torch, precision), _CPU)
 
 
 def learned_scenes(weights: Path) -> list[str]:
-    """The scenes that a network was trained on.
+    """The training scenes of a network.
 
     Raises:
         InputError: the file is damaged.
@@ -44,8 +44,8 @@ def learned_scenes(weights: Path) -> list[str]:
     return load_tensors(weights)[1]["scenes"]
 
 
-class _Answers:
-    """A network, and what is kept of it from frame to frame."""
+class _OpenedNetwork:
+    """A network, loaded once for all frames."""
 
     def __init__(self, weights: Path, precision: str):
         self._weights = weights
@@ -53,7 +53,9 @@ class _Answers:
         self._network = network.for_inference().in_format(choose_dtype(precision, _CPU))
 
     def method(self) -> SoftMethod:
-        bytes_held = 2 * sum(one.numel() for one in self._network.parameters())  # 16 bits each
+        bytes_held = 2 * sum(
+            weight.numel() for weight in self._network.parameters()
+        )  # 16 bits each
         return SoftMethod(
             self._of_frame,
             of_buffers=self._of_buffers,
@@ -68,13 +70,13 @@ class _Answers:
         features = named_features(self._network.features, buffers, lens, light)
         planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
         with torch.inference_mode():
-            found = self._network(planes)
-        return found[0, 0].float().clamp(0, 1).numpy()
+            visibility = self._network(planes)
+        return visibility[0, 0].float().clamp(0, 1).numpy()
 
     def _check_own(self, part: FrameSetPart) -> None:
-        """That a user's own frames have what it is told, in the unit that it knows."""
-        about, asked = part.about, buffers_of(self._network.features)
-        if lacking := [name for name in asked if name not in about["channels"]]:
+        """Check a user's own frames for channels, unit and size."""
+        about, needed = part.about, buffers_of(self._network.features)
+        if lacking := [name for name in needed if name not in about["channels"]]:
             bases = [name for name in lacking if name in LIT]
             what = "base shadow" if bases == lacking else "channel"
             raise InputError(
@@ -85,7 +87,7 @@ class _Answers:
         if own not in (None, unit):
             raise InputError(
                 f"{part.source}: its light's radii are in {own}, but {self._weights} was trained with "
-                f"radii in {unit}, up to {max(self._header['radii']):g}; give them in {unit}"
+                f"radii in {unit}, up to {max(self._header['radii']):g}. Give them in {unit}."
             )
         reach = self._network.reach
         if min(about["width"], about["height"]) < reach:
@@ -95,21 +97,21 @@ class _Answers:
             )
 
     def _of_frame(self, frame: SoftFrame, radius: float) -> np.ndarray:
-        """The same from points and the light's map, as it is timed: buffers are made, too."""
+        """The same from points and light map, buffers included in time."""
         surface = frame.surface
         buffers = channel_images(buffers_of(self._network.features), frame)
         lens = lens_of(surface.camera, surface.width, surface.height)
         return self._of_buffers(buffers, lens, radius, frame.scene.size).ravel()[surface.pixel]
 
     def _light(self, radius: float, size: float) -> LightSize:
-        """The light's size as the network is told it: step 4 for the largest that it was trained on."""
+        """The light's size as input: step 4 at the largest trained."""
         of_size = self._header["radius_unit"] == "scene_sizes"
         unit, name = (size, "scene sizes") if of_size else (1.0, "m")
         largest = unit * max(self._header["radii"])
         if radius > largest * (1 + 1e-6):
             raise InputError(
                 f"{self._weights}: was trained on lights of up to {largest / unit:g} {name}, and is "
-                f"asked about one of {radius / unit:g} {name}; train it on a frame set that has such "
-                "a light in `radii`"
+                f"asked about one of {radius / unit:g} {name}. Train it on a frame set with such "
+                "a light in `radii`."
             )
         return light_size(radius, largest, size)

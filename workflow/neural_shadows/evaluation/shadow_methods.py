@@ -1,8 +1,8 @@
-"""Visibility of the light by each method for hard shadows: networks, rays, and `hard_methods`.
+"""Hard-shadow methods: networks, rays, and `hard_methods`.
 
-A shadow method takes a frame's G-buffer and gives a function of the depth bias, so that it runs once
-for all biases. The bias, in sphere radii, is added to the height or depth that a method compares;
-what compares none ignores it.
+A shadow method takes a frame's G-buffer and returns a function of the depth bias, so that it runs
+once for all biases. The bias, in sphere radii, is added to the height or depth that a method
+compares; others ignore it.
 """
 
 from pathlib import Path
@@ -15,20 +15,20 @@ from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.scenes.scene import Scene
 
-if TYPE_CHECKING:  # torch takes seconds to import, which jobs without a network need not wait for
+if TYPE_CHECKING:  # torch takes seconds to import: only with a network
     import torch
 
     from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 
 
 def classic_method(method: str, scene: Scene, *, whole_map: bool = False) -> ShadowMethod:
-    """The method of a key without a network: `ray_traced`, or of `hard_methods`.
+    """A method without a network: `ray_traced`, or of `hard_methods`.
 
     Args:
         method: the key, without a bias.
-        whole_map: rasterise each texel of a shadow map, as a renderer does before it knows its
-            receivers; else those alone are traced that some receiver looks up, which takes a
-            fraction of the time at 2048² and gives the same values but for rounding.
+        whole_map: rasterise each texel of a shadow map, as a renderer does; else only the
+            texels of receivers are traced, in a fraction of the time at 2048² and with the same
+            values but for rounding.
     """
     if method == RAY_TRACED:
         return lambda frame: whatever_bias(exact_visibility(scene.tracer, frame))
@@ -55,11 +55,12 @@ def network_method(network: "ShadowNetwork", dtype: "torch.dtype") -> ShadowMeth
 def open_network(
     weights: Path, device: str, threads: int, precision: str = "auto"
 ) -> tuple["ShadowNetwork", "torch.dtype"]:
-    """A network on its device, and the number format of its products there; float32 of one that is
-    always on the CPU, as it multiplies no matrices.
+    """A network on its device, with its number format.
+
+    float32 for a network that is always on the CPU, as it multiplies no matrices.
 
     Args:
-        device: `auto`, `cpu` or `cuda`; not asked of a network that is always on the CPU.
+        device: `auto`, `cpu` or `cuda`; unused by a network that is always on the CPU.
         threads: of PyTorch on the CPU, from now on.
         precision: of its products, see `choose_dtype`.
 
@@ -80,11 +81,11 @@ def open_network(
 
 
 def take_found(network: "ShadowNetwork", depth_bias_json: Path) -> float:
-    """Give a network the push that was found for it on held-out views; the depth bias with it.
+    """Set a network's push from held-out views; return its bias.
 
     Raises:
         InputError: the file cannot be read.
     """
-    found = read_json(depth_bias_json)
-    network.push = found["push"]
-    return found["depth_bias"]
+    chosen = read_json(depth_bias_json)
+    network.push = chosen["push"]
+    return chosen["depth_bias"]

@@ -1,4 +1,4 @@
-"""What a method for soft shadows answered on test frames, on disk, so that it can be drawn later.
+"""Soft-shadow methods' images of test frames, on disk for figures.
 
 One npz file: of the first frame of each part `SCENE.PART.RADIUS` (height, width) uint8, visibility in
 steps of 1/255; of each sequence `SCENE.PART.flicker`, by how much a pixel changes from frame to frame
@@ -15,18 +15,18 @@ from neural_shadows.files.whole_files import whole_file
 
 
 def name_of(part: Path, radius: int) -> str:
-    """What the first frame of a part, a JSON in the folder of its scene, is called."""
+    """Key of a part's first frame; a part is `SCENE/PART.json`."""
     return f"{part.parent.name}.{part.stem}.{radius}"
 
 
 def flicker_name(part: Path, exact: bool = False) -> str:
-    """What the map of a sequence's changes is called, or that of the exact shadow's."""
+    """Key of a sequence's map of changes, or the exact shadow's."""
     return f"{part.parent.name}.{part.stem}.flicker{'_exact' * exact}"
 
 
 def write_answers(path: Path, answers: Mapping[str, np.ndarray]) -> None:
     """Write visibilities (height, width) in [0, 1] by name."""
-    steps = {name: np.round(255 * one).astype(np.uint8) for name, one in answers.items()}
+    steps = {name: np.round(255 * image).astype(np.uint8) for name, image in answers.items()}
     with whole_file(path) as part:
         np.savez_compressed(part, **steps)
 
@@ -40,5 +40,5 @@ def read_answer(path: Path, name: str) -> np.ndarray:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return arrays[name] / np.float32(255)
-    except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
-        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
+    except Exception as error:  # zipfile and zlib raise many kinds
+        raise InputError(f"{path}: damaged ({error}). Delete it and run again.") from error

@@ -1,4 +1,4 @@
-"""A method for soft shadows, as its family describes it."""
+"""A soft-shadow method and its settings."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -8,7 +8,7 @@ import numpy as np
 
 from neural_shadows.evaluation.look import Look
 
-if TYPE_CHECKING:  # the graph needs labels and the like alone
+if TYPE_CHECKING:  # the graph needs metadata alone
     from neural_shadows.frames.frame_set import FrameSetPart
     from neural_shadows.frames.soft_frame import SoftFrame
     from neural_shadows.rendering.surface import Surface
@@ -18,36 +18,36 @@ Constants = Mapping[str, float]
 
 @dataclass(frozen=True)
 class SoftMethod:
-    """How much of a spherical light a frame's n points see, by one method.
+    """A method for visibility of spherical lights at frames' points.
 
     Args:
         answer: of a frame and the light's radius in the scene's unit, visibilities (n,) float32 in
             [0, 1]. Takes the constants as keyword arguments. None if `of_buffers`, `channel` or
             `constant` is given.
-        constants: the values that are tried of each on validation frames; those that give the least
-            error there are used, one set for each radius.
+        constants: the candidates of each; those of the least error on validation frames are used,
+            one set for each radius.
         label: its name in tables and figures.
-        tuned_as: key of the method whose constants it has, if not its own.
-        fields: whether it needs fields that are fitted to a scene's objects.
-        package: an optional one that it needs.
-        rays: of a pixel, if it sends rays and does nothing else.
-        null: whether it learns nothing, so that a network must be better.
+        tuned_as: key of the method with its constants, if not its own.
+        fields: needs fields fitted to a scene's objects.
+        package: a required optional package.
+        rays: of a pixel, of a plain ray tracer.
+        null: a null predictor, which a network must beat.
         look: if not its family's.
         sequence: of a sequence of frames, if it has a history: of the frames, the radius, where
             points were before (`was`) and the constants, the visibilities of each frame in turn.
-        texel_floats: float32 numbers in a texel of the map that it looks at; 0 for none.
-        held: of a frame, the bytes in memory of what it keeps of the scene beside the triangles.
-        of_radius: whether its visibility depends on the light's radius.
-        by_rays: whether it sends rays to the light's points. What faces away from the light's centre
-            is made dark for all others: it may see a part of a large light, and rays know.
+        texel_floats: float32 numbers in a texel of its light map; 0 for none.
+        held: of a frame, bytes in memory of the scene's data beside the triangles.
+        of_radius: visibility depends on the light's radius.
+        by_rays: sends rays to the light's points. All others are dark where a surface faces away
+            from the light's centre, though it may see a part of a large light.
         of_buffers: of a frame's buffers by name (height, width), the camera's `Lens`, the radius and
-            the scene's size, visibilities (height, width) float32, if buffers are all that it needs;
-            `answer` then makes them, to be timed.
-        check_own: of a part of a user's own frames, raises an InputError where it cannot answer them.
-        channel: of the frame's buffers, if its visibility is there already.
-        constant: the visibility of all that faces the light, whatever the scene.
-        last: a filter of a surface and visibilities (n,) in screen space, after all else: also after
-            what faces away is made dark, whose border would stay aliased.
+            the scene's size, visibilities (height, width) float32, if it needs buffers alone; `answer`
+            then computes the buffers, for timing.
+        check_own: of a part of a user's own frames, raises an InputError for unsuitable ones.
+        channel: the frame's buffer with its visibility, if stored.
+        constant: the visibility of all surfaces facing the light.
+        last: a filter of a surface and visibilities (n,) in screen space, after all else, so that the
+            border of surfaces that face away is filtered, too.
         resolution: texels of a side of the light's map, if not the frame set's.
     """
 
@@ -73,17 +73,19 @@ class SoftMethod:
     resolution: int | None = None
 
     def settings(self) -> list[dict[str, float]]:
-        """Every combination of the constants that is tried; one without any, if it has none."""
+        """All combinations of constants; one empty without any."""
         combinations: list[dict[str, float]] = [{}]
         for name, values in self.constants.items():
-            combinations = [one | {name: value} for one in combinations for value in values]
+            combinations = [
+                combination | {name: value} for combination in combinations for value in values
+            ]
         return combinations
 
     def changes_at(self, constants: Sequence[Constants], radius: int) -> bool:
-        """Whether its visibility at a radius, counted from 0, differs from that at the one before.
+        """Check for a change of visibility from the radius before. Radii are counted from 0.
 
         Args:
-            constants: that it has at each radius.
+            constants: by radius.
         """
         return radius == 0 or self.of_radius or constants[radius] != constants[radius - 1]
 
@@ -91,13 +93,13 @@ class SoftMethod:
 def visibility(
     method: SoftMethod, frame: "SoftFrame", radius: float, constants: Constants
 ) -> np.ndarray:
-    """How much of a light of a radius each of the frame's points sees, (n,) float32."""
+    """A method's visibility at a frame's points, (n,) float32."""
     if method.resolution is not None:
         frame = frame.with_map_of(method.resolution)
-    visible = method.answer(frame, radius, **constants)
+    shares = method.answer(frame, radius, **constants)
     if not method.by_rays and method.of_buffers is None:
-        visible = np.where(frame.cosines > 0, visible, np.float32(0))
-    return visible if method.last is None else method.last(frame.surface, visible)
+        shares = np.where(frame.cosines > 0, shares, np.float32(0))
+    return shares if method.last is None else method.last(frame.surface, shares)
 
 
 def rays_label(count: int) -> str:

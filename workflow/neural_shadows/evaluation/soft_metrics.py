@@ -5,7 +5,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import whole_file
 
 if TYPE_CHECKING:
@@ -27,18 +26,11 @@ def write_soft_metrics(metrics_csv: Path, rows: Iterable[Mapping[str, Any]]) -> 
 
 
 def read_soft_metrics(paths: Iterable[Path]) -> "pd.DataFrame":
-    """Read and join files of `write_soft_metrics`: its columns, and `method`, a file's name.
-
-    Raises:
-        InputError: a file cannot be read, or is not of such metrics.
-    """
+    """Join files of `write_soft_metrics`, with names as `method`."""
     import pandas as pd
 
-    found = []
-    for path in paths:
-        try:
-            one = pd.read_csv(path, dtype=COLUMNS, usecols=list(COLUMNS))
-        except (OSError, ValueError) as error:
-            raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
-        found.append(one.assign(method=path.stem))
-    return pd.concat(found, ignore_index=True)
+    tables = (
+        pd.read_csv(path, dtype=COLUMNS, usecols=list(COLUMNS)).assign(method=path.stem)
+        for path in paths
+    )
+    return pd.concat(tables, ignore_index=True)

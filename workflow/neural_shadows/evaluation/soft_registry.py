@@ -1,9 +1,9 @@
-"""All methods for soft shadows by their keys, from the families in `soft_methods`.
+"""All soft-shadow methods by key, from the families in `soft_methods`.
 
-Each module of that folder is a family: `METHODS` by key, and `LOOK`, which those without one of
-their own have. None is imported by a statement, and none imports what computes before it answers:
-a result depends on its own method's module alone, which rules name by `method_module`, and the
-graph waits for none. Any other key is that of a trained network, whose file of weights it needs.
+Each module of that folder is a family: `METHODS` by key, and `LOOK`, for those without their own.
+None is imported by a statement, and none imports its computing modules before it runs: a result
+depends on its own method's module alone, which rules name by `method_module`, and the graph waits
+for none. Any other key is that of a trained network, whose file of weights it needs.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -19,30 +19,31 @@ from neural_shadows.settings.kinds import kinds
 _FIELDS = "neural_shadows.evaluation.method_parts.scene_fields"
 _NETWORK = "neural_shadows.evaluation.screen_network_method"
 NETWORK_LOOK = Look(
-    "networks on frames",
+    "screen-space networks",
     BLACK,
     "*",
     "★",
     "Answers a whole frame from its buffers and the light's map.",
 )
-FORMATS = ("float32", "bfloat16")  # that networks are evaluated in
+FORMATS = ("float32", "bfloat16")  # of networks in evaluation
 
 _FAMILIES = {
     key: family for family in kinds("evaluation/soft_methods").values() for key in family.METHODS
 }
-METHODS: dict[str, SoftMethod] = {key: one.METHODS[key] for key, one in _FAMILIES.items()}
+METHODS: dict[str, SoftMethod] = {key: family.METHODS[key] for key, family in _FAMILIES.items()}
 LABELS = {key: method.label for key, method in METHODS.items()}
-UNLEARNED = (*NULL, *(key for key, one in METHODS.items() if one.null and key not in NULL))
+UNLEARNED = (*NULL, *(key for key, method in METHODS.items() if method.null and key not in NULL))
 
 
 def is_network(method: str) -> bool:
-    """Whether a method is a trained network: an experiment of `screen_experiments`."""
+    """Check for a trained network, of `screen_experiments`."""
     return method not in METHODS
 
 
 def in_format(experiment: str, precision: str) -> str:
-    """The method that a trained network is in one of `FORMATS`; its name alone is it in the one that
-    the machine multiplies fastest.
+    """Key of a trained network in one of `FORMATS`.
+
+    Its name alone is in the format that the machine multiplies fastest.
     """
     return f"{experiment}_{precision}"
 
@@ -53,32 +54,32 @@ def look_of(method: str) -> Look:
 
 
 def is_tuned(method: str) -> bool:
-    """Whether a method has constants, which are chosen on validation frames."""
+    """Check for constants chosen on validation frames."""
     return not is_network(method) and bool(METHODS[method].constants)
 
 
 def tuned_as(method: str) -> str:
-    """The method whose constants a method has: itself, but for a few."""
+    """Key of a method's constants: mostly its own."""
     return method if is_network(method) else METHODS[method].tuned_as or method
 
 
 def needs_fields(method: str) -> bool:
-    """Whether a method needs fields that are fitted to a scene's objects."""
+    """Check for the need of fields fitted to a scene's objects."""
     return not is_network(method) and METHODS[method].fields
 
 
 def needs_scene(method: str) -> bool:
-    """Whether a method needs more than a frame's buffers."""
+    """Check for the need of more than a frame's buffers."""
     return not is_network(method) and METHODS[method].answer is not None
 
 
 def rays_of(method: str) -> int | None:
-    """How many rays of a pixel a method sends that does nothing else; None for another."""
+    """Rays a pixel of a plain ray tracer; None for others."""
     return None if is_network(method) else METHODS[method].rays
 
 
 def available(method: str) -> bool:
-    """Whether this machine has the package that a method needs, if it needs one."""
+    """Check for the package of a method, if it needs one."""
     package = None if is_network(method) else METHODS[method].package
     return package is None or find_spec(package) is not None
 
@@ -91,14 +92,14 @@ def method_module(key: str) -> Path:
 
 
 def soft_method(key: str, weights: Path | None = None, precision: str = "auto") -> SoftMethod:
-    """The method of a key, if it is a network, with its weights, in a number format."""
+    """The method of a key; a network with weights and format."""
     if is_network(key):
         return import_module(_NETWORK).screen_method(weights, precision)
     return METHODS[key]
 
 
 def take_fields(keys: Iterable[str], paths: Iterable[Path]) -> None:
-    """Let those of some methods that need fields take them from files of `fit_fields`.
+    """Load fields of `fit_fields` for the methods that need them.
 
     Raises:
         InputError: a file is missing or damaged.
@@ -110,7 +111,9 @@ def take_fields(keys: Iterable[str], paths: Iterable[Path]) -> None:
 def soft_methods_by_scene(
     key: str, weights: Sequence[Path] = (), precision: str = "auto", by_scene: bool = False
 ) -> Callable[[str], SoftMethod | None]:
-    """The method of a key, by scene; `by_scene`: of the networks the one that learned it, or None.
+    """The method of a key, by scene.
+
+    `by_scene`: the network trained on the scene, or None.
 
     None of all scenes for a network in a number format that the CPU would have to emulate.
     """

@@ -1,4 +1,4 @@
-"""The stage that times methods for soft shadows on the same frames, on one thread."""
+"""Stage: times of soft-shadow methods, on one thread. On the same frames."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -19,7 +19,7 @@ from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
-# Milliseconds; a disturbance of some is then a small share. All methods of the default table three
+# Milliseconds, of which a disturbance is a small share. All methods of the default table three
 # times each take 120 s.
 _LONG = 100
 
@@ -35,36 +35,35 @@ def time_soft_methods(
     methods: Mapping[str, str | None],
     repeats: int = 3,
 ) -> None:
-    """Time each method's answer on the first frame of each part, for each radius.
+    """Time each method on each part's first frame, all radii.
 
-    All work is on one thread. Methods take turns, so that what else a machine does disturbs all of
-    them alike.
+    All work is on one thread. Methods take turns, so that other load disturbs all of them alike.
 
     Args:
-        parts: of test frames, one a scene. constants: of the methods that have some.
+        parts: of test frames, one a scene. constants: of the tuned methods.
         weights: of the methods that are networks, each in a folder of its experiment's name.
-        methods: of each the experiment whose weights it has; None of what has none.
-        fields: what `fit_fields` wrote, if one of the methods asks them.
+        methods: the experiment of each one's weights, or None.
+        fields: of `fit_fields`, if one of the methods needs them.
         times_json: of each method and radius `ms`, the median over frames of the median over
-            `repeats`, or one of what takes long, of its answer alone; the `map` that it looks at, the
-            numbers in a texel, and what else is held. By the texels of a side, `maps`: the `ms` of
+            `repeats`, one if it takes long, of the method alone; its light `map`, the numbers in a
+            texel, and other bytes held. By the texels of a side, `maps`: the `ms` of
             rasterising it, of which a window bears its `map_share`, and its `texels`.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    frames = [one for one in measured_frames(parts, meshes) if one.number == 0]
+    frames = [frame for frame in measured_frames(parts, meshes) if frame.number == 0]
     radii = range(len(frames[0].part.radii))
-    found = {
-        record["method"]: [one["constants"] for one in record["radii"]]
+    tuned = {
+        record["method"]: [each["constants"] for each in record["radii"]]
         for record in map(read_json, constants)
     }
-    chosen = {name: found.get(tuned_as(name), [{}] * len(radii)) for name in methods}
+    chosen = {name: tuned.get(tuned_as(name), [{}] * len(radii)) for name in methods}
     trained = {path.parent.name: path for path in weights}
     take_fields(methods, fields)
-    asked = {name: soft_method(name, trained.get(network)) for name, network in methods.items()}
-    timed = {name: method for name, method in asked.items() if method.answer}
-    taken = {name: np.zeros((len(frames), len(radii))) for name in timed}
+    opened = {name: soft_method(name, trained.get(network)) for name, network in methods.items()}
+    timed = {name: method for name, method in opened.items() if method.answer}
+    answer_ms = {name: np.zeros((len(frames), len(radii))) for name in timed}
     own = frames[0].frame.light_map.resolution
     sides = {name: method.resolution or own for name, method in timed.items()}
     maps: dict[int, list[float]] = {side: [] for side in sorted({own, *sides.values()})}
@@ -74,8 +73,8 @@ def time_soft_methods(
             frame = _prepared(measured.frame)
             shares.append(_share(frame))
             for side, times in maps.items():
-                seen = _prepared(frame.with_map_of(side))
-                work = partial(_rasterised, seen)
+                with_map = _prepared(frame.with_map_of(side))
+                work = partial(_rasterised, with_map)
                 times.append(shares[-1] * medians({"map": work}, repeats)["map"])
             for k in radii:
                 radius = measured.part.radii[k]
@@ -88,9 +87,11 @@ def time_soft_methods(
                 # path than that of all others. Cones through fields took five times as long at first.
                 for work in works.values() if k <= 1 else ():
                     work()
-                answered = medians(works, repeats)
-                for name, each in taken.items():
-                    each[number, k] = answered[name] if name in answered else each[number, k - 1]
+                milliseconds = medians(works, repeats)
+                for name, each in answer_ms.items():
+                    each[number, k] = (
+                        milliseconds[name] if name in milliseconds else each[number, k - 1]
+                    )
                 bar.update()
     write_json(
         times_json,
@@ -113,7 +114,7 @@ def time_soft_methods(
                     "texel_floats": timed[name].texel_floats,
                     "held_bytes": _held(timed[name], frames),
                 }
-                for name, each in taken.items()
+                for name, each in answer_ms.items()
             },
             **describe_origin(),
         },
@@ -121,7 +122,7 @@ def time_soft_methods(
 
 
 def _share(frame: SoftFrame) -> float:
-    """Of the whole frame's pixels, those that an image has: 1 unless it is a window of it."""
+    """An image's share of the whole frame's pixels. 1 unless it is a window of it."""
     surface, window = frame.surface, frame.surface.camera.window
     if window is None:
         return 1.0
@@ -129,13 +130,17 @@ def _share(frame: SoftFrame) -> float:
 
 
 def _held(method: SoftMethod, frames: Sequence[MeasuredFrame]) -> float:
-    """Median over frames of what a method keeps of the scene, in bytes."""
-    return float(np.median([method.held(one.frame) for one in frames])) if method.held else 0.0
+    """Median bytes kept of the scene, over frames."""
+    return (
+        float(np.median([method.held(measured.frame) for measured in frames]))
+        if method.held
+        else 0.0
+    )
 
 
 def _prepared(frame: SoftFrame) -> SoftFrame:
-    """The frame with what every method is given: points, normals, the map."""
-    for name in ("ways", "cosines", "bias", "starts", "depths"):
+    """The frame with points, normals and map computed."""
+    for name in ("from_light", "cosines", "bias", "starts", "depths"):
         getattr(frame, name)
     return frame
 
@@ -145,16 +150,16 @@ def _rasterised(frame: SoftFrame) -> np.ndarray:
 
 
 def medians(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
-    """Milliseconds of each call, which take turns; what takes long is called once."""
-    found: dict[str, list[float]] = {name: [] for name in works}
+    """Median milliseconds of each call, taking turns. Calls above `_LONG` run once."""
+    times: dict[str, list[float]] = {name: [] for name in works}
     for _ in range(repeats):
         for name, work in works.items():
-            if found[name] and found[name][0] > _LONG:
+            if times[name] and times[name][0] > _LONG:
                 continue
             started = time.perf_counter()
             work()
-            found[name].append(1000 * (time.perf_counter() - started))
-    return {name: float(np.median(each)) for name, each in found.items()}
+            times[name].append(1000 * (time.perf_counter() - started))
+    return {name: float(np.median(each)) for name, each in times.items()}
 
 
 if "snakemake" in globals():

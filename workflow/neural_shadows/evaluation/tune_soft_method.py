@@ -1,4 +1,4 @@
-"""The stage that chooses a soft-shadow method's constants, on validation frames alone."""
+"""Stage: a soft-shadow method's constants, from validation frames."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,35 +23,35 @@ def tune_soft_method(
     fields: list[Path] = (),
     method: str,
 ) -> None:
-    """Find the constants of least mean squared error for each radius of a frame set.
+    """Find the constants of least mean squared error, by radius.
 
-    One constant after another, the others as they were found, or the middle of what is tried: 6
-    settings of two constants with three values each, where all are 9.
+    One constant after another, the others at their best so far, or in the middle: 6 settings of two
+    constants with three values each, instead of all 9.
 
     Args:
         parts: of validation frames, of all scenes; meshes: see `measured_frames`.
-        fields: what `fit_fields` wrote, for a method that asks them.
+        fields: of `fit_fields`, for a method that needs them.
         constants_json: by radius in the set's order, `constants` and `mse`; with `tried`, and
-            `at_end`, the constants of which a better value may lie beyond those that were tried.
+            `at_end`, the constants whose best value may lie beyond the candidates.
 
     Raises:
         InputError: a part is damaged.
     """
     take_fields([method], fields)
-    asked = soft_method(method)
-    middle = {name: values[len(values) // 2] for name, values in asked.constants.items()}
+    tuned = soft_method(method)
+    middle = {name: values[len(values) // 2] for name, values in tuned.constants.items()}
     radii = len(FrameSetPart(parts[0]).radii)
-    found = [{"constants": middle, "mse": np.inf, "at_end": []} for _ in range(radii)]
-    for name, values in asked.constants.items():
-        tried = [[one["constants"] | {name: value} for value in values] for one in found]
-        errors = _errors(asked, tried, parts, meshes, f"tune {name} of {method}")
-        for one, settings, each in zip(found, tried, errors):
-            best = int(each.argmin())
-            one |= {"constants": settings[best], "mse": each[best]}
-            if _at_end(values, each, best):
-                one["at_end"] = [*one["at_end"], name]
-    tried = {name: list(values) for name, values in asked.constants.items()}
-    chosen = {"method": method, "tried": tried, "radii": found}
+    by_radius = [{"constants": middle, "mse": np.inf, "at_end": []} for _ in range(radii)]
+    for name, values in tuned.constants.items():
+        tried = [[best["constants"] | {name: value} for value in values] for best in by_radius]
+        errors = _errors(tuned, tried, parts, meshes, f"tune {name} of {method}")
+        for best, settings, mse in zip(by_radius, tried, errors):
+            least = int(mse.argmin())
+            best |= {"constants": settings[least], "mse": mse[least]}
+            if _at_end(values, mse, least):
+                best["at_end"] = [*best["at_end"], name]
+    tried = {name: list(values) for name, values in tuned.constants.items()}
+    chosen = {"method": method, "tried": tried, "radii": by_radius}
     write_json(constants_json, chosen | describe_origin())
 
 
@@ -62,34 +62,35 @@ def _errors(
     meshes: Sequence[Path],
     title: str,
 ) -> np.ndarray:
-    """Mean squared error off the geometry's edges, (radii, settings): what shadows are judged by.
+    """Mean squared error off the geometry's edges, (radii, settings).
 
     Args:
-        tried: the settings of each radius, as many for each.
+        tried: the settings of each radius, equally many.
     """
     squares, pixels = np.zeros((len(tried), len(tried[0]))), 0
     with progress_bar(sum(len(FrameSetPart(path)) for path in parts), "frames", title) as bar:
         for frame in measured_frames(parts, meshes):
-            target, measured = frame.target, frame.off_edges
-            if measured is None:
-                measured = frame.valid
-            pixels += measured.sum()
-            answers: dict[str, np.ndarray] = {}  # of a method that does not ask for the radius
+            target, mask = frame.target, frame.off_edges
+            if mask is None:
+                mask = frame.valid
+            pixels += mask.sum()
+            by_constants: dict[str, np.ndarray] = {}  # of a method independent of the radius
             for k, settings in enumerate(tried):
                 for number, constants in enumerate(settings):
-                    answer = answers.get(str(constants))
-                    if answer is None:
-                        answer = frame.answered(method, frame.part.radii[k], constants)
+                    image = by_constants.get(str(constants))
+                    if image is None:
+                        image = frame.answered(method, frame.part.radii[k], constants)
                     if not method.of_radius:
-                        answers[str(constants)] = answer
-                    squares[k, number] += np.square(answer - target[k])[measured].sum()
+                        by_constants[str(constants)] = image
+                    squares[k, number] += np.square(image - target[k])[mask].sum()
             bar.update()
     return squares / pixels
 
 
 def _at_end(values: Sequence[float], errors: np.ndarray, best: int) -> bool:
-    """Whether the best value is the first or last that was tried, and no bound of its own as 0 is,
-    if the one next to it is worse.
+    """Check for a best value at an end of the search.
+
+    If its neighbour is worse; a bound of its own, as 0 is, is no end.
     """
     if not values[best] or best not in (0, len(values) - 1):
         return False

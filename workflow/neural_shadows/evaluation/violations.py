@@ -1,4 +1,4 @@
-"""How often a network's depth breaks the bounds of its labels, and what shows of it [5.1]."""
+"""Violations of labels' bounds by a network's depth, and errors [5.1]."""
 
 from typing import NamedTuple
 
@@ -8,7 +8,7 @@ TOLERANCE = 1e-4  # sphere radii, a tenth of the shading offset: less is roundin
 
 
 class Violations(NamedTuple):
-    """Numbers of a frame's sphere rays, one for each shading point that a network is asked of.
+    """Counts over a frame's sphere rays, one a shading point.
 
     The thesis says that a violated lower bound always shows, as false shadow, and an upper one
     only where another surface lies between, as a light leak. False shadow can only be where a point
@@ -28,14 +28,15 @@ class Violations(NamedTuple):
 def count_violations(
     t: np.ndarray, t_lb: np.ndarray, t_ub: np.ndarray, lit: np.ndarray, truth: np.ndarray
 ) -> Violations:
-    """Compare depths t (k,), a depth bias among them, with the bounds of the same rays (k,).
+    """Compare depths t (k,) with bounds of the same rays.
+
+    t (k,) has its depth bias, bounds are (k,).
 
     Args:
         t_lb, t_ub: as `dual_bounds` gives them.
-        lit: (k,) bool, what the network says of the points; truth: (k,) the reference's
-            visibility of them.
+        lit: (k,) bool, the network's visibility of the points; truth: (k,) the reference's.
     """
     lower, upper = t < t_lb - TOLERANCE, t > t_ub + TOLERANCE
     bright, dark = lower & (truth == 1), upper & (truth == 0)
     counted = len(t), lower, bright, bright & ~lit, upper, dark, dark & lit
-    return Violations(*(int(np.sum(of)) for of in counted))
+    return Violations(*(int(np.sum(mask)) for mask in counted))

@@ -1,4 +1,4 @@
-"""What a method answered on each frame of a batch, on disk, so that any frame can be drawn later.
+"""A method's visibilities of a batch, on disk for figures.
 
 One npz file: of each frame by number, `NUMBER` (m,) uint8, the visibility of its m points on the
 lit side in steps of 1/255: fine enough for an 8-bit picture of PCF. A batch of 24 frames of
@@ -19,8 +19,8 @@ STEPS = 255
 
 
 def write_visibilities(path: Path, lit: Sequence[np.ndarray]) -> None:
-    """Write the visibility (m,) in [0, 1] of each frame's lit side, in the batch's order."""
-    steps = {str(i): np.round(STEPS * one).astype(np.uint8) for i, one in enumerate(lit)}
+    """Write visibilities (m,) of lit sides, in [0, 1], in order."""
+    steps = {str(i): np.round(STEPS * shares).astype(np.uint8) for i, shares in enumerate(lit)}
     with whole_file(path) as part:
         np.savez_compressed(part, **steps)
 
@@ -34,5 +34,5 @@ def read_visibility(path: Path, number: int, frame: GBuffer) -> np.ndarray:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return frame.visibility(arrays[str(number)] / np.float32(STEPS))
-    except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
-        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
+    except Exception as error:  # zipfile and zlib raise many kinds
+        raise InputError(f"{path}: damaged ({error}). Delete it and run again.") from error

@@ -1,1 +1,1 @@
-"""Files that are written whole or not at all, and read with a clear error."""
+"""Atomic writing of files, and reading with clear errors."""

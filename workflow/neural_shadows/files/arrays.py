@@ -1,4 +1,4 @@
-"""Arrays on disk that may be larger than memory: `.npy` files, memory-mapped."""
+"""Memory-mapped `.npy` arrays, possibly larger than memory."""
 
 import os
 from collections.abc import Iterator
@@ -13,11 +13,11 @@ from neural_shadows.files.whole_files import whole_file
 
 @contextmanager
 def new_array(path: Path, shape: tuple[int, ...], dtype: type = np.float32) -> Iterator[np.ndarray]:
-    """A new file to be filled; whole or not at all."""
+    """New array to be filled; written whole or not at all."""
     with whole_file(path) as part:
         array = np.lib.format.open_memmap(part, mode="w+", dtype=dtype, shape=shape)
         if hasattr(os, "posix_fallocate"):
-            # A full disk is an error here; found when a page is written, it kills the process.
+            # A full disk raises an error here; while writing a page it would kill the process.
             with part.open("rb+") as file:
                 os.posix_fallocate(file.fileno(), 0, part.stat().st_size)
         yield array
@@ -25,21 +25,21 @@ def new_array(path: Path, shape: tuple[int, ...], dtype: type = np.float32) -> I
 
 
 def open_array(path: Path, shape: tuple[int | None, ...], dtype: type = np.float32) -> np.ndarray:
-    """A file to be read; `None` in `shape` is any length.
+    """Open an array for reading; `None` in `shape` is any length.
 
     Raises:
-        InputError: it is missing, damaged, or of another type or shape.
+        InputError: the file is missing, damaged, or of another type or shape.
     """
     try:
-        array = np.lib.format.open_memmap(path, mode="r")  # which refuses pickles
+        array = np.lib.format.open_memmap(path, mode="r")  # never reads pickles
     except (OSError, ValueError) as error:
-        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
+        raise InputError(f"{path}: damaged ({error}). Delete it and run again") from error
     fits = len(array.shape) == len(shape) and all(
-        wanted in (None, length) for length, wanted in zip(array.shape, shape, strict=True)
+        expected in (None, length) for length, expected in zip(array.shape, shape, strict=True)
     )
     if array.dtype != dtype or not fits:
         raise InputError(
-            f"{path}: holds {array.dtype} {array.shape} where {np.dtype(dtype)} {shape} belongs "
-            "(None: any length); delete it and run again"
+            f"{path}: is {array.dtype} {array.shape}, not {np.dtype(dtype)} {shape} "
+            "(None: any length). Delete it and run again"
         )
     return np.asarray(array)  # a plain view of the mapping: numba takes no memmap

@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all, and their digests."""
+"""Atomic writing of files, and their digests."""
 
 import hashlib
 import io
@@ -16,12 +16,11 @@ from neural_shadows.errors import InputError
 
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`; rename it to `path` when the block ends.
+    """Yield a temporary path, renamed to `path` after the block.
 
-    If the block raises, the temporary file is removed and an older `path` is left as it was. What
-    a killed process left is overwritten by the next one, since the temporary name is always the
-    same: of one file there is one writer, the job that Snakemake runs. The suffix of `path` is
-    kept, since many writers choose their format by it.
+    If the block raises, the temporary file is removed and an older `path` stays unchanged. The
+    temporary name is fixed, since each file has one writer, a job of Snakemake: leftovers of a killed
+    process are overwritten. It has the suffix of `path`, by which many writers choose their format.
 
     Raises:
         OSError: the folder cannot be written, or the disk is full.
@@ -33,7 +32,7 @@ def whole_file(path: str | Path) -> Iterator[Path]:
         yield part
         os.replace(part, path)
     except OSError as error:
-        if error.errno and error.filename is None:  # a full disk: the write knows no name
+        if error.errno and error.filename is None:  # a full disk: the error has no name
             error.filename = str(path)
         raise
     finally:
@@ -62,7 +61,7 @@ def read_json(path: str | Path) -> Any:
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error})") from error
     except ValueError as error:
-        raise InputError(f"{path}: damaged ({error}); delete it and run again") from error
+        raise InputError(f"{path}: damaged ({error}). Delete it and run again") from error
 
 
 def write_array(path: str | Path, array: np.ndarray) -> None:
@@ -70,11 +69,11 @@ def write_array(path: str | Path, array: np.ndarray) -> None:
     content = io.BytesIO()
     np.save(content, array, allow_pickle=False)
     with whole_file(path) as part:
-        # Not by numpy's own writer, whose error on a full disk does not say so.
+        # numpy's own writer has an unclear error on a full disk.
         part.write_bytes(content.getbuffer())
 
 
 def sha256_of(path: str | Path) -> str:
-    """Hexadecimal SHA-256 of a file's content."""
+    """Hexadecimal SHA-256 of a file."""
     with Path(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

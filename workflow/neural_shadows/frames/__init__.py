@@ -1,1 +1,1 @@
-"""Frames that screen-space networks learn from: what a camera and a light's map see, and targets."""
+"""Frames for screen-space networks: buffers, light maps and exact soft shadows."""

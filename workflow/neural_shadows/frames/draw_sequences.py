@@ -1,4 +1,4 @@
-"""Settings of consecutive frames: camera, light, both or an object move a little from each to the next."""
+"""Settings of consecutive frames with small motions between them."""
 
 from collections import Counter
 from dataclasses import replace
@@ -25,19 +25,24 @@ _DRAWS = 50
 def draw_sequence(
     scene: SoftScene, kind: FrameKind, what: str, frames: int, rng: np.random.Generator
 ) -> list[Setting]:
-    """Consecutive settings in which `camera`, `light`, `both` or the scene's mover (`object`) moves.
+    """Draw consecutive settings with a moving camera, light or object.
+
+    Args:
+        what: moves: `camera`, `light`, `both`, or `object`, the scene's mover.
 
     Raises:
-        InputError: of 50 paths none keeps clear of objects and in the light's map; says why.
+        InputError: none of 50 paths keeps clear of objects and in the light's map, with the reasons.
     """
-    why: Counter[str] = Counter()
+    reasons: Counter[str] = Counter()
     for _ in range(_DRAWS):
         settings = _along(scene, draw_setting(scene, kind, rng), what, frames, rng)
-        wrong = [why_unusable(scene, scene.moved(one.motion), kind, one) for one in settings]
-        if not any(wrong):
+        faults = [
+            why_unusable(scene, scene.moved(setting.motion), kind, setting) for setting in settings
+        ]
+        if not any(faults):
             return settings
-        why.update({*filter(None, wrong)})
-    raise none_usable(scene, f"{_DRAWS} paths ({what})", why)
+        reasons.update({*filter(None, faults)})
+    raise none_usable(scene, f"{_DRAWS} paths ({what})", reasons)
 
 
 def _along(
@@ -53,12 +58,12 @@ def _along(
         settings.append(replace(start, camera=camera, centre=start.centre + light[k]))
     if what == "object":
         motions = _motions(scene, _path(length, frames, rng) * (1, 0, 1))
-        settings = [replace(one, motion=each) for one, each in zip(settings, motions)]
+        settings = [replace(setting, motion=motion) for setting, motion in zip(settings, motions)]
     return settings
 
 
 def _path(length: float, frames: int, rng: np.random.Generator) -> np.ndarray:
-    """A smooth way from 0 of about a length, (frames, 3): a spline through a few turns."""
+    """A smooth path from 0 of about a length, (frames, 3): a spline."""
     turns = rng.normal(size=(_KNOTS - 1, 3)) * (1, 0.3, 1)  # mostly level
     turns[1:] = turns[:-1] + 0.5 * turns[1:]
     turns *= length / (_KNOTS - 1) / np.linalg.norm(turns, axis=1, keepdims=True)
@@ -66,15 +71,15 @@ def _path(length: float, frames: int, rng: np.random.Generator) -> np.ndarray:
     return CubicSpline(np.linspace(0, 1, _KNOTS), knots)(np.linspace(0, 1, frames))
 
 
-def _motions(scene: SoftScene, way: np.ndarray) -> list[np.ndarray]:
-    """Along a way (frames, 3) the mover turns about the vertical through its middle."""
+def _motions(scene: SoftScene, path: np.ndarray) -> list[np.ndarray]:
+    """Turn the mover about its vertical axis along a path (frames, 3)."""
     arrangement = scene.arrangement
     (vertices,) = [o.vertices for o in arrangement.objects if o.name == arrangement.mover]
     middle = (vertices.min(0) + vertices.max(0)) / 2
     motions = []
-    for k, along in enumerate(way):
+    for k, offset in enumerate(path):
         motion = np.eye(4)
         motion[:3, :3] = Rotation.from_euler("y", _TURN * k, degrees=True).as_matrix()
-        motion[:3, 3] = middle - motion[:3, :3] @ middle + along
+        motion[:3, 3] = middle - motion[:3, :3] @ middle + offset
         motions.append(motion)
     return motions

@@ -1,4 +1,4 @@
-"""Cameras and lights of frames, drawn so that there is something to see [Hu et al. 2025, 4]."""
+"""Random cameras and lights of frames with shadows [Hu et al. 2025, 4]."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -25,7 +25,7 @@ _PREVIEW = 64  # pixels along a frame's longer side
 
 @dataclass(frozen=True)
 class FrameKind:
-    """What all frames of a set have in common.
+    """Properties common to all frames of a set.
 
     Args:
         width, height: in pixels; fov: vertical, in degrees, of the whole frame.
@@ -48,41 +48,43 @@ def light_map_of(
     centre: np.ndarray,
     aimed_from: np.ndarray | None = None,
 ) -> LightMap:
-    """The map of a light at a place; a perspective one looks at the middle of what cameras see.
+    """Make the map of a light at a place.
+
+    A perspective map looks at the middle of the cameras' targets.
 
     Args:
-        aimed_from: where the light would look there from, if not from its centre.
+        aimed_from: the point that it aims from, if not its centre.
     """
     if settings["kind"] == "cube":
         return cube_map(centre, settings["resolution"])
-    looked_at = scene.arrangement.targets
-    forward = (looked_at.low + looked_at.high) / 2 - (centre if aimed_from is None else aimed_from)
+    targets = scene.arrangement.targets
+    forward = (targets.low + targets.high) / 2 - (centre if aimed_from is None else aimed_from)
     return perspective_map(centre, forward, settings["fov"], settings["resolution"])
 
 
 def draw_setting(scene: SoftScene, kind: FrameKind, rng: np.random.Generator) -> Setting:
-    """A camera and a light, both clear of objects, of which one sees a shadow of the other.
+    """Draw a camera and a light, both clear of objects, with shadows.
 
     Raises:
-        InputError: none of 500 draws is such; says why they were not.
+        InputError: none of 500 draws can be used, with the reasons.
     """
-    why: Counter[str] = Counter()
+    reasons: Counter[str] = Counter()
     opened = scene.at_rest
     for _ in range(_DRAWS):
         setting = _drawn(scene, kind, rng)
-        wrong = why_unusable(scene, opened, kind, setting)
-        if wrong is None:
+        fault = why_unusable(scene, opened, kind, setting)
+        if fault is None:
             return setting
-        why[wrong] += 1
-    raise none_usable(scene, f"{_DRAWS} draws of a camera and a light", why)
+        reasons[fault] += 1
+    raise none_usable(scene, f"{_DRAWS} draws of a camera and a light", reasons)
 
 
-def none_usable(scene: SoftScene, draws: str, why: Counter[str]) -> InputError:
-    """The error that nothing drawn for a scene can be used, with how often each reason was why."""
-    told = ", ".join(f"{wrong} ({count})" for wrong, count in why.most_common())
+def none_usable(scene: SoftScene, draws: str, reasons: Counter[str]) -> InputError:
+    """The error of a scene without usable draws, with counted reasons."""
+    counts = ", ".join(f"{fault} ({count})" for fault, count in reasons.most_common())
     return InputError(
-        f"{scene.arrangement.name}: none of {draws} can be used: {told}; change its regions, or the "
-        "frame set's light map"
+        f"{scene.arrangement.name}: none of {draws} can be used: {counts}. Change its regions "
+        "or the frame set's light map."
     )
 
 
@@ -94,8 +96,8 @@ def _drawn(scene: SoftScene, kind: FrameKind, rng: np.random.Generator) -> Setti
     )
     window = None
     if kind.of is not None:
-        places = [rng.integers(0, whole - part + 1) for whole, part in _sides(kind)]
-        window = Window(*kind.of, *map(int, places))
+        corner = [rng.integers(0, whole - part + 1) for whole, part in _sides(kind)]
+        window = Window(*kind.of, *map(int, corner))
     return Setting(Camera(eye, target, UP, kind.fov, window), centre, np.eye(4))
 
 
@@ -104,10 +106,10 @@ def _sides(kind: FrameKind):
 
 
 def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Setting) -> str | None:
-    """Why a setting cannot be used; None if it can.
+    """The reason against a setting; None if it can be used.
 
     Args:
-        opened: the scene with its mover where the setting has it.
+        opened: the scene with its mover as in the setting.
     """
     if not is_clear(opened, setting.camera.eye, EYE_CLEARANCE * opened.size):
         return "the camera is in an object or near one"
@@ -117,18 +119,18 @@ def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Sett
     if len(surface.p) < 0.5 * surface.width * surface.height:
         return "the camera sees little"
     light_map = light_map_of(kind.light_map, scene, setting.centre)
-    ways = setting.centre - surface.p
-    if np.mean(light_map.texels_of(-ways) >= 0) < IN_MAP:
-        return "what is seen lies outside the light's map"
+    to_light = setting.centre - surface.p
+    if np.mean(light_map.texels_of(-to_light) >= 0) < IN_MAP:
+        return "visible points lie outside the light's map"
     start = surface.p + np.float32(OFFSET * opened.size) * surface.n_g
-    lit = ~opened.tracer.blocked(start, ways.astype(np.float32))
-    lit &= np.einsum("ij,ij->i", surface.n_g, ways) > 0
+    lit = ~opened.tracer.blocked(start, to_light.astype(np.float32))
+    lit &= np.einsum("ij,ij->i", surface.n_g, to_light) > 0
     least, most = scene.arrangement.lit
-    return None if least <= lit.mean() <= most else "nearly all is lit, or all dark"
+    return None if least <= lit.mean() <= most else "nearly all pixels are lit, or all dark"
 
 
 def preview(opened: Scene, kind: FrameKind, setting: Setting) -> Surface:
-    """What a frame shows, in few pixels."""
+    """Trace a frame's surface at low resolution."""
     camera, scale = setting.camera, _PREVIEW / max(kind.width, kind.height)
     width, height = (max(1, round(side * scale)) for side in (kind.width, kind.height))
     if camera.window is not None:
@@ -138,13 +140,13 @@ def preview(opened: Scene, kind: FrameKind, setting: Setting) -> Surface:
 
 
 def is_clear(scene: Scene, place: np.ndarray, distance: float) -> bool:
-    """Whether no object is nearer to a place than a distance, or round it, by 64 rays."""
+    """Test a place's clearance from objects by 64 rays; False also inside one."""
     k = np.arange(64) + 0.5
     height, angle = 1 - 2 * k / 64, np.pi * (1 + 5**0.5) * k
     across = np.sqrt(1 - height**2)
-    ways = np.stack([across * np.cos(angle), height, across * np.sin(angle)], axis=1)
-    ways = ways.astype(np.float32)
-    t, face = scene.tracer.first_hit(np.tile(place.astype(np.float32), (64, 1)), ways)
-    away = np.einsum("ij,ij->i", scene.joined.face_normals[face], ways) > 0
-    inside = np.mean(away & (face >= 0)) > 0.5  # most of what is round it shows its inner side
+    directions = np.stack([across * np.cos(angle), height, across * np.sin(angle)], axis=1)
+    directions = directions.astype(np.float32)
+    t, face = scene.tracer.first_hit(np.tile(place.astype(np.float32), (64, 1)), directions)
+    inner_side = np.einsum("ij,ij->i", scene.joined.face_normals[face], directions) > 0
+    inside = np.mean(inner_side & (face >= 0)) > 0.5
     return bool(t.min() >= distance and not inside)

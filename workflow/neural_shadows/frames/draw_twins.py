@@ -1,4 +1,4 @@
-"""Twins: a frame with light and camera a little elsewhere, on which a flicker is trained away."""
+"""Perturbed frames: light and camera moved a little, for temporal losses."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -19,34 +19,33 @@ def twin_of(
     amplitudes: Mapping[str, Any],
     rng: np.random.Generator,
 ) -> Setting:
-    """A setting near another.
+    """Perturb a setting.
 
     Args:
         amplitudes: either `light` and `eye`, how far each coordinate moves at most, in shares of the
             scene's size, and `turn_deg`, how far the view turns about each axis (Hu et al. 2025);
             or those of `reach` (Datta et al. 2022, 3.3), and the view does not turn.
     """
-    camera, ways = setting.camera, setting.camera.target - setting.camera.eye
+    camera, view = setting.camera, setting.camera.target - setting.camera.eye
     if "light_texels" in amplitudes:
         light, eye = (radius * _in_ball(rng) for radius in reach(scene, kind, setting, amplitudes))
     else:
         size = scene.at_rest.size
         eye = size * amplitudes["eye"] * rng.uniform(-1, 1, 3)
         turn = Rotation.from_rotvec(amplitudes["turn_deg"] * rng.uniform(-1, 1, 3), degrees=True)
-        ways = turn.apply(ways)
+        view = turn.apply(view)
         light = size * amplitudes["light"] * rng.uniform(-1, 1, 3)
     eye = camera.eye + eye
-    moved = replace(camera, eye=eye, target=eye + ways)
+    moved = replace(camera, eye=eye, target=eye + view)
     return replace(setting, camera=moved, centre=setting.centre + light)
 
 
 def reach(
     scene: SoftScene, kind: FrameKind, setting: Setting, amplitudes: Mapping[str, float]
 ) -> tuple[float, float]:
-    """How far light and eye of a twin move at most, in metres.
+    """Largest motions of a perturbed frame's light and eye, in metres.
 
-    So far that a point is looked up in another texel and seen in the same pixel: pixels of twins are
-    compared as they lie.
+    They change a point's texel but not its pixel: perturbed frames are compared pixel by pixel.
 
     Args:
         amplitudes: `light_texels` at the frame's median distance from the light, and `light_radii`
@@ -65,6 +64,6 @@ def reach(
 
 
 def _in_ball(rng: np.random.Generator) -> np.ndarray:
-    """A place in the unit ball, (3,) float64, uniform."""
-    way = rng.normal(size=3)
-    return way / np.linalg.norm(way) * rng.uniform() ** (1 / 3)
+    """A uniform point in the unit ball, (3,) float64."""
+    direction = rng.normal(size=3)
+    return direction / np.linalg.norm(direction) * rng.uniform() ** (1 / 3)

@@ -1,14 +1,14 @@
-"""What an engine's frame is made of, and where each image of it lies: the files of Hu et al. 2025.
+"""Channels and image files of engine frames, after Hu et al. 2025.
 
 Images are named `FILE:CHANNEL`, see `files.frame_images`. Those of the paper's authors are in world
-units and half floats; nothing is seen where z is 0.
+units and half floats; z is 0 where there is no surface.
 
-- `z`, `d`: distances to the point from the light and from the eye; `z_b`: from the light to what its
-  map shows in the point's direction, at most z in theirs;
-- `c_e`, `c_v`: cosines of the normal with the ways to light and eye;
+- `z`, `d`: distances to the point from the light and from the eye; `z_b`: from the light to its
+  map's surface in the point's direction, at most z in theirs;
+- `c_e`, `c_v`: cosines of the normal with the directions to light and eye;
 - `hard`, `pcf`, `msm`: base shadows, 1 is lit;
 - `n_x`, `n_y`, `n_z`: the normal in world axes, on the eye's side, as those of the cosines;
-- `agreement`, `e_x`, `e_y`, `e_z`: of the normal that the light's map shows, which theirs does not.
+- `agreement`, `e_x`, `e_y`, `e_z`: of the map's normal, which theirs lacks.
 """
 
 CHANNEL_IMAGES: dict[str, str | None] = {

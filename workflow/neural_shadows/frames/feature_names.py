@@ -1,20 +1,20 @@
-"""The channels that a screen-space network may be given, by name, and how many each has."""
+"""Input features of screen-space networks and their channel counts."""
 
 from collections.abc import Sequence
 
-# Datta et al. 2022 (3.1, 3.2), 15 in all: cosine with the way to the light, and the light's size;
-# cosine with the way to the eye over the distance from it; shadow map's depth over the point's
-# distance from the light, and their difference; cosine between the point's normal and the one that
-# the light sees; depth along the camera's axis; normal; the map's depth and normal; distance from the
-# light; cosine with the way to the eye.
+# Datta et al. 2022 (3.1, 3.2), 15 in all: cosine with the direction to the light, and the light's
+# size; cosine with the direction to the eye over the distance from it; shadow map's depth over the
+# point's distance from the light, and their difference; cosine between the point's normal and the
+# map's; depth along the camera's axis; normal; the map's depth and normal; distance from the light;
+# cosine with the direction to the eye.
 NSM_FEATURES = {
     **{"c_e": 1, "view": 1, "ratio": 1, "difference": 1, "agreement": 1, "d": 1},
     **{"n": 3, "z": 1, "n_e": 3, "z_f": 1, "c_c": 1},
 }
-# Shadows that networks of kernels filter: by the map's texel, by 2 × 2 of them, by moments.
+# Base shadows of kernel-predicting networks: by the map's texel, by 2 × 2 of them, by moments.
 BASES = ("base_hard", "base_pcf", "base_msm")
-# Hu et al. 2025 (4.1; z is the former's `z_f`): cosine with the way to the light, of either sign; that
-# with the way to the eye over the distance from it; width of the penumbra in the frame, the same
+# Hu et al. 2025 (4.1; z is the former's `z_f`): cosine with the direction to the light, of either sign; that
+# with the direction to the eye over the distance from it; width of the penumbra in the frame, the same
 # without regard to slant; distance behind the blocker, its distance from the light over the point's
 # and alone; the light's radius.
 KPNSM_FEATURES = dict.fromkeys(
@@ -28,20 +28,20 @@ FEATURES = NSM_FEATURES | KPNSM_FEATURES
 
 
 def channels_of(features: Sequence[str]) -> int:
-    """Channels of some features together."""
+    """Total number of channels of features."""
     return sum(FEATURES[name] for name in features)
 
 
 def base_of(features: Sequence[str]) -> str:
-    """The feature that a network of kernels filters.
+    """Find the base feature of a kernel-predicting network.
 
     Raises:
         ValueError: there is none, or more than one.
     """
-    found = [name for name in features if name in BASES]
-    if len(found) != 1:
+    bases = [name for name in features if name in BASES]
+    if len(bases) != 1:
         raise ValueError(
             f"kernels filter one of the features {', '.join(BASES)}; there is "
-            f"{' and '.join(found) or 'none'}"
+            f"{' and '.join(bases) or 'none'}"
         )
-    return found[0]
+    return bases[0]

@@ -1,8 +1,8 @@
-"""What screen-space networks and methods are told of a pixel: pure functions of buffers.
+"""Per-pixel features of screen-space networks: pure functions of buffers.
 
 Symbols are the papers': z the distance from the light to the point seen, z_b (NSM's z) that to the
 first surface in the map's texel, d the distance from the eye, c_e and c_v (NSM's c_c) the cosines of
-the normal with the ways to light and eye. All are images (H, W) float32; lengths are in shares of
+the normal with the directions to light and eye. All are images (H, W) float32; lengths are in shares of
 the scene's size S before they come here. Datta et al. 2022 (3.1), Hu et al. 2025 (4.1) and its code.
 """
 
@@ -38,25 +38,25 @@ _MADE_OF = {
 
 
 def buffers_of(names: Sequence[str]) -> list[str]:
-    """The buffers that features are made of, each once.
+    """List the buffers of features, each once.
 
     Raises:
         InputError: there is no such feature.
     """
     for name in names:
         if name not in FEATURES:
-            raise InputError(f"{name!r} is no feature; use some of {', '.join(FEATURES)}")
+            raise InputError(f"{name!r} is not a feature. Use {', '.join(FEATURES)}.")
     return list(dict.fromkeys(buffer for name in names for buffer in _MADE_OF[name]))
 
 
 def named_features(
     names: Sequence[str], buffers: Mapping[str, np.ndarray], lens: Lens, light: LightSize
 ) -> np.ndarray:
-    """Features, (C, H, W) float32 in the order of their names, see `FEATURES`.
+    """Compute features, (C, H, W) float32 in their order, see `FEATURES`.
 
     Those of Kernel Predicting Neural Shadow Maps are as `kernel_feature` has them. Of Neural Shadow
     Mapping's the light's step is added to all of `c_e`, pixels without a surface included, which have 0
-    elsewhere; c_e is cut off at 0 before, so that a whole step can be told from it. `view`, `ratio` and
+    elsewhere; c_e is cut off at 0 before, so that a whole step is distinguishable. `view`, `ratio` and
     `difference` are clipped where silhouettes and points close by would make them large.
 
     `ratio` − 1 and `difference` are signed logarithms, where the paper has them as they are: most of a
@@ -69,9 +69,9 @@ def named_features(
         lens: of the camera, for the same pixels.
 
     Raises:
-        InputError: there is no such feature, or the buffers lack a channel that one is made of.
+        InputError: there is no such feature, or the buffers lack a channel.
     """
-    if lacking := [one for one in buffers_of(names) if one not in buffers]:
+    if lacking := [buffer for buffer in buffers_of(names) if buffer not in buffers]:
         raise InputError(f"the features {', '.join(names)} need the buffer {', '.join(lacking)}")
     images = [image for name in names for image in _feature(name, buffers, lens, light)]
     return np.stack(images).astype(np.float32)
@@ -82,21 +82,21 @@ def _feature(
 ) -> list[np.ndarray]:
     if name in KPNSM_FEATURES:
         return [kernel_feature(name, buffers, lens, light)]
-    of = [buffers[one] for one in _MADE_OF[name]]
+    images = [buffers[buffer] for buffer in _MADE_OF[name]]
     if name == "c_e":
-        return [(np.clip(of[0], 0, 1) + light.step) / (LARGEST_STEP + 1)]
+        return [(np.clip(images[0], 0, 1) + light.step) / (LARGEST_STEP + 1)]
     if name == "view":
-        return [np.clip(of[0] / np.maximum(of[1] * lens.axis, NEAREST), 0, 10)]
+        return [np.clip(images[0] / np.maximum(images[1] * lens.axis, NEAREST), 0, 10)]
     if name == "ratio":
-        beyond = of[1] / np.maximum(of[0], 1e-6)  # z / z_f − 1
+        beyond = images[1] / np.maximum(images[0], 1e-6)  # z / z_f − 1
         return [signed_log(RATIO_SCALE * np.clip(beyond, -1, 1))]
     if name == "difference":
-        return [signed_log(DIFFERENCE_SCALE * np.clip(of[0], -2, 2))]
+        return [signed_log(DIFFERENCE_SCALE * np.clip(images[0], -2, 2))]
     if name == "d":
-        return [of[0] * lens.axis]
-    return [of[0] + of[1]] if name == "z" else of
+        return [images[0] * lens.axis]
+    return [images[0] + images[1]] if name == "z" else images
 
 
 def signed_log(x: np.ndarray) -> np.ndarray:
-    """sign(x) log(1 + |x|): as x is near 0, as its logarithm is far from it."""
+    """sign(x) log(1 + |x|): about x near 0, logarithmic far from it."""
     return np.copysign(np.log1p(np.abs(x)), x)

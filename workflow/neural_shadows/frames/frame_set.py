@@ -1,17 +1,17 @@
-"""A part of a frame set on disk: settings, buffers, targets, and which pixels count.
+"""A part of a frame set on disk: settings, buffers, targets, masks.
 
-Of F frames with T twins each, C channels, K radii:
+Of F frames with T perturbed frames each, C channels, K radii:
 
-- `NAME.json`: the settings of each frame and of its twins; `channels`, `radii` (metres), the scene's
+- `NAME.json`: the settings of each frame and its perturbed frames; `channels`, `radii` (metres), the scene's
   `size` (metres), how it was drawn (`seed`), and units;
-- `NAME.buffers.npy`: (F, 1 + T, C, H, W) float16, of a frame and of its twins, see `buffers`;
+- `NAME.buffers.npy`: (F, 1 + T, C, H, W) float16, of a frame and its perturbed frames, see `buffers`;
 - `NAME.targets.npy`: (F, K, H, W) float16, the exact soft shadow of the frame itself;
-- `NAME.valid.npy`: (F, 1 + T, H, W) bool, whether a pixel shows a surface inside the light's map;
-- `NAME.edges.npy`: (F, H, W) bool, whether a pixel of the frame itself is at an edge of the geometry,
-  see `geometry_edges`.
+- `NAME.valid.npy`: (F, 1 + T, H, W) bool, pixels with a surface inside the light's map;
+- `NAME.edges.npy`: (F, H, W) bool, pixels of the frame itself at edges of the geometry, see
+  `geometry_edges`.
 
-A frame set of a user's own has the same files; of `channels` it may have some, and of an engine's
-frames no targets (`targets` is false, K 0), no edges, and of their setting only the camera's lens.
+A user's frame set has the same files; it may lack some of `channels`, and an engine's frames have
+no targets (`targets` is false, K 0), no edges, and only the camera's lens as their setting.
 """
 
 from collections.abc import Mapping
@@ -39,7 +39,7 @@ UNITS = (
 
 @dataclass(frozen=True)
 class FrameSetPart:
-    """A part that is opened: nothing of its arrays is read before it is asked for.
+    """An opened part, with arrays read on first use.
 
     Args:
         frames_json: its JSON; the arrays lie beside it.
@@ -49,34 +49,34 @@ class FrameSetPart:
 
     @cached_property
     def about(self) -> Mapping[str, Any]:
-        """What the JSON says.
+        """The part's JSON.
 
         Raises:
             InputError: it cannot be read, or lacks a key.
         """
-        found = read_json(self.frames_json)
+        about = read_json(self.frames_json)
         for key in ("frames", "channels", "radii", "size", "width", "height"):
-            if key not in found:
+            if key not in about:
                 raise InputError(f"{self.frames_json}: has no {key!r}")
-        for number, frame in enumerate(found["frames"]):
+        for number, frame in enumerate(about["frames"]):
             if "twins" not in frame:
                 raise InputError(f"{self.frames_json}: frame {number} has no 'twins'")
-        channels = found["channels"]
+        channels = about["channels"]
         if len(set(channels)) < len(channels) or not {"z"} <= {*channels} <= {*CHANNELS}:
             raise InputError(
                 f"{self.frames_json}: channels {', '.join(channels)}; should be z and others of "
-                f"{', '.join(CHANNELS)}"
+                f"{', '.join(CHANNELS)}."
             )
-        if any(radius < 0 for radius in found["radii"]) or found["size"] <= 0:
+        if any(radius < 0 for radius in about["radii"]) or about["size"] <= 0:
             raise InputError(f"{self.frames_json}: a radius below 0, or a size that is not above 0")
-        return found
+        return about
 
     def __len__(self) -> int:
         return len(self.about["frames"])
 
     @property
     def radii(self) -> list[float]:
-        """Of the lights, in metres."""
+        """Radii of the lights, in metres."""
         return list(self.about["radii"])
 
     def setting(self, number: int) -> Setting:
@@ -84,10 +84,10 @@ class FrameSetPart:
         return setting_of(self.about["frames"][number]["setting"])
 
     def lens(self, number: int) -> Lens:
-        """Of a frame's camera and its twins', wherever they stand.
+        """The lens of a frame's camera, its perturbed frames' too.
 
         Raises:
-            InputError: the frame does not say what it is.
+            InputError: the frame has no lens.
         """
         about = self.about
         setting = about["frames"][number].get("setting", {})
@@ -102,7 +102,7 @@ class FrameSetPart:
         return lens_of(camera, about["width"], about["height"])
 
     def twin_setting(self, number: int, twin: int) -> Setting:
-        """That of a frame's twin, counted from 0."""
+        """The setting of a frame's perturbed frame, counted from 0."""
         return setting_of(self.about["frames"][number]["twins"][twin])
 
     @cached_property
@@ -112,26 +112,26 @@ class FrameSetPart:
         return self._open("buffers", np.float16, 1 + twins, len(self.about["channels"]))
 
     def image(self, number: int, channel: str, version: int = 0, window=(slice(None),) * 2):
-        """A channel of a frame (version 0) or a twin, (h, w) float32.
+        """A channel of a frame (version 0) or perturbed frame, (h, w) float32.
 
         Raises:
-            InputError: the part does not have it.
+            InputError: the part lacks it.
         """
         channels = list(self.about["channels"])
         if channel not in channels:
             raise InputError(
-                f"{self.source}: has no {channel}, which is asked for; there is {', '.join(channels)}"
+                f"{self.source}: has no channel {channel}, only {', '.join(channels)}."
             )
         return np.float32(self.buffers[number, version, channels.index(channel)][window])
 
     @property
     def source(self) -> str:
-        """What the user knows it by: the folder of an engine's frame, or the part's JSON."""
+        """The part's origin: an engine frame's folder, or its JSON."""
         return self.about.get("source", str(self.frames_json))
 
     @property
     def has_targets(self) -> bool:
-        """Whether there are exact soft shadows to measure against."""
+        """True with exact soft shadows."""
         return self.about.get("targets", True)
 
     @cached_property
@@ -146,7 +146,7 @@ class FrameSetPart:
 
     @cached_property
     def edges(self) -> np.ndarray | None:
-        """(F, H, W) bool; None of a user's own frames, whose geometry is not at hand."""
+        """(F, H, W) bool; None for a user's frames."""
         return self._open("edges", np.bool_) if self.about.get("edges") else None
 
     def _open(self, stem: str, kind: type, *inner: int) -> np.ndarray:
@@ -156,10 +156,10 @@ class FrameSetPart:
 
 
 def check_values(part: FrameSetPart) -> None:
-    """Check the arrays of a part that a user brings.
+    """Check the arrays of a user's part.
 
     Raises:
-        InputError: a value is no number, a visibility is not from 0 to 1, or no pixel counts.
+        InputError: NaN or infinity, a visibility outside [0, 1], or no valid pixel.
     """
     bases = {name: at for at, name in enumerate(part.about["channels"]) if name in LIT}
     for number in range(len(part)):

@@ -1,4 +1,4 @@
-"""The stage that brings an engine's frame into a part of a frame set, of that frame alone."""
+"""Stage: import an engine's frame as a part of a frame set."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -25,7 +25,7 @@ def import_frame(
     channels: Mapping[str, str | None],
     targets: Sequence[str],
 ) -> None:
-    """Write a frame as `FrameSetPart` has it; lengths in the engine's unit instead of metres.
+    """Write a frame as a `FrameSetPart`, lengths in the engine's unit.
 
     Args:
         files: of the frame's folder.
@@ -39,19 +39,19 @@ def import_frame(
     """
     folder = files[0].parent
     images = FrameImages(folder)
-    found = engine_frame(images, channels, targets, size)
-    height, width = found.valid.shape
-    buffers = np.stack([*found.buffers.values()])
+    frame = engine_frame(images, channels, targets, size)
+    height, width = frame.valid.shape
+    buffers = np.stack([*frame.buffers.values()])
     write_array(buffers_npy, buffers[None, None].astype(np.float16))
-    write_array(targets_npy, found.targets[None].astype(np.float16))
-    write_array(valid_npy, found.valid[None, None])
+    write_array(targets_npy, frame.targets[None].astype(np.float16))
+    write_array(valid_npy, frame.valid[None, None])
     unit = {"metres": 1.0, "scene_sizes": size}[radius_unit]
     setting = {"fov_deg": fov, "window": None}
     about = {"use": "test", "source": str(folder), "form": images.form}
     about |= {"width": width, "height": height, "size": size}
     about |= {"radii": [unit * radius for radius in radii]}
     about |= {"given_radii": [*radii], "radius_unit": radius_unit}
-    about |= {"targets": bool(len(found.targets)), "channels": [*found.buffers]}
+    about |= {"targets": bool(len(frame.targets)), "channels": [*frame.buffers]}
     write_json(frames_json, about | {"frames": [{"setting": setting, "twins": []}]})
 
 

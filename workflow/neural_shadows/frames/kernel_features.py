@@ -1,4 +1,4 @@
-"""The planes of Kernel Predicting Neural Shadow Maps (Hu et al. 2025, 4.1, 6.2.5), and its code's.
+"""Features of Kernel Predicting Neural Shadow Maps (Hu et al. 2025, 4.1, 6.2.5).
 
 Its inputs, in the order of its code: cosine, c_v_by_d, z_f (its z), penumbra, behind, z_b_by_z, z_b,
 and a base. Its table 4 has `penumbra_pcss` or `r_e` in the penumbra's place, or Neural Shadow
@@ -13,9 +13,9 @@ from neural_shadows.frames.feature_names import BASES
 from neural_shadows.frames.light_size import LARGEST_STEP, LightSize
 from neural_shadows.rendering.gbuffer import Lens
 
-PENUMBRA_PIXELS = 50.0  # the widest that the network is told apart
-FULL_WIDTH = 2048  # pixels of the frame that it was made for …
-FULL_FOCAL = 983.5  # … whose focal length is this many
+PENUMBRA_PIXELS = 50.0  # the widest distinguished
+FULL_WIDTH = 2048  # pixels, of the paper's frames …
+FULL_FOCAL = 983.5  # … and their focal length
 
 _BLOCKED = ("z", "gap", "hard")
 MADE_OF = {
@@ -34,7 +34,7 @@ MADE_OF = {
 def kernel_feature(
     name: str, buffers: Mapping[str, np.ndarray], lens: Lens, light: LightSize
 ) -> np.ndarray:
-    """A feature of `MADE_OF`, (H, W), without any scaling but the paper's.
+    """Compute a feature of `MADE_OF`, (H, W), with the paper's scaling.
 
     `r_e` is 1 everywhere for the largest light.
     """
@@ -59,9 +59,9 @@ def kernel_feature(
 
 
 def blocker(buffers: Mapping[str, np.ndarray]) -> np.ndarray:
-    """z_b (H, W): the distance from the light to what hides a point from it; of a lit one its own.
+    """z_b (H, W): distances from the light to blockers, or to lit points.
 
-    As the authors' frames have it. Of the texel as it is, slanted surfaces would hide themselves.
+    As in the authors' frames. With the texel as it is, slanted surfaces would hide themselves.
     """
     lit = buffers["hard"] > 0.5
     return buffers["z"] + np.where(lit, 0, np.minimum(buffers["gap"], 0))
@@ -76,9 +76,9 @@ def penumbra_pixels(
     radius: float,
     focal: float,
 ) -> np.ndarray:
-    """How wide a penumbra is in the frame, in pixels; 0 where nothing blocks (Hu et al. 2025, eq. 2, 3).
+    """Penumbra widths in pixels, 0 without blockers (Hu et al. 2025, eq. 2, 3).
 
-    With the distance d and the focal length that the paper leaves out and its code has.
+    With the distance d and the focal length of its code, which the paper leaves out.
 
     Args:
         radius: of the light, in shares of S. focal: of the camera, in pixels.

@@ -1,4 +1,4 @@
-"""How large a spherical light is, as networks are told it."""
+"""Size of a spherical light as input of networks."""
 
 from typing import NamedTuple
 
@@ -6,8 +6,10 @@ LARGEST_STEP = 4  # NSM's index of the largest light: 50 cm across
 
 
 class LightSize(NamedTuple):
-    """A light's size: as a step, 0 for a point to 4 for the largest of a training, and as its radius
-    in shares of the scene's size.
+    """A light's size.
+
+    As a step, 0 for a point to 4 for the largest of a training, and as its radius in shares of
+    the scene's size.
     """
 
     step: float
@@ -15,7 +17,7 @@ class LightSize(NamedTuple):
 
 
 def light_size(radius: float, largest: float, scene_size: float) -> LightSize:
-    """Of a light among those of up to a largest radius; all lengths in one unit.
+    """The size of a light; all lengths in one unit.
 
     Where the largest is a point, the step is 0.
     """
@@ -23,5 +25,5 @@ def light_size(radius: float, largest: float, scene_size: float) -> LightSize:
 
 
 def shown_radii(count: int) -> list[int]:
-    """Which of so many radii pictures are of, unless told: the least but a point, the middle, the largest."""
+    """Default radii of pictures: the least but a point, the middle, the largest."""
     return sorted({min(1, count - 1), count // 2, count - 1})

@@ -1,4 +1,4 @@
-"""How wide the penumbrae of a frame are by Neural Shadow Mapping's model (Datta et al. 2022, 3.6)."""
+"""Penumbra widths by Neural Shadow Mapping's model (Datta et al. 2022, 3.6)."""
 
 import numpy as np
 
@@ -16,8 +16,9 @@ def model_widths(
     focal: float,
     chosen: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Widths in pixels at the points of a surface, (n,): seen head-on at their depths; 0 where all of
-    the light is seen.
+    """Widths in pixels at a surface's points, (n,), seen head-on.
+
+    0 where the whole light is visible.
 
     Args:
         centre: (3,) of the light, radius: its, in the scene's unit. focal: of the camera, in pixels.
@@ -34,12 +35,12 @@ def model_widths(
 def penumbra_model(
     z: np.ndarray, nearest: np.ndarray, farthest: np.ndarray, radius: float
 ) -> np.ndarray:
-    """Width of the penumbra that a sphere between two blockers' distances casts (Datta et al., 3.6).
+    """Width of the penumbra of a sphere between blockers (Datta et al., 3.6).
 
     From the outer boundary to the umbra's, in the unit of the distances; 0 where nothing blocks.
 
     Args:
-        z: from the light to the receiver; nearest, farthest: to the blockers on the way, NaN for none.
+        z: from the light to the receiver; nearest, farthest: to the blockers, NaN for none.
     """
     middle, half = (farthest + nearest) / 2, (farthest - nearest) / 2
     spread = np.arcsin(np.clip(half / np.hypot(middle, radius), 0, 1))

@@ -1,4 +1,4 @@
-"""The plate whose penumbrae are as wide as asked: how high its object is (Datta et al. 2022, 3.6)."""
+"""Object height on the plate for a penumbra width (Datta et al. 2022, 3.6)."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -14,7 +14,7 @@ from neural_shadows.scenes.arrangement import UP, scene_of
 from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.generators.registry import generator
 
-# What the width is of: the paper's largest light and, in pixels, its frames' size.
+# The paper's largest light and, in pixels, its frames' size.
 RADIUS, SIDE, FOV = 0.25, 512, 45.0
 PERCENTILE = 95  # of the widths above 0
 # Many cameras of few pixels: of 64, which 3 m of distance vary by 7 %, the mean is known to 1 %.
@@ -24,10 +24,13 @@ _CAMERAS, _PIXELS = 64, 24
 def height_of(
     inserted: Mapping[str, PreparedMesh], penumbra: float, rng: np.random.Generator
 ) -> float:
-    """At which height of the spot, to the millimetre, the model's 95th percentile is `penumbra` pixels.
+    """Find the spot's height, to the millimetre, for a penumbra width.
+
+    Args:
+        penumbra: the model's 95th percentile, in pixels.
 
     Raises:
-        InputError: no height of the spot gives that.
+        InputError: no height of the spot has that width.
     """
     settings = [_drawn(rng) for _ in range(_CAMERAS)]
 
@@ -47,16 +50,18 @@ def height_of(
 
 def _drawn(rng: np.random.Generator) -> tuple[Camera, np.ndarray]:
     plate = generator("plate").arrange_plate(0.0)
-    eye, target, centre = (one.draw(rng) for one in (plate.cameras, plate.targets, plate.lights))
+    eye, target, centre = (
+        region.draw(rng) for region in (plate.cameras, plate.targets, plate.lights)
+    )
     return Camera(eye, target, UP, FOV), centre
 
 
 def _width(inserted: Mapping[str, PreparedMesh], height: float, settings) -> float:
-    """The percentile, in pixels of a whole frame, with the spot at a height."""
+    """The percentile in pixels of a whole frame, for a height."""
     scene = scene_of(generator("plate").arrange_plate(height), inserted)
-    found = []
+    widths = []
     for camera, centre in settings:
         surface = see_surface(scene, camera, _PIXELS, _PIXELS)
-        found.append(model_widths(scene, surface, centre, RADIUS, camera.focal(SIDE)))
-    widths = np.concatenate(found)
-    return float(np.percentile(widths[widths > 0], PERCENTILE))
+        widths.append(model_widths(scene, surface, centre, RADIUS, camera.focal(SIDE)))
+    pixels = np.concatenate(widths)
+    return float(np.percentile(pixels[pixels > 0], PERCENTILE))

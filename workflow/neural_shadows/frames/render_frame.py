@@ -1,4 +1,4 @@
-"""One frame: the buffers of its setting and of its twins, the soft shadows of all radii."""
+"""Rendering of a frame: buffers, and soft shadows of all radii."""
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -18,12 +18,15 @@ from neural_shadows.rendering.surface import see_surface
 def render_buffers(
     scene: SoftScene, kind: FrameKind, setting: Setting, aimed_from: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The buffers of a setting, (channels, height, width) float16, and which pixels are valid: those
-    that show a surface inside the light's map, (height, width) bool.
+    """Render the buffers of a setting.
+
+    Returns:
+        (channels, height, width) float16, and valid pixels, with a surface inside the light's map,
+        (height, width) bool.
 
     Args:
-        aimed_from: of a twin, its frame's light, whose map's axes it keeps. A map that aimed anew at
-            the same middle would look up what lies there in the same texels as before.
+        aimed_from: of a perturbed frame, its frame's light, to keep the map's axes. A map aimed anew
+            at the same middle would look up its points in the same texels as before.
     """
     opened = scene.moved(setting.motion)
     surface = see_surface(opened, setting.camera, kind.width, kind.height)
@@ -42,8 +45,11 @@ def render_target(
     blur: float,
     pool: Executor | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The exact soft shadow for each radius, (radii, height, width) float32, and which pixels are at
-    edges of the geometry, (height, width) bool: with a blur of the soft shadows, or beside one.
+    """Render the exact soft shadow for each radius.
+
+    Returns:
+        (radii, height, width) float32, and pixels at edges of the geometry, (height, width) bool:
+        with a blur, also pixels beside one.
 
     Args:
         radii, samples: see `soft_visibility`. blur: σ in pixels of a Gaussian over all but a point

@@ -1,4 +1,4 @@
-"""The stage that draws and renders a part of a frame set: one scene's frames of one use."""
+"""Stage: draw and render one scene's frames of one use."""
 
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -23,7 +23,7 @@ from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
-_TWINS = len(USES)  # of the twins, another
+_TWINS = len(USES)  # random stream of perturbed frames
 
 
 def render_frames(
@@ -47,21 +47,21 @@ def render_frames(
 ) -> None:
     """Render frames `first` to `last` (exclusive) of a scene, see `FrameSetPart`.
 
-    Its camera and light depend on the seed, its scene's name, its use and its number alone: scenes of
+    Cameras and lights depend on the seed, the scene's name, the use and the number alone: scenes of
     one layout have settings of their own, and frame sets that share a scene share its settings.
 
     Args:
-        meshes: prepared, of the objects that are inserted.
+        meshes: prepared, of the inserted objects.
         scene: see `SoftScene`. name: its, in the configuration.
         seed: of the run; the scene's layout has its own.
         frames: `width`, `height`, `fov`, `of`, `light_map`, `radii` and `radius_unit`, `blur`, and
             `twins`, the amplitudes of `twin_of`.
-        use: `train`, `validation`, `test`, or what moves in a sequence.
+        use: `train`, `validation`, `test`, or the kind of motion of a sequence.
         samples: see `soft_visibility`.
-        twins: of each frame.
+        twins: perturbed frames of each frame.
 
     Raises:
-        InputError: a mesh cannot be read, or there is no camera and light that can be used.
+        InputError: a mesh cannot be read, or no camera and light can be used.
     """
     opened = SoftScene(scene, meshes)
     size = opened.at_rest.size
@@ -71,9 +71,9 @@ def render_frames(
     shared = {key: frames[key] for key in ("width", "height", "fov", "of", "light_map")}
     kind = FrameKind(**shared, radius=max(radii))
     settings = draw(opened, kind, use, first, last, streams)
-    changed = [
-        [twin_of(opened, kind, one, frames["twins"], rng) for _ in range(twins)]
-        for number, one in enumerate(settings, first)
+    perturbed = [
+        [twin_of(opened, kind, setting, frames["twins"], rng) for _ in range(twins)]
+        for number, setting in enumerate(settings, first)
         for rng in [np.random.default_rng((*streams, _TWINS, USES.index(use), number))]
     ]
     versions, image = 1 + twins, (kind.height, kind.width)
@@ -87,13 +87,13 @@ def render_frames(
         progress_bar(count, "frames", title) as bar,
     ):
         for number, setting in enumerate(settings):
-            found = pool.map(
-                lambda one, aimed_from=setting.centre: render_buffers(
-                    opened, kind, one, aimed_from
+            rendered = pool.map(
+                lambda version, aimed_from=setting.centre: render_buffers(
+                    opened, kind, version, aimed_from
                 ),
-                [setting, *changed[number]],
+                [setting, *perturbed[number]],
             )
-            buffers[number], valid[number] = map(np.stack, zip(*found))
+            buffers[number], valid[number] = map(np.stack, zip(*rendered))
             targets[number], edges[number] = render_target(
                 opened,
                 kind,
@@ -105,8 +105,8 @@ def render_frames(
             )
             bar.update()
     described = [
-        {"setting": one.as_json(), "twins": [twin.as_json() for twin in its]}
-        for one, its in zip(settings, changed)
+        {"setting": setting.as_json(), "twins": [twin.as_json() for twin in twin_settings]}
+        for setting, twin_settings in zip(settings, perturbed)
     ]
     about = {"use": use, "first": first, "seed": seed, "scene": opened.settings}
     about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
@@ -123,7 +123,7 @@ def render_frames(
 
 
 def streams_of(name: str, seed: int) -> tuple[int, int]:
-    """What a scene's random streams begin with: no two scenes of a run have the same.
+    """Key of a scene's random streams, different for each scene.
 
     Args:
         name: of the scene in the configuration. seed: of the run.
@@ -134,7 +134,7 @@ def streams_of(name: str, seed: int) -> tuple[int, int]:
 def draw(
     scene: SoftScene, kind: FrameKind, use: str, first: int, last: int, streams: tuple[int, ...]
 ) -> list[Setting]:
-    """The settings of frames `first` to `last` (exclusive), of a sequence all.
+    """Draw the settings of frames `first` to `last` (exclusive); all of a sequence.
 
     Args:
         streams: see `streams_of`.

@@ -1,4 +1,4 @@
-"""What a frame is of: a camera, a light, and how far the scene's mover has moved."""
+"""Setting of a frame: camera, light, and motion of the scene's mover."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ class Setting:
 
     camera: Camera
     centre: np.ndarray  # (3,) float64
-    motion: np.ndarray  # (4, 4) float64, rigid; the identity where it stands at rest
+    motion: np.ndarray  # (4, 4) float64, rigid; the identity at rest
 
     def as_json(self) -> dict[str, Any]:
         """The setting as plain data."""
@@ -32,7 +32,7 @@ class Setting:
 
 
 def setting_of(data: Mapping[str, Any]) -> Setting:
-    """The setting that `as_json` told."""
+    """Read a setting from the data of `as_json`."""
     window = data["window"] and Window(**data["window"])
     eye, target, light, motion = (
         np.array(data[key], np.float64) for key in ("eye", "target", "light", "motion")

@@ -1,4 +1,4 @@
-"""One frame as the methods for soft shadows are given it: surface points, a light, its map."""
+"""Input of soft-shadow methods: surface points, a light, its map."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -15,67 +15,67 @@ from neural_shadows.shadow_maps.rasterised_light_map import rasterised_depths
 
 @dataclass(frozen=True, eq=False)
 class SoftFrame:
-    """A frame's n surface points at pixel centres, and the light that they are asked about.
+    """A frame's n surface points at pixel centres, and a light.
 
-    Lengths are in the scene's unit. What is cached is made when it is first asked for, so that a
-    method is timed with what it uses and no more.
+    Lengths are in the scene's unit. Cached properties are computed on first use, so that a method's
+    time includes only what it uses.
     """
 
     scene: Scene
     surface: Surface
     centre: np.ndarray  # (3,) float64, of the light
     light_map: LightMap
-    number: int = 0  # in a sequence: noise is another in each frame
+    number: int = 0  # in a sequence, for different noise in each frame
 
     @cached_property
     def depths(self) -> np.ndarray:
-        """The whole map, (texels,) float32: distances from the light, ∞ where there is nothing."""
+        """The whole map, (texels,) float32: distances from the light, ∞ without a surface."""
         mesh = self.scene.joined
         return rasterised_depths(self.light_map, mesh.vertices, mesh.faces)
 
     @cached_property
     def shown(self) -> np.ndarray:
-        """The face that each texel shows, (texels,) int32, of those that points look up; by rays."""
-        return self.traced(self.light_map.texels_of(self.ways))[1]
+        """Faces seen in the looked-up texels, (texels,) int32; by rays."""
+        return self.traced(self.light_map.texels_of(self.from_light))[1]
 
     def traced(self, texels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Depths and faces, (texels,) float32 and int32, of the whole map; only these texels' count.
+        """Trace a map's depths and faces, (texels,) float32 and int32.
 
         Args:
-            texels: any number, −1 for none.
+            texels: those traced, −1 for none; the others have 0.
         """
         looked_up = np.zeros(self.light_map.count, bool)
         looked_up[texels[texels >= 0]] = True
-        some = np.flatnonzero(looked_up)
-        # Of zeros, only the pages that are written take memory and time.
+        texels = np.flatnonzero(looked_up)
+        # np.zeros: only written pages take memory and time.
         depths = np.zeros(self.light_map.count, np.float32)
         faces = np.zeros(self.light_map.count, np.int32)
-        depths[some], faces[some] = self.light_map.first_hits(self.scene.tracer, some)
+        depths[texels], faces[texels] = self.light_map.first_hits(self.scene.tracer, texels)
         return depths, faces
 
     @cached_property
-    def ways(self) -> np.ndarray:
-        """From the light to each point, (n, 3) float32."""
+    def from_light(self) -> np.ndarray:
+        """Vectors from the light to each point, (n, 3) float32."""
         return self.surface.p - self.centre.astype(np.float32)
 
     @cached_property
     def cosines(self) -> np.ndarray:
-        """Between each point's geometric normal and the direction to the light, (n,) float32."""
-        away = np.einsum("ij,ij->i", self.ways, self.surface.n_g)
-        return -away / distances_of(self.ways)
+        """Cosines of geometric normals with the light's direction, (n,) float32."""
+        dots = np.einsum("ij,ij->i", self.from_light, self.surface.n_g)
+        return -dots / distances_of(self.from_light)
 
     @cached_property
     def bias(self) -> np.ndarray:
-        """By how much a point may lie behind its texel and still be lit, (n,) float32."""
-        return receiver_bias(self.light_map, self.ways, self.cosines, self.scene.size)
+        """Depth bias of each point, (n,) float32."""
+        return receiver_bias(self.light_map, self.from_light, self.cosines, self.scene.size)
 
     @cached_property
     def starts(self) -> np.ndarray:
-        """Where rays start, (n, 3) float32: a little off the surface, on the side that is seen."""
+        """Ray origins, (n, 3) float32, offset from the surface to the seen side."""
         return self.surface.p + np.float32(OFFSET * self.scene.size) * self.surface.n_g
 
     def with_map_of(self, resolution: int) -> "SoftFrame":
-        """The same frame by a map of another number of texels a side, made once."""
+        """The same frame with a map of another resolution, cached."""
         if resolution not in self._by_resolution:
             finer = replace(self.light_map, resolution=resolution)
             self._by_resolution[resolution] = replace(self, light_map=finer)
@@ -86,8 +86,9 @@ class SoftFrame:
         return {self.light_map.resolution: self}
 
     def at_places(self, places: "tuple[tuple[float, float], ...]") -> "list[SoftFrame]":
-        """The same frame seen at other places in its pixels, each made once; each has a number of its
-        own, so that their rays go elsewhere.
+        """The same frame at other places in its pixels, cached.
+
+        Each has a number of its own, for different random rays.
         """
         if places not in self._by_places:
             surface, first = self.surface, self.number * len(places)

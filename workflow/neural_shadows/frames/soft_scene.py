@@ -1,4 +1,4 @@
-"""A scene in metres, opened from its settings, with its mover at any place."""
+"""A scene in metres, from its settings, with a movable object."""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property, lru_cache
@@ -15,23 +15,22 @@ from neural_shadows.scenes.scene import Scene
 
 
 class SoftScene:
-    """An arrangement with the meshes that are inserted into it.
+    """An arrangement with inserted meshes.
 
     Args:
-        scene: `generate`, the generator's name; `seed`; `inserted`, of each mesh by name the axis
-            that points up; of a plate `penumbra`, which is as wide, see `height_of`, or the
-            `height` that was found for it.
+        scene: `generate`, the generator's name; `seed`; `inserted`, of each mesh by name its up axis;
+            of a plate `penumbra`, its width, see `height_of`, or the `height` found for it.
         meshes: the prepared mesh of each, in that order.
 
     Raises:
-        InputError: there is no such generator, it has fewer spots than meshes, a mesh cannot be
-            read, or penumbrae cannot be as wide.
+        InputError: an unknown generator, fewer spots than meshes, an unreadable mesh, or a penumbra
+            width out of reach.
     """
 
     def __init__(self, scene: Mapping[str, Any], meshes: Sequence[Path]):
         ups = scene["inserted"].items()
         self._inserted = {name: _upright(path, up) for (name, up), path in zip(ups, meshes)}
-        self.settings = dict(scene)  # as the scene can be opened again: with the height found
+        self.settings = dict(scene)  # reopens the scene: with the height found
         if scene.get("penumbra") is None:
             self.arrangement: Arrangement = arrange(scene["generate"], scene["seed"])
         else:
@@ -42,7 +41,7 @@ class SoftScene:
 
     @cached_property
     def at_rest(self) -> Scene:
-        """The scene with its mover where it stands at rest."""
+        """The scene with its mover at rest."""
         return scene_of(self.arrangement, self._inserted)
 
     def moved(self, motion: np.ndarray) -> Scene:
@@ -52,23 +51,23 @@ class SoftScene:
         return scene_of(self.arrangement, self._inserted, motion)
 
     def before(self, scene: Scene, face: np.ndarray, p: np.ndarray, now, then) -> np.ndarray:
-        """Where points (n, 3) of the scene after the motion `now` were after the motion `then`.
+        """Positions after the motion `then` of points (n, 3) after `now`.
 
         Args:
             face: (n,) of the scene's joined mesh.
         """
         mover = [part.name for part in self.arrangement.objects].index(self.arrangement.mover)
-        moves = scene.owner[face] == mover
-        way = then @ np.linalg.inv(now)
+        moving = scene.owner[face] == mover
+        motion = then @ np.linalg.inv(now)
         was = p.copy()
-        was[moves] = p[moves] @ way[:3, :3].T + way[:3, 3]
+        was[moving] = p[moving] @ motion[:3, :3].T + motion[:3, 3]
         return was
 
 
-# Of 18 scenes that insert the same two meshes, each would read them anew: 0.25 s of 0.45.
+# Else each of 18 scenes with the same two meshes reads them anew: 0.25 s of 0.45.
 @lru_cache(maxsize=4)
 def _upright(mesh_ply: Path, up: str) -> PreparedMesh:
-    """The mesh turned so that its axis `up` becomes y."""
+    """Read a mesh and turn its axis `up` to y."""
     mesh = read_prepared(mesh_ply)
     turn = np.roll(np.eye(3, dtype=np.float32), 1 - "xyz".index(up), axis=0)
     return with_normals(mesh.vertices @ turn.T, mesh.faces)

@@ -1,1 +1,1 @@
-"""Where each result lies, and which part of the work each job does."""
+"""Paths of results, and inputs and parameters of jobs."""

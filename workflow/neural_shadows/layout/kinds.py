@@ -1,4 +1,4 @@
-"""What the kind of a table, figure or claim says of an entry: its files and its parameters."""
+"""Files and parameters of reports, by kind."""
 
 from pathlib import Path
 from types import ModuleType
@@ -18,63 +18,63 @@ FOLDERS = {
 
 
 def kind_of(layout: Layout, section: str, name: str) -> ModuleType:
-    """The module of an entry's kind."""
+    """Module of an entry's kind."""
     return kinds(FOLDERS[section])[layout.entry(section, name)["kind"]]
 
 
 def files(layout: Layout, section: str, name: str) -> dict[str, Any]:
-    """The files that an entry is made of, by the arguments of its kind's function."""
+    """Input files of an entry, by argument of its function."""
     return kind_of(layout, section, name).files(layout, name)
 
 
 def table_files(layout: Layout, table: str) -> dict[str, Any]:
-    """The files that a table is made of, and what is made with it and not read (`beside`)."""
-    made_of = files(layout, "tables", table)
+    """Input files of a table; `beside` are built with it, not read."""
+    inputs = files(layout, "tables", table)
     figures = layout.entry("tables", table)["figures"]
     beside = [layout.paths.report(f"{name}.png") for name in figures]
-    return made_of | {"beside": [*beside, *made_of.get("beside", ())]}
+    return inputs | {"beside": [*beside, *inputs.get("beside", ())]}
 
 
 def table_labels(layout: Layout, table: str) -> dict[str, str]:
-    """What Snakemake's report lists of a table: its number in its text, and its title."""
+    """Labels of a table in Snakemake's report."""
     settings = layout.entry("tables", table)
     return {"table": settings["published"] or table, "title": settings["title"]}
 
 
 def figure_labels(layout: Layout, figure: str) -> dict[str, str]:
-    """What Snakemake's report lists of a figure."""
+    """Labels of a figure in Snakemake's report."""
     number = figure.removeprefix("figure_").replace("_", ".")
     return {"figure": number, "title": layout.entry("figures", figure)["title"]}
 
 
 def params(layout: Layout, section: str, name: str) -> dict[str, Any]:
-    """What its kind's function takes beside its files."""
+    """Arguments of an entry's function besides files."""
     title = layout.entry(section, name)["title"]
     return {"title": title, **kind_of(layout, section, name).params(layout, name)}
 
 
 def encodings(layout: Layout, section: str, name: str) -> set[str]:
-    """The kinds of the networks whose weights an entry reads."""
+    """Kinds of networks with weights read by an entry."""
     kind = kind_of(layout, section, name)
     return kind.encodings(layout, name) if hasattr(kind, "encodings") else set()
 
 
 def forms(layout: Layout, section: str, name: str) -> set[str]:
-    """The forms of the networks of whole frames whose convolutions an entry counts."""
+    """Forms of screen-space networks with convolutions counted by an entry."""
     kind = kind_of(layout, section, name)
     return kind.forms(layout, name) if hasattr(kind, "forms") else set()
 
 
 def generators(layout: Layout, section: str, name: str) -> list[str]:
-    """The generators of the scenes that an entry looks into."""
+    """Generators of scenes used by an entry."""
     kind = kind_of(layout, section, name)
     return kind.generators(layout, name) if hasattr(kind, "generators") else []
 
 
 def method_modules(layout: Layout, section: str, name: str) -> set[Path]:
-    """The modules of the methods without a network of an entry or its table.
+    """Modules of methods without networks of an entry or its table.
 
-    They are imported by name, and have their looks and sizes.
+    They are imported by name, and define labels and sizes.
     """
     entry = layout.entry(section, name)
     table = name if section == "tables" else entry.get("table")
@@ -85,5 +85,5 @@ def method_modules(layout: Layout, section: str, name: str) -> set[Path]:
 
 
 def uses_gpu(layout: Layout, section: str, name: str) -> bool:
-    """Whether an entry's job may compute networks on a GPU."""
+    """Check for possible GPU use by an entry's job."""
     return getattr(kind_of(layout, section, name), "USES_GPU", False)

@@ -1,4 +1,4 @@
-"""A checked configuration, the files of its run, and what each stage is given."""
+"""Files and settings of a run, by configured names."""
 
 import os
 from collections.abc import Iterable, Mapping
@@ -18,11 +18,11 @@ from neural_shadows.settings.kinds import kinds
 
 @dataclass(frozen=True)
 class Layout:
-    """Files and settings by the names in a configuration.
+    """Files and settings of a run, by configured names.
 
     Args:
-        settings: what `config.resolved` gives.
-        root: the checkout's folder, as seen from the working directory.
+        settings: result of `config.resolved`.
+        root: the checkout's folder, relative to the working directory.
     """
 
     settings: Mapping[str, Any]
@@ -30,18 +30,18 @@ class Layout:
 
     @cached_property
     def paths(self) -> Paths:
-        """Where the files of the run lie."""
+        """Paths of the run's files."""
         return Paths(self.settings["scale"])
 
     def source(self, name: str) -> str:
-        """A file of the checkout that is neither configuration nor code."""
+        """Path of a data file in the checkout."""
         return os.path.normpath(f"{self.root}/{name}")
 
     def entry(self, section: str, name: str) -> Mapping[str, Any]:
         """A named entry of a section.
 
         Raises:
-            InputError: no such name; says which there are.
+            InputError: no such name; lists the allowed ones.
         """
         entries = self.settings[section]
         if name not in entries:
@@ -49,13 +49,13 @@ class Layout:
         return entries[name]
 
     def run(self) -> dict[str, Any]:
-        """What a report says of the run that it was made in."""
-        kept = ("width", "height", "reference")
-        rendering = {key: self.settings["rendering"][key] for key in kept}
+        """Description of the run in reports."""
+        keys = ("width", "height", "reference")
+        rendering = {key: self.settings["rendering"][key] for key in keys}
         return {"scale": self.settings["scale"], "seed": self.settings["seed"], **rendering}
 
     def scenes(self, names: Iterable[str]) -> dict[str, dict[str, Any]]:
-        """What a report says of some scenes."""
+        """Descriptions of scenes in reports."""
         about = {}
         for name in names:
             scene = self.entry("scenes", name)
@@ -65,13 +65,13 @@ class Layout:
         return about
 
     def mesh_source(self, scene: str) -> str:
-        """The file that a scene's mesh is read from: the user's own, or one that a rule makes."""
+        """Source file of a scene's mesh: the user's, or a generated one."""
         mesh = self.entry("scenes", scene)["mesh"]
-        made = "generated.ply" if "generate" in mesh else "downloaded.ply"
-        return mesh["path"] if "path" in mesh else self.paths.scene(made, scene)
+        file = "generated.ply" if "generate" in mesh else "downloaded.ply"
+        return mesh["path"] if "path" in mesh else self.paths.scene(file, scene)
 
     def direction_light(self, scene: str, sampling: str) -> Mapping[str, Any] | None:
-        """The light domain that view directions are drawn from; None for the whole sphere."""
+        """Domain of view directions; None for the whole sphere."""
         match self.entry("samplings", sampling)["domain"]:
             case "light":
                 return self.entry("scenes", scene)["light"]
@@ -94,14 +94,12 @@ class Layout:
         }
 
     def training_files(self, experiment: str) -> dict[str, Any]:
-        """What an experiment trains on, if it does, a ray set; and the mesh that its network is
-        laid out by.
-        """
+        """Training rays of an experiment, and the mesh if needed."""
         settings = self.entry("experiments", experiment)
         names = settings["scene"], settings["sampling"]
-        found = dict.fromkeys(("directions_npy", "rays_json", "origins", "bounds"), [])
+        rays = dict.fromkeys(("directions_npy", "rays_json", "origins", "bounds"), [])
         if settings["training"] is not None:
-            found = {
+            rays = {
                 "directions_npy": self.paths.rays("directions.npy", *names),
                 "rays_json": self.paths.rays("rays.json", *names),
                 **self.shards(*names),
@@ -110,59 +108,59 @@ class Layout:
         return {
             "mesh_ply": [self.paths.scene("mesh.ply", names[0])] * needed,
             "mesh_json": [self.paths.scene("mesh.json", names[0])] * needed,
-            **found,
+            **rays,
         }
 
     def kind(self, experiment: str) -> type[NetworkModel]:
-        """What the graph must know of an experiment's kind of network."""
+        """Settings class of an experiment's network."""
         encoding = self.entry("experiments", experiment)["network"]["encoding"]
         return kinds(ENCODINGS)[encoding].Settings
 
     def is_trained(self, experiment: str) -> bool:
-        """Whether an experiment's network is not only built."""
+        """Check for a training."""
         return self.entry("experiments", experiment)["training"] is not None
 
     def can_use_gpu(self, method: str) -> bool:
-        """Whether a method is a network of a kind that does; those without weights do not."""
+        """Check for a trained network."""
         return _is_network(method) and self.kind(unbiased(method)).trained
 
     def export_files(self, experiment: str) -> dict[str, Any]:
-        """What an export says of its network: the mesh's sphere, and the depth bias if found."""
+        """Files with a network's sphere and its depth bias, if held out."""
         scene = self.entry("experiments", experiment)["scene"]
         mesh_json = self.paths.scene("mesh.json", scene)
         return {"mesh_json": mesh_json, "depth_bias_json": self.bias_file(scene, experiment)}
 
     def encodings(self, experiments: Iterable[str]) -> set[str]:
-        """The kinds of networks of some experiments."""
+        """Kinds of networks of experiments."""
         return {self.entry("experiments", name)["network"]["encoding"] for name in experiments}
 
     def view_range(self, batch: str) -> dict[str, int]:
-        """First and last (exclusive) viewpoint of a batch in each view set."""
+        """First and last (exclusive) viewpoint of a batch, per view set."""
         first, last = view_range(self.settings["rendering"], batch)
         return {"first": first, "last": last}
 
     def held_out_views(self, scene: str) -> str:
-        """The references of the viewpoints that the depth biases of a scene are found on."""
+        """References of a scene's held-out viewpoints, for depth biases."""
         return self.paths.reference(scene, HELD_OUT)
 
     def bias(self, method: str) -> float | str | None:
-        """A method's depth bias: a number, `held_out`, or None if it has none."""
+        """A method's depth bias: a number, `held_out`, or None."""
         if method != unbiased(method):
             return HELD_OUT
         return None if is_classic(method) else self.entry("experiments", method)["bias"]
 
     def bias_file(self, scene: str, method: str) -> list[str]:
-        """The file of a method's depth bias, if it is one that is found."""
-        found = self.bias(method) == HELD_OUT
-        return [self.paths.depth_bias(scene, unbiased(method))] * found
+        """File of a method's depth bias, if held out."""
+        held_out = self.bias(method) == HELD_OUT
+        return [self.paths.depth_bias(scene, unbiased(method))] * held_out
 
     def weights(self, method: str) -> list[str]:
-        """The weights of a method that is a network."""
+        """File of a method's weights; empty without a network."""
         file = self.paths.network("weights.safetensors", unbiased(method))
         return [file] * _is_network(method)
 
     def evaluated_files(self, scene: str, method: str, batch: str) -> dict[str, Any]:
-        """What a method's visibility comes from: a network's answers, or the mesh and a bias."""
+        """Inputs of a method's visibility: predictions, or mesh and bias."""
         if _is_network(method):
             answers = self.paths.answers(scene, method, batch)
             return {"answers": answers, "mesh_ply": [], "depth_bias_json": []}
@@ -171,7 +169,7 @@ class Layout:
         return {"answers": [], "mesh_ply": mesh_ply, "depth_bias_json": bias}
 
     def method_encodings(self, method: str) -> set[str]:
-        """The kind of network of a method that is one."""
+        """Kind of a method's network; empty without a network."""
         return self.encodings([unbiased(method)] * _is_network(method))
 
 

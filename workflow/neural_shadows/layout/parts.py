@@ -1,14 +1,14 @@
-"""Which part of a stage's work a job does: shards of ray sets, batches of viewpoints."""
+"""Parts of work per job: shards of rays, batches of viewpoints."""
 
 from collections.abc import Mapping
 from typing import Any
 
 HELD_OUT = "held_out"
-"""The batch of viewpoints that only depth biases are found on."""
+"""Batch of viewpoints for depth biases only."""
 
 
 def part_range(total: int, parts: int, part: int) -> tuple[int, int]:
-    """First and last (exclusive) of the `part`-th of `parts` nearly equal ranges of `total`."""
+    """First and last (exclusive) of one of nearly equal ranges."""
     return total * part // parts, total * (part + 1) // parts
 
 
@@ -18,14 +18,14 @@ def part_names(count: int) -> list[str]:
 
 
 def batches(rendering: Mapping[str, Any]) -> list[str]:
-    """The batches that a view set's viewpoints are rendered in."""
+    """Names of the batches of a view set."""
     return part_names(-(-rendering["views_per_set"] // rendering["batch"]))
 
 
 def view_range(rendering: Mapping[str, Any], batch: str) -> tuple[int, int]:
-    """First and last (exclusive) viewpoint of a batch, in each view set.
+    """First and last (exclusive) viewpoint of a batch, per view set.
 
-    Held-out viewpoints come after all that are evaluated.
+    Held-out viewpoints follow the evaluated ones.
     """
     views = rendering["views_per_set"]
     if batch == HELD_OUT:

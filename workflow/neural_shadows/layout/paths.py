@@ -1,4 +1,4 @@
-"""Where each result lies: a pattern of each kind of file, in Snakemake's notation of wildcards."""
+"""Paths of results, with Snakemake's wildcards by default."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,8 +6,9 @@ from functools import cached_property
 
 @dataclass(frozen=True)
 class Paths:
-    """Files of a run: the default scale's (`desk`) below results/ and reports/, those of another
-    in a folder of its name in each.
+    """Paths of a run: below results/ and reports/.
+
+    Scales other than the default, `desk`, have folders of their name there.
     """
 
     scale: str
@@ -33,27 +34,27 @@ class Paths:
         return f"{self.results}/networks/{experiment}/{file}"
 
     def reference(self, scene: str = "{scene}", batch: str = "{batch}") -> str:
-        """G-buffers and visibility of a batch of viewpoints."""
+        """G-buffers and exact visibility of a batch of viewpoints."""
         return f"{self.results}/references/{scene}/{batch}.safetensors"
 
     def evaluation(
         self, ending: str, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
     ) -> str:
-        """`csv`, the metrics of a method on a batch; `npz`, its visibilities."""
+        """`csv`, metrics of a method on a batch; `npz`, visibilities."""
         return f"{self.results}/evaluations/{scene}/{method}.{batch}.{ending}"
 
     def answers(
         self, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
     ) -> str:
-        """What a network said of the points of a batch."""
+        """Predictions of a network for a batch."""
         return f"{self.results}/answers/{scene}/{method}.{batch}.npz"
 
     def depth_bias(self, scene: str = "{scene}", method: str = "{method}") -> str:
-        """The depth bias found for a method on a scene."""
+        """Held-out depth bias of a method on a scene."""
         return f"{self.results}/depth_biases/{scene}/{method}.json"
 
     def frame_times(self, table: str = "{table}", scene: str = "{scene}") -> str:
-        """The times of a table's methods on a scene."""
+        """Times of a table's methods on a scene."""
         return f"{self.results}/frame_times/{table}/{scene}.json"
 
     def frames(
@@ -63,7 +64,7 @@ class Paths:
         frame_set: str = "{frame_set}",
         part: str = "{part}",
     ) -> str:
-        """`json`, `buffers.npy`, `targets.npy`, `valid.npy`, `edges.npy` of a part of a frame set."""
+        """`json`, `buffers.npy`, `targets.npy`, `valid.npy`, `edges.npy` of a part."""
         return f"{self.results}/frames/{frame_set}/{scene}/{part}.{ending}"
 
     def imported_frames(
@@ -73,63 +74,63 @@ class Paths:
         frame_set: str = "{frame_set}",
         part: str = "{part}",
     ) -> str:
-        """The same of an engine's frame."""
+        """Files like `frames` for an engine's frame."""
         return f"{self.results}/imported_frames/{frame_set}/{scene}/{part}.{ending}"
 
     def soft_constants(self, frame_set: str = "{frame_set}", method: str = "{method}") -> str:
-        """The constants of a method that are best on a frame set's validation frames."""
+        """Best constants of a method on validation frames."""
         return f"{self.results}/soft_constants/{frame_set}/{method}.json"
 
     def soft_fields(self, frame_set: str = "{frame_set}") -> str:
-        """The fields of the objects in a frame set's scenes."""
+        """Signed-distance fields of the objects in a frame set's scenes."""
         return f"{self.results}/soft_fields/{frame_set}.npz"
 
     def soft_evaluation(
         self, ending: str, frame_set: str = "{frame_set}", method: str = "{method}"
     ) -> str:
-        """`csv`, the errors of a method on a frame set's test frames; `npz`, what it answered."""
+        """`csv`, errors of a method on test frames; `npz`, visibilities."""
         return f"{self.results}/soft_evaluations/{frame_set}/{method}.{ending}"
 
     def occluders(
         self, scene: str = "{scene}", frame_set: str = "{frame_set}", part: str = "{part}"
     ) -> str:
-        """What blocks the light in the frames of a part."""
+        """Occluders of the light in the frames of a part."""
         return f"{self.results}/occluders/{frame_set}/{scene}/{part}.npy"
 
     def penumbra_widths(self, frame_set: str = "{frame_set}") -> str:
-        """How wide the penumbrae of a frame set's test frames are."""
+        """Penumbra widths of a frame set's test frames."""
         return f"{self.results}/penumbra_widths/{frame_set}.json"
 
     def screen_sensitivity(
         self, frame_set: str = "{frame_set}", experiment: str = "{experiment}"
     ) -> str:
-        """How far a network's answer moves with each feature of a frame set's frames."""
+        """Sensitivity of a screen-space network to each input feature."""
         return f"{self.results}/screen_sensitivities/{frame_set}/{experiment}.json"
 
     def soft_times(self, table: str = "{table}") -> str:
-        """The times of a table's methods for soft shadows."""
+        """Times of a table's methods for soft shadows."""
         return f"{self.results}/soft_times/{table}.json"
 
     def screen_network(self, file: str, experiment: str = "{experiment}") -> str:
-        """`weights.safetensors`, `loss.csv`, `training.json` of a network of whole frames."""
+        """`weights.safetensors`, `loss.csv`, `training.json` of a screen-space network."""
         return f"{self.results}/screen_networks/{experiment}/{file}"
 
     def screen_profile(self, network: str = "{network}") -> str:
-        """The times of a network of whole frames by level and part."""
+        """Times of a screen-space network by level and part."""
         return f"{self.results}/screen_profiles/{network}.json"
 
     @cached_property
     def lpips(self) -> str:
-        """Whether LPIPS can be computed."""
+        """Availability of LPIPS."""
         return f"{self.results}/lpips.json"
 
     def log(self, rule: str, *wildcards: str) -> str:
-        """The log of a rule's job."""
+        """Log of a rule's job."""
         return f"{self.results}/logs/{rule}/{_of(rule, wildcards)}.log"
 
     @cached_property
     def benchmarks(self) -> str:
-        """The folder of the benchmarks of all rules."""
+        """Folder of all benchmarks."""
         return f"{self.results}/benchmarks"
 
     def benchmark(self, rule: str, *wildcards: str) -> str:

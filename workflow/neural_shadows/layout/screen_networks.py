@@ -1,4 +1,4 @@
-"""Networks of whole frames: what each is trained on."""
+"""Screen-space networks: training files and settings."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -10,11 +10,9 @@ _KEYS = ("network", "training", "scenes", "seed")
 
 
 def training_files(layout: Layout, experiment: str) -> dict[str, Any]:
-    """The parts that an experiment trains on and those that it is validated on, with their arrays;
-    and the trunk of its perceptual distance.
-    """
+    """Training and validation parts with arrays, and pretrained weights."""
     settings = layout.entry("screen_experiments", experiment)
-    found = {
+    parts = {
         use: [
             part
             for scene in settings["scenes"]
@@ -22,16 +20,16 @@ def training_files(layout: Layout, experiment: str) -> dict[str, Any]:
         ]
         for use in ("train", "validation")
     }
-    beside = frame_sets.arrays([*found["train"], *found["validation"]])
-    return {**found, "beside": beside, "trunk": settings["trunk"] or []}
+    beside = frame_sets.arrays([*parts["train"], *parts["validation"]])
+    return {**parts, "beside": beside, "trunk": settings["trunk"] or []}
 
 
 def training_settings(layout: Layout, experiment: str) -> dict[str, Any]:
-    """What `train_screen` is told beside its files."""
+    """Arguments of `train_screen` besides files."""
     settings = layout.entry("screen_experiments", experiment)
     return {key: settings[key] for key in _KEYS}
 
 
 def forms(layout: Layout, experiments: Iterable[str]) -> set[str]:
-    """The forms of the networks of some experiments."""
-    return {layout.entry("screen_experiments", one)["network"]["form"] for one in experiments}
+    """Forms of the networks of experiments."""
+    return {layout.entry("screen_experiments", name)["network"]["form"] for name in experiments}

@@ -1,4 +1,4 @@
-"""What tables of trained screen-space networks are made of."""
+"""Inputs of tables of trained screen-space networks."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -12,10 +12,10 @@ from neural_shadows.layout.tables import unique
 def files(
     layout: Layout, table: str, methods: Iterable[str], evaluated: Iterable[str] = ()
 ) -> dict[str, Any]:
-    """Metrics of methods and of what learns nothing, and the trainings of the networks among them.
+    """Metrics of methods and null predictors, and trainings of networks.
 
     Args:
-        methods: of the table's frame set; evaluated: what is evaluated in their place, of networks in
+        methods: of the table's frame set. evaluated: keys evaluated in their place, such as networks in
             a number format.
     """
     paths, frame_set = layout.paths, soft_methods.frame_set(layout, table)
@@ -32,16 +32,16 @@ def files(
 
 
 def sensitivities(layout: Layout, table: str, networks: Iterable[str]) -> list[str]:
-    """The sensitivities of networks on a table's frame set."""
+    """Sensitivities of networks on a table's frame set."""
     frame_set = soft_methods.frame_set(layout, table)
     return [layout.paths.screen_sensitivity(frame_set, name) for name in unique(networks)]
 
 
 def frames_json(layout: Layout, table: str) -> str:
-    """A part of the test frames of a table's frame set."""
+    """First part of the test frames of a table."""
     return soft_methods.tests(layout, soft_methods.frame_set(layout, table))[0]
 
 
 def labels(layout: Layout, methods: Iterable[str]) -> dict[str, str]:
-    """The labels of methods, each once."""
+    """Labels of methods, each once."""
     return {method: soft_methods.label(layout, method) for method in unique(methods)}

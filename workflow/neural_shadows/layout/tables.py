@@ -1,4 +1,4 @@
-"""The files of rows of tables: metrics, visibilities, networks, depth biases, learning curves."""
+"""Files of rows: metrics, visibilities, networks, depth biases, learning curves."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -12,43 +12,43 @@ Row = Mapping[str, Any]
 
 
 def timed_rows(layout: Layout, table: str, scene: str) -> list[Row]:
-    """The rows whose methods are timed on a scene for a table."""
+    """Rows of a table timed on a scene."""
     return [row for row in layout.entry("tables", table)["rows"] if row["scene"] == scene]
 
 
 def timed_methods(layout: Layout, table: str, scene: str) -> list[str]:
-    """The methods of `timed_rows`."""
+    """Methods of `timed_rows`."""
     return [row["method"] for row in timed_rows(layout, table, scene)]
 
 
 def timed_weights(layout: Layout, table: str, scene: str) -> list[str]:
-    """The weights of the networks among them."""
+    """Weights of the networks in `timed_rows`."""
     return networks(layout, timed_rows(layout, table, scene), "weights.safetensors")
 
 
 def timed_encodings(layout: Layout, table: str, scene: str) -> set[str]:
-    """The kinds of those networks."""
+    """Kinds of the networks in `timed_rows`."""
     return layout.encodings(experiments_of(timed_rows(layout, table, scene)))
 
 
 def metrics(layout: Layout, rows: Sequence[Row]) -> list[str]:
-    """The metrics of all batches of the rows' methods, each once; a ray-traced one has none."""
+    """Metrics of all batches of the rows' methods, except ray tracing."""
     return _evaluations(layout, rows, "csv")
 
 
 def visibilities(layout: Layout, rows: Sequence[Row]) -> list[str]:
-    """The same methods' visibilities."""
+    """Visibilities of all batches of the rows' methods, except ray tracing."""
     return _evaluations(layout, rows, "npz")
 
 
 def _evaluations(layout: Layout, rows: Sequence[Row], ending: str) -> list[str]:
     methods = [(row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED]
     parts = batches(layout.settings["rendering"])
-    return unique(layout.paths.evaluation(ending, *one, part) for one in methods for part in parts)
+    return unique(layout.paths.evaluation(ending, *m, part) for m in methods for part in parts)
 
 
 def references(layout: Layout, scenes: Iterable[str]) -> list[str]:
-    """All batches of viewpoints of some scenes that methods are measured on."""
+    """References of all batches of scenes, without held-out ones."""
     parts = batches(layout.settings["rendering"])
     return [layout.paths.reference(scene, part) for scene in scenes for part in parts]
 
@@ -59,43 +59,43 @@ def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:
 
 
 def depth_biases(layout: Layout, rows: Sequence[Row]) -> list[str]:
-    """The depth bias of each method among the rows that has one found, each once."""
-    found = [(row["scene"], unbiased(row["method"])) for row in rows if row["bias"] == HELD_OUT]
-    return unique(layout.paths.depth_bias(*names) for names in found)
+    """Held-out depth biases of the rows' methods, each once."""
+    methods = [(row["scene"], unbiased(row["method"])) for row in rows if row["bias"] == HELD_OUT]
+    return unique(layout.paths.depth_bias(*names) for names in methods)
 
 
 def curves(layout: Layout, rows: Sequence[Row]) -> dict[str, list[dict[str, Any]]]:
-    """The points of the learning curve of each network among the rows that has one."""
-    found = layout.settings["learning_curves"]
-    return {name: found[name] for name in experiments_of(rows) if name in found}
+    """Points of the learning curves of the rows' networks."""
+    points = layout.settings["learning_curves"]
+    return {name: points[name] for name in experiments_of(rows) if name in points}
 
 
 def with_curves(layout: Layout, rows: Sequence[Row]) -> list[Row]:
-    """The rows, and those of all points of their networks' learning curves."""
-    found = list(rows)
+    """Rows, and rows of all points of their learning curves."""
+    extended = list(rows)
     for row in rows:
         for point in layout.settings["learning_curves"].get(row["experiment"], ()):
             name = point["experiment"]
             method = name if row["method"] == row["experiment"] else biased_key(name)
-            found.append({**row, "method": method, "experiment": name})
-    return found
+            extended.append({**row, "method": method, "experiment": name})
+    return extended
 
 
 def unshadowed(scenes: Iterable[str]) -> list[Row]:
-    """What networks have to be better than on each scene, as rows."""
+    """Rows of the unshadowed null predictor, per scene."""
     row = {"method": NO_SHADOW, "experiment": None, "bias": None}
     return [{**row, "scene": scene} for scene in scenes]
 
 
 def before_training(layout: Layout, experiment: str) -> list[str]:
-    """The benchmarks of the jobs between a mesh's file and an experiment's training.
+    """Benchmarks of the jobs before an experiment's training.
 
-    They are told and are no inputs: nothing is made again for the seconds that it took.
+    Params and no inputs: changed times must not rebuild anything.
     """
     settings, folder = layout.entry("experiments", experiment), layout.paths.benchmarks
     scene, sampling = settings["scene"], settings["sampling"]
     jobs = [("prepare_mesh", scene)]
-    if sampling is not None:  # of a network that is only built
+    if sampling is not None:  # None without training
         shards = part_names(layout.entry("samplings", sampling)["shards"])
         jobs.append(("draw_directions", scene, sampling))
         jobs += [
@@ -107,7 +107,7 @@ def before_training(layout: Layout, experiment: str) -> list[str]:
 
 
 def experiments_of(rows: Sequence[Row]) -> list[str]:
-    """The networks among the rows, each once."""
+    """Experiments among the rows, each once."""
     return unique(row["experiment"] for row in rows if row.get("experiment") is not None)
 
 

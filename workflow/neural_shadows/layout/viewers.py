@@ -1,4 +1,4 @@
-"""What each viewer is made of: its files, and what its stage is told."""
+"""Files and settings of viewers."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ from neural_shadows.layout.layout import Layout
 
 
 def files(layout: Layout, viewer: str) -> dict[str, Any]:
-    """The scene's mesh, and its networks with the depth biases that were found for them."""
+    """Mesh, weights and held-out depth biases of a viewer."""
     settings, paths = layout.entry("viewers", viewer), layout.paths
     scene, rows = settings["scene"], settings["rows"]
     return {
@@ -19,7 +19,7 @@ def files(layout: Layout, viewer: str) -> dict[str, Any]:
 
 
 def arguments(layout: Layout, viewer: str) -> dict[str, Any]:
-    """What `write_viewer` is told beside its files."""
+    """Arguments of `write_viewer` besides files."""
     settings = layout.entry("viewers", viewer)
     name = settings["scene"]
     scene = layout.entry("scenes", name)
@@ -35,10 +35,10 @@ def arguments(layout: Layout, viewer: str) -> dict[str, Any]:
 
 
 def encodings(layout: Layout, viewer: str) -> set[str]:
-    """The kinds of a viewer's networks."""
+    """Kinds of a viewer's networks."""
     return layout.encodings(tables.experiments_of(layout.entry("viewers", viewer)["rows"]))
 
 
 def labels(layout: Layout, viewer: str) -> dict[str, str]:
-    """What Snakemake's report lists of a viewer."""
+    """Labels of a viewer in Snakemake's report."""
     return {"what": f"drag the light of the {layout.entry('viewers', viewer)['scene']}"}

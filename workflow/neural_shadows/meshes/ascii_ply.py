@@ -1,6 +1,6 @@
-"""PLY files in text that hold positions and triangles alone, as the Stanford scans do.
+"""ASCII PLY files of positions and triangles, as Stanford's scans.
 
-All numbers at once: trimesh takes them line by line, of 303,000 lines for 1.1 s instead of 0.1.
+Parses all numbers at once: 0.1 s for 303,000 lines, which take trimesh 1.1 s.
 """
 
 import re
@@ -16,15 +16,17 @@ _HEADER = re.compile(
 
 
 def parse_ascii_ply(data: bytes) -> tuple[np.ndarray, np.ndarray] | None:
-    """Positions (V, 3) float64 and faces (F, 3) int64; None of any other PLY, or a damaged one."""
+    """Positions (V, 3) float64 and faces (F, 3) int64, or None.
+
+    None for any other PLY, or a damaged one."""
     header, _, body = data.partition(b"end_header")
     lines = (line.split() for line in header.splitlines())
-    kept = [b" ".join(line) for line in lines if line and line[0] not in (b"comment", b"obj_info")]
-    found = _HEADER.fullmatch(b" ".join(kept))
-    if not found:
+    lines = [b" ".join(line) for line in lines if line and line[0] not in (b"comment", b"obj_info")]
+    match = _HEADER.fullmatch(b" ".join(lines))
+    if not match:
         return None
-    vertices, faces = int(found[1]), int(found[3])
-    with warnings.catch_warnings(action="ignore"):  # of what is not a number
+    vertices, faces = int(match[1]), int(match[3])
+    with warnings.catch_warnings(action="ignore"):  # about invalid numbers
         try:
             numbers = np.fromstring(body, sep=" ")
         except ValueError:
@@ -34,6 +36,6 @@ def parse_ascii_ply(data: bytes) -> tuple[np.ndarray, np.ndarray] | None:
     rows = numbers[3 * vertices :].reshape(-1, 4)
     if not (rows == rows.astype(np.int64)).all() or not (rows[:, 0] == 3).all():
         return None
-    kind = np.float32 if found[2].startswith(b"float") and found[2] != b"float64" else np.float64
+    kind = np.float32 if match[2].startswith(b"float") and match[2] != b"float64" else np.float64
     positions = numbers[: 3 * vertices].reshape(-1, 3).astype(kind).astype(np.float64)
     return positions, rows[:, 1:].astype(np.int64)

@@ -4,18 +4,18 @@ from itertools import combinations
 
 import numpy as np
 
-# A sphere that leaves no point further out than this, relative to its radius, is the
-# answer. Rounding moves a distance by about 4e-16 of itself, so this is far above noise.
+# Largest excess of a point's distance, relative to the radius, at which iteration stops; far above
+# rounding, about 4e-16.
 _SLACK = 1e-13
 
 
 def minimal_bounding_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
-    """Exact minimal enclosing sphere, which defines normalised space [3.3.1].
+    """Exact minimal enclosing sphere, the unit sphere of normalised space [3.3.1].
 
     Gärtner's pivot rule ("Fast and robust smallest enclosing balls", ESA 1999): grow the
     sphere of a support set of at most four points by the point that is furthest outside,
-    until none is. The sphere of a support set is a lower bound for the radius, so what is
-    returned is minimal to about 1e-13 of the radius, or to the rounding of the coordinates
+    until none is. The sphere of a support set is a lower bound for the radius, so the result
+    is minimal to about 1e-13 of the radius, or to the rounding of the coordinates
     where that is larger. Coplanar, collinear and repeated points are legal.
 
     Args:
@@ -43,7 +43,7 @@ def minimal_bounding_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
         if distances[furthest] <= radius * (1 + _SLACK):
             break
         grown = _sphere_of_few(np.vstack([support, local[furthest]]))
-        # Each step enlarges the sphere, unless rounding has the last word.
+        # Each step enlarges the sphere, up to rounding.
         if grown[1] <= radius:
             break
         centre, radius, support = grown
@@ -53,16 +53,16 @@ def minimal_bounding_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def _sphere_of_few(points: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-    """Minimal enclosing sphere of at most five points, and the points that define it.
+    """Minimal enclosing sphere of at most five points, with its support.
 
     Its centre is the circumcentre of some one to four of the points, and it is the centre
-    whose largest distance is least: so try them all, which needs no tolerance.
+    whose largest distance is least: so all are tried, without a tolerance.
     """
     best = (points[0], np.inf, points)
     for size in range(1, min(len(points), 4) + 1):
         for chosen in combinations(points, size):
             subset = np.array(chosen)
-            # Equally far from each, in their affine hull; a compromise where they are dependent.
+            # Circumcentre in their affine hull; least squares where they are dependent.
             edges = subset[1:] - subset[0]
             centre = subset[0] + np.linalg.lstsq(edges, (edges**2).sum(axis=1) / 2)[0]
             radius = float(np.linalg.norm(points - centre, axis=1).max())

@@ -1,4 +1,4 @@
-"""What makes every vertex and face of a mesh count once, and how closed its surface is."""
+"""Cleaning of meshes, and closedness of surfaces."""
 
 from typing import Any
 
@@ -7,42 +7,42 @@ import trimesh
 
 from neural_shadows.errors import InputError
 
-# Of the bounding box's diagonal, with which vertices are merged that agree to so many digits, and
-# triangles lower than a unit of the last are none. It is below the rounding of float32 (6e-8),
-# in which rays are traced, and above that of float64 at an offset of 1e6 (1e-10).
+# Relative to the bounding box's diagonal: vertices equal to so many digits are merged, and triangles
+# lower than a unit of the last are dropped. This is below the rounding of float32 (6e-8), used for
+# tracing, and above that of float64 at an offset of 1e6 (1e-10).
 DIGITS = 8
 
 
 def clean_mesh(
     vertices: np.ndarray, faces: np.ndarray, name: str
 ) -> tuple[np.ndarray, np.ndarray, dict[str, Any]]:
-    """Make every vertex and face count once; open meshes stay as they are.
+    """Remove duplicate and degenerate elements; open meshes stay open.
 
     Vertices that agree to 1e-8 of the bounding box's diagonal are merged (into the first of
     them), then faces of no height (relative to the same) and repeated faces (the same three
-    vertices, whatever the winding) are dropped, then vertices of no face. Of a flap made of two
-    opposite faces one stays, so its rim then counts as open (the Stanford dragon loses 1,489
-    faces, nearly all of them to such flaps). None of it depends on the unit or on an offset.
+    vertices, whatever the winding) are dropped, then vertices of no face. Of two
+    opposite faces (a flap) one stays, so that its rim then counts as open (the Stanford dragon loses
+    1,489 faces, nearly all to such flaps). The result depends on neither unit nor offset.
 
     Args:
         vertices: (V, 3) in any unit.
         faces: (F, 3) indices into them.
-        name: what error messages call the mesh.
+        name: of the mesh in messages.
 
     Returns:
         Vertices (V', 3) float64 and faces (F', 3) int64 in their first order, and a report:
-        the counts before and after, and what was merged and dropped.
+        counts before and after, and of merged and dropped elements.
 
     Raises:
-        InputError: a NaN or infinite coordinate, or no face with an area.
+        InputError: a coordinate is not finite, or no face has an area.
     """
     vertices = np.asarray(vertices, dtype=np.float64)
-    bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
-    if len(bad):
-        x, y, z = vertices[bad[0]]
+    invalid = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(invalid):
+        x, y, z = vertices[invalid[0]]
         raise InputError(
-            f"mesh {name}: vertex {bad[0]} (counted from 0) is ({x}, {y}, {z}), and "
-            f"{len(bad)} in all have a coordinate that is not a finite number; mend the mesh"
+            f"mesh {name}: vertex {invalid[0]} (counted from 0) is ({x}, {y}, {z}); "
+            f"{len(invalid)} in all have a coordinate that is not finite. Repair the mesh"
         )
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
@@ -50,10 +50,10 @@ def clean_mesh(
     diagonal = np.linalg.norm(high - low)
     if not 0 < diagonal < np.inf:
         raise InputError(
-            f"mesh {name}: its bounding box has the diagonal {diagonal:g}; give a mesh with a size"
+            f"mesh {name}: its bounding box has the diagonal {diagonal:g}. Give a mesh of finite, positive size"
         )
-    # About the origin and with a diagonal of 1, so that tolerances are relative and an offset
-    # costs no digits of a product. What is not used may lie anywhere.
+    # About the origin with a diagonal of 1: tolerances are relative, and an offset costs no digits
+    # of products. Unused vertices may lie anywhere.
     points = np.zeros_like(vertices)
     points[used] = (vertices[used] - (low + (high - low) / 2)) / diagonal
     mesh = trimesh.Trimesh(
@@ -64,7 +64,7 @@ def clean_mesh(
     high_enough = mesh.nondegenerate_faces(height=10**-DIGITS)
     if not high_enough.any():
         raise InputError(
-            f"mesh {name}: all {len(faces)} faces have zero area; give a mesh with a surface"
+            f"mesh {name}: all {len(faces)} faces have zero area. Give a mesh with a surface"
         )
     mesh.update_faces(high_enough)
     mesh.update_faces(mesh.unique_faces())
@@ -83,7 +83,7 @@ def clean_mesh(
 
 
 def closedness(faces: np.ndarray) -> dict[str, Any]:
-    """How closed the surface of a clean mesh is.
+    """Closedness of the surface of a clean mesh.
 
     Args:
         faces: (F, 3) vertex indices, all of which occur.

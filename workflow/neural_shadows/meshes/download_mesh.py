@@ -1,4 +1,4 @@
-"""The stage that fetches the Stanford dragon from the Stanford 3D Scanning Repository."""
+"""Stage for downloading the Stanford dragon."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,15 +18,15 @@ MEMBER = "dragon_recon/dragon_vrip_res2.ply"
 
 
 def download_mesh(downloaded_ply: Path) -> None:
-    """Download the archive of the dragon, and take the mesh of 202,520 triangles out of it.
+    """Download the dragon's archive, and extract its mesh.
 
-    A download that is cut begins again with the next attempt.
+    The mesh has 202,520 triangles. An interrupted download starts again with the next attempt.
 
     Args:
-        downloaded_ply: where the mesh goes, as it is in the archive.
+        downloaded_ply: the mesh, unchanged from the archive.
 
     Raises:
-        InputError: no connection, or an archive or a mesh that is not the published one.
+        InputError: no connection, or archive or mesh differ from the published ones.
     """
     downloaded_ply.parent.mkdir(parents=True, exist_ok=True)
     try:
@@ -40,12 +40,12 @@ def download_mesh(downloaded_ply: Path) -> None:
                 progressbar=progress_bar(ARCHIVE_BYTES, "B", "Stanford dragon"),
             )
             if [sha256_of(path) for path in unpacked] != [DRAGON_SHA256]:
-                raise ValueError(f"{MEMBER} is not in it, or not as published")
+                raise ValueError(f"{MEMBER} is missing, or not as published")
             Path(unpacked[0]).replace(downloaded_ply)
-    except (OSError, ValueError) as error:  # of requests, and of a digest
+    except (OSError, ValueError) as error:  # from requests, or a wrong digest
         reason = " ".join(str(error).split())[:300]
         raise InputError(
-            f"cannot download {URL}: {reason}; try again, or download it by hand, unpack it, and "
+            f"cannot download {URL}: {reason}. Try again, or download it by hand, unpack it, and "
             f"run with `--config dragon=PATH/TO/{Path(MEMBER).name}`"
         ) from error
 

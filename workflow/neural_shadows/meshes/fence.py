@@ -1,4 +1,4 @@
-"""The procedural fence: woven, diagonally crossing round wires in a frame of bars [4.1.1].
+"""Procedural fence: woven diagonal wires in a frame [4.1.1].
 
 x is along the panel, y up, z through it. The panel is 1 wide and `HEIGHT` high between the
 centre lines of its bars; the lower bar lies on y = 0.
@@ -13,30 +13,30 @@ HEIGHT = 0.75
 SIDES = 8  # of a wire's cross-section
 STEPS = 8  # rings of a wire from one crossing to the next
 BAR_SIDES = 24
-# A bar is wide enough to hold the ends of the wires, which reach WEAVE + 1 radii out of the plane.
+# Bars enclose the ends of the wires, up to WEAVE + 1 radii out of the plane.
 BAR_RADII = 3.0
-# Wires pass each other at 2.1 radii between their centre lines: they all but touch.
+# Crossing wires are 2.1 radii apart between centre lines: they almost touch.
 WEAVE = 1.05
 # Widest wire, as a share of the distance between neighbours: beyond it the diamonds close.
 MOST_COVERED = 0.5
 
 
 def make_fence(*, wires: int, wire_radius: float) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (V, 3) float64 and faces (F, 3) int64 of the fence, all parts closed.
+    """Vertices (V, 3) float64 and faces (F, 3) int64, closed parts.
 
     Args:
         wires: diamonds along the panel's width, 2 or more.
         wire_radius: of a wire, in widths of the panel.
 
     Raises:
-        InputError: wires that leave no hole between them.
+        InputError: the wires leave no hole.
     """
     pitch = 1 / wires  # width and height of a diamond
     apart = pitch / np.sqrt(2)
     if not 0 < 2 * wire_radius <= MOST_COVERED * apart:
         raise InputError(
             f"fence: wire_radius = {wire_radius}: must be above 0 and at most "
-            f"{MOST_COVERED * apart / 2:.4g} for {wires} wires, or the diamonds close"
+            f"{MOST_COVERED * apart / 2:.4g} for {wires} wires, so that holes remain"
         )
     bar = BAR_RADII * wire_radius
     parts = [_tube(path, wire_radius) for path in _wire_paths(pitch, WEAVE * wire_radius)]
@@ -57,7 +57,7 @@ def _wire_paths(pitch: float, weave: float) -> list[np.ndarray]:
     over one and under the next.
     """
     paths = []
-    # Along a wire its own number is fixed and the other's runs.
+    # Along a wire its own number is fixed; the other's varies.
     for slope, first, last in ((1, -HEIGHT, 1), (-1, 0, 1 + HEIGHT)):
         for own in range(int(first / pitch), int(last / pitch) + 1):
             low, high = sorted([own * pitch, own * pitch + slope * HEIGHT])
@@ -73,7 +73,7 @@ def _wire_paths(pitch: float, weave: float) -> list[np.ndarray]:
 
 
 def _tube(path: np.ndarray, radius: float) -> trimesh.Trimesh:
-    """A closed tube of `SIDES` sides along a path (n, 3) that stays in an upright plane."""
+    """Closed tube of `SIDES` sides along an upright planar path (n, 3)."""
     tangent = np.gradient(path, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
     across = np.cross([0.0, 0.0, 1.0], path[-1] - path[0])

@@ -1,4 +1,4 @@
-"""The formats of mesh files, by their names' ends."""
+"""Formats of mesh files by suffix."""
 
 from pathlib import Path
 
@@ -8,16 +8,15 @@ FORMATS = ("ply", "obj", "stl", "glb")
 
 
 def format_of(path: str | Path) -> str:
-    """Which of `FORMATS` a mesh file has by its name, which may end in `.gz` too.
+    """Format of a mesh file by its suffix, possibly before `.gz`.
 
     Raises:
-        InputError: none of them.
+        InputError: the suffix is not in `FORMATS`.
     """
     kind = Path(Path(path).name.lower().removesuffix(".gz")).suffix.removeprefix(".")
     if kind not in FORMATS:
         allowed = ", ".join(f".{suffix}" for suffix in FORMATS)
         raise InputError(
-            f"mesh {path}: the format is not known by this suffix; "
-            f"give one of {allowed} (also with .gz behind it)"
+            f"mesh {path}: unknown suffix. Give one of {allowed} (also followed by .gz)"
         )
     return kind

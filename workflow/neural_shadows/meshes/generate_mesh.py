@@ -1,4 +1,4 @@
-"""The stage that makes procedural meshes."""
+"""Stage for procedural meshes."""
 
 from pathlib import Path
 
@@ -11,22 +11,18 @@ from neural_shadows.meshes.wyrm import make_wyrm
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import MeshSource
 
-MAKERS = {
-    "wyrm": make_wyrm,
-    "fence": make_fence,
-    "landscape": make_landscape,
-}
+MAKERS = {"wyrm": make_wyrm, "fence": make_fence, "landscape": make_landscape}
 
 
 def generate_mesh(generated_ply: Path, mesh: MeshSource) -> None:
     """Write a procedural mesh as binary PLY.
 
     Args:
-        generated_ply: where it goes, in a unit of its own.
-        mesh: the scene's section: `generate`, a key of `MAKERS`, and what its maker takes.
+        generated_ply: the mesh, in an arbitrary unit.
+        mesh: the scene's section: `generate`, a key of `MAKERS`, and the maker's arguments.
 
     Raises:
-        InputError: parameters that do not go together.
+        InputError: contradictory parameters.
     """
     parameters = dict(mesh)
     vertices, faces = MAKERS[parameters.pop("generate")](**parameters)

@@ -1,4 +1,4 @@
-"""The procedural landscape: a height field with extrusions, one open sheet [4.1.1].
+"""Procedural landscape: height field with extrusions, an open sheet [4.1.1].
 
 y is up, over the square −1 ≤ x, z ≤ 1: hills of low frequency, and plateaus raised out of them
 with steep, rounded sides.
@@ -6,7 +6,7 @@ with steep, rounded sides.
 
 import numpy as np
 
-SEED = 7  # of places, sizes and heights
+SEED = 7  # of positions, sizes and heights
 PLATEAUS = 12
 HILLS = 10
 HILL_HEIGHT = (0.05, 0.16)
@@ -18,10 +18,12 @@ SHOULDER = 0.02
 
 
 def make_landscape(*, cells: int) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices ((cells + 1)², 3) float64 and faces (2 cells², 3) int64, seen from above.
+    """Vertices ((cells + 1)², 3) float64 and faces (2 cells², 3) int64.
+
+    Faces are wound counter-clockwise from above.
 
     Args:
-        cells: of the grid, along a side, 1 or more.
+        cells: grid cells along a side, 1 or more.
     """
     side = np.linspace(-1, 1, cells + 1)
     x, z = np.meshgrid(side, side, indexing="ij")

@@ -1,4 +1,4 @@
-"""The report on a mesh as `prepare_mesh` wrote it."""
+"""Reports on meshes."""
 
 from pathlib import Path
 from typing import Any
@@ -7,7 +7,7 @@ from neural_shadows.files.whole_files import read_json
 
 
 def read_mesh_report(mesh_json: str | Path) -> dict[str, Any]:
-    """What `prepare_mesh` wrote on a mesh.
+    """Read the report of `prepare_mesh` on a mesh.
 
     Raises:
         InputError: the file is missing or not whole.

@@ -1,4 +1,4 @@
-"""Parts of signed distances as one closed mesh, by marching cubes."""
+"""Closed meshes of signed-distance parts, by marching cubes."""
 
 from collections.abc import Sequence
 
@@ -8,27 +8,27 @@ from trimesh.graph import connected_component_labels
 
 from neural_shadows.meshes.signed_distances import Part, distance_grid
 
-# Samples nearer to the surface than this (in cells) count as just outside: no vertex falls on a
-# grid point, where marching cubes would emit triangles without area.
+# Samples nearer to the surface than this (in cells) are moved outside: a vertex on a grid point would
+# give triangles without area.
 MIN_VALUE_CELLS = 0.01
 
 
 def meshed(parts: Sequence[Part], cells: int) -> tuple[np.ndarray, np.ndarray]:
-    """Mesh of parts: watertight, one piece, wound outward, lowest point on y = 0.
+    """Watertight mesh of parts: one piece, lowest point on y = 0.
 
     Args:
         cells: along the longest side.
 
     Returns:
-        Vertices (V, 3) float64 and faces (F, 3) int64. The same bytes each time.
+        Vertices (V, 3) float64 and faces (F, 3) int64. Wound outward, and deterministic to the byte.
     """
     grid, origin, cell = distance_grid(list(parts), cells)
     grid[np.abs(grid) < MIN_VALUE_CELLS * cell] = MIN_VALUE_CELLS * cell
     vertices, faces, _, _ = marching_cubes(grid, 0.0)
-    # Crumbs: bubbles where parts meet, and tips that a coarse grid cuts off.
+    # Drop fragments: bubbles between parts, and tips cut off by a coarse grid.
     labels = connected_component_labels(faces[:, [[0, 1], [1, 2]]].reshape(-1, 2), len(vertices))
-    keep = labels == np.bincount(labels).argmax()
-    faces = (np.cumsum(keep) - 1)[faces[keep[faces[:, 0]]]]
-    vertices = origin + cell * vertices[keep].astype(np.float64)
+    largest = labels == np.bincount(labels).argmax()
+    faces = (np.cumsum(largest) - 1)[faces[largest[faces[:, 0]]]]
+    vertices = origin + cell * vertices[largest].astype(np.float64)
     vertices[:, 1] -= vertices[:, 1].min()
     return vertices, faces.astype(np.int64)

@@ -1,7 +1,7 @@
 """Wavefront OBJ files: positions and faces.
 
-Not by trimesh, which counts relative indices from the file's end (its issue 2364), takes the index
-0 for 1, and drops vertices behind a tab and lines that are cut.
+trimesh counts relative indices from the file's end (its issue 2364), takes the index 0 for 1, and
+drops vertices after a tab and truncated lines.
 """
 
 import re
@@ -10,18 +10,18 @@ from itertools import pairwise
 
 import numpy as np
 
-# A line of a position or a face, up to a comment. Python's numbers may have underscores, the
-# format's not.
+# A line of a position or a face, up to a comment. Python allows underscores in numbers, the format
+# does not.
 _LINE = re.compile(rb"^[ \t]*([vf])(?!\S)([^\n_#]*)(_?)", re.MULTILINE)
 
 
 def parse_obj(data: bytes) -> tuple[np.ndarray, np.ndarray]:
-    """Positions (V, 3) float64 and faces (F, 3) int64 of an OBJ; polygons become fans.
+    """Positions (V, 3) float64 and faces (F, 3) int64 of an OBJ.
 
-    No other file that it names is opened. Relative indices count from their line.
+    Polygons become fans. No other file is opened. Relative indices count from their line.
 
     Raises:
-        ValueError: a line is not understood.
+        ValueError: a line is malformed.
     """
     data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").replace(b"\\\n", b" ")
     coordinates, corners = array("d"), array("q")
@@ -44,6 +44,6 @@ def parse_obj(data: bytes) -> tuple[np.ndarray, np.ndarray]:
                     corners.extend((first, *pair))
         except (ValueError, OverflowError):
             shown = line.group().strip()[:80].decode("utf-8", "replace")
-            raise ValueError(f"the line '{shown}' is not understood") from None
+            raise ValueError(f"the line '{shown}' is malformed") from None
     faces = np.frombuffer(corners, np.int64).reshape(-1, 3)
     return np.frombuffer(coordinates, float).reshape(-1, 3), faces

@@ -1,4 +1,4 @@
-"""The stage that turns a mesh file into a clean mesh in its unit sphere [3.3.1]."""
+"""Stage for clean meshes in their unit sphere [3.3.1]."""
 
 import hashlib
 from pathlib import Path
@@ -23,25 +23,26 @@ _DROPPED = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "dup
 def prepare_mesh(
     source: Path, mesh_ply: Path, mesh_json: Path, mesh: MeshSource, name: str
 ) -> None:
-    """Read, clean and normalise a mesh: x' = (x - c) / r, its minimal bounding sphere [3.3.1].
+    """Read, clean and normalise a mesh: x' = (x - c) / r.
+
+    c and r are centre and radius of its minimal bounding sphere [3.3.1].
 
     Args:
-        source: any mesh that `read_mesh` reads.
+        source: a mesh file for `read_mesh`.
         mesh_ply: the mesh in normalised space, as binary float32 PLY.
         mesh_json: the report: `name`, `source` (file name) and its `sha256`, `thesis_mesh`
             (`is_thesis_mesh`), `centre` (c) and `radius` (r) in the source's unit, the reports of
             `clean_mesh` and `closedness`, and `sheet` (`is_sheet`).
-        mesh: the scene's section, which says where the source is from.
-        name: what tables call the mesh; messages name its file.
+        mesh: the scene's section, with the origin of the source.
+        name: of the mesh in tables; messages name its file.
 
     Raises:
-        InputError: as `read_mesh` and `clean_mesh`; nothing is written then.
+        InputError: as `read_mesh` and `clean_mesh`, before anything is written.
     """
     vertices, faces, report = clean_mesh(*read_mesh(source), str(source))
     centre, radius = minimal_bounding_sphere(vertices)
     normalised = ((vertices - centre) / radius).astype(np.float32)
-    # float32 can bring distinct vertices together (its spacing at 1 is 6e-8), so what is
-    # written is cleaned once more.
+    # Rounding to float32 (spacing 6e-8 at 1) may merge distinct vertices: clean once more.
     normalised, faces, again = clean_mesh(normalised, faces, str(source))
     closed = closedness(faces)
     content = hashlib.sha256(mesh_bytes(source)).hexdigest()
@@ -60,8 +61,8 @@ def prepare_mesh(
     }
     if report["sheet"]:
         print(
-            f"mesh {source}: open and thin, without an inside; its occupancy fields are sheets "
-            "unless their `surface` or `start` needs an inside, and unfit then",
+            f"mesh {source}: an open sheet without an inside. Its occupancy fields are sheets; "
+            "fields with a `surface` or `start` inside the object are unfit",
             file=progress.TERMINAL,
         )
     with whole_file(mesh_ply) as part:

@@ -1,4 +1,4 @@
-"""Mesh files of all formats, as users bring them."""
+"""Reading of mesh files in all formats."""
 
 import gzip
 import io
@@ -15,41 +15,41 @@ from neural_shadows.meshes.ascii_ply import parse_ascii_ply
 from neural_shadows.meshes.formats import format_of
 from neural_shadows.meshes.obj_file import parse_obj
 
-# What glTF data can be compressed by; trimesh reads zeros in its place.
+# Compression of glTF data, which trimesh reads as zeros.
 _COMPRESSED = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}
 
 
 def read_mesh(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
-    """Read a triangle mesh as its file has it; larger polygons become triangles.
+    """Read a mesh file as triangles.
 
-    Scene graphs are flattened, with every instance where its transforms put it. Only positions
-    and faces are used, and no other file (material, texture) is opened.
+    Larger polygons become triangles. Scene graphs are flattened, with every instance transformed. Only
+    positions and faces are used, and no other file (material, texture) is opened.
 
     Args:
-        path: `.ply`, `.obj`, `.stl` or `.glb`, each also with `.gz` behind it.
+        path: `.ply`, `.obj`, `.stl` or `.glb`, each also followed by `.gz`.
 
     Returns:
         Vertices (V, 3) float64 in the file's unit, faces (F, 3) int64 with indices into them.
 
     Raises:
-        InputError: no such file, an unknown suffix, or a file that is empty, damaged or without
-            triangles, or whose faces name vertices that it does not have.
+        InputError: the file is missing, empty, damaged or without triangles, has an unknown suffix, or
+            faces with invalid vertex indices.
     """
     kind = format_of(path)
     data = mesh_bytes(path)
     try:
         vertices, faces = _parse(data, kind)
         _check_indices(faces, len(vertices))
-    except Exception as error:  # whatever a damaged file makes trimesh raise
+    except Exception as error:  # damaged files raise errors of many types
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise InputError(
-            f"mesh {path}: cannot be read as {kind.upper()} ({reason}); it is damaged, truncated "
-            "or an unusual variant: export it again, as triangles"
+            f"mesh {path}: cannot be read as {kind.upper()} ({reason}): damaged, truncated or "
+            "an unusual variant. Export it again, as triangles"
         ) from error
     if len(faces) == 0:
         raise InputError(
-            f"mesh {path}: no triangles in it (a point cloud, or a truncated file?); "
-            "give a triangle mesh"
+            f"mesh {path}: has no triangles (a point cloud, or a truncated file?). "
+            "Give a triangle mesh"
         )
     return vertices, faces
 
@@ -58,7 +58,7 @@ def mesh_bytes(path: str | Path) -> bytes:
     """Content of a mesh file, decompressed if it ends in `.gz`.
 
     Raises:
-        InputError: no such file, or it is empty or damaged.
+        InputError: the file is missing, empty or damaged.
     """
     path = Path(path)
     try:
@@ -69,15 +69,15 @@ def mesh_bytes(path: str | Path) -> bytes:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"mesh {path}: cannot be read ({reason})") from error
     if not data:
-        raise InputError(f"mesh {path}: is empty; copy or export it again")
+        raise InputError(f"mesh {path}: is empty. Copy or export it again")
     return data
 
 
 def _parse(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
     if kind == "obj":
         return parse_obj(data)
-    if kind == "ply" and (found := parse_ascii_ply(data)) is not None:
-        return found
+    if kind == "ply" and (mesh := parse_ascii_ply(data)) is not None:
+        return mesh
     return _parse_with_trimesh(data, kind)
 
 
@@ -87,17 +87,17 @@ def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]
         _check_ply(data)
     if kind == "glb":
         _check_glb(data)
-    # Without `fix_texture` the vertices of a PLY are not copied at texture seams.
+    # `fix_texture` would duplicate vertices of a PLY at texture seams.
     scene = trimesh.load_scene(
         io.BytesIO(data), file_type=kind, process=False, skip_materials=True, fix_texture=False
     )
     meshes = [part for part in scene.geometry.values() if isinstance(part, trimesh.Trimesh)]
     if not meshes:
         return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
-    # Part by part: once joined, an index past the end of one part is a vertex of the next.
+    # Part by part: in the joined mesh, an index past one part's end is a vertex of the next.
     for mesh in meshes:
         _check_indices(mesh.faces, len(mesh.vertices))
-    # To flatten is to copy: 2 million triangles for 5 s.
+    # Flattening copies: 5 s for 2 million triangles.
     if kind == "glb" or len(meshes) > 1:
         mesh = scene.to_mesh()
     if len(mesh.faces) and mesh.vertices.shape[1:] != (3,):
@@ -106,26 +106,26 @@ def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]
 
 
 def _check_ply(data: bytes) -> None:
-    """Refuse text with fewer rows than its header says, which trimesh takes for all."""
+    """Refuse truncated ASCII files, accepted by trimesh."""
     header, _, body = data.partition(b"end_header")
     if re.search(rb"^format ascii", header, re.MULTILINE):
-        said = sum(map(int, re.findall(rb"^element \S+ (\d+)", header, re.MULTILINE)))
+        expected = sum(map(int, re.findall(rb"^element \S+ (\d+)", header, re.MULTILINE)))
         rows = len(body.split(b"\n")) - 2 + (not body.endswith(b"\n"))
-        if rows < said:
-            raise ValueError(f"{rows:,} rows where its header says {said:,}")
+        if rows < expected:
+            raise ValueError(f"{rows:,} rows instead of the header's {expected:,}")
 
 
 def _check_glb(data: bytes) -> None:
-    """Refuse compressed data, for which trimesh reads zeros."""
+    """Refuse compressed data, read as zeros by trimesh."""
     tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     if compressed := _COMPRESSED.intersection(tree.get("extensionsRequired", [])):
         raise ValueError(f"its data is compressed ({', '.join(compressed)}): export it without")
 
 
 def _check_indices(faces: np.ndarray, vertices: int) -> None:
-    """Refuse faces (F, 3) that name vertices which are not there."""
-    bad = np.flatnonzero(((faces < 0) | (faces >= vertices)).any(axis=1))
-    if len(bad):
+    """Refuse faces (F, 3) with invalid vertex indices."""
+    invalid = np.flatnonzero(((faces < 0) | (faces >= vertices)).any(axis=1))
+    if len(invalid):
         raise ValueError(
-            f"face {bad[0]} (counted from 0) names vertices {faces[bad[0]].tolist()} of {vertices}"
+            f"face {invalid[0]} (counted from 0) has vertices {faces[invalid[0]].tolist()} of {vertices}"
         )

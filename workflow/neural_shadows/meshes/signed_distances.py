@@ -1,24 +1,24 @@
-"""Signed distances to parts made of cones, wedges and ellipsoids, on a grid."""
+"""Grids of signed distances to cones, wedges and ellipsoids."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-# No radius or half thickness is evaluated below this many cells. A ball of radius sqrt(3)/2
-# cells always holds a grid sample, so anything thicker cannot slip between them and be torn.
+# Least radius or half thickness in cells. A ball of radius sqrt(3)/2 cells always contains a grid
+# sample, so that thicker pieces are not torn.
 MIN_RADIUS_CELLS = 0.9
 _FAR = np.float32(1e3)
 
 
 @dataclass(frozen=True)
 class Part:
-    """Pieces of one kind: joined sharply with each other, smoothly with the parts before.
+    """Pieces of one kind, joined smoothly with previous parts.
 
-    The shape of `pieces` tells the kind:
+    Pieces are joined sharply with each other. The shape of `pieces` gives the kind:
     (n, 2, 4) cones, the rows being two ends (x, y, z, radius);
     (n, 3, 4) wedges, three corners (x, y, z, half thickness);
     (n, 4, 3) ellipsoids, the centre and three orthogonal semi-axes.
-    `blend` is the width of the smooth union. A `carve` part is taken away instead.
+    `blend` is the width of the smooth union. A `carve` part is subtracted.
     """
 
     pieces: np.ndarray
@@ -26,7 +26,7 @@ class Part:
     carve: bool = False
 
 
-# The distances take a piece and float32 coordinates that broadcast to a block of the grid.
+# Distances of a piece at float32 coordinates that broadcast to a block of the grid.
 
 
 def _cone(piece, x, y, z):
@@ -56,7 +56,7 @@ def _ellipsoid(piece, x, y, z):
     cx, cy, cz = piece[0].tolist()
     axes = piece[1:] / (piece[1:] ** 2).sum(axis=1, keepdims=True)
     squares = [(i * (x - cx) + j * (y - cy) + k * (z - cz)) ** 2 for i, j, k in axes.tolist()]
-    k = np.sqrt(sum(squares) + 1e-12)  # never 0, or the centre would pass for surface
+    k = np.sqrt(sum(squares) + 1e-12)  # never 0: the centre would count as surface
     weights = (axes**2).sum(axis=1).tolist()
     slope = np.sqrt(sum(s * w for s, w in zip(squares, weights, strict=True)))
     return k * (k - 1) / np.maximum(slope, 1e-6)
@@ -66,7 +66,7 @@ _DISTANCES = {2: _cone, 3: _wedge, 4: _ellipsoid}
 
 
 def _boxes(pieces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lowest and highest corners (n, 3) of the pieces' boxes."""
+    """Lowest and highest corners (n, 3) of the pieces' bounding boxes."""
     if pieces.shape[1] == 4:
         half = np.linalg.norm(pieces[:, 1:], axis=1)
         return pieces[:, 0] - half, pieces[:, 0] + half
@@ -75,9 +75,10 @@ def _boxes(pieces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def distance_grid(parts: list[Part], cells: int) -> tuple[np.ndarray, np.ndarray, float]:
-    """Signed distance to the parts (float32, right near the surface), its origin and cell size.
+    """Signed distance to parts on a grid, its origin and cell size.
 
-    A piece is evaluated only in its own box, widened by as much as its blend can reach.
+    float32, exact near the surface. A piece is evaluated only in its bounding box, widened by the reach
+    of its blend.
     """
     boxes = [_boxes(part.pieces) for part in parts]
     low = np.min([lows.min(axis=0) for lows, _ in boxes], axis=0)

@@ -1,7 +1,7 @@
-"""The procedural stand-in dragon: signed-distance parts, meshed by marching cubes.
+"""Procedural stand-in dragon: signed-distance parts, meshed by marching cubes.
 
-x is forward, y up, z to the creature's right. It is about 2.2 units long, standing on y = 0;
-the unit has no meaning, since every mesh is normalised later.
+x is forward, y up, z to the creature's right. It is about 2.2 units long, standing on y = 0, in an
+arbitrary unit.
 """
 
 from dataclasses import replace
@@ -37,7 +37,9 @@ SPINE = [
 
 
 def curve(*points, count: int = 24) -> np.ndarray:
-    """Spline through points (x, y, z, radius) as (count, 4); the radii do not overshoot."""
+    """Spline (count, 4) through points (x, y, z, radius).
+
+    Radii do not overshoot."""
     points = np.array(points, dtype=float)
     knots = np.r_[0, np.cumsum(np.linalg.norm(np.diff(points[:, :3], axis=0), axis=1))]
     at = np.linspace(0, knots[-1], count)
@@ -62,7 +64,7 @@ def ellipsoid(centre, radii, blend: float, carve: bool = False) -> Part:
 def membrane(rows_a: np.ndarray, rows_b: np.ndarray, scallop: float) -> Part:
     """Sheet of least thickness between two curves from one root.
 
-    Its free edge is cut in by `scallop`, a fraction of the curves' length.
+    Its free edge is indented by `scallop`, a fraction of the curves' length.
     """
     lines = []
     for u in np.linspace(0, 1, 10):
@@ -74,19 +76,21 @@ def membrane(rows_a: np.ndarray, rows_b: np.ndarray, scallop: float) -> Part:
         lines.append(np.pad((1 - u) * a + u * b, ((0, 0), (0, 1))))
     grid = np.stack(lines)
     a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-    # At the root a = b: the other triangle of those quads is without area.
+    # At the root a = b: the other triangle of these quads has no area.
     halves = [(a, c, d), (a[:, 1:], b[:, 1:], c[:, 1:])]
     return Part(np.concatenate([np.stack(h, axis=2).reshape(-1, 3, 4) for h in halves]), 0.004)
 
 
 def mirrored(parts: list[Part]) -> list[Part]:
-    """The parts, each with its mirror image in z."""
+    """Parts with their mirror images in z."""
     flip = np.array([1.0, 1.0, -1.0, 1.0])
     return parts + [replace(p, pieces=p.pieces * flip[: p.pieces.shape[2]]) for p in parts]
 
 
 def placed(parts: list[Part], origin, scale: float, yaw: float, pitch: float = 0.0) -> list[Part]:
-    """The parts scaled, pitched about z, turned about y (both in degrees), then moved."""
+    """Parts scaled, pitched about z, turned about y, then moved.
+
+    Angles in degrees."""
     turn = Rotation.from_euler("zy", [pitch, yaw], degrees=True).as_matrix()
     result = []
     for part in parts:
@@ -99,26 +103,26 @@ def placed(parts: list[Part], origin, scale: float, yaw: float, pitch: float = 0
 
 
 def hide() -> list[Part]:
-    """Belly plates, flank scales, the crest, and the blade at the tail's tip."""
+    """Belly plates, flank scales, crest, and tail blade."""
     rows = curve(*SPINE, count=240)
     tangents = np.gradient(rows[:, :3], axis=0)
     step = np.linalg.norm(tangents, axis=1).mean()
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
     plates, scales, crest = [], [], []
-    dorsal, place, ring = np.array([0.0, 1.0, 0.0]), 8.0, 0
+    dorsal, next_ring, ring = np.array([0.0, 1.0, 0.0]), 8.0, 0
     for i, ((*centre, radius), t) in enumerate(zip(rows, tangents, strict=True)):
-        dorsal = dorsal + [0.0, 0.05, 0.0]  # parallel transport rolls: pull the back upwards
+        dorsal = dorsal + [0.0, 0.05, 0.0]  # counters the roll of parallel transport
         dorsal -= (dorsal @ t) * t
         dorsal /= np.linalg.norm(dorsal)
         side = np.cross(t, dorsal)
-        if i < place or i > len(rows) - 12:
+        if i < next_ring or i > len(rows) - 12:
             continue
         pitch = 0.030 + 0.12 * radius
         around = max(6, int(2 * np.pi * radius / pitch))
         for angle in 2 * np.pi * (np.arange(around) + 0.5 * (ring % 2)) / around:
             out = np.cos(angle) * dorsal + np.sin(angle) * side
             if np.cos(angle) > -0.55:
-                # Tilted by 15 degrees, the rear edge stands off as on a tiled roof.
+                # Tilted by 15 degrees: the rear edge stands off, as on a tiled roof.
                 along, lift = 0.966 * t - 0.259 * out, 0.966 * out + 0.259 * t
                 axes = 0.62 * pitch * along, 0.47 * pitch * np.cross(out, t), 0.26 * pitch * lift
                 scales.append([centre + radius * out, *axes])
@@ -130,7 +134,7 @@ def hide() -> list[Part]:
             front, back = foot - 0.75 * pitch * t, foot + pitch * t
             tip = foot + 1.5 * pitch * t + (0.65 * radius + 0.02) * dorsal
             crest.append([[*front, 0.012], [*back, 0.010], [*tip, 0.003]])
-        place += 0.8 * pitch / step
+        next_ring += 0.8 * pitch / step
         ring += 1
     end = rows[-1, :3]
     for barb in (end - 0.03 * t - 0.09 * side, end - 0.03 * t + 0.09 * side):
@@ -143,7 +147,7 @@ def hide() -> list[Part]:
 
 
 def head() -> list[Part]:
-    """Head of about unit length, the nape at the origin, snout along x, jaw open."""
+    """Head of about unit length: nape at the origin, snout along x."""
     teeth = []
     for x, long in [(0.5, 0.07), (0.61, 0.09), (0.72, 0.10), (0.83, 0.12), (0.94, 0.17)]:
         z = 0.146 - 0.09 * x
@@ -194,7 +198,9 @@ def head() -> list[Part]:
 
 
 def leg(points, yaw: float, size: float) -> list[Part]:
-    """A leg along rows (x, y, z, radius) and, under its end, a clawed foot of length `size`."""
+    """Leg along rows (x, y, z, radius), with a clawed foot.
+
+    The foot has length `size`."""
     toe = [
         tube(0.05, (0.0, 0.3, 0, 0.2), (0.4, 0.3, 0, 0.15), (0.72, 0.15, 0, 0.13)),
         tube(0.02, (0.7, 0.2, 0, 0.12), (0.98, 0.22, 0, 0.08), (1.2, 0.02, 0, 0.015)),
@@ -206,7 +212,7 @@ def leg(points, yaw: float, size: float) -> list[Part]:
 
 
 def wing() -> list[Part]:
-    """The half-raised right wing: arm, three fingers and a thumb, membranes down to the hip."""
+    """Half-raised right wing: arm, three fingers, thumb, membranes."""
     wrist = (0.12, 1.26, 0.36)
     fingers = [
         curve((*wrist, 0.03), (-0.03, 1.50, 0.50, 0.02), (-0.34, 1.60, 0.56, 0.006)),
@@ -239,7 +245,7 @@ def wing() -> list[Part]:
 
 
 def creature() -> list[Part]:
-    """All parts in the order in which they are joined: bulk first, thin detail last."""
+    """All parts in joining order: bulk first, thin detail last."""
     legs = []
     for side, hind, fore in [(1, 0.0, 0.04), (-1, 0.12, -0.12)]:  # mid-stride
         z = 0.2 * side
@@ -263,14 +269,14 @@ def creature() -> list[Part]:
 
 
 def make_wyrm(cells: int = 220) -> tuple[np.ndarray, np.ndarray]:
-    """Mesh of the dragon: watertight, one piece, wound outward, lowest point on y = 0.
+    """Watertight mesh of the dragon: one piece, lowest point on y = 0.
 
     Args:
-        cells: cells along the creature's longest side (x), 48 or more, where the least radius
-            has swollen the volume by 40 % and the jaws have grown together. The triangles grow
-            with its square: 22,000 at 64, 240,000 at 220, 510,000 at 320.
+        cells: cells along the creature's longest side (x), 48 or more. At 48 the least radius
+            enlarges the volume by 40 % and closes the jaws. The number of triangles grows with its
+            square: 22,000 at 64, 240,000 at 220, 510,000 at 320.
 
     Returns:
-        Vertices (V, 3) float64 and faces (F, 3) int64. The same bytes each time.
+        Vertices (V, 3) float64 and faces (F, 3) int64. Wound outward, and deterministic to the byte.
     """
     return meshed(creature(), cells)

@@ -1,1 +1,1 @@
-"""How far a frame is from its reference: PSNR, SSIM, FLIP, LPIPS, shadow error [4.1]."""
+"""Error of a frame from its reference: PSNR, SSIM, FLIP, LPIPS, shadow error [4.1]."""

@@ -1,4 +1,4 @@
-"""LPIPS where its trunk was found, else nothing."""
+"""LPIPS of a run, if available."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -7,13 +7,13 @@ from neural_shadows.files.whole_files import read_json
 
 
 def lpips_metric(lpips_json: Path, threads: int) -> dict[str, Callable[..., float]]:
-    """LPIPS by its name, for images (H, W) in [0, 1]; nothing where it is not available.
+    """LPIPS by its name; empty where it is not available. The metric takes images (H, W) in [0, 1].
 
     Args:
-        lpips_json: what `find_lpips` wrote. threads: of PyTorch, from now on.
+        lpips_json: of `find_lpips`. threads: of PyTorch, from now on.
     """
-    found = read_json(lpips_json)
-    if not found["available"]:
+    availability = read_json(lpips_json)
+    if not availability["available"]:
         return {}
     # Here and not above: torch and torchvision take 3 s to import.
     import torch
@@ -21,5 +21,5 @@ def lpips_metric(lpips_json: Path, threads: int) -> dict[str, Callable[..., floa
     from neural_shadows.metrics.lpips_distance import make_lpips
 
     torch.set_num_threads(threads)
-    trunk = Path(found["trunk"]) if found["trunk"] else None
-    return {"lpips": make_lpips(found["net"], trunk)}
+    trunk = Path(availability["trunk"]) if availability["trunk"] else None
+    return {"lpips": make_lpips(availability["net"], trunk)}

@@ -1,4 +1,4 @@
-"""The shadow map that would be as wrong as a method: what its error is worth in texels."""
+"""The shadow map as wrong as a method. A method's error in texels."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,7 @@ import numpy as np
 def equivalent_resolution(
     sizes: Sequence[int], errors: Sequence[float], error: float
 ) -> float | None:
-    """Texels along a side of the smallest map with this error; None outside those measured.
+    """Side in texels of the smallest map with this error. None outside those measured.
 
     Both the size and the error are interpolated in their logarithms: maps halve their error at
     about each doubling. For PSNR give `mse_of` it, so that it is linear in dB; LPIPS and 1 − SSIM
@@ -22,9 +22,9 @@ def equivalent_resolution(
     """
     order = np.argsort(sizes)
     x, y = np.log(np.asarray(sizes, float)[order]), np.log(np.asarray(errors, float)[order])
-    at = np.log(error)
+    log_error = np.log(error)
     for i in range(len(x) - 1):
-        if min(y[i], y[i + 1]) <= at <= max(y[i], y[i + 1]):
-            part = (at - y[i]) / (y[i + 1] - y[i]) if y[i] != y[i + 1] else 0.0
-            return float(np.exp(x[i] + part * (x[i + 1] - x[i])))
+        if min(y[i], y[i + 1]) <= log_error <= max(y[i], y[i + 1]):
+            fraction = (log_error - y[i]) / (y[i + 1] - y[i]) if y[i] != y[i + 1] else 0.0
+            return float(np.exp(x[i] + fraction * (x[i + 1] - x[i])))
     return None

@@ -1,4 +1,4 @@
-"""Metrics as errors that fall to 0, which power laws are fitted to, and back."""
+"""Metrics as errors that fall to 0, and back. Power laws are fitted to them."""
 
 import numpy as np
 
@@ -6,7 +6,10 @@ from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
 
 
 def error_of(metric: str, value: np.ndarray) -> np.ndarray:
-    """PSNR as mean squared error, SSIM as 1 − SSIM; loss, LPIPS, FLIP and shares as they are."""
+    """A metric's error.
+
+    PSNR as mean squared error, SSIM as 1 − SSIM; loss, LPIPS, FLIP and shares as they are.
+    """
     match metric:
         case "psnr":
             return mse_of(value)
@@ -16,7 +19,7 @@ def error_of(metric: str, value: np.ndarray) -> np.ndarray:
 
 
 def value_of(metric: str, error: np.ndarray) -> np.ndarray:
-    """A metric's value, of `error_of` it."""
+    """A metric's value from its `error_of`."""
     match metric:
         case "psnr":
             return psnr_of(error)

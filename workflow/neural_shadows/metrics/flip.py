@@ -1,6 +1,6 @@
 """LDR-FLIP of grey images (Andersson et al. 2020), by NVIDIA's `flip-evaluator`.
 
-For images that are shown to people at 67 pixels a degree: a 3840-pixel, 0.7 m wide display seen
+For images seen at 67 pixels a degree: a 3840-pixel, 0.7 m wide display seen
 from 0.7 m, the paper's and the package's default. A frame of 600 x 400 takes 0.28 CPU s.
 Tiles of it that differ from the reference would give the same mean but no sooner: shadows differ
 all along their outlines.
@@ -13,7 +13,7 @@ from neural_shadows.metrics.grey_images import check_pair
 
 
 def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Error of each pixel, float32 (H, W) in [0, 1], between grey sRGB images (H, W) in [0, 1].
+    """Error of each pixel, float32 (H, W) in [0, 1]. Between grey sRGB images (H, W) in [0, 1].
 
     Raises:
         ValueError: the images are no pair of grey images in [0, 1].

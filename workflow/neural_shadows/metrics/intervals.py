@@ -1,4 +1,4 @@
-"""95 % intervals of means over views, frames, scenes and trainings.
+"""95 % intervals of means: views, frames, scenes, trainings.
 
 Means over views of one object: percentile bootstrap, expanded to the width of Student's t. Means
 over scenes, and whatever trainings are compared by: Student's t with the degrees of freedom of
@@ -15,20 +15,20 @@ import scipy
 from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
 
 LEVEL = 0.95
-FEWEST_VIEWS = 10  # views or frames that decide something; of fewer a percentile is a single view
+FEWEST_VIEWS = 10  # views or frames for a decision; of fewer a percentile is a single view
 # Scenes that are units of their own. Of five, 2.8 standard errors either way; of fewer (4: 3.2, 3: 4.3,
-# 2: 12.7) no statement on other scenes is decided, and frames speak of these alone.
+# 2: 12.7) nothing is decided for other scenes, and frames are samples of these alone.
 FEWEST_SCENES = 5
 
 
 def mean_interval(
     values: np.ndarray, seed: int, resamples: int = 2000
 ) -> tuple[float, float, float]:
-    """Mean of `values`, shape (n,), and its interval: (mean, low, high).
+    """Mean of `values` (n,) with its interval: (mean, low, high).
 
     Views are drawn with replacement. The same seed draws the same views for every series of
     the same length, so intervals of methods seen from the same views can be compared. A single
-    value says nothing about its spread: low = high = mean.
+    value has no spread: low = high = mean.
     """
     values = np.asarray(values, dtype=np.float64)
     if values.size == 1:
@@ -39,14 +39,14 @@ def mean_interval(
 def paired_difference(
     a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000
 ) -> tuple[float, float, float]:
-    """Mean difference of two methods on the same views, (n,) each: (a − b, low, high)."""
+    """Mean difference on the same views: (a − b, low, high). Of two methods, (n,) each."""
     return mean_interval(np.subtract(a, b, dtype=np.float64), seed, resamples)
 
 
 def pooled_psnr_interval(
     psnr: np.ndarray, seed: int, resamples: int = 2000
 ) -> tuple[float, float, float]:
-    """Pooled PSNR of a method's views (n,), dB: (value, low, high); views are drawn."""
+    """Pooled PSNR of a method's views (n,), dB: (value, low, high). Views are resampled."""
     mean, low, high = mean_interval(mse_of(psnr), seed, resamples)
     return tuple(float(psnr_of(mse)) for mse in (mean, high, low))
 
@@ -54,7 +54,7 @@ def pooled_psnr_interval(
 def pooled_psnr_difference(
     a: np.ndarray, b: np.ndarray, seed: int, resamples: int = 2000
 ) -> tuple[float, float, float]:
-    """Difference of the pooled PSNRs of two methods on the same views, dB: (a − b, low, high).
+    """Difference of pooled PSNRs, dB: (a − b, low, high). Of two methods on the same views.
 
     Args:
         a, b: PSNR of each view (n,), dB. The same views are drawn of both.
@@ -66,9 +66,10 @@ def pooled_psnr_difference(
 
 
 def t_interval(values: np.ndarray) -> tuple[float, float, float, float]:
-    """Mean of one value a training (S,), by Student's t: (mean, low, high, two-sided p of mean 0).
+    """Mean of trainings: (mean, low, high, p).
 
-    One training says nothing of how trainings differ: its interval is without ends, and p is 1.
+    One value a training (S,), by Student's t; two-sided p of mean 0. One training has no spread:
+    its interval is infinite, and p is 1.
     """
     values = np.asarray(values, dtype=np.float64)
     mean, count = float(values.mean()), values.size
@@ -78,7 +79,7 @@ def t_interval(values: np.ndarray) -> tuple[float, float, float, float]:
 
 
 def scenes_interval(values: np.ndarray, scenes: np.ndarray) -> tuple[float, float, float, float]:
-    """Mean over scenes of their frames' means, its interval and the p-value of its being 0.
+    """Mean over scenes of their frames' means, with its interval. And the p-value of its being 0.
 
     From `FEWEST_SCENES` on scenes are the units, of which frames are samples: the statement is about
     other scenes like these. Of fewer the frames are, each among those of its scene: the statement is
@@ -106,7 +107,10 @@ def scenes_interval(values: np.ndarray, scenes: np.ndarray) -> tuple[float, floa
 
 
 def _variance_of_mean(frames: np.ndarray, scenes: int) -> tuple[np.ndarray, int]:
-    """Of a scene's mean in that over `scenes`, with its degrees of freedom; infinite of one frame."""
+    """Variance and degrees of freedom of a scene's mean.
+
+    Its part in the mean over `scenes`; infinite of one frame.
+    """
     count = frames.shape[-1]
     if count == 1:
         return np.full(frames.shape[:-1], np.inf), 1
@@ -118,12 +122,12 @@ def two_way_interval(
     statistic: Callable[[np.ndarray], float] = np.mean,
     groups: np.ndarray | None = None,
 ) -> tuple[float, float, float, float]:
-    """A statistic of trainings and views with an interval for both, by Student's t.
+    """A statistic of trainings and views, with its interval.
 
-    The variance of views is that of the jackknife, each view left out among those of its group
-    (exact for means); that of trainings is of the statistic of each. Both are added, with the
-    degrees of freedom of Satterthwaite; what views and trainings do together is counted in both.
-    With one training the interval is of its views alone.
+    The interval is for both, by Student's t. The variance of views is that of the jackknife, each
+    view left out among those of its group (exact for means); that of trainings is of the statistic
+    of each. Both are added, with the degrees of freedom of Satterthwaite; what views and trainings
+    do together is counted in both. With one training the interval is of its views alone.
 
     Args:
         values: (S, V) of trainings and views, or (S, V, ...), for instance with both methods of a
@@ -146,12 +150,14 @@ def two_way_interval(
         group = np.flatnonzero(labels == label)
         if len(group) == 1:
             return float(value), -np.inf, np.inf, 1.0
-        for training, its in zip(values, each):
+        for training, of_training in zip(values, each):
             total = training[group].sum(axis=0)
-            for place in group:
+            for view in group:
                 without = training.copy()
-                without[place] = (total - training[place]) / (len(group) - 1)
-                influences[place] += (len(group) - 1) * (its - statistic(without[None])) / trainings
+                without[view] = (total - training[view]) / (len(group) - 1)
+                influences[view] += (
+                    (len(group) - 1) * (of_training - statistic(without[None])) / trainings
+                )
         parts.append((influences[group].var(ddof=1) / len(group), len(group) - 1))
     if trainings > 1:
         parts.append((each.var(ddof=1) / trainings, trainings - 1))
@@ -161,18 +167,21 @@ def two_way_interval(
 def _students(
     value: np.ndarray, parts: list[tuple[np.ndarray, int]]
 ) -> tuple[float, float, float, float]:
-    """A value, its interval and p-value, of independent variances with their degrees of freedom."""
+    """A value, its interval and p-value.
+
+    From independent variances with their degrees of freedom.
+    """
     variance = np.asarray(sum(part for part, _ in parts))
     if not np.isfinite(variance).all():
         return float(value), -np.inf, np.inf, 1.0
-    some = np.where(variance > 0, variance, 1.0)
-    freedom = some**2 / sum((part**2 + (variance <= 0)) / degrees for part, degrees in parts)
+    positive = np.where(variance > 0, variance, 1.0)
+    freedom = positive**2 / sum((part**2 + (variance <= 0)) / degrees for part, degrees in parts)
     half = scipy.stats.t.ppf((1 + LEVEL) / 2, freedom) * np.sqrt(variance)
     p = np.where(
-        variance > 0, 2 * scipy.stats.t.sf(np.abs(value) / np.sqrt(some), freedom), value == 0
+        variance > 0, 2 * scipy.stats.t.sf(np.abs(value) / np.sqrt(positive), freedom), value == 0
     )
-    found = value, value - half, value + half, p
-    return found if np.ndim(value) else tuple(map(float, found))
+    interval = value, value - half, value + half, p
+    return interval if np.ndim(value) else tuple(map(float, interval))
 
 
 def _psnr_difference(a: np.ndarray, b: np.ndarray, axis: int = -1) -> np.ndarray:
@@ -195,10 +204,11 @@ def _interval(
 
 
 def _expanded(count: int) -> float:
-    """The level at which percentiles of resampled means of `count` values are as far as Student's t.
+    """Bootstrap level that reaches as far as Student's t.
 
-    A resampling has the variance of `count` − 1 values, and knows it as if they were many; at `LEVEL`
-    its percentiles cover 90 % for ten values, 92 for 16 (Hesterberg 2015, section 5.3).
+    Of percentiles of resampled means of `count` values. A resampling has the variance of `count` −
+    1 values, without their uncertainty; at `LEVEL` its percentiles cover 90 % for ten values, 92
+    for 16 (Hesterberg 2015, section 5.3).
     """
     ends = np.sqrt(count / (count - 1)) * scipy.stats.t.ppf((1 + LEVEL) / 2, count - 1)
     return float(1 - 2 * scipy.stats.norm.sf(ends))

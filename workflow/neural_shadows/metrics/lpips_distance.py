@@ -16,10 +16,10 @@ Lpips = Callable[[np.ndarray, np.ndarray], float]
 
 
 def load_model(net: Net, trunk: Path | None) -> lpips.LPIPS:
-    """LPIPS 0.1 with the trunk from a file, or with torchvision's from torch's cache.
+    """LPIPS 0.1 with a backbone from a file or torch's cache. Without a file, torchvision's.
 
     That cache is `$TORCH_HOME/hub/checkpoints`, by default in `~/.cache/torch`; what is not in it
-    is downloaded. The linear heads come with the package.
+    is downloaded. The package has the linear heads.
 
     Raises:
         InputError: the file `trunk` cannot be used.
@@ -31,7 +31,7 @@ def load_model(net: Net, trunk: Path | None) -> lpips.LPIPS:
         model = lpips.LPIPS(net=net, version="0.1", pnet_rand=trunk is not None, verbose=False)
     if trunk:
         weights = read_trunk(net, trunk)
-        # lpips cuts the trunk in slices but keeps the layers' numbers: slice2.3.weight.
+        # lpips cuts the backbone into slices but keeps the layers' numbers: slice2.3.weight.
         slices = {key: weights[key.partition(".")[2]] for key in model.net.state_dict()}
         model.net.load_state_dict(slices)
     return model.eval()
@@ -39,7 +39,7 @@ def load_model(net: Net, trunk: Path | None) -> lpips.LPIPS:
 
 def make_lpips(net: Net, trunk: Path | None, device: str = "cpu") -> Lpips:
     """LPIPS of grey frames. Arguments and errors as of `load_model`."""
-    # Channels last: the trunk is 1.8 times as fast, at the same values to 1e-8.
+    # Channels last: the backbone is 1.8 times as fast, at the same values to 1e-8.
     model = load_model(net, trunk).to(device, memory_format=torch.channels_last)
 
     def rgb(image: np.ndarray) -> torch.Tensor:

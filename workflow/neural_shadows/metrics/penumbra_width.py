@@ -1,4 +1,7 @@
-"""How wide the penumbrae of a frame are: on average along edges of hard shadows, and pixel by pixel."""
+"""Widths of a frame's penumbrae, in pixels.
+
+On average along edges of hard shadows, and pixel by pixel.
+"""
 
 import numpy as np
 import scipy
@@ -7,11 +10,11 @@ ENDS = (0.1, 0.9)  # visibilities between which 0.8 of a penumbra's width lies
 # An edge of length 1 in a direction drawn at random crosses 4 / π sides of pixels (Cauchy, Crofton).
 LENGTH_OF_A_SIDE = np.pi / 4
 _REACHES = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96)  # pixels, half of a width and more
-WIDEST = 2 * _REACHES[-1]  # pixels that a width is told apart to
+WIDEST = 2 * _REACHES[-1]  # pixels: the largest width that is resolved
 
 
 def penumbra_width(visibility: np.ndarray, valid: np.ndarray, hard: np.ndarray) -> float:
-    """Mean width in pixels: the area between the ends over the length of the hard shadow's edges.
+    """Mean width in pixels. The area between the ends over the length of the hard shadow's edges.
 
     NaN without an edge. Penumbrae that lie across several edges count once for all of them.
 
@@ -27,34 +30,34 @@ def penumbra_width(visibility: np.ndarray, valid: np.ndarray, hard: np.ndarray) 
 
 
 def local_widths(visibility: np.ndarray, valid: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Width of the penumbra that each penumbra pixel lies in, (n,) pixels, at most `WIDEST`.
+    """Penumbra width at each penumbra pixel, (n,) pixels. At most `WIDEST`.
 
     The whole width, from where the light begins to be hidden to where all of it is: that of a straight
-    edge's penumbra as steep as the steepest place within half a width: of a spherical light, by 4 / π
+    edge's penumbra as steep as the steepest pixel within half a width: of a spherical light, by 4 / π
     of its mean slope. From 5 pixels on, 3 % too wide, or with the noise of 512 rays up
     to 8 % too narrow; narrower ones by up to 2 pixels too wide. Where penumbrae cross, the steeper
     one's; of an occluder thinner than half the width, wider than the light alone would make it; near
-    geometry edges, of the steepest place that is clear of them; pixels without one are left out.
+    geometry edges, of the steepest pixel clear of them; pixels without one are left out.
 
     Args:
         visibility: (H, W) float32 in [0, 1], exact. valid: (H, W) bool. edges: (H, W) bool, pixels at
             geometry edges, where another surface's visibility begins.
     """
     counts = valid & ~edges
-    chosen = counts & (visibility > ENDS[0]) & (visibility < ENDS[1])
-    widths, left = np.full(visibility.shape, np.nan), chosen.copy()
+    selected = counts & (visibility > ENDS[0]) & (visibility < ENDS[1])
+    widths, remaining = np.full(visibility.shape, np.nan), selected.copy()
     for reach in _REACHES:
-        if not left.any():
+        if not remaining.any():
             break
         sigma = max(0.5, reach / 6)
         slope = np.hypot(
             *(scipy.ndimage.gaussian_filter(visibility, sigma, order) for order in ((1, 0), (0, 1)))
         )
-        # Clear of what is not of this surface by most of the filter's breadth.
+        # Off other surfaces by most of the filter's support.
         clear = scipy.ndimage.minimum_filter(counts, 2 * round(1.5 * sigma) + 1, mode="nearest")
         steepest = scipy.ndimage.maximum_filter(np.where(clear, slope + 1e-6, 0), 2 * reach + 1)
-        measured = left & (steepest > 0)
+        measured = remaining & (steepest > 0)
         widths[measured] = np.minimum(4 / np.pi / steepest[measured], WIDEST)
-        left &= ~(widths <= 2 * reach)
-    widths = widths[chosen]
+        remaining &= ~(widths <= 2 * reach)
+    widths = widths[selected]
     return widths[~np.isnan(widths)]

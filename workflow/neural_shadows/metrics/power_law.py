@@ -1,8 +1,7 @@
-"""How an error falls with training samples, m(N) = m∞ + a N^−b, and how far that may be carried on.
+"""Power law of an error over training samples, and extrapolation. m(N) = m∞ + a N^−b.
 
-A power law with offset is what learning curves are described with (e.g. Hestness et al. 2017), and
-it fits any few budgets well. Whether it predicts is another matter, so it is asked to predict the
-largest budget from the others before anything is said beyond.
+A power law with offset describes learning curves (e.g. Hestness et al. 2017), and fits any few
+budgets well. It extrapolates only after predicting the largest budget from the others.
 
 Errors are positive: loss and LPIPS as they are, PSNR as mean squared error, SSIM as 1 − SSIM.
 """
@@ -16,19 +15,20 @@ import scipy
 from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 
-EXPONENTS = np.linspace(0.05, 1, 39)  # b that are tried
+EXPONENTS = np.linspace(0.05, 1, 39)  # values of b in the search
 LARGEST_STEP = 30  # from the largest budget to the one that is extrapolated to
-LARGEST_MISS = 0.1  # of a hold-out: seeds that differ much have intervals that hold anything
+LARGEST_MISS = 0.1  # of a hold-out; seeds that differ much have wide intervals
 LEVEL = 0.9  # of the predictions' intervals
-FEWEST_BUDGETS = 3  # as many as the law has numbers
+FEWEST_BUDGETS = 3  # the law's number of parameters
 RESAMPLES = 1000
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Errors > 0 of trainings: `values` (K, S) of S seeds at each of K budgets `samples` (K,).
+    """Errors > 0 of trainings at growing budgets.
 
-    Budgets grow; a column has the same seed throughout.
+    `values` (K, S) of S seeds at each of K budgets `samples` (K,). A column has one seed. Budgets
+    grow; a column has the same seed throughout.
     """
 
     samples: np.ndarray
@@ -45,16 +45,16 @@ class PowerLaw:
     unit: float
 
     def __call__(self, samples: np.ndarray) -> np.ndarray:
-        """Errors at so many samples, of any shape."""
+        """Errors at numbers of samples, of any shape."""
         return self.offset + self.factor * (np.asarray(samples) / self.unit) ** -self.exponent
 
 
 @dataclass(frozen=True)
 class HoldOut:
-    """The largest budget's error: as the others predict it, and as measured (means over seeds).
+    """The largest budget's error, predicted from the others and measured. Means over seeds.
 
-    low, high: 90 % interval of the prediction, for a mean of so many seeds; NaN of one seed.
-    step: how many times the samples of the budget before.
+    low, high: 90 % interval of the prediction, for a mean over this number of seeds; NaN of one seed.
+    step: ratio of the samples to those of the budget before.
     """
 
     predicted: float
@@ -65,12 +65,15 @@ class HoldOut:
 
     @property
     def error(self) -> float:
-        """By how much the prediction misses, as a share of what was measured."""
+        """Relative error of the prediction."""
         return self.predicted / self.measured - 1
 
     @property
     def failure(self) -> str:
-        """Why it licenses nothing: it is outside its interval, or misses by too much; else empty."""
+        """Reason to refuse an extrapolation, or an empty string.
+
+        The measured error is outside the interval, or the prediction misses by too much.
+        """
         missed = f"the hold-out is missed by {100 * self.error:+.1f} %"
         if not self.low <= self.measured <= self.high:
             return f"{missed}, outside its interval"
@@ -78,10 +81,10 @@ class HoldOut:
 
 
 def fit(curve: Curve) -> PowerLaw:
-    """The power law of a curve's means over seeds: b in [0.05, 1] and m∞ ≥ 0.
+    """Power law of a curve's means over seeds. b in [0.05, 1] and m∞ ≥ 0.
 
-    By least relative squares; of the laws with and without m∞ that of the lower AIC, for which the
-    spread of the seeds says how exact the means are. With one seed it is the law without m∞.
+    By least relative squares; of the laws with and without m∞ that of the lower AIC, with the
+    spread of the seeds as the means' uncertainty. With one seed it is the law without m∞.
 
     Raises:
         ValueError: there are fewer than two budgets, or errors that are no positive numbers.
@@ -92,61 +95,65 @@ def fit(curve: Curve) -> PowerLaw:
 
 
 def hold_out(curve: Curve, seed: int) -> HoldOut:
-    """Predict the largest budget of a curve from the others; `seed` of the bootstrap.
+    """Predict the largest budget of a curve from the others. `seed` is of the bootstrap.
 
     Raises:
         ValueError: there are fewer than three budgets, or errors that are no positive numbers.
     """
     others = Curve(curve.samples[:-1], curve.values[:-1])
-    predicted, drawn, noise = _carried_on(others, curve.samples[-1], seed)
+    predicted, drawn, noise = _extrapolated(others, curve.samples[-1], seed)
     low, high = _ends(drawn * noise)
     step = float(curve.samples[-1] / curve.samples[-2])
     return HoldOut(predicted, low, high, float(np.mean(curve.values[-1])), step)
 
 
 def extrapolate(curve: Curve, samples: float, seed: int) -> tuple[float, float, float]:
-    """The expected error at so many samples: (value, low, high), 90 %; ends are NaN of one seed.
+    """Expected error at a number of samples: (value, low, high).
+
+    90 % interval; ends are NaN of one seed.
 
     Raises:
         ValueError: as `fit`.
     """
-    value, drawn, _ = _carried_on(curve, samples, seed)
+    value, drawn, _ = _extrapolated(curve, samples, seed)
     return value, *_ends(drawn)
 
 
 def extrapolate_difference(
     a: Curve | float, b: Curve | float, samples: float, seed: int, psnr: bool = False
 ) -> tuple[float, float, float]:
-    """The expected a − b at so many samples: (value, low, high), 90 %, ends NaN of one seed.
+    """Expected a − b at a number of samples: (value, low, high).
 
-    The same seeds and budgets are drawn of both, so that what they have in common cancels.
+    90 % interval; ends are NaN of one seed. The same seeds and budgets are drawn of both, so that
+    what they have in common cancels.
 
     Args:
-        a, b: of the same numbers of budgets and seeds; a number is the error of what does not
-            learn, such as a shadow map.
+        a, b: of the same numbers of budgets and seeds; a number is the error of a method
+            without training, such as a shadow map.
         psnr: the curves are of mean squared errors, and the difference is of PSNRs, dB.
 
     Raises:
         ValueError: as `fit`.
     """
     difference = _psnr_difference if psnr else np.subtract
-    (one, drawn_a, _), (other, drawn_b, _) = (
-        _carried_on(arm, samples, seed) if isinstance(arm, Curve) else (arm, arm, 1.0)
-        for arm in (a, b)
+    (value_a, drawn_a, _), (value_b, drawn_b, _) = (
+        _extrapolated(curve, samples, seed) if isinstance(curve, Curve) else (curve, curve, 1.0)
+        for curve in (a, b)
     )
-    return float(difference(one, other)), *_ends(difference(drawn_a, drawn_b))
+    return float(difference(value_a, value_b)), *_ends(difference(drawn_a, drawn_b))
 
 
 def licensed(
     curves: Sequence[Curve], samples: float, seed: int, died: bool = False
 ) -> tuple[bool, str]:
-    """Whether curves may be carried on to so many samples, and why not (empty if they may).
+    """Permit or refuse extrapolation to a number of samples.
 
-    They may if each predicts its largest budget from the others, within its 90 % interval and to
-    10 %, the step is at most thirtyfold, and none of their trainings `died`.
+    The reason is empty if it is allowed. Allowed if each predicts its largest budget from the
+    others, within its 90 % interval and to 10 %, the step is at most thirtyfold, and none of their
+    trainings diverged (`died`).
     """
     if died:
-        return False, "a training died"
+        return False, "a training diverged"
     reasons = []
     for curve in curves:
         if len(curve.samples) < FEWEST_BUDGETS:
@@ -154,7 +161,7 @@ def licensed(
         if not can_hold_out(curve):
             return False, "an error of 0 has no power law"
         if curve.values.shape[1] == 1:
-            return False, "one seed does not say how sure the fit is"
+            return False, "one seed gives no uncertainty of the fit"
         reasons += filter(None, [hold_out(curve, seed).failure])
     step = samples / min(curve.samples[-1] for curve in curves)
     if step > LARGEST_STEP:
@@ -163,20 +170,24 @@ def licensed(
 
 
 def can_hold_out(curve: Curve) -> bool:
-    """Whether `hold_out` can be asked: there are budgets enough, and errors that can be fitted."""
+    """Check for enough budgets and for positive errors."""
     return len(curve.samples) >= FEWEST_BUDGETS and _positive(curve.values)
 
 
 def local_exponents(curve: Curve) -> np.ndarray:
-    """−d log m / d log N from each budget to the next, (K − 1,); of a power law without offset b."""
+    """−d log m / d log N between consecutive budgets, (K − 1,).
+
+    Of a power law without offset it is b.
+    """
     means = np.mean(curve.values, axis=1)
     return -np.diff(np.log(means)) / np.diff(np.log(curve.samples))
 
 
 def trend(samples: np.ndarray, differences: np.ndarray) -> tuple[float, float, float]:
-    """Slope of differences (K, S) of two arms over log10 of the samples (K,): (slope, low, high).
+    """Slope of differences over log10 of samples: (slope, low, high).
 
-    A slope is fitted to each seed; 95 % by Student's t over the seeds, without ends of one seed.
+    Of differences (K, S) of two arms, samples (K,). A slope is fitted to each seed; 95 % by
+    Student's t over the seeds, without ends of one seed.
     """
     slopes = np.polyfit(np.log10(samples), differences, 1)[0]
     return t_interval(slopes)[:3]
@@ -187,7 +198,7 @@ def _positive(values: np.ndarray) -> bool:
 
 
 def _means(curve: Curve) -> tuple[np.ndarray, float]:
-    """Means over seeds (K,), and the standard deviation of their logarithms; NaN of one seed."""
+    """Means over seeds (K,), and their logarithmic standard deviation. NaN of one seed."""
     if len(curve.samples) < 2 or not _positive(curve.values):
         raise ValueError("a power law needs two budgets or more, and errors that are positive")
     seeds = curve.values.shape[1]
@@ -198,7 +209,7 @@ def _means(curve: Curve) -> tuple[np.ndarray, float]:
 
 
 def _residuals(curve: Curve) -> np.ndarray:
-    """How the logarithm of each training's error differs from its budget's mean, (K, S)."""
+    """Logarithmic residuals from each budget's mean, (K, S)."""
     logs = np.log(curve.values)
     return logs - logs.mean(axis=1, keepdims=True)
 
@@ -206,22 +217,25 @@ def _residuals(curve: Curve) -> np.ndarray:
 def _fit(
     samples: np.ndarray, means: np.ndarray, spread: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Offset, factor and exponent, (R,) each, of R series of means (R, K); factors at samples[-1].
+    """Offset, factor and exponent, (R,) each, of R series.
 
-    By variable projection: for each b the law is linear in m∞ and a.
+    Means are (R, K); factors are those at samples[-1]. By variable projection: for each b the law
+    is linear in m∞ and a.
     """
     x = samples / samples[-1]
     bare, full = (_best(x, means, offset) for offset in (False, True))
-    # The law with an offset has one number more, for which it must gain 2 in −2 log likelihood. It
-    # is no choice where nothing says how exact the means are.
+    # The law with an offset has one parameter more, for which it must gain 2 in −2 log likelihood. It
+    # is left out where the means have no known spread.
     better = (bare[0] - full[0] > 2 * spread**2) & (len(samples) >= FEWEST_BUDGETS)
-    return tuple(np.where(better, one, other) for one, other in zip(full[1:], bare[1:]))
+    return tuple(
+        np.where(better, with_offset, without) for with_offset, without in zip(full[1:], bare[1:])
+    )
 
 
 def _best(
     x: np.ndarray, means: np.ndarray, offset: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Sum of squares, offset, factor and exponent, (R,) each, of the best b in [0.05, 1]."""
+    """Sum of squares, offset, factor and exponent, (R,) each. Of the best b in [0.05, 1]."""
     squares = _linear(x, means, EXPONENTS[None], offset)[0]
     # The vertex of the parabola through the least square and its neighbours: the step of b alone
     # would be 3 % of what is extrapolated thirtyfold.
@@ -232,13 +246,13 @@ def _best(
     exponent = EXPONENTS[least] + shift * (EXPONENTS[1] - EXPONENTS[0])
     exponent = exponent.clip(EXPONENTS[0], EXPONENTS[-1])
     solved = _linear(x, means, exponent[:, None], offset)
-    return *(one[:, 0] for one in solved), exponent
+    return *(solution[:, 0] for solution in solved), exponent
 
 
 def _linear(
     x: np.ndarray, means: np.ndarray, exponents: np.ndarray, offset: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Sum of squared relative residuals, m∞ and a, (R, B) each, for b of (R or 1, B)."""
+    """Sum of squared relative residuals, m∞ and a, (R, B). For b of (R or 1, B)."""
     power = x ** -exponents[..., None]  # (R or 1, B, K)
     u = 1 / means  # residuals are those of m∞ · u + a · power · u = 1
     xu, xxu2, xu2 = (
@@ -255,8 +269,8 @@ def _linear(
     return len(x) - constant * u1 - slope * xu, constant, slope  # what least squares leave
 
 
-def _carried_on(curve: Curve, samples: float, seed: int) -> tuple[float, np.ndarray, np.ndarray]:
-    """The fitted error at so many samples, the same of resampled curves (R,), and seeds' noise.
+def _extrapolated(curve: Curve, samples: float, seed: int) -> tuple[float, np.ndarray, np.ndarray]:
+    """Extrapolated error, its resamples (R,), and the seeds' noise (R,).
 
     Each resampling draws for every budget S of all residuals, and chooses its law anew. The noise,
     (R,), is the factor of a mean over S further seeds. Residuals are widened for what their few

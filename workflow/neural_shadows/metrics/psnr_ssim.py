@@ -1,4 +1,4 @@
-"""PSNR and SSIM of grey frames (H, W) in [0, 1]; both raise ValueError for what is no such pair."""
+"""PSNR and SSIM of grey frames (H, W) in [0, 1]. Both raise ValueError for any other pair."""
 
 import numpy as np
 from skimage.metrics import structural_similarity
@@ -14,7 +14,7 @@ def psnr(image: np.ndarray, reference: np.ndarray) -> float:
 
 
 def ssim(image: np.ndarray, reference: np.ndarray) -> float:
-    """Mean structural similarity (Wang et al. 2004: Gaussian window of sigma 1.5, range 1).
+    """Mean structural similarity. Wang et al. 2004: Gaussian window of sigma 1.5, range 1.
 
     Frames must have at least 11 pixels a side, the window's.
     """

@@ -1,4 +1,4 @@
-"""How much of a frame's visibility is wrong, and which way it is wrong."""
+"""Share of a frame's visibility in error, by direction."""
 
 from typing import NamedTuple
 
@@ -6,15 +6,15 @@ import numpy as np
 
 
 class ShadowError(NamedTuple):
-    """Means over the surface points; of hard shadows, shares of points that are wrong."""
+    """Means over the surface points. Of hard shadows, shares of wrong points."""
 
-    shadow_error: float  # both of the others
+    shadow_error: float  # sum of the others
     false_shadow: float  # darker than the reference
     light_leak: float  # brighter than the reference
 
 
 def shadow_error(visibility: np.ndarray, reference: np.ndarray) -> ShadowError:
-    """Mean difference of visibilities in [0, 1] of a frame's n surface points, each (n,).
+    """Mean differences of visibilities in [0, 1]. Of a frame's n surface points, each (n,).
 
     Raises:
         ValueError: there are no points.

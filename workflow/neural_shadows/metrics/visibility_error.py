@@ -1,4 +1,4 @@
-"""How far a soft visibility is from its target, and where."""
+"""Errors of soft visibility, by part of the shadow."""
 
 from collections.abc import Mapping
 
@@ -10,13 +10,13 @@ EDGE_PIXELS = 3  # on each side of an edge of the hard target
 
 
 def visibility_errors(
-    found: np.ndarray,
+    visibility: np.ndarray,
     target: np.ndarray,
     valid: np.ndarray,
     hard: np.ndarray | None,
     off_edges: np.ndarray | None = None,
 ) -> Mapping[str, float]:
-    """Errors over the valid pixels of a frame: mean square, mean absolute, and parts of the former.
+    """Errors over a frame's valid pixels. Mean square, mean absolute, and parts of the former.
 
     `mse_umbra`, `mse_penumbra` and `mse_lit` are of those pixels by their target, and `mse_edge` of
     those near an edge of the hard shadow; NaN where there are none. `false_shadow` and `light_leak`
@@ -24,7 +24,7 @@ def visibility_errors(
     edges, where no antialiasing of these adds to it.
 
     Args:
-        found, target, hard: (H, W) float32 in [0, 1], the last of the light's centre, None if it is
+        visibility, target, hard: (H, W) float32 in [0, 1], the last of the light's centre, None if it is
             not known; valid: bool. off_edges: those of `valid` off edges; None if not known.
 
     Raises:
@@ -32,7 +32,7 @@ def visibility_errors(
     """
     if not valid.any():
         raise ValueError("visibility_errors: no pixel shows a surface")
-    difference = np.subtract(found, target, dtype=np.float64)
+    difference = np.subtract(visibility, target, dtype=np.float64)
     square = difference**2
     parts = {
         "": valid,
@@ -46,16 +46,19 @@ def visibility_errors(
         f"mse{name}": float(square[part].mean()) if part.any() else float("nan")
         for name, part in parts.items()
     }
-    of_valid = difference[valid]
+    valid_difference = difference[valid]
     return errors | {
-        "l1": float(np.abs(of_valid).mean()),
-        "false_shadow": float((-of_valid).clip(0).mean()),
-        "light_leak": float(of_valid.clip(0).mean()),
+        "l1": float(np.abs(valid_difference).mean()),
+        "false_shadow": float((-valid_difference).clip(0).mean()),
+        "light_leak": float(valid_difference.clip(0).mean()),
     }
 
 
 def _near_edges(hard: np.ndarray, valid: np.ndarray) -> np.ndarray:
-    """Near where one of two neighbours that both count is lit and the other is not."""
+    """Pixels near an edge of the hard shadow.
+
+    Between two valid neighbours of which one is lit and the other is not.
+    """
     lit = hard > 0.5
     edge = np.zeros_like(lit)
     across = (lit[1:] != lit[:-1]) & valid[1:] & valid[:-1]

@@ -1,1 +1,1 @@
-"""Kinds of networks, trained or not, and their weight files [3.3, 3.6]."""
+"""Networks, trained or not, and their weight files [3.3, 3.6]."""

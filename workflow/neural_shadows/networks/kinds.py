@@ -8,19 +8,17 @@ from neural_shadows.settings.kinds import kinds
 
 
 def make_network(settings: dict[str, Any]) -> ShadowNetwork:
-    """A network from a config's entry: `encoding`, and the arguments of its class.
+    """Build a network from `encoding` and its class's arguments.
 
-    The class is imported by its kind's file, so that one more kind changes no file that the others'
-    trainings depend on.
+    The kind's file imports the class, so that a new kind changes no file in other trainings'
+    digests.
 
     Raises:
-        KeyError, TypeError: there is no such encoding, or it has other arguments.
-        ValueError: its surface is not chosen.
+        KeyError, TypeError: unknown encoding or arguments.
+        ValueError: surface: auto.
     """
     if settings.get("surface") == "auto":
-        raise ValueError(
-            "surface: auto: is no surface yet. Let `with_surface` choose it by the mesh."
-        )
+        raise ValueError("surface: auto: not resolved for a mesh. Call `with_surface` first.")
     arguments = dict(settings)
     encoding = arguments.pop("encoding")
     if encoding not in kinds(ENCODINGS):

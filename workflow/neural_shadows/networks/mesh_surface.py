@@ -1,17 +1,17 @@
-"""Whether a network takes its object for a solid or for a sheet, and whether it can."""
+"""Choice between solid and sheet by a mesh."""
 
 from collections.abc import Mapping
 from typing import Any
 
 
 def with_surface(network: Mapping[str, Any], mesh: Mapping[str, Any]) -> dict[str, Any]:
-    """A network's settings with a `surface` of `auto` replaced by what its mesh has.
+    """Resolve a network's `surface: auto` by its mesh.
 
-    A field that starts from distances is one of a solid whatever the mesh is: distances need an
-    inside. On an open, thin mesh it `is_unfit`.
+    A field starting from distances is always a solid, because distances need an inside. On an open,
+    thin mesh it `is_unfit`.
 
     Args:
-        mesh: what `prepare_mesh` wrote of it.
+        mesh: JSON of `prepare_mesh`.
     """
     if network.get("surface") != "auto":
         return dict(network)
@@ -21,5 +21,5 @@ def with_surface(network: Mapping[str, Any], mesh: Mapping[str, Any]) -> dict[st
 
 
 def is_unfit(network: Mapping[str, Any], mesh: Mapping[str, Any]) -> bool:
-    """Whether a network needs an inside, and its mesh is open and thin and has none."""
+    """Test for a solid's network with a sheet for a mesh."""
     return network.get("surface") == "solid" and mesh["sheet"]

@@ -1,14 +1,14 @@
-"""Weights in fewer bits, for weight files."""
+"""Quantisation of weights for weight files."""
 
 import torch
 from torch import Tensor
 
-SCALE = ".scale"  # ends the name of an int8 tensor's scale
+SCALE = ".scale"  # suffix of the name of an int8 tensor's scale
 _DTYPES = {"float32": torch.float32, "float16": torch.float16}
 
 
 def quantise(tensors: dict[str, Tensor], storage: str) -> dict[str, Tensor]:
-    """Tensors in `float32`, `float16`, or `int8` with one scale each, the largest value / 127."""
+    """Convert tensors: `float32`, `float16`, or `int8` with one scale each, the maximum / 127."""
     if storage != "int8":
         return {name: value.to(_DTYPES[storage]) for name, value in tensors.items()}
     stored = {}
@@ -20,7 +20,7 @@ def quantise(tensors: dict[str, Tensor], storage: str) -> dict[str, Tensor]:
 
 
 def restore_values(stored: dict[str, Tensor], storage: str) -> dict[str, Tensor]:
-    """float32 tensors from what `quantise` gave."""
+    """float32 tensors from those of `quantise`."""
     if storage != "int8":
         return {name: value.float() for name, value in stored.items()}
     names = [name for name in stored if not name.endswith(SCALE)]

@@ -1,4 +1,4 @@
-"""Trained networks on disk: safetensors with the whole model configuration in the header."""
+"""Weight files: safetensors with the model configuration in the header."""
 
 import json
 from collections.abc import Mapping
@@ -18,7 +18,7 @@ from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 def save_tensors(
     path: Path, tensors: Mapping[str, torch.Tensor], header: Mapping[str, Any]
 ) -> None:
-    """Write tensors and a JSON header as safetensors, whole or not at all."""
+    """Write tensors and a JSON header as safetensors, atomically."""
     with whole_file(path) as part:
         content = save(
             {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()},
@@ -29,10 +29,10 @@ def save_tensors(
 
 
 def load_tensors(path: Path) -> tuple[dict[str, torch.Tensor], dict[str, Any]]:
-    """Read what `save_tensors` wrote.
+    """Read tensors and header from a file of `save_tensors`.
 
     Raises:
-        InputError: the file is damaged, or not of this pipeline.
+        InputError: a damaged or foreign file.
     """
     try:
         with safe_open(path, framework="pt") as file:
@@ -40,30 +40,30 @@ def load_tensors(path: Path) -> tuple[dict[str, torch.Tensor], dict[str, Any]]:
             return {name: file.get_tensor(name) for name in file.keys()}, header
     except (SafetensorError, KeyError, ValueError) as error:
         raise InputError(
-            f"{path}: damaged or not of this pipeline ({error}); delete it and run again"
+            f"{path}: damaged, or not of this pipeline ({error}). Delete it and run again."
         ) from error
 
 
 def save_network(path: Path, network: ShadowNetwork, header: Mapping[str, Any]) -> None:
-    """Write a network; `header["network"]` must hold what `make_network` makes it from."""
+    """Write a network; `header["network"]` holds the arguments of `make_network`."""
     save_tensors(path, network.stored(), header)
 
 
 def load_network(path: Path) -> tuple[ShadowNetwork, dict[str, Any]]:
-    """Read a network and the header it was saved with.
+    """Read a network and its header.
 
     Raises:
-        InputError: as `load_tensors`; or its weights do not fit the configuration in its header.
+        InputError: as `load_tensors`; or weights that do not fit the header's configuration.
     """
     tensors, header = load_tensors(path)
     try:
         network = make_network(header["network"])
         network.restore(tensors)
         if header.get("training") is not None:
-            network.pushes = (0.0,)  # a training has put the surface where it is
+            network.pushes = (0.0,)  # the training has placed the surface
     except (KeyError, TypeError, ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())[:200]
         raise InputError(
-            f"{path}: weights do not fit the header ({reason}); delete it and train again"
+            f"{path}: weights do not fit the header ({reason}). Delete it and train again."
         ) from error
     return network, header

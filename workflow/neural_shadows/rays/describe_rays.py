@@ -1,4 +1,4 @@
-"""Stage: describe a whole ray set, for whoever trains on it."""
+"""Stage: check and describe a whole ray set."""
 
 from collections.abc import Mapping
 from itertools import chain
@@ -23,12 +23,12 @@ def describe_rays(
     sampling: Mapping[str, Any],
     seed: int,
 ) -> None:
-    """Check a ray set as a whole and write what it is to `rays.json`.
+    """Check a ray set as a whole and write `rays.json`.
 
     Args:
         origins, bounds: the shards, in the order of their directions.
-        rays_json: gets the counts, settings, units, checksums, and the shares of rays that hit
-            the object at no place (`misses`) and at one (`one_hit`).
+        rays_json: gets the counts, settings, units, checksums, and the shares of rays without a hit
+            (`misses`) and with one (`one_hit`).
 
     Raises:
         InputError: as `RaySet`.
@@ -57,7 +57,7 @@ def describe_rays(
 
 
 def _count(rays: RaySet) -> tuple[int, int]:
-    """Rays that hit the object at no place, and at one."""
+    """Count the rays without a hit, and with one."""
     misses = open_ends = 0
     parts = zip(rays.directions, chain(*rays.origins), chain(*rays.bounds))
     for direction, origins, bounds in parts:

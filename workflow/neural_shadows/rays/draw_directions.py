@@ -36,25 +36,25 @@ def draw_directions(
     key = (seed, DIRECTIONS)
     rng, axis = np.random.default_rng(key), axis_vector(up, "up")
     if light is not None and poisson:
-        found = -_poisson_lights(count, light, axis, key)
+        directions = -_poisson_lights(count, light, axis, key)
     elif light is not None:
-        found = -np.stack([draw_light(light, axis, rng) for _ in range(count)])
+        directions = -np.stack([draw_light(light, axis, rng) for _ in range(count)])
     elif poisson:
-        found = sphere_directions(count, key)[0]
+        directions = sphere_directions(count, key)[0]
     else:
-        found = rng.normal(size=(count, 3))
-        found /= np.linalg.norm(found, axis=1, keepdims=True)
-    write_array(directions_npy, found.astype(np.float32))
+        directions = rng.normal(size=(count, 3))
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    write_array(directions_npy, directions.astype(np.float32))
 
 
 def _poisson_lights(count: int, light: dict, up: np.ndarray, key: tuple) -> np.ndarray:
-    """`count` unit vectors (count, 3) in a Poisson-disk pattern on a light domain."""
+    """A Poisson-disk pattern on a light domain: unit vectors (count, 3)."""
     lowest = lowest_elevation(light)
     if light["domain"] == "single_axis":
         half = np.pi / 2 - lowest
         return arc_directions(light, up, half * _poisson_line(count, np.random.default_rng(key)))
-    # A pattern on the whole sphere, as dense, of which the cap holds `count` or a few more; the
-    # lowest of those are left out, which moves the cap's rim by about one distance of the pattern.
+    # A pattern on the whole sphere, as dense, with `count` or a few more in the cap; the lowest
+    # of those are left out, which moves the cap's rim by about one distance of the pattern.
     total = round(count * 2 / (1 - np.sin(lowest)))
     while True:
         pattern = sphere_directions(total, key)[0]

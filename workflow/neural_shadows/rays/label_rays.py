@@ -27,10 +27,10 @@ def label_rays(
     Args:
         origins_npy: from `sample_rays` for the same first and last.
         bounds_npy: gets (last − first, m, 2) float32, [t_lb, t_ub] of each ray.
-        seed: what the rays were drawn with, for the error's message.
+        seed: of the rays, for the error's message.
 
     Raises:
-        InputError: a file that cannot be used, or that is of another range of directions.
+        InputError: an unusable file, or one of another range of directions.
         RuntimeError: a ray with impossible bounds, named by shard, seed and index.
     """
     directions = read_directions(directions_npy)[first:last]

@@ -4,7 +4,7 @@ import numpy as np
 
 from neural_shadows.scenes.tracing import Tracer
 
-# How far past a hit the trace for the next one starts. Embree's float32 hits are off by some
+# Distance behind a hit at which the next trace starts. Embree's float32 hits are off by some
 # 2e-7 at a scale of 1, a hundredth of the step; walls and wires are 1e-3 thick and more,
 # fifty times the step.
 SECOND_HIT_STEP = 2e-5
@@ -13,15 +13,15 @@ SECOND_HIT_STEP = 2e-5
 # origin still before the triangle; the step is then doubled, this often at most.
 _MOST_STEPS = 8
 
-# Rays that are traced to both hits before the next ones are: few enough that what the first
-# trace read is still in the cache for the second (15 % faster than 10,000 rays at once).
+# Rays traced to both hits at once: few enough that the data of the first trace is still in the
+# cache for the second (15 % faster than 10,000 rays at once).
 _BLOCK = 2048
 
-# How far outside the unit sphere a hit may be, as the vertices of a prepared mesh.
+# Distance outside the unit sphere at which a hit may be, as the vertices of a prepared mesh.
 _SPHERE_SLACK = 1e-4
 
 # A vertex on the sphere can be hit at the origin itself, t = 0. It is put one rounding of a
-# coordinate behind, so that no label is 0: that is what a file never written to holds.
+# coordinate behind, so that no label is 0, as in a file never written to.
 _LEAST = np.finfo(np.float32).eps
 
 
@@ -59,14 +59,14 @@ def dual_bounds(
 def check_bounds(
     directions: np.ndarray, origins: np.ndarray, bounds: np.ndarray, *, name: str, first: int = 0
 ) -> None:
-    """Make sure of 0 < t_lb <= ℓ and t_lb <= t_ub for each ray of a shard [3.4.3].
+    """Check 0 < t_lb <= ℓ and t_lb <= t_ub for a shard [3.4.3].
 
-    t_lb is then finite; t_ub may be ∞ and nothing else that is no number. ℓ needs no
+    t_lb is then finite; t_ub may be ∞ but not NaN. ℓ needs no
     tolerance: `dual_bounds` ends t_lb with it.
 
     Args:
         directions: (D, 3), origins: (D, m, 3), bounds: (D, m, 2), all float32.
-        name: what the error calls them; first: the index of their first direction.
+        name: for the error; first: the index of their first direction.
 
     Raises:
         RuntimeError: bounds that break these rules.
@@ -74,15 +74,15 @@ def check_bounds(
     for i, direction in enumerate(directions):
         chord = chord_lengths(origins[i], direction)
         t_lb, t_ub = bounds[i].T
-        # A NaN compares as false, so that it never passes.
-        good = (0 < t_lb) & (t_lb <= chord) & (t_lb <= t_ub)
-        if not good.all():
-            j = good.argmin()
+        # NaN compares as false.
+        valid = (0 < t_lb) & (t_lb <= chord) & (t_lb <= t_ub)
+        if not valid.all():
+            j = valid.argmin()
             raise RuntimeError(
                 f"{name}: ray {j} of direction {first + i} from {origins[i, j].tolist()} along "
                 f"{direction.tolist()} has the bounds t_lb = {t_lb[j]}, t_ub = {t_ub[j]} on a chord "
                 f"of {chord[j]}, where 0 < t_lb <= min(chord, t_ub) must hold: it does not start on "
-                "the unit sphere, the mesh is not inside it, or the file is not whole"
+                "the unit sphere, the mesh is not inside it, or the file is incomplete"
             )
 
 
@@ -108,7 +108,7 @@ def _two_hits(tracer, origins, directions):
 
 
 def chord_lengths(origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
-    """ℓ = −2 o·d, the length of each ray's chord of the unit sphere: (n,) float32.
+    """Lengths ℓ = −2 o·d of rays' chords of the unit sphere: (n,) float32.
 
     Origins are (n, 3) and directions (n, 3) or (3,), float32.
     """

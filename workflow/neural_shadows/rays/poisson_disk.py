@@ -10,15 +10,14 @@ from collections.abc import Sequence
 import numpy as np
 from numba import njit
 
-# Candidates that are tried around a point before it leaves the active list (Bridson's k).
+# Candidates tried around a point before it leaves the active list (Bridson's k).
 CANDIDATES = 30
 
 # n · r² / area of Bridson's sets of n points is 0.615, and scatters by 0.2 / √n of itself
 # (measured at k = 30, on the sphere and on the torus).
 _DENSITY = 0.615
 
-# Patterns that are kept of n points: 32 of few points. A pattern of many gives its uses
-# enough variety by itself.
+# Patterns stored of n points: 32 of few points. A pattern of many has enough variety by itself.
 _PATTERNS = 32
 _PATTERNS_LEAST = 4
 _PATTERN_POINTS = 1024
@@ -26,7 +25,7 @@ _PATTERN_POINTS = 1024
 
 @njit(cache=True, nogil=True)
 def poisson_disk(radius, rng, on_sphere):
-    """Points on the unit sphere or torus, none closer than `radius`, until no more are found [3.4.1].
+    """Fill the unit sphere or torus with points `radius` apart [3.4.1].
 
     Distances on the torus wrap around, so that the set, shifted uniformly (modulo 1), has the
     same density everywhere. In a bounded square Bridson's points crowd at the edges.
@@ -85,27 +84,27 @@ def sphere_directions(count, seed):
 
 
 class PatternBank:
-    """Poisson-disk patterns on the unit torus, made when first asked for; threads may share it.
+    """Poisson-disk patterns on the unit torus, made on first use; thread-safe.
 
-    What it holds for a count of points depends on the seed (of numpy's) and that count alone.
+    The patterns of a count of points depend on the seed (numpy's) and that count alone.
     """
 
     def __init__(self, seed: int | Sequence[int]):
         self._seed = seed
         self._lock = threading.Lock()
         # Of 0 points there is one pattern, the empty one.
-        self._made = {0}
+        self._counts = {0}
         self._table = (np.zeros(1, np.int64), np.ones(1, np.int64), np.empty((0, 2)))
 
     def table(self, counts: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """All patterns made so far, with those of `counts` points (int64) among them.
+        """All patterns so far, among them those of `counts` points (int64).
 
         Returns:
             start, patterns: (N,) int64; points: (P, 2) float64 in [0, 1)². Pattern
             j < patterns[n] of n points is the n rows of `points` from start[n] + j·n.
         """
         with self._lock:
-            for count in set(counts.tolist()) - self._made:
+            for count in set(counts.tolist()) - self._counts:
                 self._add(count)
             return self._table
 
@@ -118,14 +117,14 @@ class PatternBank:
         rng = np.random.default_rng(np.random.SeedSequence(self._seed, spawn_key=(count,)))
         new = [exactly(count, rng, False)[0] for _ in range(number)]
         self._table = (grown[0], grown[1], np.concatenate([points, *new]))
-        self._made.add(count)
+        self._counts.add(count)
 
 
 @njit(cache=True, nogil=True)
 def exactly(count, rng, on_sphere):
-    """`count` points of the first set, on the sphere or the torus, that has as many; and its r.
+    """A set of `count` points on the sphere or the torus, and its r.
 
-    r goes down until `count` points come out, or a few more: those are dropped at random.
+    r goes down until there are `count` points, or a few more: those are dropped at random.
     """
     # From half a standard deviation above the wanted count down, in steps of one.
     scatter = 0.2 / math.sqrt(count)
@@ -139,18 +138,18 @@ def exactly(count, rng, on_sphere):
         if len(points) >= count:
             break
         radius *= step
-    # Each point stays with the chance (still wanted) / (still there): a uniform subset.
-    kept = 0
+    # Each point stays with the chance (still wanted) / (still left): a uniform subset.
+    selected = 0
     for i in range(len(points)):
-        if rng.random() * (len(points) - i) < count - kept:
-            points[kept] = points[i]
-            kept += 1
+        if rng.random() * (len(points) - i) < count - selected:
+            points[selected] = points[i]
+            selected += 1
     return points[:count].copy(), radius
 
 
 @njit(cache=True, nogil=True)
 def _bin(point, scale):
-    """Of the sphere's box [−1, 1]³, or of the torus."""
+    """Bin of a point in the sphere's box [−1, 1]³, or on the torus."""
     if len(point) == 2:
         return int(point[0] * scale), int(point[1] * scale), 0
     return int((point[0] + 1) * scale), int((point[1] + 1) * scale), int((point[2] + 1) * scale)
@@ -197,7 +196,7 @@ def _is_free(point, radius, scale, side, points, latest, before):
 
 @njit(cache=True, nogil=True)
 def _draw_on_torus(centre, radius, rng, out):
-    """A point of the torus at a distance of r to 2r from `centre`, uniform in area, into `out`."""
+    """Draw a torus point at r to 2r from `centre`, uniform in area."""
     distance = radius * math.sqrt(1 + 3 * rng.random())
     angle = 2 * math.pi * rng.random()
     out[0] = centre[0] + distance * math.cos(angle)
@@ -210,7 +209,7 @@ def _draw_on_torus(centre, radius, rng, out):
 
 @njit(cache=True, nogil=True)
 def _draw_on_sphere(centre, radius, rng, out):
-    """A point of the sphere with its chord to `centre` in [r, 2r], uniform in area, into `out`."""
+    """Draw a sphere point with a chord of r to 2r, uniform in area."""
     # The cap within a chord c has the area π c², so c² is uniform; on the axis 1 − c² / 2.
     chord2 = radius**2 * (1 + rng.random() * (min(4.0, 4 / radius**2) - 1))
     along = 1 - chord2 / 2

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
-# Quads and points keep to a disk this little inside the unit disk, so that no ray is a
+# Radius of the disk of quads and points, just inside the unit disk, so that no ray is a
 # tangent: o·d <= -1e-3, and a chord has a length of 2e-3 at least.
 DISK_RADIUS = math.sqrt(1 - 1e-6)
 
@@ -66,7 +66,7 @@ def build_quadtree(silhouette, min_quad):
 
 @njit(cache=True, nogil=True)
 def disk_area(left, bottom, right, top):
-    """Area that a rectangle of the plane shares with the disk of `DISK_RADIUS` at the origin."""
+    """Area of a rectangle inside the disk of `DISK_RADIUS`."""
     return (
         _corner_area(right, top)
         - _corner_area(left, top)
@@ -77,7 +77,7 @@ def disk_area(left, bottom, right, top):
 
 @njit(cache=True, nogil=True)
 def _corner_area(x, y):
-    """Signed area of the disk between the axes and the lines through (x, y); odd in x and in y."""
+    """Signed disk area between the axes and (x, y); odd in both."""
     radius = DISK_RADIUS
     sign = 1.0 if (x < 0) == (y < 0) else -1.0
     x, y = min(abs(x), radius), min(abs(y), radius)
@@ -98,7 +98,7 @@ def _under_circle(x):
 
 @njit(cache=True, nogil=True)
 def _meets_disk(row, column, size, resolution):
-    """Whether the quad's nearest point to the origin is inside the disk."""
+    """Test whether the quad meets the disk, by its nearest point."""
     # In half texels from the centre, where all corners are whole numbers.
     near_a = max(2 * column - resolution, resolution - 2 * (column + size), 0)
     near_b = max(2 * row - resolution, resolution - 2 * (row + size), 0)

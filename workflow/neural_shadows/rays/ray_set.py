@@ -21,12 +21,12 @@ from neural_shadows.files.arrays import open_array
 
 
 class RaySet:
-    """A ray set on disk, opened with memory mapping; nothing is read before it is asked for.
+    """A memory-mapped ray set, read on access.
 
     `origins` and `bounds` are the shards, in the order of their directions.
 
     Raises:
-        InputError: a file is damaged, or the files are not of the same ray set.
+        InputError: a damaged file, or files of different ray sets.
     """
 
     def __init__(self, directions_npy: Path, origins: Sequence[Path], bounds: Sequence[Path]):
@@ -37,11 +37,11 @@ class RaySet:
             shard = open_array(origins_npy, (None, points, 3))
             self.origins.append(shard)
             self.bounds.append(open_array(bounds_npy, (*shard.shape[:2], 2)))
-        found = sum(len(shard) for shard in self.origins)
-        if found != len(self.directions):
+        count = sum(len(shard) for shard in self.origins)
+        if count != len(self.directions):
             raise InputError(
-                f"{directions_npy}: has {len(self.directions)} directions, but the origins "
-                f"files are of {found}; delete the files of one of them and run again"
+                f"{directions_npy}: has {len(self.directions)} directions, but the "
+                f"origins files have {count}. Delete the files of one of them and run again."
             )
         self.points_per_direction: int = self.origins[0].shape[1]
 
@@ -51,7 +51,7 @@ class RaySet:
         return len(self.directions) * self.points_per_direction
 
     def gather(self, indices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Origins (n, 3), directions (n, 3), t_lb (n,) and t_ub (n,), all float32, of rays (n,).
+        """Gather origins (n, 3), directions (n, 3), t_lb and t_ub (n,), float32.
 
         Ray i is point i mod m of direction i div m, for i in [0, count).
         """
@@ -66,13 +66,13 @@ class RaySet:
 
 
 def read_directions(path: Path) -> np.ndarray:
-    """The directions file as an array in memory: (D, 3) float32."""
+    """Read the directions file: (D, 3) float32."""
     return np.array(open_array(path, (None, 3)))
 
 
 @njit(cache=True, nogil=True)
 def _gather(indices, shard, labels, origins, bounds):
-    """Take those of the rays that are in a shard, whose first one has the index 0."""
+    """Gather the rays of a shard; its first has index 0."""
     for i in range(len(indices)):
         if 0 <= indices[i] < len(shard):
             origins[i] = shard[indices[i]]

@@ -28,15 +28,14 @@ def sample_rays(
 ) -> None:
     """Sample the rays of the directions first to last − 1 and write their shard.
 
-    What is drawn for a direction depends on the seed and the direction's index alone, not on
-    shards or threads.
+    The rays of a direction depend on the seed and its index alone, not on shards or threads.
 
     Args:
         origins_npy: gets (last − first, m, 3) float32 points on the unit sphere.
         sampling: see `sample_direction`.
 
     Raises:
-        InputError: a file that cannot be used.
+        InputError: an unusable file.
     """
     directions = read_directions(directions_npy)
     points = sampling["points_per_direction"]

@@ -49,16 +49,18 @@ def sample_quads(
     rng: np.random.Generator,
     bank: PatternBank | None,
 ) -> np.ndarray:
-    """m points, divided evenly over the quads: p(a, b) = 1 / (q · area(quad ∩ disk)) in each of q.
+    """Draw m points, divided evenly over q quads.
+
+    The density in a quad is p(a, b) = 1 / (q · area(quad ∩ disk)).
 
     Each quad gets ⌊m/q⌋ points, and randomly chosen quads get one of the remainder. Within its
-    quad a point is uniform over what the quad shares with the disk of `DISK_RADIUS`.
+    quad a point is uniform over the part inside the disk of `DISK_RADIUS`.
 
     Args:
         quads: (q, 3) as of `build_quadtree`, of a silhouette of `resolution`² texels.
-        bank: the Poisson-disk patterns that fill the quads; without it points are
-            independent. In quads cut by the disk's rim the pattern is stretched over the box
-            around what remains, drawn denser, and thinned at random to the points inside.
+        bank: the Poisson-disk patterns of the quads; without it points are independent. In
+            quads cut by the disk's rim the pattern is stretched over the box
+            around the rest, drawn denser, and thinned at random to the points inside.
 
     Returns:
         (m, 2) float64 offsets (a, b), in the order of the quads.
@@ -73,7 +75,7 @@ def sample_quads(
 
 @njit(cache=True, nogil=True)
 def uniform_on_disk(m, rng):
-    """m independent points (m, 2), float64, uniform over the disk of `DISK_RADIUS`."""
+    """Draw m uniform points (m, 2), float64, in the disk of `DISK_RADIUS`."""
     offsets = np.empty((m, 2))
     for i in range(m):
         distance = DISK_RADIUS * math.sqrt(rng.random())
@@ -84,7 +86,7 @@ def uniform_on_disk(m, rng):
 
 @njit(cache=True, nogil=True)
 def _divide(m, q, rng):
-    """Points of each of q quads: evenly, the remainder to a uniform subset of the quads."""
+    """Divide m points evenly; the remainder to a uniform subset."""
     counts = np.full(q, m // q)
     left = m % q
     for i in range(q):
@@ -96,7 +98,7 @@ def _divide(m, q, rng):
 
 @njit(cache=True, nogil=True)
 def _regions(quads, resolution):
-    """What each quad shares with the disk: its box (left, bottom, right, top), and its area."""
+    """Boxes (left, bottom, right, top) and areas of quads in the disk."""
     boxes = np.empty((len(quads), 4))
     areas = np.empty(len(quads))
     for i in range(len(quads)):
@@ -123,7 +125,7 @@ def _is_inside(a, b):
 
 @njit(cache=True, nogil=True)
 def _is_whole(box):
-    """Whether the box is inside the disk."""
+    """Test whether a box is inside the disk."""
     left, bottom, right, top = box
     return _is_inside(max(-left, right), max(-bottom, top))
 
@@ -147,7 +149,7 @@ def _place_uniform(counts, boxes, rng):
 
 @njit(cache=True, nogil=True)
 def _pattern_sizes(counts, boxes, areas):
-    """Points in the pattern that is laid over each quad's box."""
+    """Numbers of points in the patterns of quads' boxes."""
     sizes = np.zeros(len(counts), np.int64)
     for i in range(len(counts)):
         n = counts[i]
@@ -175,11 +177,11 @@ def _place_patterns(counts, boxes, sizes, start, patterns, points, rng):
     for i in range(len(counts)):
         n, size = counts[i], sizes[i]
         if n == 0:
-            continue  # fewer points than quads: no draw of nothing is ever accepted below
+            continue  # fewer points than quads: the loop below would not end
         whole = _is_whole(boxes[i])
         while True:
             first = start[size] + size * int(patterns[size] * rng.random())
-            inside = _lay(points[first : first + size], boxes[i], whole, rng, laid)
+            inside = _fill_pattern(points[first : first + size], boxes[i], whole, rng, laid)
             # Draws with more points inside would give each of them a smaller chance to be
             # kept, n / inside; accepted in proportion to `inside`, every place has the same.
             if whole or (inside >= n and rng.random() * size < inside):
@@ -194,8 +196,8 @@ def _place_patterns(counts, boxes, sizes, start, patterns, points, rng):
 
 
 @njit(cache=True, nogil=True)
-def _lay(pattern, box, whole, rng, out):
-    """Lay a pattern over a box by a random symmetry and shift; those in the disk go to `out`."""
+def _fill_pattern(pattern, box, whole, rng, out):
+    """Fill `out` with a random pattern's points in box and disk."""
     left, bottom, right, top = box
     symmetry = int(8 * rng.random())
     shift_x, shift_y = rng.random(), rng.random()

@@ -1,4 +1,4 @@
-"""How the stages go through a shard: a tracer, tasks in threads."""
+"""Processing of a shard: a tracer, tasks in threads."""
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -8,7 +8,7 @@ from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.scenes.tracing import Tracer
 
-# Rays that one task of a thread traces at least: below that, starting the task shows.
+# Least rays of a task: with fewer, starting it takes noticeable time.
 _TASK_RAYS = 8192
 
 
@@ -31,6 +31,6 @@ def run_tasks(
 
 
 def open_tracer(mesh_ply: Path) -> Tracer:
-    """A tracer of a prepared mesh."""
+    """Open a tracer of a prepared mesh."""
     mesh = read_prepared(mesh_ply)
     return Tracer(mesh.vertices, mesh.faces)

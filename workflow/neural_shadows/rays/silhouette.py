@@ -1,4 +1,4 @@
-"""Silhouettes: which texels of the disk across a view direction the object covers [3.4.2].
+"""Silhouettes: texels covered by the object across a view direction [3.4.2].
 
 The plane of a direction d goes through the origin, with the basis u, v of `plane_basis`; the
 offset (a, b) is its point a·u + b·v. The square [−1, 1]² of it has `resolution`² texels: row i
@@ -33,7 +33,7 @@ def plane_basis(direction):
 
 @njit(cache=True, nogil=True)
 def entry_points(direction, offsets):
-    """Where rays along d (3,) enter the unit sphere: (n, 3) float32 [3.4.2].
+    """Entry points of rays along d (3,) into the unit sphere: (n, 3) float32 [3.4.2].
 
     o = a·u + b·v − √(1 − a² − b²)·d, for offsets (a, b) within the unit disk, (n, 2) float64.
     """
@@ -48,11 +48,11 @@ def entry_points(direction, offsets):
 
 
 def silhouette(tracer: Tracer, direction: np.ndarray, resolution: int) -> np.ndarray:
-    """The object's silhouette along a unit vector (3,): an occlusion ray per texel centre [3.4.2].
+    """Trace the object's silhouette along a unit vector (3,) [3.4.2].
 
     Returns:
-        (resolution, resolution) bool, row b and column a: whether the ray through the texel's
-        centre hits anything. Texels with their centre outside the unit disk are False.
+        (resolution, resolution) bool, row b and column a: True where the ray through the
+        texel's centre hits the object. Texels with their centre outside the unit disk are False.
     """
     centres, inside = _texel_centres(resolution)
     origins = entry_points(direction, centres)

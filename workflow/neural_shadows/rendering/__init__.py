@@ -1,1 +1,1 @@
-"""What a camera sees of a scene, and the grey picture made of it [4.1]."""
+"""Primary visibility, exact shadows, and grey pictures [4.1]."""

@@ -1,4 +1,4 @@
-"""The exact shadow of a frame: rays towards the light."""
+"""The exact shadow of a frame, by occlusion rays."""
 
 import numpy as np
 
@@ -7,6 +7,6 @@ from neural_shadows.scenes.tracing import Tracer
 
 
 def exact_visibility(tracer: Tracer, frame: GBuffer) -> np.ndarray:
-    """Visibility (n,) float32, 0 or 1: an occlusion ray from each point on the lit side."""
-    towards = np.tile(frame.view.light.astype(np.float32), (len(frame.p), 1))
-    return frame.visibility(~tracer.occluded(frame.p, towards))
+    """Trace visibility (n,) float32, 0 or 1, on the lit side."""
+    to_light = np.tile(frame.view.light.astype(np.float32), (len(frame.p), 1))
+    return frame.visibility(~tracer.occluded(frame.p, to_light))

@@ -1,4 +1,4 @@
-"""What a camera sees, and where it must ask for shadow."""
+"""G-buffers: surface points, and those facing the light."""
 
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -8,8 +8,8 @@ import numpy as np
 from neural_shadows.scenes.cameras import Camera, Viewpoint, Window, camera_axes
 from neural_shadows.scenes.scene import Scene
 
-# Every method shades p + SHADING_OFFSET n_g (normalised space): some 10,000 roundings of a
-# float32 there, so that no ray meets the triangle it starts from, and 1/2000 of the object.
+# Every method shades p + SHADING_OFFSET n_g (normalised space): some 10,000 float32 roundings,
+# so that no ray meets its own triangle, and 1/2000 of the object.
 SHADING_OFFSET = 1e-3
 # The ground is a disc round the object's foot, wide enough to be the horizon of most frames.
 GROUND_RADIUS = 20.0
@@ -17,10 +17,10 @@ GROUND_RADIUS = 20.0
 
 @dataclass(frozen=True, eq=False)
 class GBuffer:
-    """A frame's n surface points, and those m of them that face the light.
+    """A frame's n surface points, m of them facing the light.
 
-    Points with n_g·l ≤ 0 are dark whatever the method, so that only the m others, on the lit
-    side, are queried. A shadow method answers with a visibility in [0, 1] of all n.
+    Points with n_g·l ≤ 0 are dark in every method, so that only the m others, on the lit side, are
+    queried. A shadow method returns a visibility in [0, 1] of all n.
     """
 
     view: Viewpoint
@@ -34,7 +34,7 @@ class GBuffer:
     cos_shading: np.ndarray  # (m,) float32, max(0, n·l) of the interpolated normal n
 
     def visibility(self, lit: np.ndarray) -> np.ndarray:
-        """Visibility (n,) float32 in [0, 1] from that (m,) of the lit side; elsewhere 0."""
+        """Visibility (n,) float32 from the lit side's (m,); elsewhere 0."""
         visible = np.zeros(len(self.pixel), np.float32)
         visible[self.lit_side] = lit
         return visible
@@ -43,9 +43,9 @@ class GBuffer:
 def pixel_directions(
     view: Camera, width: int, height: int, place: tuple[float, float] = (0.5, 0.5)
 ) -> np.ndarray:
-    """Rays through a place in each pixel, rows from the top: (height · width, 3) float32, not unit.
+    """Rays through a place in each pixel, (height · width, 3) float32.
 
-    Along the camera's axis they are 1 long. The place is from the pixel's left and top.
+    Rows from the top; their length along the camera's axis is 1. The place is from the pixel's left and top.
     """
     right, upward, forward = camera_axes(view.eye, view.target, view.up)
     half = np.tan(np.radians(view.fov) / 2)
@@ -62,9 +62,7 @@ def pixel_directions(
 
 
 class Lens(NamedTuple):
-    """What the pixels of an image have of its camera alone: their `axis_cosines` (H, W) float32, and
-    the focal length in pixels.
-    """
+    """An image's `axis_cosines` (H, W) float32, and focal length in pixels."""
 
     axis: np.ndarray
     focal: float
@@ -76,11 +74,12 @@ def lens_of(camera: Camera, width: int, height: int) -> Lens:
 
 
 def axis_cosines(camera: Camera, width: int, height: int) -> np.ndarray:
-    """Of each pixel's way with the camera's axis, (height, width) float32: a distance from the eye
-    times it is the depth along the axis.
+    """Cosines of pixels' rays with the camera's axis, (height, width) float32.
+
+    A distance from the eye times its cosine is the depth along the axis.
     """
-    ways = pixel_directions(camera, width, height)  # 1 long along the axis
-    return (1 / np.linalg.norm(ways, axis=1)).reshape(height, width)
+    directions = pixel_directions(camera, width, height)  # 1 long along the axis
+    return (1 / np.linalg.norm(directions, axis=1)).reshape(height, width)
 
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -88,7 +87,7 @@ def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GBuffer:
-    """Trace one ray through each pixel centre and prepare its surface points for shading.
+    """Trace pixel centres and prepare the surface points for shading.
 
     The eye must be above the ground and the object on it, so that a ray meets the object first.
     """
@@ -116,8 +115,8 @@ def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GB
     p += (np.float32(SHADING_OFFSET) * side)[:, None] * n_g
     n = interpolate(mesh.vertex_normals, corners, u, v)
     # The normal is turned to its own face's side: the Stanford dragon has 1,329 flaps of two
-    # opposite faces, of which one is kept, and where that is the inner one the vertices' normals
-    # oppose it: dark speckles, 264 pixels in 12 frames, in all methods alike.
+    # opposite faces, one of them removed, and where the inner one is left the vertices'
+    # normals oppose it: dark speckles, 264 pixels in 12 frames, in all methods alike.
     side *= np.where(_dot(n, n_g) < 0, np.float32(-1), np.float32(1))
     cos_shading = side * (n @ light) / np.maximum(np.sqrt(_dot(n, n)), np.float32(1e-12))
 
@@ -138,10 +137,10 @@ def render_gbuffer(scene: Scene, view: Viewpoint, width: int, height: int) -> GB
 
 
 def with_ground(frame: GBuffer, pixel: np.ndarray, p: np.ndarray) -> GBuffer:
-    """The frame with g points of the ground after its own.
+    """Append g points of the ground to a frame.
 
     Args:
-        pixel: (g,) int64, the pixels that show them; p: (g, 3) float32, see `ground_points`.
+        pixel: (g,) int64, their pixels; p: (g, 3) float32, see `ground_points`.
     """
     own = len(frame.pixel)
     up = frame.view.up
@@ -158,7 +157,7 @@ def with_ground(frame: GBuffer, pixel: np.ndarray, p: np.ndarray) -> GBuffer:
 
 
 def interpolate(values: np.ndarray, corners: np.ndarray, u: np.ndarray, v: np.ndarray):
-    """Values (V, 3) at weights u, v of the second and third of `corners` (3, n): (n, 3)."""
+    """Interpolate values (V, 3) at `corners` (3, n), weights u, v: (n, 3)."""
     result = (1 - u - v)[:, None] * np.take(values, corners[0], axis=0)
     result += u[:, None] * np.take(values, corners[1], axis=0)
     result += v[:, None] * np.take(values, corners[2], axis=0)
@@ -168,7 +167,7 @@ def interpolate(values: np.ndarray, corners: np.ndarray, u: np.ndarray, v: np.nd
 def _ground_hits(
     view: Viewpoint, directions: np.ndarray, width: int, hit: np.ndarray, ground: float
 ):
-    """Pixels (g,) whose rays pass the object and meet the ground's disc, and where: (g, 3)."""
+    """Pixels (g,) of the ground's disc, and its points (g, 3)."""
     descends = np.repeat(_slopes(view, directions, width) < 0, width)
     pixel = np.flatnonzero(descends & ~hit)
     p = _on_plane(view, directions, width, pixel, ground)
@@ -179,12 +178,12 @@ def _ground_hits(
 def ground_points(
     view: Viewpoint, width: int, height: int, pixel: np.ndarray, ground: float
 ) -> np.ndarray:
-    """Where the rays of pixels (g,) that show the ground meet it: (g, 3) float32."""
+    """Intersect the rays of ground pixels (g,) with it: (g, 3) float32."""
     return _on_plane(view, pixel_directions(view, width, height), width, pixel, ground)
 
 
 def _slopes(view: Viewpoint, directions: np.ndarray, width: int) -> np.ndarray:
-    """How much the rays of each row rise: (height,). The camera has no roll: all of a row alike."""
+    """Slopes of the rays of each row: (height,); the camera has no roll."""
     return directions[::width] @ view.up.astype(np.float32)
 
 

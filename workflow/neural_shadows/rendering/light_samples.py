@@ -1,7 +1,7 @@
-"""Points on a spherical light as shading points see it: a disc, in rings of equal shares.
+"""Samples of a spherical light seen as a disc, in rings.
 
 One set of samples serves lights of several radii about the same centre: a light of the k-th radius
-is made of the first k rings, each weighted by its area (Datta et al. 2022, supplement 5).
+consists of the first k rings, each weighted by its area (Datta et al. 2022, supplement 5).
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ _GOLDEN = (0.7548776662466927, 0.5698402909980532)
 
 
 def ring_shares(radii: np.ndarray) -> np.ndarray:
-    """Of each light, how much each ring is of its area: (K, K) float32, rows by light.
+    """Area shares of rings of each light: (K, K) float32, rows by light.
 
     Args:
         radii: (K,), growing, above 0.
@@ -25,7 +25,7 @@ def ring_shares(radii: np.ndarray) -> np.ndarray:
 
 @njit(cache=True, nogil=True)
 def _hashed(value):
-    """An integer's bits mixed, as a number in [0, 1) (Wellons 2018, lowbias32)."""
+    """Hash an integer to [0, 1) (Wellons 2018, lowbias32)."""
     x = np.uint32(value)
     x ^= x >> np.uint32(16)
     x = np.uint32(x * np.uint32(0x7FEB352D))
@@ -36,20 +36,20 @@ def _hashed(value):
 
 
 @njit(cache=True, nogil=True)
-def ring_ways(points, keys, first, centre, radii, counts, ways):
-    """Fill `ways` (n, Σ counts, 3) from each point to its samples of the rings, ring by ring.
+def ring_vectors(points, keys, first, centre, radii, counts, vectors):
+    """Fill `vectors` (n, Σ counts, 3) from points to samples, by ring.
 
     Args:
         points: (n, 3) float32.
         keys: (n,) int64; points of one key draw from one sequence, those of another from one
-            that is turned and shifted.
-        first: how many samples of a ring were drawn before, of all keys alike.
+            turned and shifted.
+        first: number of samples of a ring drawn before, for all keys.
         centre: (3,) float64 of the light; radii: (K,) float64 of the rings' outer edges.
         counts: (K,) int64, samples of each ring.
     """
-    # Angles are looked up and turned: a sine of each way took half of the time.
-    drawn = first + np.arange(counts.max()) + 0.5
-    shares, angles = drawn * _GOLDEN[0] % 1, 2 * np.pi * (drawn * _GOLDEN[1] % 1)
+    # Angles are looked up and turned: a sine of each sample took half of the time.
+    numbers = first + np.arange(counts.max()) + 0.5
+    shares, angles = numbers * _GOLDEN[0] % 1, 2 * np.pi * (numbers * _GOLDEN[1] % 1)
     cosines, sines = np.cos(angles), np.sin(angles)
     for i in range(len(points)):
         x, y, z = (
@@ -65,7 +65,7 @@ def ring_ways(points, keys, first, centre, radii, counts, ways):
         b = nx * ny * a
         ux, uy, uz = 1 + sign * nx * nx * a, sign * b, -sign * nx
         vx, vy, vz = b, sign + ny * ny * a, -ny
-        at, inner = 0, 0.0
+        index, inner = 0, 0.0
         for ring in range(len(radii)):
             outer = radii[ring] * radii[ring]
             turn = 2 * np.pi * _hashed(keys[i] * 16 + 2 * ring)
@@ -77,8 +77,8 @@ def ring_ways(points, keys, first, centre, radii, counts, ways):
                 radius = np.sqrt(inner + (outer - inner) * share)
                 p = radius * (c * cosines[k] - s * sines[k])
                 q = radius * (c * sines[k] + s * cosines[k])
-                ways[i, at, 0] = x + p * ux + q * vx
-                ways[i, at, 1] = y + p * uy + q * vy
-                ways[i, at, 2] = z + p * uz + q * vz
-                at += 1
+                vectors[i, index, 0] = x + p * ux + q * vx
+                vectors[i, index, 1] = y + p * uy + q * vy
+                vectors[i, index, 2] = z + p * uz + q * vz
+                index += 1
             inner = outer

@@ -1,4 +1,4 @@
-"""What a frame's points showed in the frame before: for instability, and for temporal filters."""
+"""Reprojection to the previous frame, for instability and temporal filters."""
 
 import numpy as np
 from scipy.ndimage import map_coordinates
@@ -6,14 +6,14 @@ from scipy.ndimage import map_coordinates
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.cameras import Window, camera_axes
 
-DEPTH_SHARE, NORMAL_DISTANCE = 0.02, 0.4  # what differs by more is another surface
-LEAST_WEIGHT = 1e-3  # of a pixel in the look-up: with less it need not agree
+DEPTH_SHARE, NORMAL_DISTANCE = 0.02, 0.4  # thresholds of another surface
+LEAST_WEIGHT = 1e-3  # least weight of a pixel that must agree
 
 
 def projected(camera, width: int, height: int, points: np.ndarray) -> np.ndarray:
-    """Where points (n, 3) lie in a camera's frame: column, row and depth along its axis, (3, n).
+    """Project points (n, 3): column, row and depth along the axis, (3, n).
 
-    In pixels; a pixel's centre has whole numbers.
+    Columns and rows in pixels; a pixel's centre has whole numbers.
     """
     right, upward, forward = camera_axes(camera.eye, camera.target, camera.up) @ (
         points - camera.eye
@@ -29,13 +29,13 @@ def projected(camera, width: int, height: int, points: np.ndarray) -> np.ndarray
 def seen_before(
     surface: Surface, before: Surface, was: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Which of a frame's points the frame before shows as well, and where.
+    """Find a frame's points in the previous frame.
 
-    A point counts if all four pixels that its look-up weighs show a surface of its depth, to 2 %, and of its normal,
-    to 0.4 (Datta et al. 2022, 3.4; thresholds of Hu et al. 2025's code).
+    A point counts if all four pixels of its look-up show a surface of its depth, to 2 %, and of its
+    normal, to 0.4 (Datta et al. 2022, 3.4; thresholds of Hu et al. 2025's code).
 
     Args:
-        was: (n, 3), where the points were then; where they are, if nothing moved.
+        was: (n, 3), the points' previous positions, by default the current ones.
 
     Returns:
         accepted (n,) bool, and column and row in the frame before, (2, n).
@@ -55,15 +55,15 @@ def seen_before(
     for down in (0, 1):
         for along in (0, 1):
             weight = np.abs(1 - along - x) * np.abs(1 - down - y)
-            there = depths[r + down, c + along]
-            same = np.abs(there - depth) <= DEPTH_SHARE * np.abs(depth)
-            away = normals[r + down, c + along] - surface.n_g
-            same &= np.linalg.norm(away, axis=1) <= NORMAL_DISTANCE
+            other = depths[r + down, c + along]
+            same = np.abs(other - depth) <= DEPTH_SHARE * np.abs(depth)
+            difference = normals[r + down, c + along] - surface.n_g
+            same &= np.linalg.norm(difference, axis=1) <= NORMAL_DISTANCE
             accepted &= same | (weight < LEAST_WEIGHT)
     return accepted, np.stack([column, row])
 
 
 def looked_up(image: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """An image (H, W) at columns and rows (2, n), bilinear: (n,) float32."""
+    """Look up an image (H, W) at columns and rows (2, n): (n,) float32."""
     column, row = places
     return map_coordinates(image.astype(np.float32), [row, column], order=1, mode="nearest")

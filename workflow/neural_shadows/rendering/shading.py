@@ -1,4 +1,4 @@
-"""The grey picture made of a frame's visibility [4.1]."""
+"""Grey pictures of a frame's visibility [4.1]."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ BACKGROUND = 0.9
 
 
 def shade(frame: GBuffer, visibility: np.ndarray) -> np.ndarray:
-    """Grey Lambert picture, (height, width) float32 in [0, 1].
+    """Shade a grey Lambert picture, (height, width) float32 in [0, 1].
 
     AMBIENT + (1 − AMBIENT) max(0, n·l) visibility, and BACKGROUND where there is no surface.
 

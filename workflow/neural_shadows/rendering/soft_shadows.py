@@ -1,8 +1,8 @@
-"""The exact soft shadow of a spherical light, for several radii at once: rays to points on it.
+"""Exact soft shadows of spherical lights of several radii, by rays.
 
 Eight places in each pixel, each with its own surface, so that shadows' edges are smooth as well
 (Datta et al. 2022, 3.1 and supplement 5). Most pixels are wholly lit or dark for every radius: a few
-rays find them, where all of their neighbourhood agrees.
+rays find them, if their neighbourhood agrees.
 """
 
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from scipy.ndimage import maximum_filter, minimum_filter
 
-from neural_shadows.rendering.light_samples import ring_shares, ring_ways
+from neural_shadows.rendering.light_samples import ring_shares, ring_vectors
 from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.scene import Scene
@@ -21,9 +21,9 @@ from neural_shadows.scenes.scene import Scene
 _QUEENS = (0, 4, 7, 5, 2, 6, 1, 3)
 PLACES = tuple(((column + 0.5) / 8, (row + 0.5) / 8) for column, row in enumerate(_QUEENS))
 CENTRE = (0.5, 0.5)
-# Rays start this share of the scene's size off the surface, on the side that is seen.
+# Offset of ray origins from the surface to the seen side, in shares of the scene's size.
 OFFSET = 1e-4
-_NEIGHBOURHOOD = 5  # pixels along an axis that must agree with one that is left at its few rays
+_NEIGHBOURHOOD = 5  # pixels along an axis that must agree for few rays
 _RAYS = 1 << 18  # at once: their memory stays in a cache
 
 
@@ -40,17 +40,17 @@ def soft_visibility(
     pool: Executor | None = None,
     surfaces: Sequence[Surface] | None = None,
 ) -> np.ndarray:
-    """How much of a light each pixel sees, for each radius: (radii, height, width) float32.
+    """Trace visibility for each radius: (radii, height, width) float32.
 
-    1 where there is no surface, 0 where it is turned from the light.
+    1 where there is no surface, 0 where the surface is turned from the light.
 
     Args:
         centre: (3,) of the light. radii: of the lights, growing; the first may be 0, a point.
-        samples: rays for each place in a pixel and each ring between two radii.
+        samples: rays for every place in a pixel and every ring between two radii.
         adaptive: leave pixels at two rays a place where they and their neighbours agree: less
             than 5e-4 off on average.
         pool: whose threads share the places; Embree and the kernels need no interpreter.
-        surfaces: what the camera sees at the places, if not of `PLACES` or at hand already.
+        surfaces: the camera's surfaces at the places, by default at `PLACES`.
     """
     rings = np.array([radius for radius in radii if radius > 0], np.float64)
     run = pool.map if pool else map
@@ -80,7 +80,7 @@ def see_places(
     places: Sequence[tuple[float, float]] = PLACES,
     pool: Executor | None = None,
 ) -> list[Surface]:
-    """What a camera sees at some places in each pixel, in units of its sides."""
+    """Trace a camera's surfaces at places in pixels, in pixel sides."""
     run = pool.map if pool else map
     return [*run(lambda place: see_surface(scene, camera, width, height, place), places)]
 
@@ -95,11 +95,11 @@ class _Place:
 
     def hard(self) -> np.ndarray:
         """Visibility of the light's centre, (height, width) float32."""
-        ways = self.centre.astype(np.float32) - self.start
-        return self.surface.image(self._seen(self.start, ways, self.surface.n_g), 1.0)
+        to_light = self.centre.astype(np.float32) - self.start
+        return self.surface.image(self._seen(self.start, to_light, self.surface.n_g), 1.0)
 
     def pilot(self) -> tuple[np.ndarray, np.ndarray]:
-        """Least and most of two rays, one to the outermost ring: (height, width) float32 each."""
+        """Least and most of two rays, one outermost: (height, width) float32."""
         counts = np.zeros(len(self.rings), np.int64)
         if len(counts):
             counts[-1] += 1
@@ -110,41 +110,45 @@ class _Place:
         return self.surface.image(low, 1.0), self.surface.image(high, 1.0)
 
     def by_ring(self, mixed: np.ndarray, samples: int) -> np.ndarray:
-        """Visibility of each ring at mixed pixels: (rings, mixed pixels) float32."""
-        asked = np.flatnonzero(mixed.ravel()[self.surface.pixel])
-        found = np.ones((self.surface.height * self.surface.width, len(self.rings)), np.float32)
+        """Visibility of every ring at mixed pixels: (rings, mixed pixels) float32."""
+        indices = np.flatnonzero(mixed.ravel()[self.surface.pixel])
+        visibility = np.ones(
+            (self.surface.height * self.surface.width, len(self.rings)), np.float32
+        )
         counts = np.full(len(self.rings), samples, np.int64)
-        for part, seen in self._rays(asked, counts, first=self.index * samples):
+        for part, seen in self._rays(indices, counts, first=self.index * samples):
             rings = seen.reshape(len(part), len(self.rings), samples).mean(2)
-            found[self.surface.pixel[part]] = rings
-        return found[mixed.ravel()].T
+            visibility[self.surface.pixel[part]] = rings
+        return visibility[mixed.ravel()].T
 
     def _rays(self, points: np.ndarray, counts: np.ndarray, first: int):
-        """Parts of the points with what their rays see: (part,) indices, (part, Σ counts)."""
-        each = int(counts.sum())
-        size = max(1, _RAYS // max(1, each))
-        ways = np.empty((size, each, 3), np.float32)
-        starts = np.empty((size, each, 3), np.float32)
-        for begin in range(0, len(points) if each else 0, size):
+        """Yield parts of points: (part,) indices, visibility (part, Σ counts)."""
+        count = int(counts.sum())
+        size = max(1, _RAYS // max(1, count))
+        to_light = np.empty((size, count, 3), np.float32)
+        starts = np.empty((size, count, 3), np.float32)
+        for begin in range(0, len(points) if count else 0, size):
             part = points[begin : begin + size]
             start = np.take(self.start, part, axis=0)
-            some, from_ = ways[: len(part)], starts[: len(part)]
-            ring_ways(start, self.surface.pixel[part], first, self.centre, self.rings, counts, some)
-            from_[:] = start[:, None]
+            vectors, origins = to_light[: len(part)], starts[: len(part)]
+            ring_vectors(
+                start, self.surface.pixel[part], first, self.centre, self.rings, counts, vectors
+            )
+            origins[:] = start[:, None]
             normals = np.take(self.surface.n_g, part, axis=0)
-            seen = self._seen(from_.reshape(-1, 3), some.reshape(-1, 3), normals, each)
-            yield part, seen.reshape(len(part), each)
+            seen = self._seen(origins.reshape(-1, 3), vectors.reshape(-1, 3), normals, count)
+            yield part, seen.reshape(len(part), count)
 
-    def _seen(self, starts, ways, normals, each: int = 1) -> np.ndarray:
-        """1 where a way is free and on the side that the surface is seen from: (n,) float32."""
-        seen = (~self.scene.tracer.blocked(starts, ways)).astype(np.float32)
-        _darken(seen, ways, normals, each)
+    def _seen(self, starts, to_light, normals, count: int = 1) -> np.ndarray:
+        """Visibility by free rays on the seen side: (n,) float32."""
+        seen = (~self.scene.tracer.blocked(starts, to_light)).astype(np.float32)
+        _darken(seen, to_light, normals, count)
         return seen
 
 
 @njit(cache=True, nogil=True)
-def _darken(seen, ways, normals, each):
+def _darken(seen, to_light, normals, count):
     for ray in range(len(seen)):
-        n = normals[ray // each]
-        if n[0] * ways[ray, 0] + n[1] * ways[ray, 1] + n[2] * ways[ray, 2] <= 0:
+        n = normals[ray // count]
+        if n[0] * to_light[ray, 0] + n[1] * to_light[ray, 1] + n[2] * to_light[ray, 2] <= 0:
             seen[ray] = 0

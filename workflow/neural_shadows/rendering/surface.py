@@ -1,4 +1,4 @@
-"""What a camera sees, before any light is asked about."""
+"""Surfaces seen by a camera, independent of lights."""
 
 from dataclasses import dataclass
 
@@ -13,26 +13,26 @@ from neural_shadows.scenes.scene import Scene
 class Surface:
     """The surface at one place of each pixel; lengths in the scene's unit.
 
-    Normals are on the camera's side: both sides of an open sheet are seen and shaded.
+    Normals are on the camera's side: both sides of an open sheet are shaded.
     """
 
     camera: Camera
     width: int
     height: int
-    pixel: np.ndarray  # (n,) int64, row · width + column of each pixel that shows a surface
+    pixel: np.ndarray  # (n,) int64, row · width + column of each pixel with a surface
     face: np.ndarray  # (n,) int32, of the scene's joined mesh
     p: np.ndarray  # (n, 3) float32, on the surface
     n_g: np.ndarray  # (n, 3) float32, the face's unit normal
     n: np.ndarray  # (n, 3) float32, the interpolated unit normal
 
     def image(self, values: np.ndarray, empty: float = 0.0) -> np.ndarray:
-        """Values (n, …) of the points as an image (height, width, …); `empty` elsewhere."""
+        """Image (height, width, …) of the points' values (n, …); else `empty`."""
         whole = np.full((self.height * self.width, *values.shape[1:]), empty, values.dtype)
         whole[self.pixel] = values
         return whole.reshape(self.height, self.width, *values.shape[1:])
 
     def depth_image(self) -> np.ndarray:
-        """Depths along the camera's axis, (height, width) float32; 0 where there is no surface."""
+        """Depths along the camera's axis, (height, width) float32; 0 if empty."""
         camera = self.camera
         forward = camera_axes(camera.eye, camera.target, camera.up)[2].astype(np.float32)
         return self.image((self.p - camera.eye.astype(np.float32)) @ forward)
@@ -55,8 +55,8 @@ def see_surface(
     corners = np.take(mesh.faces, face, axis=0).T
     n_g = np.take(mesh.face_normals, face, axis=0)
     n = interpolate(mesh.vertex_normals, corners, u, v)
-    away = np.einsum("ij,ij->i", n_g, np.take(directions, pixel, axis=0)) > 0
-    n_g = np.where(away[:, None], -n_g, n_g)
+    averted = np.einsum("ij,ij->i", n_g, np.take(directions, pixel, axis=0)) > 0
+    n_g = np.where(averted[:, None], -n_g, n_g)
     # On its own face's side, as `render_gbuffer` has it.
     opposed = np.einsum("ij,ij->i", n, n_g) < 0
     n = np.where(opposed[:, None], -n, n)

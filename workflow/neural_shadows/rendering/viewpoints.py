@@ -1,4 +1,4 @@
-"""The cameras and lights of the evaluation frames, drawn at random from one seed [4.1]."""
+"""Random cameras and lights of the evaluation frames [4.1]."""
 
 from collections.abc import Iterable
 
@@ -12,8 +12,7 @@ from neural_shadows.scenes.lights import draw_light, light_basis
 from neural_shadows.scenes.scene import Scene
 
 FOV = 45.0
-# A candidate is judged by a picture of this many rows; of the candidates drawn, the first that
-# is good enough is taken, or else the best.
+# A candidate is judged by a picture of this many rows; the first good one is taken, else the best.
 _PROBE_ROWS = 24
 _CANDIDATES = 48
 
@@ -26,7 +25,7 @@ def draw_viewpoints(
     seed: int,
     least_shadow: float = 0.0,
 ) -> list[Viewpoint]:
-    """Viewpoints number `indices` of each of `view_sets`, in that order [4.1].
+    """Draw viewpoints `indices` of each of `view_sets`, in order [4.1].
 
     A viewpoint depends on the scene, the aspect ratio, `seed`, its set and its number alone:
     sets can be drawn in batches, and more viewpoints leave the earlier ones as they were. Each
@@ -43,7 +42,7 @@ def draw_viewpoints(
             camera are drawn until it does, and or else the best of `_CANDIDATES`.
 
     Raises:
-        InputError: `surface` is asked of a scene whose light reaches none.
+        InputError: `surface` for a scene without lit surface.
     """
     indices = tuple(indices)
     draw = {"shadow": _draw_shadow, "surface": _draw_surface, "centre": _draw_centre}
@@ -70,10 +69,10 @@ def draw_viewpoints(
 def surface_points(
     scene: Scene, count: int, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Points uniform over the object's surface, and the normals of their faces: (count, 3) each."""
+    """Uniform points on the object's surface, and normals: (count, 3) each."""
     (mesh,) = scene.objects
-    where = rng.uniform(0, scene.cumulative_area[-1], count)
-    face = np.searchsorted(scene.cumulative_area, where)
+    areas = rng.uniform(0, scene.cumulative_area[-1], count)
+    face = np.searchsorted(scene.cumulative_area, areas)
     face = np.minimum(face, len(scene.cumulative_area) - 1)
     a, b, c = (mesh.vertices[mesh.faces[face, k]].astype(np.float64) for k in range(3))
     # The square root spreads points evenly over a triangle (Turk 1990).
@@ -82,7 +81,7 @@ def surface_points(
 
 
 def _direction_above(up: np.ndarray, lowest: float, highest: float, rng: np.random.Generator):
-    """Unit vector (3,), uniform by area between two elevations in degrees."""
+    """Uniform unit vector (3,) between two elevations in degrees."""
     sine = rng.uniform(np.sin(np.radians(lowest)), np.sin(np.radians(highest)))
     azimuth = rng.uniform(0, 2 * np.pi)
     cosine = np.sqrt(1 - sine**2)
@@ -90,14 +89,14 @@ def _direction_above(up: np.ndarray, lowest: float, highest: float, rng: np.rand
 
 
 def _cast_shadow(scene: Scene, aspect: float, view: Viewpoint) -> float:
-    """Share of a view's surface that faces the light and yet lies in shadow."""
+    """Share of a view's surface in cast shadow."""
     frame = render_gbuffer(scene, view, round(_PROBE_ROWS * aspect), _PROBE_ROWS)
     lit = np.count_nonzero(exact_visibility(scene.tracer, frame))
     return (len(frame.lit_side) - lit) / max(1, len(frame.pixel))
 
 
 def _shares(scene: Scene, aspect: float, eye: np.ndarray, target: np.ndarray, light: np.ndarray):
-    """Shares of a frame's pixels that show the shadow cast on the ground, and the object."""
+    """Shares of a frame's pixels of cast shadow on the ground and object."""
     view = Viewpoint("", 0, eye, target, scene.up, FOV, light)
     frame = render_gbuffer(scene, view, round(_PROBE_ROWS * aspect), _PROBE_ROWS)
     dark = exact_visibility(scene.tracer, frame) == 0
@@ -112,7 +111,7 @@ def _draw_shadow(scene: Scene, aspect: float, light: np.ndarray, rng: np.random.
     best = -np.inf
     for _ in range(_CANDIDATES):
         direction = _direction_above(scene.up, 20, 75, rng)
-        # On the way from the middle of the shadow to any point of it: varied, yet seldom its rim.
+        # Between the middle of the shadow and any point of it: varied, yet seldom its rim.
         middle, other = shadow.mean(0), shadow[rng.integers(len(shadow))]
         target = middle + rng.uniform() * (other - middle)
         right, upward, _ = camera_axes(target + direction, target, scene.up)
@@ -143,7 +142,7 @@ def _draw_surface(scene: Scene, aspect: float, light: np.ndarray, rng: np.random
 
 
 def _see_surface(scene: Scene, light: np.ndarray, rng: np.random.Generator):
-    """Eye outside the bounding sphere and target on the surface, with nothing between them."""
+    """Draw an eye outside the bounding sphere and a visible target."""
     for _ in range(1000):  # on the dragon one in six will do
         points, normals = surface_points(scene, 1, rng)
         target, normal = points[0], normals[0]
@@ -162,8 +161,8 @@ def _see_surface(scene: Scene, light: np.ndarray, rng: np.random.Generator):
         if 0.999 < t[0] < np.inf:
             return eye, target
     raise InputError(
-        "view_sets: surface: no point of the object is both lit and seen from above; "
-        "check the mesh, the scene's up and its light"
+        "view_sets: surface: no point of the object is both lit and seen from above. "
+        "Check the mesh, the scene's up and its light."
     )
 
 

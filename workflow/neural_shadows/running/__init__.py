@@ -1,1 +1,1 @@
-"""A job, whatever it makes: the call of its stage, its log, progress, the modules it depends on."""
+"""Jobs: stage calls, logs, progress, and module dependencies."""

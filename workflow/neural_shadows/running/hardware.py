@@ -1,4 +1,4 @@
-"""What machine a result was made on."""
+"""Description of the machine."""
 
 import os
 import platform
@@ -12,15 +12,18 @@ CPUINFO = Path("/proc/cpuinfo")
 
 
 def describe_machine() -> dict[str, Any]:
-    """CPU, usable cores, GPU and versions; no host name, user or path: results are published."""
-    # A stage that has not loaded it needs no GPU, and loading takes seconds.
+    """CPU, cores, GPU and versions, without personal data.
+
+    No host name, user or path: results are published."""
+    # Loading takes seconds; a stage without torch does not use the GPU.
     torch = sys.modules.get("torch")
-    # Linux on x86 names its CPU there, others nowhere.
-    found = CPUINFO.is_file() and re.search(r"^model name\s*: (.*)", CPUINFO.read_text(), re.M)
-    limited = hasattr(os, "sched_getaffinity")
+    # Only Linux on x86 names its CPU there.
+    model = CPUINFO.is_file() and re.search(r"^model name\s*: (.*)", CPUINFO.read_text(), re.M)
     return {
-        "cpu": found[1] if found else platform.processor() or platform.machine(),
-        "cores": len(os.sched_getaffinity(0)) if limited else os.cpu_count(),
+        "cpu": model[1] if model else platform.processor() or platform.machine(),
+        "cores": len(os.sched_getaffinity(0))
+        if hasattr(os, "sched_getaffinity")
+        else os.cpu_count(),
         "gpu": torch.cuda.get_device_name() if torch and torch.cuda.is_available() else None,
         "system": platform.system(),
         "python": platform.python_version(),

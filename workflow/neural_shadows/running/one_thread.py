@@ -1,4 +1,4 @@
-"""One thread for all libraries that compute, so that times of methods compare."""
+"""Single-threaded libraries, for comparable times."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,12 +8,12 @@ from threadpoolctl import threadpool_limits
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """While it lasts PyTorch, OpenMP and BLAS compute on one thread, however many a job has.
+    """Limit PyTorch, OpenMP and BLAS to one thread.
 
-    Snakemake tells them those of the rule. Of our own code, numba's and Embree's, nothing is parallel
-    by itself; Open Image Denoise is given its number.
+    Snakemake sets the rule's number otherwise. Our numba and Embree code is single-threaded by itself;
+    Open Image Denoise takes its number as a parameter.
     """
-    import torch  # here, so that stages without networks need not load it before they start
+    import torch  # loading it takes seconds, needless in stages without networks
 
     before = torch.get_num_threads()
     torch.set_num_threads(1)

@@ -1,28 +1,26 @@
-"""How much memory this process holds and may take, in bytes, as Linux tells."""
+"""Memory of this process, held and available, on Linux."""
 
 import re
 from pathlib import Path
 
-CONTAINER = Path(
-    "/sys/fs/cgroup/memory.max"
-)  # the most that a container may take, if it is limited
+CONTAINER = Path("/sys/fs/cgroup/memory.max")  # bytes, or "max" without a limit
 
 
 def held_bytes() -> int:
-    """What it holds now."""
+    """Resident bytes."""
     return _kilobytes("/proc/self/status", "VmRSS")
 
 
 def peak_bytes() -> int:
-    """The most that it ever held.
+    """Largest resident bytes so far.
 
-    `getrusage` would count what the process that started it held: 1,510 MiB for one of 32 MiB.
+    `getrusage` would include the parent process: 1,510 MiB for one of 32 MiB.
     """
     return _kilobytes("/proc/self/status", "VmHWM")
 
 
 def available_bytes() -> int:
-    """What it may still take without swapping, and no more than its container may in all."""
+    """Bytes available without swapping, at most the container's limit."""
     machine = _kilobytes("/proc/meminfo", "MemAvailable")
     most = CONTAINER.read_text().strip() if CONTAINER.is_file() else "max"
     return machine if most == "max" else min(machine, int(most))

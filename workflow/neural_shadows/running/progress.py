@@ -1,4 +1,4 @@
-"""How far a job is: a bar where somebody watches, else a line now and then."""
+"""Progress of a job: a bar on a terminal, else lines."""
 
 import sys
 from typing import Any, TextIO
@@ -6,9 +6,9 @@ from typing import Any, TextIO
 from tqdm import tqdm
 
 TERMINAL: TextIO | None = None
-"""Where the person is, while stderr goes to a job's log (`stage.py`)."""
+"""Snakemake's terminal, while stderr goes to a job's log (`stage.py`)."""
 
-_SECONDS = 20  # between two lines where no bar can be drawn, and before the first
+_SECONDS = 20  # before each line without a terminal
 
 _BAR = "{l_bar}{bar}| {n_fmt}/{total_fmt} [{elapsed}<{remaining}, {pace}]"
 _LINE = "{desc}: {percentage:3.0f} % of {total_fmt} {unit}, {pace}, {remaining} left"
@@ -17,16 +17,16 @@ _LINE = "{desc}: {percentage:3.0f} % of {total_fmt} {unit}, {pace}, {remaining} 
 class _Bar(tqdm):
     @property
     def format_dict(self) -> dict[str, Any]:
-        """tqdm's, and `pace`: units a second, or seconds a unit where those are more than one."""
-        found = super().format_dict
-        rate = found["rate"] or (found["n"] - found["initial"]) / (found["elapsed"] or 1)
-        unit, size = found["unit"], self.format_sizeof(rate)
+        """tqdm's values, and `pace`: units/s, or s per unit if above 1."""
+        values = super().format_dict
+        rate = values["rate"] or (values["n"] - values["initial"]) / (values["elapsed"] or 1)
+        unit, size = values["unit"], self.format_sizeof(rate)
         pace = f"{1 / rate:.1f} s a {unit[:-1]}" if 0 < rate < 1 else f"{size} {unit}/s"
-        return found | {"pace": pace}
+        return values | {"pace": pace}
 
 
 class _LogAndTerminal:
-    """Where a job's bar is written: each state a line of the log, and to the terminal."""
+    """Output of a bar: a log line per state, and the terminal."""
 
     def __init__(self, terminal: TextIO):
         self._terminal = terminal
@@ -43,7 +43,7 @@ class _LogAndTerminal:
 
 
 def progress_bar(total: int, unit: str, title: str, initial: int = 0) -> tqdm:
-    """A bar that counts to `total` units, a plural ("samples", "views"); thousands are "4.00k"."""
+    """Progress bar over `total` units, a plural such as "samples"."""
     settings = dict(total=total, initial=initial, unit=unit, desc=title, bar_format=_BAR)
     settings |= dict(unit_scale=total >= 1000, ncols=80)
     if TERMINAL:

@@ -1,4 +1,4 @@
-"""A job of the workflow: one call of a stage's function, with its log and readable errors."""
+"""Jobs of the workflow: calls of stage functions, logs, error messages."""
 
 import faulthandler
 import inspect
@@ -14,22 +14,21 @@ from typing import Any, get_type_hints
 from neural_shadows.errors import InputError
 from neural_shadows.running import origin, progress
 
-# What a rule names for Snakemake alone: a digest of the code that a result depends on, what else is
-# to be made when a table is asked for or lies beside an input, and the kind of a table or figure,
-# which names its script.
+# Used by Snakemake only: the digest of the code behind a result, files to be built along with a
+# table or beside an input, and the kind of a table or figure, which names its script.
 _RULE_ONLY = {"code", "beside", "kind"}
 
-INTERRUPTED = 130  # the shell's status of what Ctrl-C ends
+INTERRUPTED = 130  # the shell's status after Ctrl-C
 
 
 def run_stage(
     job: Any, function: Callable[..., Any], write: Callable[..., None] | None = None
 ) -> None:
-    """Call a stage's function with a job's files and params by argument name.
+    """Call a stage's function with a job's files and params.
 
-    The job's log begins with what makes its results: commit, code and machine. Output goes there,
-    progress to the terminal as well. On an error the process ends
-    with status 1 after one line on the terminal; the traceback is in the log.
+    The job's log begins with commit, code and machine. Output goes there, progress to the terminal as
+    well. On an error the process ends with status 1 after one line on the terminal; the traceback is
+    in the log.
 
     Args:
         job: Snakemake's script object (`input`, `output`, `params`, `log`, `rule`, …).
@@ -38,20 +37,20 @@ def run_stage(
             arguments of these names, `threads` and wildcards.
         write: takes the function's result, and the outputs by name, which the function then does not.
     """
-    # A name of a file that is no text must not make an error of its own.
+    # File names that are not valid text must not cause a second error.
     terminal = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
     with open(job.log[0], "w", encoding="utf-8", errors="backslashreplace", buffering=1) as log:
-        # By file descriptor, so that what native libraries print is captured as well.
+        # By file descriptor, which also captures output of native libraries.
         os.dup2(log.fileno(), 1)
         os.dup2(log.fileno(), 2)
-        faulthandler.enable()  # where in the job native code crashed
-        # At once and without a traceback: files are written whole or not at all.
+        faulthandler.enable()  # for crashes of native code
+        # Without a traceback: files are written whole or not at all.
         signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
         sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
         progress.TERMINAL = terminal
         origin.CODE = dict(job.params.items()).get("code")
-        made = origin.describe_origin()
-        print(f"Made by commit {made['commit']}, code {made['code']}, {made['machine']}", file=log)
+        made_by = origin.describe_origin()
+        print("Made by commit {commit}, code {code}, {machine}".format(**made_by), file=log)
         try:
             arguments = arguments_of(job, function)
             if write is None:
@@ -60,39 +59,42 @@ def run_stage(
                 outputs = {name: Path(arguments.pop(name)) for name in dict(job.output.items())}
                 write(function(**arguments), **outputs)
         except Exception as error:
-            # An error of these names the file and the reason, others need their type.
+            # These errors name the file and the reason; others need their type.
             kind = "" if isinstance(error, InputError | OSError) else f"{type(error).__name__}: "
             message = " ".join(f"{kind}{error}".split())
             line = f"{job.rule}: {message} [log: {shlex.quote(job.log[0])}]"
-            # First, for the log may lie on a disk that is full.
+            # First, since the log's disk may be full.
             print(line, file=terminal)
             print(traceback.format_exc(), line, sep="\n", file=log)
             sys.exit(1)
 
 
 def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
-    """What a job hands to its stage's function.
+    """Keyword arguments of a job for its stage's function.
 
-    Paths become what the argument's annotation says: `Path`, `Path | None` (None for no file) or
-    `list[Path]`; anything else stays as it is, but a wildcard may be an `int`.
+    Paths are converted to the argument's annotation: `Path`, `Path | None` (None for no file) or
+    `list[Path]`; other values stay unchanged, but a wildcard may be an `int`.
     """
     input, output, params, wildcards = (
         dict(part.items()) for part in (job.input, job.output, job.params, job.wildcards)
     )
-    takes = inspect.signature(function).parameters
-    offered = {"threads": job.threads, **wildcards}
-    given = {name: value for name, value in offered.items() if name in takes}
-    given |= {**input, **output, **params.pop("settings", {}), **params}
-    given = {name: value for name, value in given.items() if name not in _RULE_ONLY}
+    parameters = inspect.signature(function).parameters
+    optional = {"threads": job.threads, **wildcards}
+    arguments = {name: value for name, value in optional.items() if name in parameters}
+    arguments |= {**input, **output, **params.pop("settings", {}), **params}
     types = get_type_hints(function)
-    return {name: _converted(value, types.get(name)) for name, value in given.items()}
+    return {
+        name: _converted(value, types.get(name))
+        for name, value in arguments.items()
+        if name not in _RULE_ONLY
+    }
 
 
 def _converted(value: Any, type_: Any) -> Any:
     if type_ == list[Path]:
         return [Path(path) for path in ([value] if isinstance(value, str) else value)]
     if type_ is Path or type_ == Path | None:
-        # Snakemake gives a function's file as a list of one.
+        # Snakemake passes the file of an input function as a list.
         paths = [value] if isinstance(value, str) else list(value)
         return Path(paths[0]) if paths else None
     return int(value) if type_ is int else value  # a wildcard is text

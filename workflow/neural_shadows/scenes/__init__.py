@@ -1,1 +1,1 @@
-"""What is lit and seen: lights, cameras, and rays against the object."""
+"""Scenes: objects, lights, cameras and ray queries."""

@@ -1,4 +1,4 @@
-"""Several objects in metres, and where light, camera and further objects may be among them.
+"""Objects in metres, with regions for lights, cameras and insertions.
 
 y is up and the floor at y = 0.
 """
@@ -18,16 +18,16 @@ UP = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """One object where it stands."""
+    """One object in scene coordinates."""
 
     name: str
     vertices: np.ndarray  # (V, 3) float32, metres
-    faces: np.ndarray  # (F, 3) int32, none without area
+    faces: np.ndarray  # (F, 3) int32, all with an area
 
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """A box with sides along the axes that positions are drawn from."""
+    """Axis-aligned box of random positions."""
 
     low: np.ndarray  # (3,) float64, metres
     high: np.ndarray  # (3,) float64, metres
@@ -39,25 +39,25 @@ class Region:
 
 @dataclass(frozen=True, eq=False)
 class Spot:
-    """Where an inserted object may stand."""
+    """Position of an inserted object."""
 
-    place: np.ndarray  # (3,) float64, metres, under its middle
-    height: float  # metres: it is nowhere higher or wider
+    position: np.ndarray  # (3,) float64, metres, below its centre
+    height: float  # metres, the largest height and width of the object
     turn: float  # radians, about y
 
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """Objects and the places among them."""
+    """Objects, with regions for lights and cameras."""
 
     name: str
     objects: tuple[Placed, ...]
     spots: tuple[Spot, ...]
     lights: Region  # centres of the light, 0.3 m or more from all objects
-    cameras: Region  # eyes; here and there one is near an object
-    targets: Region  # what cameras look at
-    mover: str  # name of the object that sequences move
-    lit: tuple[float, float] = (0.05, 0.95)  # the share of a frame that the light's centre reaches
+    cameras: Region  # eyes; some are near an object
+    targets: Region  # of cameras
+    mover: str  # name of the object moved in sequences
+    lit: tuple[float, float] = (0.05, 0.95)  # range of a frame's lit share, for the light's centre
 
 
 def scene_of(
@@ -65,41 +65,42 @@ def scene_of(
     inserted: Mapping[str, PreparedMesh] | None = None,
     moved: np.ndarray | None = None,
 ) -> Scene:
-    """The scene of an arrangement: its objects in order, then the inserted ones.
+    """Scene of an arrangement's objects, followed by inserted ones.
 
     Args:
-        inserted: meshes in normalised space by name; the first stands on the first spot.
+        inserted: meshes in normalised space by name, in the order of spots.
         moved: (4, 4) rigid motion in metres of the `mover`.
 
     Raises:
-        InputError: more objects are inserted than there are spots.
+        InputError: more objects than spots.
     """
     inserted = inserted or {}
     if len(inserted) > len(arrangement.spots):
         raise InputError(
-            f"{arrangement.name}: {len(inserted)} objects to insert ({', '.join(inserted)}), "
-            f"but {len(arrangement.spots)} spots"
+            f"{arrangement.name}: {len(inserted)} inserted objects ({', '.join(inserted)}), "
+            f"but {len(arrangement.spots)} spots. Insert fewer"
         )
     motions = {} if moved is None else {arrangement.mover: moved}
     meshes = []
     for part in arrangement.objects:
         motion = motions.get(part.name)
-        vertices = part.vertices if motion is None else _carried(part.vertices, motion)
+        vertices = part.vertices if motion is None else _moved(part.vertices, motion)
         meshes.append((vertices, part.faces))
     for mesh, spot in zip(inserted.values(), arrangement.spots):
-        meshes.append((_stood(mesh, spot), mesh.faces))
+        meshes.append((_on_spot(mesh, spot), mesh.faces))
     return make_scene(*all_with_normals(meshes), up=UP, ground=False, light=None)
 
 
-def _carried(vertices: np.ndarray, motion: np.ndarray) -> np.ndarray:
-    """Vertices after a (4, 4) motion: (V, 3) float32."""
+def _moved(vertices: np.ndarray, motion: np.ndarray) -> np.ndarray:
+    """Vertices (V, 3) float32 after a (4, 4) motion."""
     return (vertices @ motion[:3, :3].T + motion[:3, 3]).astype(np.float32)
 
 
-def _stood(mesh: PreparedMesh, spot: Spot) -> np.ndarray:
-    """Vertices of a mesh from its unit sphere on a spot, (V, 3) float32: the sphere becomes as high as
-    the spot allows.
+def _on_spot(mesh: PreparedMesh, spot: Spot) -> np.ndarray:
+    """Vertices (V, 3) float32 of a normalised mesh on a spot.
+
+    The unit sphere is scaled to the height of the spot.
     """
-    turned = _carried(mesh.vertices, rotation_matrix(spot.turn, UP)) * (spot.height / 2)
+    turned = _moved(mesh.vertices, rotation_matrix(spot.turn, UP)) * (spot.height / 2)
     turned[:, 1] -= turned[:, 1].min()
-    return (turned + spot.place).astype(np.float32)
+    return (turned + spot.position).astype(np.float32)

@@ -1,11 +1,11 @@
-"""Pinhole cameras, and the ways in which those of the evaluation frames are aimed [4.1]."""
+"""Pinhole cameras, and view sets of the evaluation [4.1]."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
-# By view set; see `draw_viewpoints`. The order is part of the random stream of each.
+# See `draw_viewpoints`. The order determines the random streams.
 VIEW_SETS = {
     "shadow": "aimed at the cast shadow",
     "surface": "aimed at the object's surface (self-shadowing)",
@@ -15,7 +15,7 @@ VIEW_SETS = {
 
 @dataclass(frozen=True)
 class Window:
-    """Which part of a larger frame an image is, in that frame's pixels."""
+    """Window of a larger frame, in that frame's pixels."""
 
     full_width: int
     full_height: int
@@ -25,23 +25,23 @@ class Window:
 
 @dataclass(frozen=True, eq=False)
 class Camera:
-    """A pinhole camera without roll, in its scene's unit; vectors (3,) float64."""
+    """Pinhole camera without roll, in scene units; vectors (3,) float64."""
 
     eye: np.ndarray
     target: np.ndarray
     up: np.ndarray
     fov: float  # vertical, degrees; of the whole frame
-    window: Window | None = None  # None: its images are whole frames
+    window: Window | None = None  # None: images are whole frames
 
     def focal(self, height: int) -> float:
-        """The focal length in pixels of an image of that height."""
-        whole = self.window.full_height if self.window else height
-        return whole / 2 / float(np.tan(np.radians(self.fov) / 2))
+        """Focal length in pixels for an image height."""
+        full_height = self.window.full_height if self.window else height
+        return full_height / 2 / float(np.tan(np.radians(self.fov) / 2))
 
 
 @dataclass(frozen=True, eq=False)
 class Viewpoint:
-    """A pinhole camera and the light of its frame, in normalised space; vectors (3,) float64."""
+    """Camera and light of a frame, normalised space; vectors (3,) float64."""
 
     view_set: str
     index: int
@@ -50,11 +50,11 @@ class Viewpoint:
     up: np.ndarray
     fov: float  # vertical, degrees
     light: np.ndarray  # unit vector towards the light
-    window: ClassVar[None] = None  # its images are whole frames
+    window: ClassVar[None] = None  # images are whole frames
 
 
 def camera_axes(eye: np.ndarray, target: np.ndarray, up: np.ndarray) -> np.ndarray:
-    """Rows right, upward, forward of a camera: (3, 3) float64, orthonormal."""
+    """Orthonormal rows right, up, forward of a camera, (3, 3) float64."""
     forward = (target - eye) / np.linalg.norm(target - eye)
     right = np.cross(forward, up)
     right /= np.linalg.norm(right)

@@ -1,8 +1,8 @@
-"""Packets of eight rays against a triangle mesh, by the library that embreex brings.
+"""Packets of eight rays, by the Embree library of embreex.
 
-embreex binds single rays. Its answers are these, bit for bit: the scenes of both are built with
+embreex itself traces single rays, with results equal bit for bit: both build scenes with
 `RTC_SCENE_FLAG_ROBUST`, so that no ray slips between two triangles. Shadow rays of two frames and
-lights of four sizes took 1.1 to 3.0 times as long by embreex, in the median 1.5.
+lights of four sizes took 1.1 to 3.0 times as long with embreex, in the median 1.5.
 
 Constants and layouts are those of Embree 4's headers rtcore_common.h, rtcore_buffer.h,
 rtcore_scene.h and rtcore_ray.h.
@@ -24,17 +24,17 @@ _ADDRESS = ctypes.c_size_t
 
 WIDTH = 8  # rays of a packet, each a column of its rows
 _ORIGIN, _NEAR, _DIRECTION, _TIME, _FAR, _MASK, _ID, _FLAGS = 0, 3, 4, 7, 8, 9, 10, 11
-_U, _V, _FACE, _MESH, _INSTANCE = 15, 16, 17, 18, 19  # what a first hit adds
+_U, _V, _FACE, _MESH, _INSTANCE = 15, 16, 17, 18, 19  # outputs of a first hit
 _ACTIVE, _ARGUMENTS, _ROWS = 21, 22, 24
 # Rays no further apart than this share of their length are traversed together (`_COHERENT`): up to
-# 1.5 times as fast where a light is small. Of random rays it would take 1.7 times as long.
+# 1.5 times as fast with small lights; random rays would take 1.7 times as long.
 _NARROW = 0.2
 _COHERENT = 1 << 16
-_FOREVER = 1e37  # as embreex writes it
+_FOREVER = 1e37  # the constant of embreex
 
 
 def _library() -> ctypes.CDLL | None:
-    """Embree as embreex's wheel holds it; None where no such file is in it."""
+    """Embree's library from embreex's wheel, or None if absent."""
     names = ("libembree4", "embree4")
     paths = [path for path in distribution("embreex").files or () if path.name.startswith(names)]
     if not paths:
@@ -55,7 +55,7 @@ def _library() -> ctypes.CDLL | None:
     library.rtcSetNewGeometryBuffer.argtypes = [
         _ADDRESS, ctypes.c_int, ctypes.c_uint, ctypes.c_int, _ADDRESS, _ADDRESS,
     ]  # fmt: skip
-    # By name, and not as addresses, compiled loops that call them can be kept on disk.
+    # Calls by name, not by address, allow caching compiled loops on disk.
     for name in ("rtcOccluded8", "rtcIntersect8"):
         llvm.add_symbol(name, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)
     return library
@@ -69,7 +69,7 @@ _intersect8 = types.ExternalFunction("rtcIntersect8", _query)
 
 @cache
 def _device() -> int:
-    """One that lives as long as the process; several threads may use it."""
+    """Embree device of the process, shared by threads."""
     device = LIBRARY.rtcNewDevice(None)
     _check(device)
     return device
@@ -83,14 +83,14 @@ def _check(device: int) -> None:
 
 
 class EmbreePackets:
-    """Embree's tree over a mesh, freed with this; safe to share between threads.
+    """Embree's tree over a mesh; safe to share between threads.
 
     Args:
         vertices: (V, 3) positions, float32.
         faces: (F, 3) vertex indices, int32.
 
     Raises:
-        RuntimeError: Embree cannot build it, such as for want of memory.
+        RuntimeError: Embree cannot build the tree, for example without memory.
     """
 
     def __init__(self, vertices: np.ndarray, faces: np.ndarray):
@@ -110,14 +110,18 @@ class EmbreePackets:
     def occluded(
         self, origins: np.ndarray, directions: np.ndarray, end: float = _FOREVER
     ) -> np.ndarray:
-        """Whether each ray o + t d, 0 < t < end, hits anything: (n,) bool; inputs (n, 3)."""
+        """Occlusion of each ray o + t d, 0 < t < end.
+
+        Takes (n, 3) arrays; returns (n,) bool."""
         rays = _as_rays(origins, directions)
         hit = np.empty(len(origins), bool)
         _fill_occluded(self._scene, *rays, np.float32(end), _packet(), hit)
         return hit
 
     def first_hit(self, origins: np.ndarray, directions: np.ndarray, end: float = _FOREVER):
-        """Nearest hit of each ray before `end`: t, face, u, v, each (n,); face −1 where there is none."""
+        """Nearest hit of each ray before `end`.
+
+        Returns t, face, u, v, each (n,); face is −1 without a hit."""
         rays = _as_rays(origins, directions)
         face = np.empty(len(origins), np.int32)
         t, u, v = np.empty((3, len(origins)), np.float32)
@@ -126,14 +130,14 @@ class EmbreePackets:
 
 
 def _copy(geometry: int, kind: int, form: int, rows: np.ndarray) -> None:
-    """Into a buffer of Embree's, which then is as long as its reads by 16 bytes need it."""
+    """Copy rows to a new Embree buffer, padded for 16-byte reads."""
     buffer = LIBRARY.rtcSetNewGeometryBuffer(geometry, kind, 0, form, 12, len(rows))
     if buffer:
         ctypes.memmove(buffer, rows.ctypes.data, rows.nbytes)
 
 
 def _as_rays(origins: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Both (n, 3) float32, read-only, so that the loops are compiled for one type."""
+    """Origins and directions as (n, 3) float32, for one compiled type."""
     shape = len(origins), 3
     return tuple(
         np.ascontiguousarray(np.broadcast_to(rows, shape), np.float32)
@@ -142,7 +146,7 @@ def _as_rays(origins: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, n
 
 
 def _packet() -> np.ndarray:
-    """Zeros (_ROWS, WIDTH) float32, aligned to the 32 bytes of a row."""
+    """Zeros (_ROWS, WIDTH) float32, aligned to 32-byte rows."""
     raw = np.zeros((_ROWS + 1) * WIDTH, np.float32)
     first = -raw.ctypes.data % (4 * WIDTH) // 4
     return raw[first : first + _ROWS * WIDTH].reshape(_ROWS, WIDTH)
@@ -163,7 +167,9 @@ def _fill_occluded(scene, origins, directions, end, packet, hit):
 
 @njit(cache=True, nogil=True)
 def _fill_hits(scene, origins, directions, end, packet, t, face, u, v):
-    """Never as `_COHERENT`: of hits at one distance that would find now this, now that triangle."""
+    """Fill nearest hits.
+
+    Never `_COHERENT`: its choice among hits at equal distances varies."""
     bits = packet.view(np.int32)
     for first in range(0, len(origins), WIDTH):
         count, _ = _fill_packet(packet, bits, origins, directions, first, end)
@@ -174,15 +180,15 @@ def _fill_hits(scene, origins, directions, end, packet, t, face, u, v):
             bits[_ACTIVE].ctypes.data, scene, packet.ctypes.data, bits[_ARGUMENTS].ctypes.data
         )
         for k in range(count):
-            i, some = first + k, bits[_MESH, k] != -1
-            t[i] = packet[_FAR, k] if some else np.inf
-            face[i] = bits[_FACE, k] if some else -1
+            i, is_hit = first + k, bits[_MESH, k] != -1
+            t[i] = packet[_FAR, k] if is_hit else np.inf
+            face[i] = bits[_FACE, k] if is_hit else -1
             u[i], v[i] = packet[_U, k], packet[_V, k]
 
 
 @njit(cache=True, nogil=True)
 def _fill_packet(packet, bits, origins, directions, first, end):
-    """Put in up to WIDTH rays from `first` on: how many, and whether they lie close together."""
+    """Fill a packet from `first` on; return count and coherence."""
     count = min(WIDTH, len(origins) - first)
     apart = np.float32(0)
     length = np.float32(0)
@@ -198,7 +204,7 @@ def _fill_packet(packet, bits, origins, directions, first, end):
             apart += (directions[first + k, j] - directions[first, j]) ** 2
         packet[_NEAR, k], packet[_TIME, k], packet[_FAR, k] = 0, 0, end
         bits[_MASK, k], bits[_ID, k], bits[_FLAGS, k] = -1, 0, 0
-        # False of what is no number, which would spoil the answers of the rays beside it.
+        # False for NaN, which would spoil the results of neighbouring rays.
         narrow = narrow and apart < np.float32(_NARROW**2) * length
     for k in range(WIDTH):
         bits[_ACTIVE, k] = -1 if k < count else 0

@@ -1,4 +1,4 @@
-"""The domains that light directions are drawn from, and the basis that goes with a light [4.1]."""
+"""Domains of light directions, and bases of lights [4.1]."""
 
 import numpy as np
 
@@ -8,18 +8,20 @@ _AXES = {"x": 0, "y": 1, "z": 2}
 
 
 def axis_vector(name: str, key: str) -> np.ndarray:
-    """Unit vector (3,), float64, of the axis "x", "y" or "z"; `key` is named if it is none.
+    """Unit vector (3,) float64 of the axis "x", "y" or "z".
+
+    Messages name `key`.
 
     Raises:
         InputError: `name` is not one of the three.
     """
     if name not in _AXES:
-        raise InputError(f'{key}: {name!r} is not an axis; write "x", "y" or "z"')
+        raise InputError(f'{key}: {name!r} is not an axis. Write "x", "y" or "z"')
     return np.eye(3)[_AXES[name]]
 
 
 def light_basis(light: np.ndarray) -> np.ndarray:
-    """Right-handed orthonormal basis of a light: rows u, v, light; (3, 3) float64.
+    """Right-handed orthonormal basis, rows u, v, light; (3, 3) float64.
 
     u = e × l normalised, e the coordinate axis least aligned with l, the unit vector towards
     the light (the first of equals); v = l × u.
@@ -34,36 +36,38 @@ def lowest_elevation(domain: dict) -> float:
     """A light domain's `min_elevation_deg` in radians.
 
     Raises:
-        InputError: it is not in [0, 90) degrees.
+        InputError: the value is not in [0, 90) degrees.
     """
     lowest = domain["min_elevation_deg"]
     if not 0 <= lowest < 90:
-        raise InputError(f"light.min_elevation_deg: {lowest} is not in [0, 90); give degrees")
+        raise InputError(f"light.min_elevation_deg: {lowest} is not in [0, 90). Give degrees")
     return float(np.radians(lowest))
 
 
 def arc_directions(domain: dict, up: np.ndarray, angle: np.ndarray) -> np.ndarray:
-    """Unit vectors (..., 3) towards the light at `angle` (...) from the zenith on an arc [4.1.1].
+    """Unit vectors (..., 3) to the light on an arc [4.1.1].
 
-    The arc is a turn about the horizontal `axis` of a `single_axis` domain.
+    `angle` (...) is measured from the zenith. The arc is a rotation about the horizontal `axis` of a `single_axis` domain.
 
     Raises:
-        InputError: the axis is none, or not horizontal.
+        InputError: the axis is unknown, or not horizontal.
     """
     axis = axis_vector(domain["axis"], "light.axis")
     if abs(axis @ up) > 1e-6:
-        raise InputError(f"light.axis: {domain['axis']} is not horizontal; pick one across `up`")
+        raise InputError(
+            f"light.axis: {domain['axis']} is not horizontal. Use one perpendicular to `up`"
+        )
     angle = np.asarray(angle)[..., None]
     return np.cos(angle) * up + np.sin(angle) * np.cross(axis, up)
 
 
 def draw_light(domain: dict, up: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Unit vector (3,) towards the light, float64, drawn from a scene's `light` domain [4.1].
+    """Draw a unit vector (3,) float64 towards the light [4.1].
 
     Args:
-        domain: `domain`, and `min_elevation_deg` in [0, 90) above the horizon.
+        domain: a scene's `light`: `domain`, and `min_elevation_deg` in [0, 90) above the horizon.
             `sphere`: uniform over the area of the cap of the sphere above that elevation.
-            `single_axis`: the sun's path, a half turn about the horizontal `axis` ("x", "y"
+            `single_axis`: the sun's path, a half rotation about the horizontal `axis` ("x", "y"
             or "z") through the zenith; uniform in the angle, both ends at that elevation.
         up: (3,) unit vector.
 
@@ -81,4 +85,4 @@ def draw_light(domain: dict, up: np.ndarray, rng: np.random.Generator) -> np.nda
     if domain["domain"] == "single_axis":
         half = np.pi / 2 - lowest
         return arc_directions(domain, up, rng.uniform(-half, half))
-    raise InputError(f"light.domain: {domain['domain']!r} is unknown; use sphere or single_axis")
+    raise InputError(f"light.domain: {domain['domain']!r} is unknown. Use sphere or single_axis")

@@ -1,4 +1,4 @@
-"""What is lit and seen, as one value."""
+"""Scenes: objects, lights, ground plane and tracer."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,38 +18,38 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Objects and lights in one space, and the tracer over all objects.
+    """Objects and lights in one space, with their tracer.
 
-    The space is the normalised one of a single object, or metres.
+    The space is normalised space of a single object, or metres.
     """
 
     objects: tuple["PreparedMesh", ...]
-    lights: tuple[Mapping[str, Any], ...]  # the domain of the light's direction; none in metres
+    lights: tuple[Mapping[str, Any], ...]  # domain of light directions; empty in metres
     up: np.ndarray  # (3,) float64, unit vector
-    ground: float | None  # height of the ground plane along `up`; None for a scene without one
+    ground: float | None  # height of the ground plane along `up`; None without one
     tracer: Tracer
 
     @cached_property
     def joined(self) -> "PreparedMesh":
-        """All objects as one mesh, whose faces are in the tracer's order."""
+        """All objects as one mesh, faces in the tracer's order."""
         from neural_shadows.meshes.prepared_mesh import joined_meshes
 
         return joined_meshes(self.objects)
 
     @cached_property
     def owner(self) -> np.ndarray:
-        """Which object each face of the joined mesh is of: (F,) int64."""
+        """Object index of each face of the joined mesh, (F,) int64."""
         counts = [len(mesh.faces) for mesh in self.objects]
         return np.repeat(np.arange(len(counts)), counts)
 
     @cached_property
     def size(self) -> float:
-        """The longest side of the box round all objects."""
+        """Longest side of the bounding box of all objects."""
         return float(np.ptp(self.joined.vertices, axis=0).max())
 
     @cached_property
     def cumulative_area(self) -> np.ndarray:
-        """Running sum of twice the areas of the faces: (F,) float64."""
+        """Cumulative sum of doubled face areas, (F,) float64."""
         (mesh,) = self.objects
         a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
         return np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1), dtype=np.float64)
@@ -58,12 +58,12 @@ class Scene:
 def make_scene(
     *objects: "PreparedMesh", up: np.ndarray, ground: bool, light: LightSettings | None
 ) -> Scene:
-    """A scene of objects as they lie, under which a ground plane may lie.
+    """Make a scene of objects, optionally with a ground plane.
 
     Args:
         up: (3,) unit vector.
-        ground: whether there is a ground plane, at the height of the objects' lowest vertex.
-        light: the domain of the light's direction, see `draw_light`; None where lights have places.
+        ground: adds a ground plane at the height of the objects' lowest vertex.
+        light: domain of light directions, see `draw_light`; None for lights at positions.
     """
     from neural_shadows.meshes.prepared_mesh import joined_meshes
 
@@ -84,7 +84,7 @@ def open_scene(mesh_ply: Path, *, up: str, ground: bool, light: LightSettings) -
     Raises:
         InputError: the file cannot be read as a prepared mesh, or the axis is unknown.
     """
-    # trimesh takes 0.4 s to import, which jobs that read a scene's references need not wait for.
+    # Importing trimesh takes 0.4 s, needless in jobs that only read references.
     from neural_shadows.meshes.prepared_mesh import read_prepared
 
     mesh = read_prepared(mesh_ply)

@@ -1,4 +1,4 @@
-"""Ray queries against one triangle mesh, by Embree."""
+"""Ray queries on one triangle mesh, by Embree."""
 
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
@@ -6,11 +6,11 @@ from embreex.rtcore_scene import EmbreeScene
 
 from neural_shadows.scenes.embree_packets import LIBRARY, EmbreePackets
 
-NEARLY_ALL = 1 - 1e-4  # of a way that ends at a goal
+NEARLY_ALL = 1 - 1e-4  # share of a segment up to its target
 
 
 class Tracer:
-    """Embree's acceleration structure over a mesh; safe to share between threads.
+    """Embree's acceleration structure of a mesh; safe for threads.
 
     Embree works in float32 and releases the GIL while it traces, so that threads over
     chunks of rays scale with the cores.
@@ -37,7 +37,7 @@ class Tracer:
         return t, face
 
     def first_hit_barycentric(self, origins: np.ndarray, directions: np.ndarray):
-        """Where on its triangle each ray o + t d, t > 0, first hits.
+        """Nearest hit of each ray o + t d, in barycentric coordinates.
 
         Args:
             origins, directions: (n, 3) float32.
@@ -51,32 +51,34 @@ class Tracer:
         return face >= 0, face, u, v
 
     def occluded(self, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
-        """Whether each ray o + t d, t > 0, hits anything: (n,) bool; inputs (n, 3) float32."""
+        """Occlusion of each ray o + t d, t > 0.
+
+        Takes (n, 3) float32 arrays; returns (n,) bool."""
         return self._rays.occluded(origins, directions)
 
-    def blocked(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
-        """Whether anything lies between each point and where its way leads: (n,) bool.
+    def blocked(self, points: np.ndarray, to_target: np.ndarray) -> np.ndarray:
+        """Occlusion between each point and its target, (n,) bool.
 
         Args:
-            points, ways: (n, 3) float32; the whole way from a point to its goal, not of unit
-                length. Its last ten thousandth is left out, so that a goal may lie on a surface.
+            points, to_target: (n, 3) float32; `to_target` is the vector from a point to its target,
+                not of unit length. Its last 1e-4 is ignored: a target may lie on a surface.
         """
-        return self._rays.occluded(points, ways, NEARLY_ALL)
+        return self._rays.occluded(points, to_target, NEARLY_ALL)
 
-    def free_shares(self, points: np.ndarray, ways: np.ndarray) -> np.ndarray:
-        """How much of each way is free before anything is met, as a share: (n,) float32.
+    def free_shares(self, points: np.ndarray, to_target: np.ndarray) -> np.ndarray:
+        """Unoccluded share of each segment to its target, (n,) float32.
 
         Below `NEARLY_ALL` where `blocked`, at it elsewhere.
 
         Args:
-            points, ways: see `blocked`.
+            points, to_target: see `blocked`.
         """
-        t, *_ = self._rays.first_hit(points, ways, NEARLY_ALL)
+        t, *_ = self._rays.first_hit(points, to_target, NEARLY_ALL)
         return np.minimum(t, np.float32(NEARLY_ALL))
 
 
 class EmbreeSingly:
-    """`EmbreePackets` where Embree's library is not beside embreex: rays one by one, same answers."""
+    """Substitute of `EmbreePackets` without the library: single rays, equal results."""
 
     def __init__(self, vertices: np.ndarray, faces: np.ndarray):
         self._scene = EmbreeScene()
@@ -85,7 +87,7 @@ class EmbreeSingly:
             np.ascontiguousarray(vertices, np.float32),
             np.ascontiguousarray(faces, np.int32),
         )
-        # Embree builds its tree on the first query; done here, before threads share it.
+        # Embree builds its tree on the first query: query before threads share it.
         self.occluded(np.zeros((1, 3), np.float32), np.array([[0, 0, 1]], np.float32))
 
     def occluded(self, origins, directions, end: float | None = None) -> np.ndarray:

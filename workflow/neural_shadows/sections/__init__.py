@@ -1,1 +1,1 @@
-"""The sections of a configuration: a model of each, and what follows from several of them."""
+"""Models of the configuration's sections."""

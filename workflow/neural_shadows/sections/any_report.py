@@ -1,4 +1,4 @@
-"""What all tables, all figures and all claims have."""
+"""Base classes of tables, figures and claims."""
 
 from typing import Any, ClassVar, Literal
 
@@ -10,87 +10,88 @@ Chapter = Literal["thesis", "extensions", "soft"]
 
 
 class AnyReport(Model):
-    """What tables, figures and claims have: checks and names that are followed."""
+    """Common base of tables, figures and claims."""
 
     def check(self, config: Any, key: str) -> None:
-        """Check what depends on other sections.
+        """Check the entry against other sections.
 
         Args:
             config: the whole configuration (`sections.Sections`).
             key: of this entry, for messages.
 
         Raises:
-            ValueError: something does not fit; one line that begins with the key.
+            ValueError: the entry contradicts another section; one line, beginning with the key.
         """
 
     def resolved(self, config: Any) -> dict[str, Any]:
-        """The entry as plain data with the names that it follows, as rules look it up."""
+        """Plain data for rules, with names replaced by their entries."""
         return self.model_dump()
 
 
 class AnyTable(AnyReport):
-    """What all tables have."""
+    """Common base of tables."""
 
     chapter: ClassVar[Chapter] = "thesis"  # of the page
 
     title: str = Field(min_length=1, description="heading of the table")
     published: str | None = Field(
-        None, pattern=r"^4\.[1-7]$", description="the thesis's number of this table"
+        None, pattern=r"^4\.[1-7]$", description="its number in the thesis"
     )
-    figures: list[name_in("figures")] = Field([], description="made and shown beside the table")
-    on_request: bool = Field(False, description="made only when asked for by name")
+    figures: list[name_in("figures")] = Field([], description="names in `figures`, shown with it")
+    on_request: bool = Field(False, description="built only if requested by name")
 
     def methods_shown(self) -> list[str]:
-        """The methods on frames that it compares, by key; none of a table of another kind."""
+        """Keys of the compared methods on frames; empty for other kinds."""
         return []
 
     def chapter_of(self) -> Chapter:
-        """Where the page shows it."""
+        """Chapter of the page."""
         return self.chapter
 
 
 class AnyFigure(AnyReport):
-    """What all figures have."""
+    """Common base of figures."""
 
-    chapter: ClassVar[Chapter] = "extensions"  # figures with the thesis's number: its
-    needs_opengl: ClassVar[bool] = False  # else it can be drawn anywhere
-    folded: ClassVar[bool] = False  # on the page, unfolded by who looks for it
+    chapter: ClassVar[Chapter] = "extensions"  # of the page; numbered figures: `thesis`
+    needs_opengl: ClassVar[bool] = False  # for drawing
+    folded: ClassVar[bool] = False  # collapsed on the page
 
     title: str = Field(min_length=1, description="heading of the figure")
 
 
 class Needs(Model):
-    """What a run needs to decide a claim; with less it is not comparable or undecided."""
+    """Requirements of a claim; unmet, it stays undecided or not comparable."""
 
-    device: Literal["cuda", "cpu"] | None = Field(None, description="that all methods are timed on")
-    seeds: int | None = Field(None, ge=1, le=100, description="trainings of each network")
+    device: Literal["cuda", "cpu"] | None = Field(None, description="device of all timed methods")
+    seeds: int | None = Field(None, ge=1, le=100, description="trainings (seeds) of each network")
     budget: float | None = Field(
         None,
         gt=0,
         le=1,
-        description="share of the samples of its text; with less only what learning curves license",
+        description="least share of the publication's training samples; below it, only learning curves "
+        "can decide the claim",
     )
     mesh: Literal["thesis"] | None = Field(
-        None, description="`thesis`: the thesis's meshes, and no others in their place"
+        None, description="`thesis`: only the thesis's own meshes count, no stand-ins"
     )
     trunk: Literal[True] | None = Field(
-        None, description="a pretrained one, so that one of its networks has a perceptual loss"
+        None, description="`true`: a network must have been trained with a perceptual loss"
     )
 
 
 class AnyClaim(AnyReport):
-    """What all claims have."""
+    """Common base of claims."""
 
     text: Literal["thesis", "nsm", "kpnsm", "own"] = Field(
         "thesis",
-        description="whose claim it is: the thesis's, Neural Shadow Mapping's (Datta et al. 2022), "
-        "Kernel Predicting Neural Shadow Maps' (Hu et al. 2025), or this project's own, of methods "
-        "that are not trained",
+        description="source of the claim: the thesis, Neural Shadow Mapping (Datta et al. 2022), "
+        "Kernel Predicting Neural Shadow Maps (Hu et al. 2025), or this project (about methods "
+        "without training)",
     )
     section: str = Field(
         "1",
         pattern=r"^S?[1-9](\.[0-9]+)*$",
-        description="of that text, as 4.2.1; none of an own one",
+        description="section of the source, such as 4.2.1; without meaning for `text: own`",
     )
-    statement: str = Field(min_length=1, description="one sentence, as the text draws it")
-    needs: Needs = Field(Needs(), description="what a run needs to decide it")
+    statement: str = Field(min_length=1, description="the claim in one sentence")
+    needs: Needs = Field(Needs(), description="requirements for deciding the claim")

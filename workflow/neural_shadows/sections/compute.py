@@ -1,4 +1,4 @@
-"""`compute`: what the networks run on."""
+"""`compute`: device, threads and number format of networks."""
 
 from typing import Literal
 
@@ -8,13 +8,11 @@ from neural_shadows.settings.base import Model
 
 
 class Compute(Model):
-    """What the networks run on."""
+    """Device, threads and number format of networks."""
 
-    device: Literal["auto", "cpu", "cuda"] = Field(
-        "auto", description="`auto`: a GPU if there is one"
-    )
+    device: Literal["auto", "cpu", "cuda"] = Field("auto", description="`auto`: a GPU if available")
     threads: int = Field(2, ge=1, le=1024, description="CPU threads of a sampling or training job")
     precision: Literal["auto", "float32", "bfloat16", "float16"] = Field(
         "auto",
-        description="of matrix products, one that the processor has; `auto`: bfloat16, or float32",
+        description="number format of matrix products; `auto`: bfloat16 where the processor supports it, else float32",
     )

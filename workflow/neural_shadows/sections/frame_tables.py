@@ -1,4 +1,4 @@
-"""What tables of methods on the frames of a frame set have in common."""
+"""Base classes of tables on frame sets."""
 
 from typing import Any, ClassVar
 
@@ -12,7 +12,7 @@ from neural_shadows.settings.base import check_among, name_in
 
 
 class FramesTable(AnyTable):
-    """A table of a frame set."""
+    """Common base of tables on a frame set."""
 
     chapter: ClassVar[Chapter] = "soft"
 
@@ -20,59 +20,61 @@ class FramesTable(AnyTable):
 
 
 class NsmTable(AnyTable):
-    """A table of screen-space networks without a training (Datta et al. 2022, S3, S4.1)."""
+    """Table of untrained screen-space networks (Datta et al. 2022, S3, S4.1)."""
 
     chapter: ClassVar[Chapter] = "soft"
 
     published: str | None = Field(
-        None, pattern=r"^nsm\.s[2-5]$", description="`nsm.` and the paper's number of this table"
+        None, pattern=r"^nsm\.s[2-5]$", description="`nsm.` and the table's number in the paper"
     )
 
 
 class MethodsTable(FramesTable):
-    """A table of methods on a frame set's test frames; a kind says which by `methods_shown`."""
+    """Table of the methods of `methods_shown` on test frames."""
 
     def needs_sequence(self) -> bool:
-        """Whether it is of sequences."""
+        """Check for evaluation on sequences."""
         return False
 
     def check(self, config: Sections, key: str) -> None:
-        """Check that its methods are known, and can be evaluated on its frames."""
+        """Check methods against the frame set."""
         frames = config.frame_sets[self.frame_set]
         own = isinstance(frames, OwnFrames)
-        known = [*METHODS, *config.screen_experiments, *config.networks_by_scene]
+        names = [*METHODS, *config.screen_experiments, *config.networks_by_scene]
         methods = self.methods_shown()
         for method in methods:
-            check_among(f"{key}.methods", method, known)
+            check_among(f"{key}.methods", method, names)
             if methods.count(method) > 1:
-                raise ValueError(f"{key}.methods: {method!r} is there twice; should be there once")
+                raise ValueError(f"{key}.methods: {method!r} is listed twice. List it once")
             if own and needs_scene(method):
-                bases = ", ".join(name for name, one in METHODS.items() if one.channel)
+                bases = ", ".join(name for name, base in METHODS.items() if base.channel)
                 raise ValueError(
-                    f"{key}.methods: {method!r} needs a scene to look at, and frames of a user's own "
-                    f"have none; allowed: {bases}, and networks"
+                    f"{key}.methods: {method!r} needs the scene's geometry, and a user's own frames have "
+                    f"none. Allowed: {bases}, and networks"
                 )
             if method in config.screen_experiments:
                 _check_network(config, f"{key}.methods: {method!r}", self.frame_set, method)
         if self.needs_sequence() and not getattr(frames, "sequence", 0):
-            raise ValueError(f"{key}.frame_set: frame_sets.{self.frame_set} has sequence = 0")
+            raise ValueError(
+                f"{key}.frame_set: frame_sets.{self.frame_set} has sequence = 0. Set 2 or more"
+            )
 
 
 def _check_network(config: Sections, key: str, frame_set: str, experiment: str) -> None:
-    """Check that the lights of a frame set are not larger than those that a network trains on."""
+    """Reject test lights larger than those of the training."""
     frames, trained_on = (
         _radii(config.frame_sets[name])
         for name in (frame_set, config.screen_experiments[experiment].frame_set)
     )
     if frames and trained_on and frames[0] == trained_on[0] and frames[1] > trained_on[1]:
         raise ValueError(
-            f"{key} trains on lights of up to {trained_on[1]:g} {trained_on[0]}, and "
+            f"{key} is trained on lights of up to {trained_on[1]:g} {trained_on[0]}, and "
             f"frame_sets.{frame_set} has one of {frames[1]:g}. Train it on frames with such a light, "
             "or leave it out"
         )
 
 
 def _radii(frames: Any) -> tuple[str, float] | None:
-    """The unit of a frame set's radii and the largest; None of a user's own arrays."""
+    """Unit and maximum of the radii; None for a user's arrays."""
     frames = getattr(frames, "engine", frames) if isinstance(frames, OwnFrames) else frames
     return frames and (frames.radius_unit.replace("_", " "), max(frames.radii))

@@ -1,4 +1,4 @@
-"""`frame_times`: how frames are timed."""
+"""`frame_times`: measurement of frame times."""
 
 from pydantic import Field
 
@@ -6,8 +6,8 @@ from neural_shadows.settings.base import Model
 
 
 class FrameTimes(Model):
-    """How frame times are measured [4.4.1]."""
+    """Measurement of frame times [4.4.1]."""
 
     width: int = Field(1200, ge=64, le=8192, description="pixels")
     height: int = Field(800, ge=64, le=8192, description="pixels")
-    repeats: int = Field(15, ge=3, le=10_000, description="timed frames of each method")
+    repeats: int = Field(15, ge=3, le=10_000, description="timed frames per method")

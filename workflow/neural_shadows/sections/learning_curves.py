@@ -1,4 +1,4 @@
-"""`learning_curves`: networks trained anew for each of several budgets, from several seeds."""
+"""`learning_curves`: trainings at several budgets, from several seeds."""
 
 from typing import Annotated
 
@@ -6,26 +6,29 @@ from pydantic import Field, field_validator
 
 from neural_shadows.settings.base import Model, name_in
 
-# A power law with an offset has three unknowns, and is checked on a budget that it was not fitted
-# to: with three budgets at least its form without the offset can be.
+# A power law without offset has two unknowns; the third budget checks the fit.
 FEWEST_BUDGETS = 3
 
 
 class LearningCurves(Model):
-    """Each experiment trained for each number of steps, with a schedule of that length."""
+    """Trainings per experiment and budget, with schedules of that length."""
 
-    experiments: list[name_in("experiments")] = Field(min_length=1, description="their networks")
-    steps: list[Annotated[int, Field(ge=1)]] = Field(description="budgets, three or more, growing")
-    seeds: int = Field(ge=1, le=100, description="trainings at each: its own seed, and the next")
+    experiments: list[name_in("experiments")] = Field(
+        min_length=1, description="names of experiments"
+    )
+    steps: list[Annotated[int, Field(ge=1)]] = Field(
+        description="budgets in optimiser steps: three or more, ascending"
+    )
+    seeds: int = Field(ge=1, le=100, description="trainings per budget, with successive seeds")
 
     @field_validator("steps")
     @classmethod
     def _check_steps(cls, steps: list[int]) -> list[int]:
         if len(steps) < FEWEST_BUDGETS:
             raise ValueError(
-                f"{steps} are fewer than {FEWEST_BUDGETS} budgets; the last one checks the curve "
-                "that is fitted to the others"
+                f"{steps} are fewer than {FEWEST_BUDGETS} budgets. Add some: the last one checks the curve "
+                "fitted to the others"
             )
         if steps != sorted(set(steps)):
-            raise ValueError(f"{steps}: must grow from each to the next")
+            raise ValueError(f"{steps}: must be ascending, without repetition")
         return steps

@@ -1,4 +1,4 @@
-"""`metrics`: how frames are compared."""
+"""`metrics`: settings of image metrics."""
 
 from typing import Literal
 
@@ -7,16 +7,16 @@ from pydantic import Field
 from neural_shadows.settings.base import Model
 
 
-class LpipsTrunk(Model):
+class LpipsNetwork(Model):
     """The pretrained network inside LPIPS."""
 
     net: Literal["alex", "squeeze", "vgg"] = Field("alex", description="LPIPS's network")
     trunk: str | None = Field(
-        None, description="local weights file of that network; without it torchvision's is fetched"
+        None, description="local weights file of that network; default: downloaded from torchvision"
     )
 
 
 class Metrics(Model):
     """Image metrics."""
 
-    lpips: LpipsTrunk = Field(LpipsTrunk(), description="the learned perceptual metric")
+    lpips: LpipsNetwork = Field(LpipsNetwork(), description="the learned perceptual metric")

@@ -1,4 +1,4 @@
-"""`networks_by_scene`: methods that ask of each scene's frames the network that learned the scene."""
+"""`networks_by_scene`: methods with one network per scene."""
 
 from pydantic import Field
 
@@ -6,9 +6,10 @@ from neural_shadows.settings.base import Model, Text, name_in
 
 
 class NetworksByScene(Model):
-    """One method of several networks; it has no answer for a scene that none of them learned."""
+    """One method of several networks, each for its own scenes."""
 
     experiments: list[name_in("screen_experiments")] = Field(
-        min_length=1, description="names in `screen_experiments`, each of other scenes"
+        min_length=1,
+        description="names in `screen_experiments`, trained on different scenes; other scenes are not evaluated",
     )
-    label: Text = Field(description="its name in tables")
+    label: Text = Field(description="label in tables")

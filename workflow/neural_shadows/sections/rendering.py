@@ -1,4 +1,4 @@
-"""`rendering`: frames and viewpoints of all scenes."""
+"""`rendering`: hard frames and their viewpoints."""
 
 from typing import Literal
 
@@ -8,13 +8,19 @@ from neural_shadows.settings.base import Model
 
 
 class Rendering(Model):
-    """Frames and viewpoints of all evaluations [4.1]."""
+    """Frames and viewpoints of all evaluations on scenes [4.1]."""
 
     width: int = Field(ge=64, le=8192, description="pixels")
     height: int = Field(ge=64, le=8192, description="pixels")
-    views_per_set: int = Field(ge=1, le=1_000_000, description="viewpoints in each view set")
-    batch: int = Field(ge=1, description="viewpoints of a set that one job renders")
-    held_out_views: int = Field(8, ge=1, le=10_000, description="of a set, to find depth biases on")
+    views_per_set: int = Field(ge=1, le=1_000_000, description="viewpoints per view set")
+    batch: int = Field(ge=1, description="viewpoints per view set and job")
+    held_out_views: int = Field(
+        8,
+        ge=1,
+        le=10_000,
+        description="viewpoints per view set for choosing depth biases, outside all tables",
+    )
     reference: Literal["exact", "shadow_map"] = Field(
-        "exact", description="a shadow ray per pixel, or the thesis's 32768² shadow map"
+        "exact",
+        description="reference shadows: one shadow ray per pixel, or the thesis's 32768² shadow map",
     )

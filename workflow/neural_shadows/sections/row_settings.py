@@ -1,4 +1,4 @@
-"""A row of a table of methods on a scene, as the configuration has it."""
+"""Rows of tables of methods on scenes."""
 
 from typing import Annotated, Literal
 
@@ -8,16 +8,17 @@ from neural_shadows.settings.base import Model, Text, section_or
 
 
 class RowSettings(Model):
-    """A row of a table that is more than a name."""
+    """Row with settings of its own."""
 
     method: str = Field(
-        description="an experiment, a map (`shadow_map_N`), `no_shadow`, or `ray_traced` if timed"
+        description="an experiment, a shadow map (`shadow_map_N`), `no_shadow`, or `ray_traced` in tables with times"
     )
     bias: Literal["held_out"] | None = Field(
-        None, description="the depth bias that is best on held-out views, for the method's own"
+        None,
+        description="`held_out`: the best depth bias on held-out views, instead of the method's own",
     )
-    label: Text | None = Field(None, description="without it the method's own label")
-    published: str | None = Field(None, description="its key in published.csv, if not `method`")
+    label: Text | None = Field(None, description="label in the table; default: the method's")
+    published: str | None = Field(None, description="key in published.csv, if not `method`")
 
 
 Rows = Annotated[list[section_or(RowSettings, "method")], Field(min_length=1)]

@@ -1,4 +1,4 @@
-"""Rows of tables of methods on scenes: what one may be, and what it resolves to."""
+"""Tables of methods on scenes, and their resolved rows."""
 
 from collections import Counter
 from typing import Any, ClassVar
@@ -21,17 +21,17 @@ from neural_shadows.settings.records import Row
 
 
 class RowsTable(AnyTable):
-    """A table of methods on one scene or on several."""
+    """Common base of tables of methods on scenes."""
 
-    null_rows: ClassVar[tuple[str, ...]] = ()  # there without being named
-    timed: ClassVar[bool] = False  # it may have ray tracing, the reference, for its time
+    null_rows: ClassVar[tuple[str, ...]] = ()  # added to each scene's rows
+    timed: ClassVar[bool] = False  # may time ray tracing, the reference
 
     def named_rows(self, config: Sections) -> dict[str, list[RowSettings]]:
-        """The rows that the configuration names, by scene."""
+        """Configured rows by scene."""
         raise NotImplementedError
 
     def rows_by_scene(self, config: Sections) -> dict[str, list[RowSettings]]:
-        """The rows by scene, null predictors among them."""
+        """Rows by scene, including null predictors."""
         return {
             scene: [*rows, *self._missing_null_rows(rows)]
             for scene, rows in self.named_rows(config).items()
@@ -42,9 +42,7 @@ class RowsTable(AnyTable):
         return [RowSettings(method=key) for key in self.null_rows if key not in named]
 
     def resolved_rows(self, config: Sections) -> list[Row]:
-        """The rows, each `row_of` with `published`: its key in published.csv, None if the table is
-        not the thesis's.
-        """
+        """Resolved rows; `published` is None if the table has no number."""
         return [
             row_of(config, scene, row)
             | {"published": (row.published or row.method) if self.published else None}
@@ -56,50 +54,50 @@ class RowsTable(AnyTable):
         return self.model_dump() | {"rows": self.resolved_rows(config)}
 
     def experiments_allowed(self, config: Sections) -> list[str]:
-        """The experiments that may be rows."""
+        """Experiments allowed as rows."""
         return list(config.experiments)
 
     def check(self, config: Sections, key: str) -> None:
-        """Check that each row of a scene is a method there, with a key and a label of its own."""
+        """Check that rows are methods of their scene, without duplicates."""
         for scene, rows in self.rows_by_scene(config).items():
             if not scene:
-                raise ValueError(f"{key}: has shadow maps alone and needs a `scene`")
+                raise ValueError(f"{key}: has shadow maps only. Add `scene`")
             for row in rows:
                 self._check_row(config, f"{key}.rows of {scene}", scene, row)
-            made = [row_of(config, scene, row) for row in rows]
+            resolved = [row_of(config, scene, row) for row in rows]
             for part in ("method", "label"):
-                for value, count in Counter(row[part] for row in made).items():
+                for value, count in Counter(row[part] for row in resolved).items():
                     if count > 1:
                         raise ValueError(
-                            f"{key}.rows of {scene}: {value!r} is there twice; should be there once"
+                            f"{key}.rows of {scene}: {value!r} is listed twice. List it once"
                         )
             against = getattr(self, "against", None)
             against = against.get(scene) if isinstance(against, dict) else against
             if against is not None:
-                check_among(f"{key}.against", against, [row["method"] for row in made])
+                check_among(f"{key}.against", against, [row["method"] for row in resolved])
 
     def _check_row(self, config: Sections, key: str, scene: str, row: RowSettings) -> None:
         if row.bias is not None and is_null(row.method):
             raise ValueError(
-                f"{key}: {row.method!r} with a bias: a null predictor has no depth bias; leave it out"
+                f"{key}: {row.method!r} is a null predictor and has no depth bias. Remove `bias`"
             )
         names = self.experiments_allowed(config)
         allowed = [name for name in names if config.experiments[name].scene == scene]
         check_among(key, row.method, [*self.classic_allowed(row), *allowed])
 
     def classic_allowed(self, row: RowSettings) -> list[str]:
-        """The methods without a network that a row may be, its own among them if it is one."""
+        """Methods without networks allowed in a row."""
         own = [row.method] * is_classic(row.method)
         timed = [RAY_TRACED] * (self.timed and row.bias is None)
         return [*own, *PATTERNS, *timed]
 
 
 class TableOfOneScene(RowsTable):
-    """A table of methods on one scene."""
+    """Table of methods on one scene."""
 
     rows: Rows = Field(description="methods, in the table's order")
     scene: name_in("scenes") | None = Field(
-        None, description="a name in `scenes`; without it that of the rows' experiments"
+        None, description="a name in `scenes`; default: that of the rows' experiments"
     )
 
     def check(self, config: Sections, key: str) -> None:
@@ -116,7 +114,7 @@ class TableOfOneScene(RowsTable):
 
 
 class TableByScene(RowsTable):
-    """A table of methods on several scenes."""
+    """Table of methods on several scenes."""
 
     rows: dict[name_in("scenes"), Rows] = Field(min_length=1, description="methods, by scene")
 
@@ -125,7 +123,7 @@ class TableByScene(RowsTable):
 
 
 def row_of(config: Sections, scene: str, row: RowSettings) -> Row:
-    """What a row of a scene resolves to.
+    """Resolve a row of a scene.
 
     Returns: `method`, the method's key; `label`; `published`, None; `scene`; `experiment` and the
         network's `encoding`, or None if it is none, and whether it is `trained`; `bias`, a number,

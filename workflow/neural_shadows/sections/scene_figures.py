@@ -1,4 +1,4 @@
-"""What figures of scenes and of fields have in common."""
+"""Base classes of figures of scenes and fields."""
 
 from pydantic import Field
 
@@ -8,21 +8,21 @@ from neural_shadows.settings.base import check_among, name_in
 
 
 class SceneFigure(AnyFigure):
-    """A figure of a scene."""
+    """Figure of a scene."""
 
     scene: name_in("scenes") = Field(description="a name in `scenes`")
 
 
 class SamplingFigure(SceneFigure):
-    """A figure of a scene and its ray sampling."""
+    """Figure of a scene and its ray sampling."""
 
     sampling: name_in("samplings") = Field(description="a name in `samplings`")
 
 
 class FieldFigure(AnyFigure):
-    """A figure of an occupancy field."""
+    """Figure of an occupancy field."""
 
-    experiment: name_in("experiments") = Field(description="of an `occupancy_field`")
+    experiment: name_in("experiments") = Field(description="name of an `occupancy_field`")
 
     def check(self, config: Sections, key: str) -> None:
         fields = [name for name in config.experiments if config.network_of(name).holds_field]

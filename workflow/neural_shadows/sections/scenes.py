@@ -5,14 +5,14 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from neural_shadows.settings.base import Model, Seed, by_kind
+from neural_shadows.settings.base import Model, Seed, by_kind, has_key
 
 
 class Wyrm(Model):
     """The procedural stand-in dragon."""
 
     generate: Literal["wyrm"] = Field(description="`wyrm`: a creature, the stand-in dragon")
-    cells: int = Field(220, ge=48, le=1024, description="marching-cubes cells of the longest axis")
+    cells: int = Field(220, ge=48, le=1024, description="marching-cubes cells, longest axis")
 
 
 class Fence(Model):
@@ -24,33 +24,35 @@ class Fence(Model):
 
 
 class Landscape(Model):
-    """A height field with extrusions, one open sheet [4.1.1]."""
+    """Height field with extrusions, one open sheet [4.1.1]."""
 
     generate: Literal["landscape"] = Field(description="`landscape`: one sheet of low frequency")
     cells: int = Field(256, ge=16, le=2048, description="grid cells along a side")
 
 
 class DownloadedMesh(Model):
-    """A mesh that the pipeline downloads from the Stanford 3D Scanning Repository."""
+    """Mesh downloaded from the Stanford 3D Scanning Repository."""
 
-    download: Literal["stanford_dragon"] = Field(description="its dragon_vrip_res2.ply")
+    download: Literal["stanford_dragon"] = Field(
+        description="`stanford_dragon`: dragon_vrip_res2.ply of its archive"
+    )
 
 
 class MeshFile(Model):
     """A mesh file of the user."""
 
     path: str = Field(
-        min_length=1, description="a .ply, .obj, .stl or .glb, also .gz; from the working directory"
+        min_length=1,
+        description="a .ply, .obj, .stl or .glb file, also with .gz; relative to the working directory",
     )
 
 
-# Tags that no key is called: messages leave out what is no key from the place of an error.
+# No key has these names: messages omit path elements that are not keys.
 _TAGS = {"generate": "Generated", "download": "Downloaded", "path": "File"}
 
 
 def _tag(mesh: Any) -> str | None:
-    has = mesh.__contains__ if isinstance(mesh, dict) else lambda key: hasattr(mesh, key)
-    tags = [tag for key, tag in _TAGS.items() if has(key)]
+    tags = [tag for key, tag in _TAGS.items() if has_key(mesh, key)]
     return tags[0] if len(tags) == 1 else None
 
 
@@ -65,29 +67,29 @@ Mesh = Annotated[
         _tag,
         custom_error_type="mesh",
         custom_error_message=(
-            f"should be {WHERE_FROM} (an overlay drops a key of the default by setting it to null)"
+            f"should be {WHERE_FROM} (an overlay removes a key of the default by setting it to null)"
         ),
     ),
 ]
 
 
 Elevation = Annotated[
-    float, Field(ge=1, lt=90, description="lowest light above the horizon, in degrees")
+    float, Field(ge=1, lt=90, description="least elevation of the light above the horizon, degrees")
 ]
 
 
 class SphereLight(Model):
-    """Light from any direction of a cap of the sphere around the zenith."""
+    """Light directions of a spherical cap around the zenith."""
 
     domain: Literal["sphere"] = Field(description="`sphere`: uniform over the cap's area")
     min_elevation_deg: Elevation = 20
 
 
 class SingleAxisLight(Model):
-    """Light on an arc: the sun's path about one horizontal axis [4.1.1]."""
+    """Light directions on an arc: the sun's path [4.1.1]."""
 
     domain: Literal["single_axis"] = Field(description="`single_axis`: uniform in the angle")
-    axis: Literal["x", "y", "z"] = Field(description="horizontal axis that the light turns about")
+    axis: Literal["x", "y", "z"] = Field(description="horizontal axis of the light's rotation")
     min_elevation_deg: Elevation = 20
 
 
@@ -95,27 +97,29 @@ ViewSet = Literal["shadow", "surface", "centre"]
 
 
 class Scene(Model):
-    """A mesh, how it stands and how it is lit and seen [4.1, 4.1.1]."""
+    """Mesh with its ground, lights and views [4.1, 4.1.1]."""
 
     mesh: Mesh = Field(description=WHERE_FROM)
-    up: Literal["x", "y", "z"] = Field("y", description="the mesh's axis that points up")
-    ground: bool = Field(True, description="whether it stands on a plane that receives its shadow")
+    up: Literal["x", "y", "z"] = Field("y", description="vertical axis of the mesh, pointing up")
+    ground: bool = Field(True, description="ground plane below the mesh, receiving its shadow")
     light: by_kind("domain", SphereLight, SingleAxisLight) = Field(
-        SphereLight(domain="sphere"), description="where viewpoints' lights are"
+        SphereLight(domain="sphere"), description="domain of light directions"
     )
     view_sets: list[ViewSet] = Field(
         min_length=1,
         default_factory=lambda scene: ["shadow", "surface"] if scene["ground"] else ["centre"],
-        description="where cameras look: by default [shadow, surface] on a ground, else [centre]",
+        description="targets of cameras; default: [shadow, surface] with a ground, else [centre]",
     )
     least_shadow: float = Field(
-        0.0, ge=0, le=0.5, description="of each viewpoint's surface, that is in cast shadow"
+        0.0, ge=0, le=0.5, description="least share of a viewpoint's visible surface in cast shadow"
     )
-    seed: Seed | None = Field(None, description="without it the configuration's")
+    seed: Seed | None = Field(
+        None, description="of viewpoints and trainings; default: the global seed"
+    )
 
 
 def mesh_name(scene: Scene) -> str:
-    """What a scene's mesh is called in tables: what it is, not what it stands for."""
+    """Name of a scene's mesh in tables."""
     if isinstance(scene.mesh, MeshFile):
         return Path(Path(scene.mesh.path).name.removesuffix(".gz")).stem
     return getattr(scene.mesh, "generate", None) or scene.mesh.download

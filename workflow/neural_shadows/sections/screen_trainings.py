@@ -1,4 +1,4 @@
-"""`screen_trainings`: how networks that answer whole frames learn (Datta et al. 2022, 3.3)."""
+"""`screen_trainings`: trainings of screen-space networks (Datta et al. 2022, 3.3)."""
 
 from typing import Annotated, Literal
 
@@ -8,18 +8,19 @@ from neural_shadows.settings.base import Model, Text, by_kind
 
 
 class Squeeze(Model):
-    """SqueezeNet 1.1, after its first ReLU and after fire3."""
+    """SqueezeNet 1.1: features of its first ReLU and of fire3."""
 
     net: Literal["squeeze"] = Field(
         "squeeze",
-        description="`squeeze`: by metrics.lpips.trunk, if metrics.lpips.net is squeeze; else none",
+        description="`squeeze`: weights of metrics.lpips.trunk; without perceptual loss if metrics.lpips.net is "
+        "another",
     )
 
 
 class Vgg19(Model):
-    """VGG-19, relu2_2: the paper's."""
+    """VGG-19: features of relu2_2, as in the paper."""
 
-    net: Literal["vgg19"] = Field(description="`vgg19`, the paper's")
+    net: Literal["vgg19"] = Field(description="`vgg19`, as in the paper")
     trunk: Text = Field(description="local weights file of torchvision's vgg19")
 
 
@@ -30,52 +31,56 @@ class NoPerceptual(Model):
 
 
 class ScreenTraining(Model):
-    """Crops of training frames, and what is learnt of them."""
+    """Optimiser, crops and losses of a screen-space network."""
 
     optimiser: Literal["adam", "muon"] = Field(
-        "adam", description="`adam`, or `muon` for all convolutions but the first and the last"
+        "adam", description="`adam`, or `muon` for all convolutions except the first and last"
     )
     steps: int = Field(ge=1, description="optimiser steps")
-    crops: int = Field(ge=1, le=1024, description="crops of a step")
-    crop: int = Field(
-        ge=2, le=4096, description="side of a crop in pixels; of a smaller frame its whole side"
+    crops: int = Field(ge=1, le=1024, description="crops per step")
+    crop: int = Field(ge=2, le=4096, description="side of a crop, pixels; at most the frame")
+    learning_rate: float = Field(gt=0, le=1, description="initial learning rate")
+    adam_rate: float = Field(
+        0.003,
+        gt=0,
+        le=1,
+        description="with `muon`: learning rate of Adam, for the remaining weights",
     )
-    learning_rate: float = Field(gt=0, le=1, description="the optimiser's rate (at its start)")
-    adam_rate: float = Field(0.003, gt=0, le=1, description="with muon, Adam's rate, of all else")
     schedule: Literal["constant", "cosine", "steps"] = Field(
-        "cosine", description="of the rate: constant, cosine to zero, or a tenth from some steps on"
+        "cosine",
+        description="learning-rate schedule: constant, cosine to zero, or divided by ten at `tenth_from`",
     )
     tenth_from: list[Annotated[int, Field(ge=1)]] = Field(
-        [], description="with `steps`, from each of which the rate is a tenth of that before"
+        [], description="with `schedule: steps`: steps at which the rate is divided by ten"
     )
-    alpha: float = Field(0.9, ge=0, le=1, description="weight of L1; the rest is perceptual's")
+    alpha: float = Field(0.9, ge=0, le=1, description="weight of L1; 1 − alpha: perceptual loss")
     perceptual: by_kind("net", Squeeze, Vgg19, NoPerceptual, default="squeeze") = Field(
-        Squeeze(), description="the distance between pretrained features"
+        Squeeze(), description="perceptual loss: distance between pretrained features"
     )
     perturbation: float = Field(
-        3.0, ge=0, le=100, description="weight of the loss against a twin's output; 0 for none"
+        3.0, ge=0, le=100, description="weight of the temporal loss on perturbed frames; 0 for none"
     )
     perturbation_from: float = Field(
-        0.0, ge=0, lt=1, description="share of the steps that are done before that loss has a part"
+        0.0, ge=0, lt=1, description="share of the steps before the temporal loss starts"
     )
     aligned: bool = Field(
         False,
-        description="whether the twin's output is looked up where it shows what the frame does; else "
-        "pixels are compared as they lie",
+        description="whether the perturbed frame's output is reprojected to the frame before comparison; "
+        "otherwise equal pixels are compared",
     )
-    flips: bool = Field(True, description="whether crops are mirrored and turned over at random")
+    flips: bool = Field(True, description="random horizontal and vertical flips of crops")
 
     @model_validator(mode="after")
     def _check_schedule(self):
-        places = self.tenth_from
-        if (self.schedule == "steps") != bool(places):
+        steps = self.tenth_from
+        if (self.schedule == "steps") != bool(steps):
             raise ValueError(
-                f"tenth_from = {places}: goes with `schedule: steps`, and that needs a step or more; "
-                f"the schedule is {self.schedule!r}"
+                f"tenth_from = {steps}: needs one step or more with `schedule: steps`, and none with "
+                f"another; the schedule is {self.schedule!r}"
             )
-        if places != sorted(set(places)) or places[-1:] >= [self.steps]:
+        if steps != sorted(set(steps)) or steps[-1:] >= [self.steps]:
             raise ValueError(
-                f"tenth_from = {places}: must grow from each to the next, and end below steps = "
+                f"tenth_from = {steps}: must be ascending, without repetition, and end below steps = "
                 f"{self.steps}"
             )
         return self

@@ -1,4 +1,4 @@
-"""All sections of a configuration but its reports, and what follows from several of them."""
+"""All sections of a configuration, with values derived from several."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
@@ -30,67 +30,63 @@ ViewerName = Annotated[str, Field(pattern=r"^viewer(_[a-z0-9_]+)?$")]
 
 
 class Sections(Model):
-    """A configuration; `config.whole` gives its tables, figures and claims their kinds."""
+    """A configuration; `config.whole` adds kinds of reports."""
 
-    scale: Name = Field(description="name of this configuration; overlays write below it")
-    seed: Seed = Field(description="seed of everything that is drawn")
-    dragon: str | None = Field(
-        None, min_length=1, description="the dragon's mesh: `wyrm`, `stanford`, or a file"
-    )
+    scale: Name = Field(description="name of this configuration and of its folders of results")
+    seed: Seed = Field(description="seed of all random draws")
+    dragon: str | None = Field(None, min_length=1, description="`wyrm`, `stanford`, or a mesh file")
     up: Literal["x", "y", "z"] | None = Field(
-        None, description="the axis of the dragon's mesh that points up, in place of its scene's"
+        None, description="vertical axis of the dragon's mesh, overriding its scene's"
     )
-    compute: Compute = Field(Compute(), description="what the networks run on")
-    scenes: dict[Name, Scene] = Field(description="meshes, how they stand and are lit, by name")
-    samplings: dict[Name, Sampling] = Field(description="ways to draw training rays, by name")
-    networks: dict[Name, Network] = Field(description="network shapes, by name")
-    trainings: dict[Name, Training] = Field(description="optimiser settings, by name")
-    experiments: dict[Name, Experiment] = Field(description="networks, by name")
+    compute: Compute = Field(Compute(), description="device, threads and number format of networks")
+    scenes: dict[Name, Scene] = Field(description="meshes with ground, lights and views, by name")
+    samplings: dict[Name, Sampling] = Field(description="samplings of training rays, by name")
+    networks: dict[Name, Network] = Field(description="architectures of networks on rays, by name")
+    trainings: dict[Name, Training] = Field(description="trainings of networks on rays, by name")
+    experiments: dict[Name, Experiment] = Field(description="networks on rays, trained, by name")
     learning_curves: LearningCurves | None = Field(
-        None, description="networks trained anew at several budgets, from several seeds"
+        None, description="trainings at several budgets, from several seeds"
     )
-    rendering: Rendering = Field(description="frames and viewpoints of all scenes")
+    rendering: Rendering = Field(description="hard frames and their viewpoints")
     soft_scenes: dict[Name, SoftScene] = Field(
-        {}, description="several objects in metres, lit by a light at a place, by name"
+        {}, description="generated scenes in metres, lit by a sphere, by name"
     )
     frame_sets: dict[Name, FrameSet] = Field(
         {}, description="frames with buffers and exact soft shadows, by name"
     )
     screen_networks: dict[Name, ScreenNetwork] = Field(
-        {}, description="shapes of networks that answer whole frames, by name"
+        {}, description="architectures of screen-space networks, by name"
     )
     screen_trainings: dict[Name, ScreenTraining] = Field(
-        {}, description="how networks of whole frames learn, by name"
+        {}, description="trainings of screen-space networks, by name"
     )
     screen_experiments: dict[Name, ScreenExperiment] = Field(
-        {}, description="networks of whole frames that are trained, by name"
+        {}, description="screen-space networks, one training each, by name"
     )
     networks_by_scene: dict[Name, NetworksByScene] = Field(
-        {}, description="methods that are one of these for each scene, by name"
+        {}, description="methods with one screen-space network per scene, by name"
     )
     screen_profiles: ScreenProfiles = Field(
-        ScreenProfiles(), description="how these are timed, level by level"
+        ScreenProfiles(), description="timing of screen-space networks by level"
     )
     metrics: Metrics = Field(Metrics(), description="settings of the image metrics")
-    frame_times: FrameTimes = Field(FrameTimes(), description="how frame times are measured")
-    tables: Mapping[Name, AnyTable] = Field(
-        {}, description="by name: `table_` and the thesis's number"
-    )
+    frame_times: FrameTimes = Field(FrameTimes(), description="measurement of frame times")
+    tables: Mapping[Name, AnyTable] = Field({}, description="tables, by name")
     figures: Mapping[FigureName, AnyFigure] = Field(
         {}, description="figures to draw, by name: `figure_` and the thesis's number"
     )
     viewers: dict[ViewerName, Viewer] = Field(
-        {}, description="pages in which the light can be dragged, by name: `viewer`, `viewer_NAME`"
+        {}, description="interactive pages with a movable light, by name: `viewer`, `viewer_NAME`"
     )
-    claims: Mapping[Name, AnyClaim] = Field({}, description="what the thesis concludes, by name")
+    claims: Mapping[Name, AnyClaim] = Field({}, description="conclusions to be judged, by name")
 
     def network_of(self, experiment: str) -> Any:
-        """The section of an experiment's network."""
+        """Section of an experiment's network."""
         network = self.experiments[experiment].network
         return self.networks[network] if isinstance(network, str) else network
 
     def training_of(self, experiment: str) -> Training | None:
-        """The section of an experiment's training; None for a network that is only built."""
+        """Section of an experiment's training, or None."""
         training = self.experiments[experiment].training
         return self.trainings[training] if isinstance(training, str) else training
 
@@ -101,10 +97,10 @@ class Sections(Model):
         return next(seed for seed in seeds if seed is not None)
 
     def label_of(self, experiment: str, label: str | None = None) -> str:
-        """A label, the experiment's own by default, with the settings that its braces name.
+        """Label of an experiment, with settings in braces filled in.
 
         Raises:
-            ValueError: it names a setting that the experiment's network and training do not have.
+            ValueError: neither the network nor the training has a setting in braces.
         """
         label = label or self.experiments[experiment].label or experiment
         training = self.training_of(experiment)
@@ -114,12 +110,12 @@ class Sections(Model):
             return label.format(**settings)
         except (LookupError, ValueError, TypeError, AttributeError) as error:
             raise ValueError(
-                f"the label {label!r} of {experiment}: what stands in braces should be a setting of "
-                f"its network or training; allowed: {', '.join(settings)}"
+                f"the label {label!r} of {experiment}: braces must name a setting of "
+                f"its network or training. Allowed: {', '.join(settings)}"
             ) from error
 
     def points_of(self, experiment: str) -> list[dict[str, Any]]:
-        """The points of an experiment's learning curve, by steps and then by seed.
+        """Points of an experiment's learning curve, by steps, then seed.
 
         Returns: of each `experiment`, the name of the network that is trained for it; `steps`;
             `seed`; `samples`, steps × batch. The experiment itself is the point of its own steps
@@ -139,17 +135,17 @@ class Sections(Model):
         return points
 
     def layout_seed(self, scene: str) -> int:
-        """The seed that the layout of a scene in metres is drawn from."""
+        """Seed of the layout of a soft scene."""
         seed = self.soft_scenes[scene].seed
         return self.seed if seed is None else seed
 
     def screen_network_of(self, experiment: str) -> Any:
-        """The section of a screen-space experiment's network."""
+        """Section of a screen-space experiment's network."""
         network = self.screen_experiments[experiment].network
         return self.screen_networks[network] if isinstance(network, str) else network
 
     def screen_training_of(self, experiment: str) -> ScreenTraining:
-        """The section of a screen-space experiment's training."""
+        """Section of a screen-space experiment's training."""
         training = self.screen_experiments[experiment].training
         return self.screen_trainings[training] if isinstance(training, str) else training
 
@@ -159,6 +155,6 @@ class Sections(Model):
         return self.seed if seed is None else seed
 
     def differences(self, experiment: str, other: str) -> list[str]:
-        """The keys in which two screen-space experiments differ, but for `seed` and `label`."""
+        """Differing keys of two screen-space experiments, except `seed` and `label`."""
         first, second = (dict(self.screen_experiments[name]) for name in (experiment, other))
         return [k for k in first if k not in ("seed", "label") and first[k] != second[k]]

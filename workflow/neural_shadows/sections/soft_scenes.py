@@ -1,4 +1,4 @@
-"""`soft_scenes`: several objects in metres, lit by a light at a place."""
+"""`soft_scenes`: generated scenes in metres, lit by a sphere."""
 
 from typing import Literal
 
@@ -9,21 +9,20 @@ from neural_shadows.settings.base import Model, name_in
 
 
 class SoftScene(Model):
-    """A generated scene, and objects of `scenes` that stand in it."""
+    """Generated scene with inserted objects of `scenes`."""
 
     generate: Literal[TRAINED + UNTRAINED] = Field(
-        description="a file in workflow/neural_shadows/scenes/generators/"
+        description="generator of the scene, a file in workflow/neural_shadows/scenes/generators/"
     )
     inserted: list[name_in("scenes")] = Field(
-        [], description="names in `scenes`, whose meshes stand on the scene's spots in this order"
+        [],
+        description="names in `scenes`; their meshes are placed on the scene's spots in this order",
     )
-    seed: int | None = Field(
-        None, ge=0, description="that its layout is drawn from; default: the run's"
-    )
+    seed: int | None = Field(None, ge=0, description="seed of the layout; default: the global seed")
     penumbra: float | None = Field(
         None,
         gt=0,
         le=1000,
-        description="of a plate: the 95th percentile of its penumbrae's widths in pixels of a frame "
-        "of 512² at 45°, lit by 0.25 m, by Neural Shadow Mapping's model; its object is as high",
+        description="for `plate` only: sets the object's height by the 95th percentile of penumbra widths, in "
+        "pixels of a 512² frame at 45° under a light of 0.25 m, by Neural Shadow Mapping's model",
     )

@@ -1,4 +1,4 @@
-"""What figures of tables have in common."""
+"""Base classes of figures of tables."""
 
 from typing import Any, ClassVar
 
@@ -14,33 +14,33 @@ from neural_shadows.settings.base import Name, check_among
 
 
 class TableFigure(AnyFigure):
-    """A figure of a table of some kinds, which `tables` are the settings of."""
+    """Figure of a table of the kinds in `tables`."""
 
     tables: ClassVar[tuple[type[AnyTable], ...]] = ()
 
-    table: Name = Field(description="a name in `tables`, of a kind that it draws")
+    table: Name = Field(description="a name in `tables`, of a kind supported by the figure")
 
     def check(self, config: Sections, key: str) -> None:
-        drawn = [name for name, one in config.tables.items() if isinstance(one, self.tables)]
+        drawn = [name for name, table in config.tables.items() if isinstance(table, self.tables)]
         check_among(f"{key}.table", self.table, drawn)
 
 
 class RowsFigure(TableFigure):
-    """A figure of the rows of one scene of such a table."""
+    """Figure of a table's rows of one scene."""
 
-    scene: Name | None = Field(None, description="which scene of a table of several")
+    scene: Name | None = Field(None, description="a scene of the table; needed if it has several")
 
     def all_rows(self, config: Sections) -> list[Row]:
-        """The rows of its scene that it can show."""
+        """Drawable rows of the scene."""
         rows = config.tables[self.table].resolved_rows(config)
         return [row for row in rows if row["scene"] == self.scene_of(config)]
 
     def rows(self, config: Sections) -> list[Row]:
-        """The rows that it shows."""
+        """Rows of the figure."""
         return self.all_rows(config)
 
     def scene_of(self, config: Sections) -> str:
-        """The scene that it names, or the table's first."""
+        """Configured scene, or the table's first."""
         return self.scene or config.tables[self.table].resolved_rows(config)[0]["scene"]
 
     def check(self, config: Sections, key: str) -> None:
@@ -51,19 +51,20 @@ class RowsFigure(TableFigure):
             check_among(f"{key}.scene", self.scene or "", scenes)
 
     def resolved(self, config: Sections) -> dict[str, Any]:
-        found = {"rows": self.rows(config), "scene": self.scene_of(config)}
-        return self.model_dump() | found
+        return self.model_dump() | {"rows": self.rows(config), "scene": self.scene_of(config)}
 
 
 class MethodsFigure(RowsFigure):
-    """A figure of methods of one scene, side by side."""
+    """Figure of methods on one scene, side by side."""
 
     methods: list[str] | None = Field(
-        None, min_length=1, description="which of its rows; NAME_biased with a bias of its own"
+        None,
+        min_length=1,
+        description="keys of rows to draw; NAME_biased for a row with `bias`; default: all",
     )
 
     def all_rows(self, config: Sections) -> list[Row]:
-        # Ray tracing's pictures are the reference, shown anyway; null predictors' show nothing.
+        # Without ray tracing, the reference itself, and null predictors, which are uniform.
         rows = super().all_rows(config)
         return [row for row in rows if row["method"] != RAY_TRACED and not is_null(row["method"])]
 
@@ -79,16 +80,18 @@ class MethodsFigure(RowsFigure):
 
 
 class RadiiFigure(TableFigure):
-    """A figure of methods on rendered frames, at some radii."""
+    """Figure of methods on rendered frames at some radii."""
 
-    radii: list[int] | None = Field(None, min_length=1, description="which radii, counted from 0")
+    radii: list[int] | None = Field(None, min_length=1, description="indices, from 0; default: all")
 
     def check(self, config: Sections, key: str) -> None:
         super().check(config, key)
         frame_set = config.tables[self.table].frame_set
         frames = config.frame_sets[frame_set]
         if isinstance(frames, OwnFrames):
-            raise ValueError(f"{key}.table: {self.table!r} is of frames of a user's own")
+            raise ValueError(
+                f"{key}.table: {self.table!r} evaluates a user's own frames. Choose a table on rendered frames"
+            )
         for k in self.radii or []:
             if not 0 <= k < len(frames.radii):
                 raise ValueError(

@@ -1,4 +1,4 @@
-"""`trainings`: how long and how fast a network learns."""
+"""`trainings`: optimiser, steps and schedule of networks on rays."""
 
 from typing import Literal
 
@@ -8,10 +8,13 @@ from neural_shadows.settings.base import Model, by_kind
 
 
 class Loss(Model):
-    """The dead-zone loss, and a change to it [3.5, 5.1]."""
+    """Dead-zone loss with an adjustable weight [3.5, 5.1]."""
 
     false_shadow: float = Field(
-        1.0, ge=0, le=1000, description="weight of depths before the first hit"
+        1.0,
+        ge=0,
+        le=1000,
+        description="weight of predictions before the first hit, which give false shadow; 1 is the thesis's",
     )
 
 
@@ -20,21 +23,24 @@ class Adam(Model):
 
     optimiser: Literal["adam"] = Field("adam", description="`adam`, the default: the thesis's")
     steps: int = Field(ge=1, description="optimiser steps")
-    # From 16: in a batch of a few rays, equal predictions do not yet mean a dead network.
+    # From 16: equal predictions in a smaller batch do not imply that a training diverged.
     batch_size: int = Field(ge=16, le=1 << 24, description="samples per step")
-    learning_rate: float = Field(gt=0, le=1, description="the optimiser's rate (at its start)")
+    learning_rate: float = Field(gt=0, le=1, description="initial learning rate")
     schedule: Literal["constant", "cosine"] = Field(
-        "constant", description="of the rate: constant (thesis) or cosine to zero"
+        "constant", description="learning-rate schedule: constant (thesis) or cosine to zero"
     )
-    loss: Loss = Field(Loss(), description="of depths, which an occupancy_field has none of")
+    loss: Loss = Field(Loss(), description="loss of depths; without effect on an occupancy_field")
 
 
 class Muon(Adam):
-    """Muon for the hidden layers, Adam for all else."""
+    """Muon for hidden layers, Adam for the remaining weights."""
 
     optimiser: Literal["muon"] = Field(description="`muon`: for networks with hidden layers")
     adam_rate: float = Field(
-        0.001, gt=0, le=1, description="Adam's rate, of the first layer, the last and grids"
+        0.001,
+        gt=0,
+        le=1,
+        description="learning rate of Adam, for the first layer, the last and grids",
     )
 
 

@@ -1,4 +1,4 @@
-"""`viewers`: pages in which a scene's light can be dragged, by name."""
+"""`viewers`: interactive pages with a movable light."""
 
 from pydantic import Field
 
@@ -7,9 +7,9 @@ from neural_shadows.settings.base import Model, name_in, section_or
 
 
 class Viewer(Model):
-    """A scene with shadow maps of all sizes and some networks, live in a browser."""
+    """Interactive scene with shadow maps of all sizes and networks."""
 
     scene: name_in("scenes") = Field(description="a name in `scenes`")
     networks: list[section_or(RowSettings, "method")] = Field(
-        [], description="experiments of the scene: an `occupancy_field`, the thesis's network"
+        [], description="experiments of the scene: occupancy fields and the thesis's network"
     )

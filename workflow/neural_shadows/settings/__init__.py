@@ -1,1 +1,1 @@
-"""What all settings are made of: models that refuse unknown keys, and kinds that are found by file."""
+"""Base of all settings: strict models, and kinds found by file."""

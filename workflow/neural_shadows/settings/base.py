@@ -1,4 +1,4 @@
-"""What all sections of the configuration share."""
+"""Base model and field types of all sections."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -21,7 +21,7 @@ from pydantic_core import PydanticCustomError
 
 
 class Model(BaseModel):
-    """Base of all sections: unknown keys are refused, values are not converted silently."""
+    """Base of all sections, without unknown keys or implicit conversions."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
@@ -30,14 +30,14 @@ class Model(BaseModel):
     def _check_keys(cls, values: Any) -> Any:
         for key in values if isinstance(values, dict) else ():
             if key not in cls.model_fields:
-                # pydantic's own error does not say which keys there are.
-                told = {"key": not_among(str(key), cls.model_fields)}
-                raise PydanticCustomError("unknown_key", "unknown key: {key}", told)
+                # pydantic's own error does not list the allowed keys.
+                context = {"key": not_among(str(key), cls.model_fields)}
+                raise PydanticCustomError("unknown_key", "unknown key: {key}", context)
         return values
 
 
 def not_among(value: str, allowed: Iterable[str]) -> str:
-    """What is wrong with a value, what is allowed, and what was probably meant."""
+    """Message about an unknown value, with suggestion and allowed values."""
     names = list(allowed)
     close = get_close_matches(value, names, 1)
     meant = f" (did you mean {close[0]!r}?)" if close else ""
@@ -46,7 +46,7 @@ def not_among(value: str, allowed: Iterable[str]) -> str:
 
 
 def check_among(key: str, value: str, allowed: Iterable[str]) -> None:
-    """Check that what stands at a key is one of the names that it may be."""
+    """Check that a key's value is allowed."""
     if value not in allowed:
         raise ValueError(f"{key}: {not_among(value, allowed)}")
 
@@ -64,7 +64,7 @@ PowerOfTwo = Annotated[int, AfterValidator(_power_of_two)]
 
 
 def name_in(section: str) -> Any:
-    """The name of an entry of a section; the configuration is the validation's context."""
+    """Name of an entry of a section, looked up in the context."""
 
     def check(name: str, info: ValidationInfo) -> str:
         entries = info.context.get(section)
@@ -75,8 +75,13 @@ def name_in(section: str) -> Any:
     return Annotated[Name, AfterValidator(check)]
 
 
+def has_key(value: Any, key: str) -> bool:
+    """Check for a key of a section, as a dict or as a model."""
+    return key in value if isinstance(value, dict) else hasattr(value, key)
+
+
 def by_kind(key: str, *models: type[Model], default: str | None = None) -> Any:
-    """The union of models that the value of one key tells apart."""
+    """Union of models, discriminated by one key."""
     union = Annotated[reduce(or_, models), Discriminator(key)]
     if default is None:
         return union
@@ -86,7 +91,7 @@ def by_kind(key: str, *models: type[Model], default: str | None = None) -> Any:
 
 
 def text_or(text: Any, section: Any) -> Any:
-    """What is text, such as a name, or else a section or a number."""
+    """Text, such as a name, or a section or number."""
     return Annotated[
         Annotated[text, Tag("Text")] | Annotated[section, Tag("Section")],
         Discriminator(lambda value: "Text" if isinstance(value, str) else "Section"),
@@ -94,7 +99,7 @@ def text_or(text: Any, section: Any) -> Any:
 
 
 def section_or(model: type[Model], key: str) -> Any:
-    """A section, or only the value of its first key."""
+    """A section, or the value of one key as text."""
     return Annotated[
         model,
         BeforeValidator(

@@ -1,4 +1,4 @@
-"""The kinds of tables, figures and claims: each is a module of its folder."""
+"""Kinds of reports and networks: one module each."""
 
 from functools import cache
 from importlib import import_module
@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).parents[1]
 
 @cache
 def kinds(folder: str) -> dict[str, ModuleType]:
-    """The kinds of a folder of the package (`reports/tables`), by name: that of their file.
+    """Modules of a folder of the package (`reports/tables`), by name.
 
     A kind's module has `Settings`, the model of its section, with the file's name at one key: `kind`,
     of networks `encoding` or `form`.
@@ -24,5 +24,5 @@ def kinds(folder: str) -> dict[str, ModuleType]:
 
 
 def union(folder: str, default: str | None = None, key: str = "kind") -> Any:
-    """The union of the `Settings` of a folder's kinds, which differ in one key."""
-    return by_kind(key, *(one.Settings for one in kinds(folder).values()), default=default)
+    """Union of the `Settings` of a folder's kinds."""
+    return by_kind(key, *(module.Settings for module in kinds(folder).values()), default=default)

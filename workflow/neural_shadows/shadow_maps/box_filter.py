@@ -1,4 +1,4 @@
-"""Percentage-closer filtering over k × k texels (Reeves et al. 1987), as graphics hardware has it.
+"""Percentage-closer filtering over k × k texels (Reeves et al. 1987).
 
 Each texel is compared with the receiver's plane at its centre, see `light_discs`.
 """
@@ -14,25 +14,27 @@ from neural_shadows.shadow_maps.light_map import LightMap
 def box_visibility(
     light_map: LightMap,
     depths: np.ndarray,
-    ways: np.ndarray,
+    from_light: np.ndarray,
     normals: np.ndarray,
     bias: np.ndarray,
     *,
     size: int,
 ) -> np.ndarray:
-    """Mean over size × size texels of bilinearly weighted tests, (n,) float32; off the map 1.
+    """Mean bilinear depth test over size × size texels, (n,) float32.
 
-    Of size 1 it is the four tests round a receiver.
+    Off the map 1. Of size 1 it is the four tests round a receiver.
 
     Args:
-        depths: (texels,) float32 of the whole map. ways: (n, 3) from the light to receivers.
+        depths: (texels,) float32 of the whole map. from_light: (n, 3) from the light to receivers.
         normals: (n, 3) of the receivers, geometric.
-        bias: (n,) by how much a receiver may lie behind a texel and still be lit.
+        bias: (n,) depth bias.
         size: odd.
     """
-    visibility = np.ones(len(ways), np.float32)
-    for view in face_views(light_map, depths, ways, size):
-        receivers = [np.take(one, view.receivers, axis=0) for one in (ways, normals, bias)]
+    visibility = np.ones(len(from_light), np.float32)
+    for view in face_views(light_map, depths, from_light, size):
+        receivers = [
+            np.take(values, view.receivers, axis=0) for values in (from_light, normals, bias)
+        ]
         planes = _planes(
             *receivers, light_map.faces[view.face], light_map.half, light_map.resolution
         )
@@ -42,7 +44,7 @@ def box_visibility(
 
 
 def _ahead(view: FaceView, light_map: LightMap) -> np.ndarray:
-    """The view's depths along the face's forward axis, where a plane's inverse is linear."""
+    """The view's depths along the face's forward axis."""
     rows, columns = (
         ((begin + np.arange(count) + 0.5) / light_map.resolution * 2 - 1) * light_map.half
         for begin, count in zip(view.corner, view.depths.shape)
@@ -52,17 +54,19 @@ def _ahead(view: FaceView, light_map: LightMap) -> np.ndarray:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _planes(ways, normals, bias, axes, half, resolution):
-    """Of each receiver its distance ahead, its plane's three numbers, and the bias, all along the
-    face's forward axis: (n, 5) float64.
-    """
-    planes = np.empty((len(ways), 5))
-    for i in range(len(ways)):
-        x, y, z = np.float64(ways[i, 0]), np.float64(ways[i, 1]), np.float64(ways[i, 2])
+def _planes(from_light, normals, bias, axes, half, resolution):
+    """Receivers' distances, planes (3) and bias along the forward axis: (n, 5) float64."""
+    planes = np.empty((len(from_light), 5))
+    for i in range(len(from_light)):
+        x, y, z = (
+            np.float64(from_light[i, 0]),
+            np.float64(from_light[i, 1]),
+            np.float64(from_light[i, 2]),
+        )
         distance = np.sqrt(x * x + y * y + z * z)
-        to = x / distance, y / distance, z / distance
+        direction = x / distance, y / distance, z / distance
         normal = np.float64(normals[i, 0]), np.float64(normals[i, 1]), np.float64(normals[i, 2])
-        receiver = to, distance, np.float64(bias[i]), normal
+        receiver = direction, distance, np.float64(bias[i]), normal
         ahead, slopes, behind = plane_in_face(receiver, axes, half, resolution)
         planes[i, 0], planes[i, 4] = ahead, behind * ahead / distance
         planes[i, 1], planes[i, 2], planes[i, 3] = slopes
@@ -71,7 +75,7 @@ def _planes(ways, normals, bias, axes, half, resolution):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _share_beyond(ahead, places, planes, corner, size):
-    """Share of the kernel round each place that does not lie before the receiver's plane."""
+    """Kernel's share not before the receiver's plane, for each place."""
     shares = np.empty(len(places), np.float32)
     side = size + 1
     beyond = np.empty(side, np.float32)
@@ -85,9 +89,9 @@ def _share_beyond(ahead, places, planes, corner, size):
         total = 0.0
         # Neighbouring tests share texels: inner ones count whole, the outermost by their part.
         for row in range(top, top + side):
-            here = middle + along * np.float32(row + corner[0])
+            row_ratio = middle + along * np.float32(row + corner[0])
             for k in range(side):
-                ratio = here + across * np.float32(k)
+                ratio = row_ratio + across * np.float32(k)
                 ratio = min(max(ratio, np.float32(LEAST_RATIO)), np.float32(MOST_RATIO))
                 beyond[k] = ahead[row, left + k] >= distance / ratio - bias
             inner = beyond[1:size].sum()

@@ -1,4 +1,4 @@
-"""What a shadow map says of shading points: its heights beside theirs [4.1]."""
+"""Depth test of shading points against a shadow map [4.1]."""
 
 from collections.abc import Callable
 
@@ -17,7 +17,7 @@ def depth_test(
     *,
     pcf: bool = False,
 ) -> Callable[[float], np.ndarray]:
-    """Compare receivers with a map of resolution² texels, of any depth bias [4.1].
+    """Compare receivers with a map of resolution² texels, for any depth bias [4.1].
 
     Shadowed where the stored surface is nearer to the light by more than the bias
     h · min(0.5 + 0.75 tan θ, 20) + 1e-4 + depth bias, with h the world size of a texel and θ the
@@ -26,7 +26,7 @@ def depth_test(
     Args:
         pcf: weight the tests against the four texels round a receiver bilinearly, as graphics
             hardware does (percentage-closer filtering, Reeves et al. 1987); else that of the
-            texel that it falls in.
+            receiver's texel.
 
     Returns:
         a function of the depth bias, in sphere radii, that gives the visibility of all m facing
@@ -43,15 +43,15 @@ def depth_test(
         lit = lit.astype(np.float32)
         for share in shares:
             lit = lit[0] + (lit[1] - lit[0]) * share
-        answer = np.ones(receivers.count, np.float32)
-        answer[receivers.on_map] = lit
-        return answer
+        result = np.ones(receivers.count, np.float32)
+        result[receivers.on_map] = lit
+        return result
 
     return visibility
 
 
 def texels_of(receivers: Receivers, resolution: int) -> np.ndarray:
-    """Texel that each receiver falls in, row · resolution + column: (k,) int64.
+    """Texel of each receiver, row · resolution + column: (k,) int64.
 
     Integers, since float32 cannot number the 2³⁰ texels of a 32768² map.
     """
@@ -62,9 +62,9 @@ def texels_of(receivers: Receivers, resolution: int) -> np.ndarray:
 def texels_round(
     receivers: Receivers, resolution: int
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """The four texels whose centres are round each receiver: (2, 2, k) int64, by row and column.
+    """The four texels round each receiver: (2, 2, k) int64, by row and column.
 
-    And the receiver's way from the first row to the second, and from the first column to the
+    And the receiver's fractions from the first row to the second, and from the first column to the
     second: (k,) float32 each in [0, 1]. At the rim of the map the outermost texels stand for those
     beyond, as hardware's "clamp to edge".
     """
@@ -72,6 +72,6 @@ def texels_round(
     first = np.floor(place)
     across, along = place - first
     column, row = (
-        np.clip(np.stack([of, of + 1]).astype(np.int64), 0, resolution - 1) for of in first
+        np.clip(np.stack([index, index + 1]).astype(np.int64), 0, resolution - 1) for index in first
     )
     return row[:, None] * resolution + column[None], (along, across)

@@ -1,6 +1,6 @@
-"""Each face of a light's map with a margin, for kernels that reach beyond it, and who looks there.
+"""Faces of a light's map with margins for kernels, and their receivers.
 
-A cube's margin is what its neighbours see along the same directions, so that a kernel goes on over
+A cube's margin has its neighbours' depths along the same directions, so that a kernel goes on over
 the seams; that of a single picture repeats its rim, as graphics hardware's "clamp to edge".
 """
 
@@ -14,7 +14,7 @@ from neural_shadows.shadow_maps.light_map import LightMap
 
 @dataclass(frozen=True, eq=False)
 class FaceView:
-    """What the m receivers in a face look at, with its margin."""
+    """A face's m receivers and its depths, with a margin."""
 
     face: int
     corner: tuple[int, int]  # row and column in the face of the first texel; below 0 in the margin
@@ -24,16 +24,16 @@ class FaceView:
 
 
 def face_views(
-    light_map: LightMap, depths: np.ndarray, ways: np.ndarray, kernel: int
+    light_map: LightMap, depths: np.ndarray, from_light: np.ndarray, kernel: int
 ) -> Iterator[FaceView]:
-    """The faces that receivers look into, one at a time: of a cube of 6 × 2048² 17 MB each.
+    """Yield the faces with receivers: of a cube of 6 × 2048² 17 MB each.
 
     Args:
-        depths: (texels,) float32 of the whole map. ways: (n, 3) from the light to receivers.
-        kernel: width in texels of what is looked up bilinearly, odd; the margin is wide enough.
+        depths: (texels,) float32 of the whole map. from_light: (n, 3) from the light to receivers.
+        kernel: width in texels of the bilinear look-up, odd; the margin is wide enough.
     """
     margin = kernel // 2 + 1
-    faces, places = light_map.places_of(ways)
+    faces, places = light_map.places_of(from_light)
     for face in range(len(light_map.faces)):
         receivers = np.flatnonzero(faces == face)
         if not len(receivers):

@@ -1,11 +1,11 @@
-"""What a map of a light's distances holds in a disc of directions round a receiver's.
+"""Blockers in a light map, over discs of directions round receivers.
 
 Most discs lie within one face of the map: there a sample is one projective look-up without
 branches, in float32, which the compiler does for several samples at once (1 ns each with AVX-512,
 10 ns one by one). Discs that reach over a cube's seams or a picture's rim are looked up by each
 sample's direction.
 
-A texel is compared with the receiver's plane where its centre looks (receiver plane depth bias,
+A texel is compared with the receiver's plane along its centre's direction (receiver plane depth bias,
 Isidoro 2006): against the receiver's own distance a slanted receiver hides itself, the wider the disc
 the more.
 """
@@ -16,11 +16,11 @@ from numba import njit
 from neural_shadows.shadow_maps.light_map import LightMap, texel_of
 
 _GOLDEN_ANGLE = 2.399963229728653
-_NEW_ORDER = {"reassoc", "contract", "arcp", "nsz"}  # of sums; infinite depths stay what they are
-# The plane is followed up to half and to twice the receiver's distance: past that it is seen at a
-# grazing angle, and what stands there is another surface.
+_NEW_ORDER = {"reassoc", "contract", "arcp", "nsz"}  # of sums; infinite depths stay
+# The plane is followed up to half and to twice the receiver's distance: beyond, it is seen at
+# a grazing angle, and the texel shows another surface.
 LEAST_RATIO, MOST_RATIO = 0.5, 2.0
-_GRAZING = 1e-3  # cosine below which a receiver has no plane to speak of
+_GRAZING = 1e-3  # cosine below which a receiver's plane is ignored
 
 
 def vogel_disc(count: int) -> np.ndarray:
@@ -31,15 +31,17 @@ def vogel_disc(count: int) -> np.ndarray:
 
 
 def looked_up(light_map: LightMap, depths: np.ndarray) -> tuple:
-    """A map's depths (texels,) float32, each face's projection (F, 3, 3), which makes of a direction
-    (column · w, row · w, w) in texels, and the map's faces, half and resolution: for `blockers`.
+    """Arguments of `blockers` for a map.
+
+    Its depths (texels,) float32, each face's projection (F, 3, 3) from a direction to
+    (column · w, row · w, w) in texels, and its faces, half and resolution.
     """
     right, down, forward = light_map.faces.transpose(1, 0, 2)
     middle = light_map.resolution / 2
     scale = middle / light_map.half
     rows = scale * right + middle * forward, scale * down + middle * forward, forward
-    told = light_map.faces, light_map.half, light_map.resolution
-    return depths, np.stack(rows, axis=1), *told
+    geometry = light_map.faces, light_map.half, light_map.resolution
+    return depths, np.stack(rows, axis=1), *geometry
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -60,23 +62,21 @@ def across(x, y, z, key):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def blockers(disc, receiver, u, v, angle, depths, projections, faces, half, resolution):
-    """How many texels of a disc of directions lie before the receiver's plane, and the sum of their
-    depths.
+    """Count and summed depths of texels before the receiver's plane, in a disc.
 
     Args:
         disc: places in a unit disc, (2, samples) float32. u, v: see `across`. angle: the tangent of
             half the disc's angle.
-        receiver: the unit direction to it, its distance, the bias by which it may lie behind a texel
-            and still be lit, and its unit normal.
+        receiver: the unit direction to it, its distance, its depth bias, and its unit normal.
         depths, projections, faces, half, resolution: see `looked_up`, one by one, since numba counts
-            a tuple's arrays anew for each receiver; beyond a map's rim there is nothing.
+            a tuple's arrays anew for each receiver; no blockers beyond a map's rim.
     """
-    way = receiver[0]
-    face = _face_of(projections, way)
+    direction = receiver[0]
+    face = _face_of(projections, direction)
     if face >= 0:
-        column = _along_disc(projections, face, 0, way, u, v, angle)
-        row = _along_disc(projections, face, 1, way, u, v, angle)
-        w = _along_disc(projections, face, 2, way, u, v, angle)
+        column = _along_disc(projections, face, 0, direction, u, v, angle)
+        row = _along_disc(projections, face, 1, direction, u, v, angle)
+        w = _along_disc(projections, face, 2, direction, u, v, angle)
         if _within(column, w, resolution) and _within(row, w, resolution):
             plane = plane_in_face(receiver, faces[face], half, resolution)
             begin = face * resolution * resolution
@@ -86,7 +86,7 @@ def blockers(disc, receiver, u, v, angle, depths, projections, faces, half, reso
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def plane_in_face(receiver, axes, half, resolution):
-    """The receiver's plane as the texels of a face see it.
+    """The receiver's plane in the texels of a face.
 
     Args:
         receiver: see `blockers`. axes: right, down and forward of the face, (3, 3).
@@ -97,9 +97,11 @@ def plane_in_face(receiver, axes, half, resolution):
         by row · row, and as much farther from the light as the texel looks aslant.
         The bias, last.
     """
-    way, distance, bias, normal = receiver
-    ahead = way[0] * axes[2, 0] + way[1] * axes[2, 1] + way[2] * axes[2, 2]
-    towards = (normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2]) / ahead
+    direction, distance, bias, normal = receiver
+    ahead = direction[0] * axes[2, 0] + direction[1] * axes[2, 1] + direction[2] * axes[2, 2]
+    towards = (
+        normal[0] * direction[0] + normal[1] * direction[1] + normal[2] * direction[2]
+    ) / ahead
     if abs(towards) * ahead < _GRAZING:
         return distance * ahead, (1.0, 0.0, 0.0), bias
     right = normal[0] * axes[0, 0] + normal[1] * axes[0, 1] + normal[2] * axes[0, 2]
@@ -113,13 +115,13 @@ def plane_in_face(receiver, axes, half, resolution):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _anywhere(disc, receiver, u, v, angle, depths, faces, half, resolution):
-    """`blockers` of any disc, a sample's direction after the other."""
-    way = receiver[0]
+    """`blockers` of any disc, by the direction of each sample."""
+    direction = receiver[0]
     count, total = 0, np.float32(0)
     for k in range(disc.shape[1]):
         p, q = angle * disc[0, k], angle * disc[1, k]
-        x, y = way[0] + p * u[0] + q * v[0], way[1] + p * u[1] + q * v[1]
-        texel = texel_of(x, y, way[2] + p * u[2] + q * v[2], faces, half, resolution)
+        x, y = direction[0] + p * u[0] + q * v[0], direction[1] + p * u[1] + q * v[1]
+        texel = texel_of(x, y, direction[2] + p * u[2] + q * v[2], faces, half, resolution)
         if texel >= 0 and depths[texel] < _nearest_in(receiver, texel, faces, half, resolution):
             total += depths[texel]
             count += 1
@@ -128,49 +130,49 @@ def _anywhere(disc, receiver, u, v, angle, depths, faces, half, resolution):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _nearest_in(receiver, texel, faces, half, resolution):
-    """How far from the light what a texel shows must be not to lie before the receiver's plane."""
+    """Least distance of a texel's surface not before the receiver's plane."""
     face, place = divmod(texel, resolution * resolution)
     row, column = divmod(place, resolution)
     p = ((column + 0.5) / resolution * 2 - 1) * half
     q = ((row + 0.5) / resolution * 2 - 1) * half
     axes = faces[face]
     aslant = np.sqrt(1 + p * p + q * q)
-    way, distance, bias, normal = receiver
-    there = here = 0.0
+    direction, distance, bias, normal = receiver
+    texel_dot = receiver_dot = 0.0
     for k in range(3):
-        there += normal[k] * (axes[2, k] + p * axes[0, k] + q * axes[1, k]) / aslant
-        here += normal[k] * way[k]
-    ratio = there / here if abs(here) >= _GRAZING else 1.0
+        texel_dot += normal[k] * (axes[2, k] + p * axes[0, k] + q * axes[1, k]) / aslant
+        receiver_dot += normal[k] * direction[k]
+    ratio = texel_dot / receiver_dot if abs(receiver_dot) >= _GRAZING else 1.0
     return distance / min(max(ratio, LEAST_RATIO), MOST_RATIO) - bias
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _face_of(projections, way):
-    """The face into which a direction looks, though maybe beyond its rim; −1 for none."""
+def _face_of(projections, direction):
+    """Face of a direction, even beyond its rim; −1 for none."""
     best, along = -1, 0.0
     for face in range(len(projections)):
-        forward = _dot(projections, face, 2, way)
+        forward = _dot(projections, face, 2, direction)
         if forward > along:
             best, along = face, forward
     return best
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _along_disc(projections, face, k, way, u, v, angle):
-    """A coordinate that is linear in directions, over a disc: in its middle, and by p and q."""
-    middle = _dot(projections, face, k, way)
+def _along_disc(projections, face, k, direction, u, v, angle):
+    """A coordinate linear over a disc: in its middle, by p and q."""
+    middle = _dot(projections, face, k, direction)
     return middle, angle * _dot(projections, face, k, u), angle * _dot(projections, face, k, v)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _dot(projections, face, k, way):
-    one, two, three = projections[face, k, 0], projections[face, k, 1], projections[face, k, 2]
-    return one * way[0] + two * way[1] + three * way[2]
+def _dot(projections, face, k, direction):
+    a, b, c = projections[face, k, 0], projections[face, k, 1], projections[face, k, 2]
+    return a * direction[0] + b * direction[1] + c * direction[2]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _within(place, w, resolution):
-    """Whether a whole disc keeps half a texel from both rims: more than float32 rounds."""
+    """Test a disc's margin of half a texel: more than float32 rounds."""
     near, far = 0.5, resolution - 0.5
     p, q = place[1] - near * w[1], place[2] - near * w[2]
     r, s = place[1] - far * w[1], place[2] - far * w[2]
@@ -181,7 +183,7 @@ def _within(place, w, resolution):
 
 @njit(cache=True, nogil=True, fastmath=_NEW_ORDER, error_model="numpy")
 def _in_face(disc, column, row, w, plane, depths, begin, resolution, half):
-    """`blockers` of a disc that lies within a face, by its homogeneous coordinates there.
+    """`blockers` of a disc within a face, by homogeneous coordinates.
 
     Args:
         plane: see `plane_in_face`. begin: of the face's texels in `depths`.
@@ -197,14 +199,14 @@ def _in_face(disc, column, row, w, plane, depths, begin, resolution, half):
     count, total = np.float32(0), np.float32(0)
     for k in range(disc.shape[1]):
         p, q = disc[0, k], disc[1, k]
-        one = unit / (w0 + p * wp + q * wq)
-        i = np.int32((c0 + p * cp + q * cq) * one)
-        j = np.int32((r0 + p * rp + q * rq) * one)
+        inverse = unit / (w0 + p * wp + q * wq)
+        i = np.int32((c0 + p * cp + q * cq) * inverse)
+        j = np.int32((r0 + p * rp + q * rq) * inverse)
         x, y = np.float32(i), np.float32(j)
         a, b = corner + texel * x, corner + texel * y
         ratio = min(max(middle + across_ * x + along * y, least), most)
         nearest = ahead * np.sqrt(unit + a * a + b * b) / ratio - bias
-        # Unsigned, since numba looks whether another is from the end.
+        # Unsigned, else numba tests for negative indices.
         depth = depths[np.uint32(np.int32(begin + j * width + i))]
         count += np.float32(depth < nearest)
         total += depth if depth < nearest else np.float32(0)

@@ -1,7 +1,7 @@
 """Shadow maps of a light at a place: one perspective picture, or the six of a cube.
 
 Each texel holds the radial distance from the light to the first surface through its centre, in the
-scene's unit; infinite where there is none. A map is looked up by direction, so that filters go on
+scene's unit; infinite where there is none. Maps are looked up by direction, so that filters go on
 from one face of a cube to the next.
 """
 
@@ -17,7 +17,7 @@ _RAYS = 1 << 18  # traced at once
 
 @dataclass(frozen=True, eq=False)
 class LightMap:
-    """Where the texels of a light's map look; texel (face · N + row) · N + column."""
+    """Geometry of a light's map; texel (face · N + row) · N + column."""
 
     centre: np.ndarray  # (3,) float64
     faces: np.ndarray  # (F, 3, 3) float64, rows right, down, forward of each
@@ -26,17 +26,17 @@ class LightMap:
 
     @property
     def count(self) -> int:
-        """How many texels there are."""
+        """Number of texels."""
         return len(self.faces) * self.resolution**2
 
     def texels_of(self, directions: np.ndarray) -> np.ndarray:
-        """The texel in which each direction (n, 3) from the light lies, (n,) int64; −1 for none."""
+        """Texels of directions (n, 3) from the light, (n,) int64; −1 for none."""
         texels = np.empty(len(directions), np.int64)
         _fill_texels(directions, self.faces, self.half, self.resolution, texels)
         return texels
 
     def places_of(self, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The face (n,) int64 into which each direction (n, 3) looks, −1 for none, and where there.
+        """Faces (n,) int64 of directions (n, 3), −1 for none, and places.
 
         Places are (n, 2) float64, row and column in texels from the face's upper left corner.
         """
@@ -47,26 +47,26 @@ class LightMap:
 
     def directions_of(self, texels: np.ndarray) -> np.ndarray:
         """Unit directions (t, 3) float32 through the centres of texels (t,)."""
-        ways = np.empty((len(texels), 3), np.float32)
-        _fill_directions(texels, self.faces, self.half, self.resolution, ways)
-        return ways
+        directions = np.empty((len(texels), 3), np.float32)
+        _fill_directions(texels, self.faces, self.half, self.resolution, directions)
+        return directions
 
     def depths(self, tracer: Tracer, texels: np.ndarray | None = None) -> np.ndarray:
-        """Distances in texels (t,) float32, of all of them if none are named."""
+        """Distances in texels (t,) float32, of all by default."""
         return self.first_hits(tracer, np.arange(self.count) if texels is None else texels)[0]
 
     def first_hits(self, tracer: Tracer, texels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Distances in texels (t,) float32, and the face that each shows, int32; −1 for none."""
-        found, faces = np.empty(len(texels), np.float32), np.empty(len(texels), np.int32)
+        """Distances in texels (t,) float32, and faces hit, int32; −1 for none."""
+        depths, faces = np.empty(len(texels), np.float32), np.empty(len(texels), np.int32)
         origins = np.broadcast_to(self.centre.astype(np.float32), (_RAYS, 3)).copy()
         for begin in range(0, len(texels), _RAYS):
             part = slice(begin, begin + _RAYS)
-            ways = self.directions_of(texels[part])
-            found[part], faces[part] = tracer.first_hit(origins[: len(ways)], ways)
-        return found, faces
+            directions = self.directions_of(texels[part])
+            depths[part], faces[part] = tracer.first_hit(origins[: len(directions)], directions)
+        return depths, faces
 
     def widened(self, face: int, margin: int) -> "LightMap":
-        """One face with so many texels more on each side, as wide each as its own."""
+        """One face with a margin of texels on each side."""
         resolution = self.resolution + 2 * margin
         half = self.half * resolution / self.resolution
         return LightMap(self.centre, self.faces[face : face + 1], half, resolution)
@@ -103,14 +103,14 @@ def perspective_map(
     return LightMap(np.asarray(centre, np.float64), np.array([face]), half, resolution)
 
 
-def distances_of(ways: np.ndarray) -> np.ndarray:
-    """Lengths of vectors (n, 3), (n,) of their type; numpy's norm takes four times as long."""
-    return np.sqrt(np.einsum("ij,ij->i", ways, ways))
+def distances_of(vectors: np.ndarray) -> np.ndarray:
+    """Lengths of vectors (n, 3), (n,); a quarter of numpy's time."""
+    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
 @njit(cache=True, nogil=True, inline="always")
 def place_of(x, y, z, faces, half, resolution):
-    """The face into which a direction looks, or −1, and its row and column there in texels."""
+    """Face of a direction, or −1, and its row and column in texels."""
     best, along = -1, 0.0
     for face in range(len(faces)):
         forward = faces[face, 2, 0] * x + faces[face, 2, 1] * y + faces[face, 2, 2] * z
@@ -129,7 +129,7 @@ def place_of(x, y, z, faces, half, resolution):
 
 @njit(cache=True, nogil=True, inline="always")
 def texel_of(x, y, z, faces, half, resolution):
-    """The texel in which a direction lies, or −1."""
+    """Texel of a direction, or −1."""
     face, row, column = place_of(x, y, z, faces, half, resolution)
     if face < 0:
         return -1
@@ -154,7 +154,7 @@ def _fill_places(directions, faces, half, resolution, into, places):
 
 
 @njit(cache=True, nogil=True)
-def _fill_directions(texels, faces, half, resolution, ways):
+def _fill_directions(texels, faces, half, resolution, directions):
     for i in range(len(texels)):
         row, column = texels[i] // resolution, texels[i] % resolution
         right, down, forward = faces[row // resolution]
@@ -162,4 +162,4 @@ def _fill_directions(texels, faces, half, resolution, ways):
         y = (2 * (row % resolution + 0.5) / resolution - 1) * half
         length = np.sqrt(1 + x * x + y * y)
         for k in range(3):
-            ways[i, k] = (forward[k] + x * right[k] + y * down[k]) / length
+            directions[i, k] = (forward[k] + x * right[k] + y * down[k]) / length

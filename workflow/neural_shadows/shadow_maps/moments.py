@@ -1,7 +1,6 @@
 """Shadows from filtered powers of depth: variance and moment shadow maps.
 
-A map that holds moments of depth may be blurred before it is looked up; what is left of the depths'
-distribution bounds how much of a receiver is in shadow.
+A map of moments of depth may be blurred before the look-up; the moments bound a receiver's shadow.
 
 Donnelly and Lauritzen 2006 (variance), Lauritzen and McCool 2008 (exponential variance), Peters and
 Klein 2015 (four moments, "Hamburger"). Depths are in [0, 1], 0 nearest to the light; all functions
@@ -20,49 +19,52 @@ POSITIVE, NEGATIVE = 40.0, 5.0
 
 
 def powers(depth: np.ndarray, count: int) -> np.ndarray:
-    """The first `count` powers of depths (…): (…, count) float64, whose fourth keeps its digits."""
-    found = np.empty((*np.shape(depth), count))
-    found[..., 0] = depth
+    """The first `count` powers of depths (…): (…, count) float64."""
+    moments = np.empty((*np.shape(depth), count))
+    moments[..., 0] = depth
     for k in range(1, count):
-        np.multiply(found[..., k - 1], found[..., 0], out=found[..., k])
-    return found
+        np.multiply(moments[..., k - 1], moments[..., 0], out=moments[..., k])
+    return moments
 
 
 def blurred(moments: np.ndarray, kernel: np.ndarray) -> np.ndarray:
-    """A map (H, W, moments) filtered by k weights, odd, along rows and columns: float64.
+    """Filter a map (H, W, moments) by k weights along rows and columns.
+
+    Args:
+        kernel: k weights, k odd.
 
     Returns:
-        (H − k + 1, W − k + 1, moments): only where the kernel is within the map.
+        (H − k + 1, W − k + 1, moments) float64: only where the kernel is within the map.
     """
     height, width, count = moments.shape
-    less = len(kernel) - 1
-    found = np.empty((height - less, width - less, count))
+    margin = len(kernel) - 1
+    filtered = np.empty((height - margin, width - margin, count))
     values = np.ascontiguousarray(moments, np.float64).ravel()
-    _fill_blurred(values, width * count, kernel, count, found.reshape(height - less, -1))
-    return found
+    _fill_blurred(values, width * count, kernel, count, filtered.reshape(height - margin, -1))
+    return filtered
 
 
 @njit(cache=True, nogil=True)
-def _fill_blurred(values, width, kernel, count, found):
-    """From values in rows of a width, each filtered down the columns before it is along itself."""
+def _fill_blurred(values, width, kernel, count, filtered):
+    """Filter rows of a width, down the columns and along themselves."""
     line = np.empty(width)
-    for i in range(len(found)):
+    for i in range(len(filtered)):
         _fill_sums(values[i * width :], width, kernel, line)
-        _fill_sums(line, count, kernel, found[i])
+        _fill_sums(line, count, kernel, filtered[i])
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
 def _fill_sums(values, step, kernel, sums):
-    """Sums of values (…) a step apart by the kernel's weights, odd in number."""
+    """Weighted sums of values (…) a step apart; odd number of weights."""
     weight = kernel[0]
     for j in range(len(sums)):
         sums[j] = weight * values[j]
     # Two weights at once: half as many sums are written and read again.
     for k in range(1, len(kernel), 2):
         a, b = kernel[k], kernel[k + 1]
-        one, other = values[k * step :], values[(k + 1) * step :]
+        first, second = values[k * step :], values[(k + 1) * step :]
         for j in range(len(sums)):
-            sums[j] += a * one[j] + b * other[j]
+            sums[j] += a * first[j] + b * second[j]
 
 
 def box(size: int) -> np.ndarray:
@@ -86,7 +88,7 @@ def variance_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray:
 
 
 def warped(depth: np.ndarray) -> np.ndarray:
-    """Two exponentials of depth and their squares, (…, 4) float64: what an EVSM holds."""
+    """Two exponentials of depth and their squares (EVSM), (…, 4) float64."""
     place = 2 * np.asarray(depth, np.float64) - 1
     near, far = np.exp(POSITIVE * place), -np.exp(-NEGATIVE * place)
     return np.stack([near, near**2, far, far**2], axis=-1)
@@ -98,7 +100,7 @@ def exponential_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray
     bounds = []
     for k, constant in ((0, POSITIVE), (2, NEGATIVE)):
         mean, behind = moments[:, k], np.maximum(goal[:, k] - moments[:, k], 0)
-        # What a depth off by 1e-4 changes of the warped one.
+        # Change of the warped depth for 1e-4 of depth.
         least = (1e-4 * constant * goal[:, k]) ** 2
         variance = np.maximum(moments[:, k + 1] - mean**2, least)
         bounds.append(variance / (variance + behind**2))
@@ -107,9 +109,9 @@ def exponential_visibility(moments: np.ndarray, depth: np.ndarray) -> np.ndarray
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def hamburger_visibility(moments, depth):
-    """From four moments (n, 4), of receivers at depths (n,): the least shadow that they allow.
+    """The least shadow by four moments (n, 4), at depths (n,).
 
-    The distribution of three depths, one of them the receiver's, that has these moments.
+    By the distribution of three depths, one the receiver's, with these moments.
     """
     visibility = np.empty(len(depth), np.float32)
     for i in range(len(depth)):
@@ -124,20 +126,20 @@ def hamburger_visibility(moments, depth):
         l32d22 = b3 - b1 * b2
         d22 = b2 - b1 * b1
         l32 = l32d22 / d22
-        # 0 of depths that are all 0 or 1, such as of texels that see nothing.
+        # 0 if all depths are 0 or 1, as in empty texels.
         d33 = max(b4 - b2 * b2 - l32d22 * l32, 1e-14)
         c1, c2 = z - b1, z * z - b2
         c2 = (c2 - l32 * c1) / d33
-        if abs(c2) < 1e-9:  # two depths, one the receiver's, say it all: the third is far away
+        if abs(c2) < 1e-9:  # two depths, one the receiver's, suffice: the third is far away
             c2 = 1e-9
         c1 = c1 / d22 - l32 * c2
         c0 = 1 - c1 * b1 - c2 * b2
         # The other two depths: roots of c0 + c1 t + c2 t², the one by the other lest digits cancel.
         middle, product = -c1 / (2 * c2), c0 / c2
         half = np.sqrt(max(middle * middle - product, 0.0))
-        one = middle + half if middle >= 0 else middle - half
-        other = product / one if one != 0 else 0.0
-        near, far = min(one, other), max(one, other)
+        root = middle + half if middle >= 0 else middle - half
+        other = product / root if root != 0 else 0.0
+        near, far = min(root, other), max(root, other)
         if z <= near:
             shadow = 0.0
         elif z <= far:

@@ -1,4 +1,4 @@
-"""The texels round a direction, for filters that touch only what receivers look up."""
+"""Texels round directions, for filters of looked-up texels alone."""
 
 import numpy as np
 from numba import njit
@@ -9,12 +9,12 @@ from neural_shadows.shadow_maps.light_map import LightMap, place_of, texel_of
 def neighbourhood(
     light_map: LightMap, directions: np.ndarray, reach: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The square of 2 (reach + 1) texels' side round each direction; over a cube's edges, too.
+    """Find 2 (reach + 1) squared texels round directions, across cube edges.
 
     Returns:
         texels: (n, side, side) int64, rows downwards; −1 where the map has none.
         fractions: (n, 2) float64, right and down from the centre of the upper left one of the four
-            innermost: what a bilinear look-up gives the others of them.
+            innermost: the weights of a bilinear look-up.
     """
     side = 2 * (reach + 1)
     texels = np.empty((len(directions), side, side), np.int64)

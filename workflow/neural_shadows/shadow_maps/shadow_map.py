@@ -1,4 +1,4 @@
-"""Shadow maps of a directional light: the square they cover, and the points that look them up [4.1].
+"""Shadow maps of a directional light: their square and receivers [4.1].
 
 A map's heights come from `trace` or `rasterise`; `depth_test` compares points with them.
 """
@@ -16,7 +16,7 @@ _CLEARANCE = 0.01
 
 @dataclass(frozen=True, eq=False)
 class ShadowMapSquare:
-    """The square that shadow maps of one light cover, and the heights of what is in it."""
+    """The square of one light's shadow maps, and the object's heights."""
 
     basis: np.ndarray  # (3, 3) float64, rows u, v, light: see `light_basis`
     corner: np.ndarray  # (2,) float64, the square's least u and v
@@ -26,13 +26,13 @@ class ShadowMapSquare:
 
     @property
     def top(self) -> float:
-        """Height along the light that rays start from, above all vertices."""
+        """Starting height of rays along the light, above all vertices."""
         return self.highest + _CLEARANCE
 
 
 @dataclass(frozen=True, eq=False)
 class Receivers:
-    """Shading points as maps of every resolution look at them: those k of m on the map."""
+    """Shading points for maps of any resolution: k of m on the map."""
 
     square: ShadowMapSquare
     count: int  # m
@@ -43,7 +43,7 @@ class Receivers:
 
 
 def shadow_map_square(vertices: np.ndarray, light: np.ndarray) -> ShadowMapSquare:
-    """Smallest square, aligned to the light's basis, round the projected vertices (V, 3) [4.1].
+    """Smallest square round projected vertices (V, 3), in the light's basis [4.1].
 
     Across its shorter extent the object lies in the middle.
     """

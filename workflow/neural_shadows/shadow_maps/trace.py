@@ -1,11 +1,11 @@
-"""The texels of a shadow map by a ray each, for where few of them are looked up [4.1]."""
+"""Ray-traced texels of a shadow map, for few look-ups [4.1]."""
 
 import numpy as np
 
 from neural_shadows.scenes.tracing import Tracer
 from neural_shadows.shadow_maps.shadow_map import ShadowMapSquare
 
-# Rays that are traced at once: of 2048² texels in one piece the arrays would leave the cache, and
+# Rays traced at once: of 2048² texels in one piece the arrays would leave the cache, and
 # take more than twice as long (1,331 ms of the dragon, in chunks 504).
 _CHUNK = 65_536
 
@@ -31,7 +31,7 @@ def texel_heights(
 def looked_up_heights(
     tracer: Tracer, square: ShadowMapSquare, resolution: int, texels: np.ndarray
 ) -> np.ndarray:
-    """`texel_heights` of texels (t,) of which many may be the same."""
+    """`texel_heights` of texels (t,) with many repeats."""
     if resolution**2 > 4 * len(texels):
         # Where texels outnumber receivers, few are shared (at 2048² a twentieth of 500,000): a ray
         # each is cheaper than finding the distinct ones in a table of the whole map.

@@ -4,7 +4,7 @@ import numpy as np
 
 from neural_shadows.shadow_maps.shadow_map import ShadowMapSquare
 
-# Heights that are rounded at once, so that they stay in the cache.
+# Heights rounded at once, so that they stay in the cache.
 _CHUNK = 65_536
 
 
@@ -15,16 +15,16 @@ def to_unorm16(heights: np.ndarray, square: ShadowMapSquare) -> np.ndarray:
     light evenly, 3e-5 apart for the whole sphere: a third of the constant bias.
     """
     codes = np.empty(heights.shape, np.uint16)
-    flat, found = heights.reshape(-1), codes.reshape(-1)
+    flat, flat_codes = heights.reshape(-1), codes.reshape(-1)
     for begin in range(0, len(flat), _CHUNK):
         chunk = slice(begin, begin + _CHUNK)
         steps = (flat[chunk].astype(np.float64) - square.lowest) / _step(square)
-        found[chunk] = np.clip(np.round(steps) + 1, 0, 65_535)
+        flat_codes[chunk] = np.clip(np.round(steps) + 1, 0, 65_535)
     return codes
 
 
 def from_unorm16(codes: np.ndarray, square: ShadowMapSquare) -> np.ndarray:
-    """The heights (float32) that codes stand for, in the same shape."""
+    """Heights (float32) of codes, in the same shape."""
     heights = square.lowest + _step(square) * (codes - 1.0)
     return np.where(codes > 0, heights, -np.inf).astype(np.float32)
 

@@ -1,4 +1,4 @@
-"""A z-buffer: what is nearest in each texel of a picture of triangles."""
+"""A z-buffer of triangles."""
 
 import numpy as np
 from numba import njit
@@ -6,7 +6,7 @@ from numba import njit
 
 @njit(cache=True, nogil=True)
 def drawn(x, y, z, faces, resolution):
-    """The greatest z of what covers each texel's centre, (resolution, resolution) float32, else −∞.
+    """Greatest z at texels' centres, (resolution, resolution) float32, else −∞.
 
     Vertices' x, y in texels and z are (V,) float64; between them z is linear in x and y.
     """
@@ -21,14 +21,14 @@ def drawn(x, y, z, faces, resolution):
         for row in range(int(rows[0]), int(rows[1]) + 1):
             for column in range(int(columns[0]), int(columns[1]) + 1):
                 # Each is made of differences to the texel's centre, so that the triangles on both
-                # sides of an edge find the same number with opposite signs: no centre falls
+                # sides of an edge have the same number with opposite signs: no centre falls
                 # between them.
                 a = turn * ((bx - column) * (cy - row) - (by - row) * (cx - column))
                 b = turn * ((cx - column) * (ay - row) - (cy - row) * (ax - column))
                 c = turn * ((ax - column) * (by - row) - (ay - row) * (bx - column))
                 whole = a + b + c
                 if a >= 0 and b >= 0 and c >= 0 and whole > 0:
-                    found = np.float32((a * z[i] + b * z[j] + c * z[k]) / whole)
-                    if found > heights[row, column]:
-                        heights[row, column] = found
+                    height = np.float32((a * z[i] + b * z[j] + c * z[k]) / whole)
+                    if height > heights[row, column]:
+                        heights[row, column] = height
     return heights

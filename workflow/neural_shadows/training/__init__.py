@@ -1,1 +1,1 @@
-"""An optimiser on a network's loss: resumable, reproducible from its seed [3.5, 4.1]."""
+"""Training of networks: resumable, reproducible from the seed [3.5, 4.1]."""

@@ -1,4 +1,4 @@
-"""Where training's samples come from: a ray set on disk, or laid out on the GPU."""
+"""Training batches of rays, from disk or GPU memory."""
 
 import numpy as np
 import torch
@@ -7,30 +7,30 @@ from torch import Tensor
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.rays.ray_set import RaySet
 
-# SplitMix64 (Steele, Lea and Flood 2014), in signed numbers, which wrap in the same way.
+# SplitMix64 (Steele, Lea and Flood 2014), in signed numbers, which wrap likewise.
 GAMMA = 0x9E3779B97F4A7C15 - 2**64
 _MIX = ((30, 0xBF58476D1CE4E5B9 - 2**64), (27, 0x94D049BB133111EB - 2**64), (31, 1))
 
 
 class HostRays:
-    """Rays that stay on the disk, or in its cache; each batch is copied to the device."""
+    """Rays on disk or in its cache; batches are copied."""
 
     def __init__(self, rays: RaySet, device: torch.device):
         self._rays, self._device = rays, device
 
     def gather(self, indices: Tensor) -> LabelledBatch:
-        """The rays of these indices (n,) int64, on the device."""
+        """Rays of indices (n,) int64, on the device."""
         parts = self._rays.gather(indices.cpu().numpy())
         return LabelledBatch(*(torch.from_numpy(part).to(self._device) for part in parts))
 
 
 class DeviceRays:
-    """A whole ray set in a device's memory: 20 bytes a ray, 5 GB for the thesis's 250 million."""
+    """A ray set in device memory: 20 bytes a ray, 5 GB for the thesis's 250 million."""
 
     def __init__(self, rays: RaySet, device: torch.device):
         self._points = rays.points_per_direction
         self._directions = torch.from_numpy(rays.directions).to(device)
-        # Copied before it goes: torch takes no array that cannot be written to.
+        # Copied because torch takes no read-only arrays.
         self._origins, self._bounds = (
             torch.cat(
                 [torch.from_numpy(np.array(shard)).to(device).flatten(0, 1) for shard in part]
@@ -39,7 +39,7 @@ class DeviceRays:
         )
 
     def gather(self, indices: Tensor) -> LabelledBatch:
-        """The rays of these indices (n,) int64, which are on the device too."""
+        """Rays of indices (n,) int64 on the device."""
         directions = torch.div(indices, self._points, rounding_mode="floor")
         bounds = self._bounds.index_select(0, indices)
         return LabelledBatch(
@@ -51,7 +51,7 @@ class DeviceRays:
 
 
 def batch_source(rays: RaySet, device: torch.device) -> HostRays | DeviceRays:
-    """The rays laid out on a GPU if they take less than half of what is free there."""
+    """Put rays on a GPU with enough memory: twice theirs must be free."""
     if device.type == "cuda":
         free, _ = torch.cuda.mem_get_info(device)
         if 20 * rays.count < free / 2:
@@ -60,14 +60,14 @@ def batch_source(rays: RaySet, device: torch.device) -> HostRays | DeviceRays:
 
 
 def batch_indices(step: Tensor, *, seed: int, batch_size: int, count: int) -> Tensor:
-    """Indices of the samples of a step, drawn with replacement: (batch_size,) int64.
+    """Draw indices of a step's samples with replacement: (batch_size,) int64.
 
-    They depend on (seed, step) alone: a resumed run needs no state of a generator, and a GPU
-    draws what a CPU draws.
+    Determined by (seed, step): a resumed run needs no generator state, and GPU and CPU draw the
+    same.
 
     Args:
-        step: int64 without dimensions; the indices are made on its device.
-        count: of the rays to choose from.
+        step: int64 without dimensions, on the device of the indices.
+        count: of all rays.
     """
     start = int(np.random.SeedSequence(seed).generate_state(1, np.uint64)[0].astype(np.int64))
     x = step * batch_size + torch.arange(1, batch_size + 1, device=step.device)
@@ -75,12 +75,12 @@ def batch_indices(step: Tensor, *, seed: int, batch_size: int, count: int) -> Te
 
 
 def split_mix(state: Tensor) -> Tensor:
-    """SplitMix64's numbers at its states, which are `GAMMA` apart, all int64."""
+    """Outputs of SplitMix64 at states `GAMMA` apart, all int64."""
     for shift, factor in _MIX:
         state = (state ^ _shifted(state, shift)) * factor
     return state
 
 
 def _shifted(x: Tensor, bits: int) -> Tensor:
-    """Shift to the right that fills with zeros, and not with the sign."""
+    """Logical shift to the right."""
     return (x >> bits) & ((1 << (64 - bits)) - 1)

@@ -1,4 +1,4 @@
-"""Checkpoints of trainings: what they are called, where they lie, and until when they are kept."""
+"""Checkpoints of trainings: names, folders and lifetime."""
 
 import hashlib
 import json
@@ -9,24 +9,23 @@ from typing import Any
 
 from neural_shadows.running.module_graph import modules_of
 
-# Beside the folders of a run's networks. In it a folder `<experiment>-<digest>` for each training.
+# Beside the networks' folders, with a folder `<experiment>-<digest>` for each training.
 CHECKPOINTS = "checkpoints"
 
 STATE = "state.safetensors"  # in such a folder
 
-STAGES = Path(__file__).parent  # where the stages that train lie
+STAGES = Path(__file__).parent  # folder of the training stages
 
 
 def checkpoint_folder(weights: Path, header: Mapping[str, Any], code: Iterable[Path]) -> Path:
-    """Where the checkpoint of a training lies: `networks/checkpoints/<experiment>-<digest>`.
+    """Checkpoint folder of a training: `networks/checkpoints/<experiment>-<digest>`.
 
-    Snakemake deletes the outputs of a job that failed, so that a checkpoint cannot be among them.
-    Its name holds a digest of the settings, the data and the code: changed ones thereby start
-    anew and never resume from a state that they did not make.
+    Snakemake deletes a failed job's outputs, so a checkpoint cannot be among them. Its name has a
+    digest of the settings, the data and the code, so that changed ones start anew.
 
     Args:
         weights: `networks/<experiment>/weights.safetensors`; header: of that file.
-        code: the modules that the training is started from: its stage, and its network's kind.
+        code: modules of the training's stage and its network's kind.
     """
     digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
     for module in code:
@@ -36,11 +35,10 @@ def checkpoint_folder(weights: Path, header: Mapping[str, Any], code: Iterable[P
 
 
 def remove_finished(networks: Path) -> None:
-    """Remove the checkpoints of trainings whose weights are there.
+    """Remove the checkpoints of finished trainings.
 
-    To be called when whoever asked for these has taken note of them. Before that Snakemake may
-    yet delete one and ask for it again, after a kill or on a full disk; the training then ends
-    at once.
+    Call it once Snakemake has registered the weights. Before that it may delete and request them
+    again, after a kill or on a full disk; the training then ends at once from its checkpoint.
     """
     for checkpoint in (networks / CHECKPOINTS).glob("*"):
         experiment = checkpoint.name.rpartition("-")[0]

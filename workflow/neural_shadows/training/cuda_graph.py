@@ -1,19 +1,18 @@
-"""A training step as a CUDA graph: hundreds of small kernels started by one call."""
+"""A training step as a CUDA graph: many kernels, one call."""
 
 from collections.abc import Callable
 
 import torch
 
-# Steps before the recording, in which libraries choose their kernels and reserve their memory.
+# Steps before the recording, for libraries to choose kernels and reserve memory.
 WARM_UP = 3
 
 
 def recorded(step: Callable[[], None]) -> Callable[[], None]:
-    """`step` that is done as it is `WARM_UP` times, and then replayed from a recording.
+    """Wrap `step` for replay from a recording after `WARM_UP` calls.
 
     Args:
-        step: changes tensors on a GPU in place, in shapes that never differ, and reads none
-            of them back.
+        step: changes tensors on a GPU in place, in constant shapes, and reads none back.
     """
     calls = 0
     recording: torch.cuda.CUDAGraph | None = None
@@ -22,7 +21,7 @@ def recorded(step: Callable[[], None]) -> Callable[[], None]:
         nonlocal calls, recording
         calls += 1
         if calls <= WARM_UP:
-            aside(step)
+            on_side_stream(step)
             return
         if recording is None:
             recording = capture(step)
@@ -31,8 +30,8 @@ def recorded(step: Callable[[], None]) -> Callable[[], None]:
     return advance
 
 
-def aside(step: Callable[[], None]) -> None:
-    """Do a step in a stream of its own, as is asked of those before a recording."""
+def on_side_stream(step: Callable[[], None]) -> None:
+    """Do a step in a side stream, required before recording."""
     stream = torch.cuda.Stream()
     stream.wait_stream(torch.cuda.current_stream())
     with torch.cuda.stream(stream):

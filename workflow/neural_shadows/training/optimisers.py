@@ -1,8 +1,8 @@
-"""How a step changes the weights: Adam, or Muon for the hidden layers and Adam for the rest.
+"""Optimisers: Adam, or Muon for hidden layers and Adam elsewhere.
 
-torch's optimisers in their functional form. `torch.optim.Adam` and `torch.optim.Muon` do the
-same (Adam to the bit), but their first step loads torch's compiler, 1.7 to 2.5 s in each training
-job, and their bookkeeping takes 0.1 to 0.5 ms a step.
+torch's optimisers in functional form. `torch.optim.Adam` and `torch.optim.Muon` compute the same
+(Adam to the bit), but their first step loads torch's compiler, 1.7 to 2.5 s in each training job,
+and their bookkeeping takes 0.1 to 0.5 ms a step.
 """
 
 import re
@@ -16,8 +16,7 @@ from torch.optim.adam import adam
 
 from neural_shadows.errors import InputError
 
-# A matrix between two layers of neurons: all `layers` of a network but the first, which stands
-# behind its encoding or its grids.
+# Matrices between two layers of neurons: all `layers` but the first, behind encoding or grids.
 _HIDDEN = re.compile(r"layers\.[1-9]\d*(\.weight)?")
 
 
@@ -30,11 +29,11 @@ class Adam:
             mean: {name: torch.zeros_like(weight) for name, weight in weights.items()}
             for mean in ("exp_avg", "exp_avg_sq")
         }
-        # Adam counts for each weight.
+        # Adam counts steps for each weight.
         self._steps = [torch.zeros((), device=weight.device) for weight in self._weights]
 
     def state(self) -> dict[str, Tensor]:
-        """Its tensors, by their names in a checkpoint."""
+        """Tensors by their names in a checkpoint."""
         return {
             f"{mean}.{name}": value
             for mean, values in self._means.items()
@@ -42,7 +41,7 @@ class Adam:
         }
 
     def continue_at(self, step: int) -> None:
-        """Count on from so many steps."""
+        """Continue counting from a step."""
         for count in self._steps:
             count.fill_(step)
 
@@ -59,7 +58,7 @@ class Adam:
                 amsgrad=False,
                 beta1=0.9,
                 beta2=0.999,
-                lr=rate.float(),  # what a GPU takes
+                lr=rate.float(),  # required on a GPU
                 weight_decay=0.0,
                 eps=1e-8,
                 maximize=False,
@@ -69,10 +68,10 @@ class Adam:
 class Muon:
     """Muon (Jordan 2024) on matrices, by name: steps along the orthogonalised momentum.
 
-    With torch's constants and no weight decay. Kernels of convolutions are matrices of as many rows
-    as they have outputs. On networks of coordinates it was better than Adam by up to 9 dB where Adam
-    kept the first and the last layer (arXiv 2512.14366); on Neural Shadow Mapping's, 400 steps of it
-    end at two thirds of the error of 800 by Adam.
+    With torch's constants and no weight decay. Kernels of convolutions are matrices with a row an
+    output. On coordinate networks it was better than Adam by up to 9 dB with Adam on the first and
+    last layers (arXiv 2512.14366); on Neural Shadow Mapping 400 steps end at two thirds of the
+    error of 800 steps of Adam.
     """
 
     def __init__(self, weights: Mapping[str, Tensor]):
@@ -80,11 +79,11 @@ class Muon:
         self._momentum = {name: torch.zeros_like(weight) for name, weight in weights.items()}
 
     def state(self) -> dict[str, Tensor]:
-        """Its tensors, by their names in a checkpoint."""
+        """Tensors by their names in a checkpoint."""
         return {f"momentum.{name}": value for name, value in self._momentum.items()}
 
     def continue_at(self, step: int) -> None:
-        """Count on from so many steps: Muon counts none."""
+        """Do nothing: Muon counts no steps."""
 
     def step(self, rate: Tensor, compute: Callable = map) -> None:
         """Change the weights by their gradients; `rate` is a scalar on their device.
@@ -97,13 +96,13 @@ class Muon:
 
     def _move(self, name: str, rate: Tensor) -> None:
         weight = self._weights[name]
-        with torch.no_grad():  # which a pool's threads do not inherit
-            # torch's Muon takes its rate as a number, which a recorded step could never change,
-            # and would read a tensor back from a GPU: hence a whole step from zero, then scaled.
-            whole = torch.zeros_like(weight)
-            matrices = (whole, weight.grad, self._momentum[name])
+        with torch.no_grad():  # not inherited by a pool's threads
+            # torch's Muon takes its rate as a number, constant in a recorded step, and would read a
+            # tensor back from a GPU: hence a unit step from zero, then scaled.
+            unit_step = torch.zeros_like(weight)
+            matrices = (unit_step, weight.grad, self._momentum[name])
             muon(
-                *([one.view(len(one), -1)] for one in matrices),
+                *([matrix.view(len(matrix), -1)] for matrix in matrices),
                 lr=1.0,
                 weight_decay=0.0,
                 momentum=0.95,
@@ -114,7 +113,7 @@ class Muon:
                 adjust_lr_fn="original",
                 has_complex=False,
             )
-            weight += rate * whole
+            weight += rate * unit_step
 
 
 def make_optimisers(
@@ -122,23 +121,21 @@ def make_optimisers(
     settings: Mapping[str, Any],
     hidden: Collection[str] | None = None,
 ) -> dict[str, Adam | Muon]:
-    """The optimisers of a training's weights, by the setting that holds their rate.
+    """Optimisers of a training's weights, by key of their rate.
 
     Args:
-        settings: `optimiser`: `adam`, or `muon` with an `adam_rate` for what is not hidden.
-        hidden: names of what is; without it `layers` of a network but the first.
+        settings: `optimiser`: `adam`, or `muon` with an `adam_rate` for other than hidden layers.
+        hidden: names of hidden layers; by default all `layers` but the first.
 
     Raises:
-        InputError: `muon` on a network that has no hidden layers.
+        InputError: `muon` without hidden layers.
     """
     if settings["optimiser"] == "adam":
         return {"learning_rate": Adam(weights)}
     if hidden is None:
         hidden = [name for name in weights if _HIDDEN.fullmatch(name)]
     if not hidden:
-        raise InputError(
-            "optimiser: muon is for hidden layers, and this network has none; set optimiser: adam"
-        )
+        raise InputError("optimiser: muon: the network has no hidden layers. Set optimiser: adam.")
     inner = {name: weights[name] for name in hidden}
     others = {name: weight for name, weight in weights.items() if name not in inner}
     return {"learning_rate": Muon(inner), "adam_rate": Adam(others)}

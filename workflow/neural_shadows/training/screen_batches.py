@@ -1,4 +1,4 @@
-"""Where the samples of screen-space networks come from: crops of frames on disk."""
+"""Samples of screen-space networks: crops of frames on disk."""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -16,19 +16,20 @@ from neural_shadows.frames.features import buffers_of, named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import light_size
 from neural_shadows.rendering.gbuffer import Lens, lens_of
-from neural_shadows.training.screen_crops import Crops, Place
+from neural_shadows.training.screen_crops import Crops, CropSample
 
 
 class ScreenFrames:
-    """Frames of some parts of a frame set, all of one size and with lights of as many radii.
+    """Frames of a frame set's parts: one size, equally many radii.
 
     Args:
         parts: their JSON files.
-        features: names of the channels that a network is told, see `named_features`; those of them
-            that are shadows already are its `bases`.
+        features: names of a network's channels, see `named_features`; the shadows among them are
+            its `bases`.
 
     Raises:
-        InputError: there is no frame, a part is damaged, or they differ in size, radii or twins.
+        InputError: no frame, a damaged part, or parts of different sizes, radii or perturbed
+            frames.
     """
 
     def __init__(self, parts: Sequence[Path], features: Sequence[str]):
@@ -37,12 +38,14 @@ class ScreenFrames:
         self.parts = [FrameSetPart(path) for path in parts]
         self._frames = [(part, number) for part in self.parts for number in range(len(part))]
         if not self._frames:
-            raise InputError("the frame set has no frames of this use; render some, or use another")
+            raise InputError(
+                "the frame set has no frames for this use. Render some, or use another frame set."
+            )
         kinds = {part.targets.shape[1:] + part.buffers.shape[1:2] for part in self.parts}
         if len(kinds) > 1:
             raise InputError(
-                f"{parts[0].parent}: its parts differ in size, radii or twins; a network is trained "
-                "on frames that are alike"
+                f"{parts[0].parent}: parts differ in size, radii or perturbed frames. Give them all "
+                "the same."
             )
         ((self.radii, self.height, self.width, versions),) = kinds
         self.twins = versions - 1
@@ -53,79 +56,79 @@ class ScreenFrames:
 
     @cached_property
     def about(self) -> Mapping[str, Any]:
-        """The description of the first part."""
+        """Description of the first part."""
         return self.parts[0].about
 
-    def crop(self, place: Place, side: int, aligned: bool = False) -> Crops:
-        """A crop, B = 1.
+    def crop(self, sample: CropSample, side: int, aligned: bool = False) -> Crops:
+        """Read a crop, B = 1.
 
         Args:
-            aligned: whether its twin is compared where it shows the same.
+            aligned: compare the perturbed frame at the same surface points.
 
         Raises:
-            InputError: it holds NaN or infinity.
+            InputError: NaN or infinity.
         """
-        part, number = self._frames[place.frame]
-        window = (
-            slice(place.top, place.top + side),
-            slice(place.left, place.left + side),
-        )
-        target = np.float32(part.targets[number, place.radius][window])
-        turned = [axis for axis, turn in ((-2, place.upside_down), (-1, place.mirrored)) if turn]
+        part, number = self._frames[sample.frame]
+        window = slice(sample.top, sample.top + side), slice(sample.left, sample.left + side)
+        target = np.float32(part.targets[number, sample.radius][window])
+        flipped_axes = [
+            axis for axis, flipped in ((-2, sample.upside_down), (-1, sample.mirrored)) if flipped
+        ]
 
         def picture(array: np.ndarray) -> Tensor:
-            array = np.flip(array, turned).copy()  # torch takes none that cannot be written to
+            array = np.flip(array, flipped_axes).copy()  # torch takes no read-only arrays
             return torch.from_numpy(array).reshape(1, -1, *array.shape[-2:])
 
-        versions = [0, place.twin] if place.twin else [0]
+        versions = [0, sample.twin] if sample.twin else [0]
         features = [
-            picture(self.features(place.frame, place.radius, one, window)) for one in versions
+            picture(self.features(sample.frame, sample.radius, version, window))
+            for version in versions
         ]
-        valid = [part.valid[number, one][window] for one in versions]
+        valid = [part.valid[number, version][window] for version in versions]
         target = picture(target)
-        self._check_finite(place.frame, [*features, target])
-        found = Crops(features[0], target, picture(valid[0]), None, None, None)
-        if not place.twin:
-            return found
-        found = found._replace(twin=features[1], twin_valid=picture(valid[1]))
+        self._check_finite(sample.frame, [*features, target])
+        crops = Crops(features[0], target, picture(valid[0]), None, None, None)
+        if not sample.twin:
+            return crops
+        crops = crops._replace(twin=features[1], twin_valid=picture(valid[1]))
         if not aligned:
-            return found
-        counts, at = self._aligned(place, window, valid[1])
-        return found._replace(twin_valid=picture(counts), twin_at=picture(at))
+            return crops
+        visible, indices = self._aligned(sample, window, valid[1])
+        return crops._replace(twin_valid=picture(visible), twin_at=picture(indices))
 
     def _aligned(
-        self, place: Place, window: tuple[slice, slice], valid: np.ndarray
+        self, sample: CropSample, window: tuple[slice, slice], valid: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Which pixels of a crop its twin shows, and where in the twin's crop as it is turned."""
-        part, number = self._frames[place.frame]
-        settings = part.setting(number), part.twin_setting(number, place.twin - 1)
-        seen = [
+        """Visible pixels of a crop in its perturbed crop; their indices."""
+        part, number = self._frames[sample.frame]
+        settings = part.setting(number), part.twin_setting(number, sample.twin - 1)
+        views = [
             value
-            for version, setting in zip((0, place.twin), settings)
-            for value in (setting.camera, self._read(place.frame, version, ALIGNED_BY))
+            for version, setting in zip((0, sample.twin), settings)
+            for value in (setting.camera, self._read(sample.frame, version, ALIGNED_BY))
         ]
-        found = twin_pixels(*seen, part.about["size"])
-        counts, row, column = (one[window] for one in found)
-        row, column = row - place.top, column - place.left
+        pixels = twin_pixels(*views, part.about["size"])
+        visible, row, column = (array[window] for array in pixels)
+        row, column = row - sample.top, column - sample.left
         height, width = valid.shape
         inside = (row >= 0) & (row < height) & (column >= 0) & (column < width)
         row, column = np.where(inside, row, 0), np.where(inside, column, 0)
-        counts = counts & inside & valid[row, column]
-        row = height - 1 - row if place.upside_down else row
-        column = width - 1 - column if place.mirrored else column
-        return counts, row * width + column
+        visible = visible & inside & valid[row, column]
+        row = height - 1 - row if sample.upside_down else row
+        column = width - 1 - column if sample.mirrored else column
+        return visible, row * width + column
 
     def _read(
         self, frame: int, version: int, names: Sequence[str], window=(slice(None), slice(None))
     ) -> dict[str, np.ndarray]:
-        """Buffers of a frame (version 0) or a twin by name, (h, w) float32."""
+        """Buffers of a frame (version 0) or perturbed frame, (h, w) float32."""
         part, number = self._frames[frame]
         return {name: part.image(number, name, version, window) for name in names}
 
     def features(
         self, frame: int, radius: int, version: int = 0, window=(slice(None), slice(None))
     ) -> np.ndarray:
-        """What the network is told of a frame (version 0) or a twin: (C, h, w) float32."""
+        """Network input of a frame (version 0) or perturbed frame: (C, h, w) float32."""
         part, number = self._frames[frame]
         buffers = self._read(frame, version, self._buffers, window)
         lens = self._lens(part, number)
@@ -133,17 +136,19 @@ class ScreenFrames:
         return named_features(self._features, buffers, lens._replace(axis=lens.axis[window]), light)
 
     def ranges(self) -> tuple[np.ndarray, np.ndarray]:
-        """Mean and standard deviation of each channel over valid pixels of up to 16 frames, for all
-        radii together, (C,) float32 each; a deviation of 1 of one that is the same everywhere.
+        """Mean and standard deviation of each channel, (C,) float32 each.
+
+        Over valid pixels of up to 16 frames, for all radii together; deviation 1 of a constant
+        channel.
         """
-        seen = [
+        pixels = [
             self.features(frame, radius)[:, self.valid(frame)]
             for frame in range(0, len(self), -(-len(self) // 16))
             for radius in range(self.radii)
         ]
-        together = np.concatenate(seen, axis=1)
-        spreads = together.std(axis=1)
-        return together.mean(axis=1), np.where(spreads > 1e-6, spreads, 1).astype(np.float32)
+        pixels = np.concatenate(pixels, axis=1)
+        deviations = pixels.std(axis=1)
+        return pixels.mean(axis=1), np.where(deviations > 1e-6, deviations, 1).astype(np.float32)
 
     def target(self, frame: int, radius: int) -> np.ndarray:
         """The exact soft shadow, (H, W) float32."""
@@ -156,12 +161,12 @@ class ScreenFrames:
         return part.image(number, name.removeprefix("base_"))
 
     def valid(self, frame: int) -> np.ndarray:
-        """Which pixels count, (H, W) bool."""
+        """Valid pixels, (H, W) bool."""
         part, number = self._frames[frame]
         return part.valid[number, 0]
 
     def _lens(self, part: FrameSetPart, number: int) -> Lens:
-        # A twin has its frame's field of view and window.
+        # A perturbed frame has its frame's field of view and window.
         camera = part.setting(number).camera
         key = camera.fov, camera.window
         if key not in self._lenses:
@@ -171,10 +176,10 @@ class ScreenFrames:
         return self._lenses[key]
 
     def _check_finite(self, frame: int, arrays: Sequence[Tensor]) -> None:
-        # A sum has what is not finite in it, at a tenth of the time of asking of each number.
-        if not all(bool(one.sum(dtype=torch.float64).isfinite()) for one in arrays):
+        # A sum propagates NaN and infinity, in a tenth of the time of testing each number.
+        if not all(bool(array.sum(dtype=torch.float64).isfinite()) for array in arrays):
             part, number = self._frames[frame]
             raise InputError(
-                f"{part.frames_json}: buffers or targets of frame {number} have NaN or infinity; "
-                "delete the part and render it again"
+                f"{part.frames_json}: NaN or infinity in buffers or targets of frame {number}. "
+                "Delete the part and render it again."
             )

@@ -1,4 +1,4 @@
-"""A crop: where it lies, and what a network is given of it."""
+"""A crop of a frame: position, and tensors for a network."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ from torch import Tensor
 
 
 @dataclass(frozen=True)
-class Place:
-    """Which crop: of a frame, a radius and a twin, and where it lies in the frame."""
+class CropSample:
+    """A crop of a frame, radius and perturbed frame."""
 
     frame: int
     radius: int
-    twin: int  # from 1; 0 where none is wanted
+    twin: int  # perturbed frame, from 1; 0 for none
     top: int
     left: int
     upside_down: bool
@@ -22,11 +22,14 @@ class Place:
 
 
 class Crops(NamedTuple):
-    """B crops: features (B, C, h, w) float32, of a twin too if one is wanted; target (B, 1, h, w)
-    float32; which pixels count, (B, 1, h, w) bool.
+    """B crops for a network.
 
-    If twins are aligned, `twin_at` (B, 1, h, w) int64 is the twin's pixel, row · w + column, that shows
-    what each pixel does, and `twin_valid` is of that pixel; else both are of the pixel in its place.
+    Features (B, C, h, w) float32, of a perturbed frame (`twin`) too if requested; target (B, 1, h,
+    w) float32; valid pixels, (B, 1, h, w) bool.
+
+    If aligned, `twin_at` (B, 1, h, w) int64 is the perturbed frame's pixel, row · w + column, of
+    the same surface point, and `twin_valid` its mask; else both are of the pixel at the same
+    position.
     """
 
     features: Tensor
@@ -38,10 +41,10 @@ class Crops(NamedTuple):
 
     @staticmethod
     def joined(crops: Sequence["Crops"]) -> "Crops":
-        """Some crops as one chunk."""
+        """Concatenate crops to one chunk."""
         parts = zip(*crops)
-        return Crops(*(torch.cat(one) if one[0] is not None else None for one in parts))
+        return Crops(*(torch.cat(part) if part[0] is not None else None for part in parts))
 
     def to(self, device: torch.device) -> "Crops":
-        """The same on a device."""
-        return Crops(*(one if one is None else one.to(device) for one in self))
+        """Move to a device."""
+        return Crops(*(part if part is None else part.to(device) for part in self))

@@ -1,4 +1,4 @@
-"""The loss of a screen-space network [Datta et al. 2022, 3.3]."""
+"""Loss of a screen-space network [Datta et al. 2022, 3.3]."""
 
 from typing import NamedTuple
 
@@ -9,21 +9,22 @@ from neural_shadows.training.perceptual import Perceptual
 
 
 class Terms(NamedTuple):
-    """Of an output against another picture: L1, and the perceptual distance (0 without one)."""
+    """L1 and perceptual distance (0 without one) of two pictures."""
 
     l1: Tensor
     perceptual: Tensor
 
 
 class ScreenLoss:
-    """L(a, b) = α |a − b| + (1 − α) factor · perceptual(a, b), means over valid pixels.
+    """Loss against the target and a perturbed frame's output.
 
-    A step's loss is L(output, target), and if a twin is given + p · L(output, twin's output), where
-    the twin's output carries no gradient. With p times one twin drawn of p, the expectation is the
-    paper's sum over all p.
+    L(a, b) = α |a − b| + (1 − α) factor · perceptual(a, b), means over valid pixels. A step's loss
+    is L(output, target), with a perturbed frame (`twin`) + p · L(output, its output), without
+    gradient for its output. With p times one of p perturbed frames, the expectation is the paper's
+    sum over all p.
 
     Args:
-        alpha: α. perturbation: p. perceptual: None for L1 alone, whose weight is α then, too.
+        alpha: α. perturbation: p. perceptual: None for L1 alone, still weighted by α.
     """
 
     def __init__(self, alpha: float, perturbation: float, perceptual: Perceptual | None):
@@ -32,7 +33,7 @@ class ScreenLoss:
         self.factor = 0.0  # of the perceptual distance, see `factor_for`
 
     def factor_for(self, terms: Terms) -> float:
-        """The factor with which the perceptual term is half of the L1 term."""
+        """Factor for a perceptual term of half the L1 term."""
         l1, perceptual = (float(term) for term in terms)
         if self._alpha == 1 or perceptual == 0:
             return 0.0
@@ -47,7 +48,7 @@ class ScreenLoss:
         twin: Tensor | None = None,
         twin_valid: Tensor | None = None,
     ) -> Tensor:
-        """The share of some pictures in a step's loss.
+        """Share of some pictures in a step's loss.
 
         Args:
             output, target, twin: (B, 1, H, W) float32; valid, twin_valid: likewise, bool.
@@ -57,30 +58,33 @@ class ScreenLoss:
         if twin is not None:
             others.append((twin.detach(), valid & twin_valid))
         first, *rest = self.terms(output, valid, others, count)
-        loss = self._whole(first)
+        loss = self._weighted(first)
         for terms in rest:
-            loss = loss + self._perturbation * self._whole(terms)
+            loss = loss + self._perturbation * self._weighted(terms)
         return loss
 
     def terms(
         self, output: Tensor, valid: Tensor, others: list[tuple[Tensor, Tensor]], count: int
     ) -> list[Terms]:
-        """The output against other pictures, each with the pixels that count.
+        """Compare the output with other pictures, each with valid pixels.
 
-        What does not count is the same in both, and without gradient.
+        Invalid pixels are equal in both, and without gradient.
         """
-        still = output.detach()
-        shown = torch.where(valid, output, still)
-        pictures = [torch.where(counts, other, still) for other, counts in others]
-        l1 = [(shown - picture).abs().sum() / count for picture in pictures]
+        constant = output.detach()
+        masked = torch.where(valid, output, constant)
+        pictures = [torch.where(valid_pixels, other, constant) for other, valid_pixels in others]
+        l1 = [(masked - picture).abs().sum() / count for picture in pictures]
         if self._perceptual is None:
-            return [Terms(one, torch.zeros_like(one)) for one in l1]
-        seen = self._perceptual.features(shown)
+            return [Terms(term, torch.zeros_like(term)) for term in l1]
+        features = self._perceptual.features(masked)
         with torch.no_grad():
-            theirs = [self._perceptual.features(picture) for picture in pictures]
+            picture_features = [self._perceptual.features(picture) for picture in pictures]
         share = output[:, 0].numel() / count
         distance = self._perceptual.distance
-        return [Terms(one, share * distance(seen, its)) for one, its in zip(l1, theirs)]
+        return [
+            Terms(term, share * distance(features, other_features))
+            for term, other_features in zip(l1, picture_features)
+        ]
 
-    def _whole(self, terms: Terms) -> Tensor:
+    def _weighted(self, terms: Terms) -> Tensor:
         return self._alpha * terms.l1 + (1 - self._alpha) * self.factor * terms.perceptual

@@ -1,4 +1,4 @@
-"""How far screen-space networks are from the exact soft shadows of frames that none trains on."""
+"""Errors of screen-space networks on frames outside the training."""
 
 from collections.abc import Callable
 from functools import partial
@@ -9,53 +9,54 @@ import torch
 from neural_shadows.training.screen_batches import ScreenFrames
 from neural_shadows.training.screen_run import ScreenRun
 
-Answer = Callable[[int, int], np.ndarray]
+Predictor = Callable[[int, int], np.ndarray]
 """Visibility (H, W) float32 of a frame and a radius, by their indices."""
 
 
-def network_answer(run: ScreenRun, frames: ScreenFrames) -> Answer:
-    """What a run's network says, cut off to [0, 1]."""
+def network_predictor(run: ScreenRun, frames: ScreenFrames) -> Predictor:
+    """Predict by a run's network, clamped to [0, 1]."""
 
-    def answer(frame: int, radius: int) -> np.ndarray:
+    def predict(frame: int, radius: int) -> np.ndarray:
         features = torch.from_numpy(frames.features(frame, radius))[None].to(run.device)
-        with torch.no_grad():  # which a pool's threads do not inherit
-            return run.answer(features)[0, 0].clamp(0, 1).cpu().numpy()
+        with torch.no_grad():  # not inherited by a pool's threads
+            return run.predict(features)[0, 0].clamp(0, 1).cpu().numpy()
 
-    return answer
+    return predict
 
 
-def null_answers(frames: ScreenFrames) -> dict[str, Answer]:
-    """What answers without learning: that all is lit, the light's map, unfiltered, if the frames hold
-    it, as a user's own need not, and what the network is given as its base.
+def null_predictors(frames: ScreenFrames) -> dict[str, Predictor]:
+    """Null predictors: all lit, the unfiltered light map, and the bases.
+
+    The light map only if the frames have it, as a user's own need not.
     """
     lit = np.ones((frames.height, frames.width), np.float32)
 
     def shadow(name: str, frame: int, radius: int) -> np.ndarray:
         return frames.base(name, frame)
 
-    answers: dict[str, Answer] = {"no_shadow": lambda frame, radius: lit}
+    predictors: dict[str, Predictor] = {"no_shadow": lambda frame, radius: lit}
     if "hard" in frames.about["channels"]:
-        answers["hard_map"] = partial(shadow, "base_hard")
-    return answers | {name: partial(shadow, name) for name in frames.bases}
+        predictors["hard_map"] = partial(shadow, "base_hard")
+    return predictors | {name: partial(shadow, name) for name in frames.bases}
 
 
 def mse_by_radius(
-    frames: ScreenFrames, answer: Answer, compute: Callable = map, every: int = 1
+    frames: ScreenFrames, predict: Predictor, compute: Callable = map, every: int = 1
 ) -> list[float | None]:
-    """Mean squared error over the valid pixels of the frames, for each radius; None if no number.
+    """Mean squared error over valid pixels, for each radius; None if not finite.
 
     Args:
-        compute: `map`, or that of a pool.
-        every: only each frame of so many.
+        compute: `map`, or a pool's.
+        every: step between frames.
     """
-    chosen = range(0, len(frames), every)
-    asked = [(frame, radius) for radius in range(frames.radii) for frame in chosen]
+    numbers = range(0, len(frames), every)
+    images = [(frame, radius) for radius in range(frames.radii) for frame in numbers]
 
-    def error(place: tuple[int, int]) -> tuple[float, int]:
-        valid = frames.valid(place[0])
-        off = (answer(*place) - frames.target(*place))[valid]
-        return float(np.square(off, dtype=np.float64).sum()), int(valid.sum())
+    def error(image: tuple[int, int]) -> tuple[float, int]:
+        valid = frames.valid(image[0])
+        difference = (predict(*image) - frames.target(*image))[valid]
+        return float(np.square(difference, dtype=np.float64).sum()), int(valid.sum())
 
-    sums = np.array([*compute(error, asked)]).reshape(frames.radii, len(chosen), 2).sum(1)
-    found = sums[:, 0] / np.maximum(sums[:, 1], 1)
-    return [value if np.isfinite(value) else None for value in found.tolist()]
+    sums = np.array([*compute(error, images)]).reshape(frames.radii, len(numbers), 2).sum(1)
+    errors = sums[:, 0] / np.maximum(sums[:, 1], 1)
+    return [value if np.isfinite(value) else None for value in errors.tolist()]

@@ -1,4 +1,4 @@
-"""The steps of a training from where it stands to its end, with checkpoints and progress."""
+"""Steps of a training, with checkpoints and progress."""
 
 import sys
 import time
@@ -13,21 +13,21 @@ from neural_shadows.training.training_state import TrainingState
 # Points of the loss curve, each the mean loss since the point before.
 CURVE_POINTS = 500
 
-# Between checkpoints. A kill costs at most that and one point of the loss curve, 1/500 of the run.
+# Between checkpoints. A kill costs at most these and one point of the loss curve, 1/500 of the run.
 CHECKPOINT_SECONDS = 30.0
 
 Points = Callable[[Callable[[int], object]], Iterator[int]]
-"""Does the steps that are left; takes who is told of each step's samples, gives `curve_points`."""
+"""Does the remaining steps: from a callback for each step's samples to `curve_points`."""
 
 
 def curve_points(
     run: TrainingState, advance: Callable[[], None], after_step: Callable[[int], object]
 ) -> Iterator[int]:
-    """Do the steps that are left, and give the number of steps at each point of the loss curve.
+    """Do the remaining steps; yield the steps at loss-curve points.
 
     Args:
         advance: does one step.
-        after_step: told of the samples of each step.
+        after_step: called with the samples of each step.
     """
     steps = run.settings["steps"]
     point_interval = max(1, steps // CURVE_POINTS)
@@ -49,17 +49,19 @@ def train_to_end(
     started: float,
     samples: str = "samples",
 ) -> None:
-    """Do the steps that are left; the run's seconds count from `started` on the monotonic clock.
+    """Do the remaining steps, with checkpoints and progress.
+
+    The run's seconds count from `started` on the monotonic clock.
 
     Args:
-        samples: what a step has many of, a plural.
+        samples: unit of the progress bar, a plural.
     """
     seconds_before, last_saved = run.seconds, started
     step = saved_step = int(run.step)
     total, done = run.settings["steps"] * run.samples_a_step, step * run.samples_a_step
     with progress_bar(total, samples, f"train {name}", done) as bar:
-        # Checkpoints are written at points of the curve only, so that a restored run has no
-        # half-summed loss to carry along; and only there a GPU is waited for.
+        # Checkpoints are written at points of the curve only: a restored run then has no partial
+        # loss sum, and only there a GPU is waited for.
         for step in points(bar.update):
             bar.set_postfix(loss=f"{run.curve[-1][2]:.4g}", refresh=False)
             run.seconds = seconds_before + time.monotonic() - started
@@ -69,9 +71,9 @@ def train_to_end(
                 last_saved, saved_step = time.monotonic(), step
     if run.died_at_step is not None:
         print(
-            f"warning: training {name} died at step {run.died_at_step}: its loss is not finite, "
-            "or it answers the same to everything; its weights are written as they are. A lower "
-            "`learning_rate` in the config, or another `seed`, may keep it alive",
+            f"warning: training {name} diverged at step {run.died_at_step}: its loss is not finite, "
+            "or its output is the same everywhere. Its weights are written as they are. Set a lower "
+            "`learning_rate` or another `seed`.",
             file=sys.stderr,
         )
     if 0 < saved_step < step:

@@ -1,9 +1,8 @@
-"""Stage: train a shadow network on a ray set, resumable and reproducible from its seed [3.5, 4.1].
+"""Stage: train a shadow network on a ray set [3.5, 4.1].
 
-One that is not trained, such as a decimated mesh, is only built.
+Resumable and reproducible from the seed. An untrained one, such as a decimated mesh, is only built.
 """
 
-import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
@@ -52,56 +51,54 @@ def train(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Train one network on its loss, the thesis's with Adam on the dead-zone loss [3.5, 4.1].
+    """Train one network, the thesis's with Adam and dead-zone loss.
 
-    A run that was killed continues from its checkpoint when it is called again with the same
-    arguments, and on a CPU ends in the same weights as an undisturbed one (a GPU adds the
-    gradients of grids in any order). A run that saved a checkpoint leaves that of its end: see
-    `checkpoints.remove_finished`.
-
-    A run that can learn nothing any more, see `TrainingRun.died_at_step`, ends there with a
-    warning. Its weights are written as they are: that a rate kills a network is a result.
+    See [3.5, 4.1]. A killed run, called again with the same arguments, continues from its
+    checkpoint, and on a CPU ends in the same weights as an uninterrupted one (a GPU adds the
+    gradients of grids in any order). A final checkpoint stays, see `checkpoints.remove_finished`. A
+    diverged run, see `TrainingRun.died_at_step`, ends there with a warning. Its weights are
+    written: divergence is a result.
 
     Args:
-        mesh_ply, mesh_json: prepared mesh of the object, for a network that needs it, and what
-            `prepare_mesh` says of it; None for others.
+        mesh_ply, mesh_json: outputs of `prepare_mesh`, for a network that needs them; None for
+            others.
         weights: in a folder of the experiment's, with `checkpoints` beside it.
-        training_json: gets the settings and what came of them: `samples`, `seconds` (laying out
-            included), `final_loss`, `died_at_step` and `no_shadow_loss`, what the loss of
-            answering no shadow at all would be; and `unfit`, see `is_unfit`.
-        network: what `make_network` makes it from; a `surface` of `auto` is the mesh's.
+        training_json: for the settings and their results: `samples`, `seconds` (with the layout),
+            `final_loss`, `died_at_step`, `no_shadow_loss` of the null predictor without shadow; and
+            `unfit`, see `is_unfit`.
+        network: settings for `make_network`; `surface: auto` is the mesh's.
         training: `optimiser` and its rates (`learning_rate`, and muon's `adam_rate`), `steps`,
             `batch_size`, `schedule` (`constant` or `cosine`) and `loss`, the weights of
-            `DeadZone`; None for a network that is not trained, which needs no rays.
-        directions_npy, origins, bounds, rays_json: of the ray set; its description goes into the
-            weights' header.
+            `DeadZone`; None for an untrained network, which needs no rays.
+        directions_npy, origins, bounds, rays_json: of the ray set; the weights' header has its
+            description.
         precision: of the matrix products, see `choose_dtype`.
         threads: chunks of a batch computed side by side; the weights do not depend on it.
 
     Raises:
-        InputError: a file is missing or damaged, or the optimiser is not for this network.
+        InputError: a missing or damaged file, or an optimiser unfit for this network.
     """
     torch.set_num_threads(1)  # the pool's threads work side by side
     mesh = {"sheet": False} if mesh_json is None else read_json(mesh_json)
     network = with_surface(network, mesh)
     if mesh_ply is not None:
-        # Once for nothing, or the seconds of building would be those of compiling kernels and of
-        # loading libraries: of a DAG of 1024³ voxels 8.3 s instead of 0.73.
+        # Warm-up: otherwise `seconds` would include compiling kernels and loading libraries, for a
+        # DAG of 1024³ voxels 8.3 s instead of 0.73.
         make_network(network).prepare(mesh_ply)
-    started = time.monotonic()  # what is laid out before training counts too
+    started = time.monotonic()  # includes the layout before training
     header = {"name": experiment, "network": network, "training": None, "data": None}
     if training is not None:
-        chosen = choose_device(device)
-        dtype = str(choose_dtype(precision, chosen)).removeprefix("torch.")
-        made = {"seed": seed, "device": chosen.type, "precision": dtype}
-        header |= {"training": {**training, **made}, "data": read_json(rays_json)}
+        torch_device = choose_device(device)
+        dtype = str(choose_dtype(precision, torch_device)).removeprefix("torch.")
+        platform = {"seed": seed, "device": torch_device.type, "precision": dtype}
+        header |= {"training": {**training, **platform}, "data": read_json(rays_json)}
     model = make_network(network)
     if mesh_ply is not None:
         model.prepare(mesh_ply)
     model.initialise(seed)
     if training is not None:
         rays = RaySet(directions_npy, origins, bounds)
-        result, curve = _trained(model, header, rays, weights, threads, started)
+        result, curve = _train(model, header, rays, weights, threads, started)
     else:
         seconds = round(time.monotonic() - started, 1)
         result = {"samples": 0, "seconds": seconds, "samples_per_second": None}
@@ -110,11 +107,11 @@ def train(
 
     save_network(weights, model, header)
     write_text(loss_csv, curve)
-    about = {"parameters": model.parameter_count(), "unfit": is_unfit(network, mesh), **result}
-    write_json(training_json, {**header, **about, **describe_origin(), "threads": threads})
+    record = {"parameters": model.parameter_count(), "unfit": is_unfit(network, mesh), **result}
+    write_json(training_json, {**header, **record, **describe_origin(), "threads": threads})
 
 
-def _trained(
+def _train(
     model: ShadowNetwork,
     header: Mapping[str, Any],
     rays: RaySet,
@@ -122,43 +119,30 @@ def _trained(
     threads: int,
     started: float,
 ) -> tuple[dict[str, Any], str]:
-    """Train a network; gives what came of it, and the loss curve as CSV."""
+    """Train a network; return its results and the loss curve as CSV."""
     run = TrainingRun(model, header["training"])
     code = (STAGES / "train.py", kind_module(header["network"]["encoding"]))
     checkpoint = checkpoint_folder(weights, header, code)
     if (checkpoint / STATE).exists():
         run.restore(checkpoint / STATE)
-    points = partial(ray_points, run, rays, threads)
+    points = partial(_points, run, rays, threads)
     train_to_end(run, points, header["name"], checkpoint, started)
-    return outcome(run, rays), run.curve_csv()
+    null = {"no_shadow_loss": no_shadow_loss(rays, run.dead_zone)}
+    return {**run.outcome(), **null, "died_at_step": run.died_at_step}, run.curve_csv()
 
 
-def outcome(run: TrainingRun, rays: RaySet) -> dict[str, Any]:
-    """What came of a training that is at its end, or dead; see `train`'s `training_json`."""
-    samples = int(run.step) * run.settings["batch_size"]
-    final_loss = run.curve[-1][2]
-    return {
-        "samples": samples,
-        "seconds": round(run.seconds, 1),
-        "samples_per_second": round(samples / run.seconds),
-        "final_loss": final_loss if math.isfinite(final_loss) else None,
-        "no_shadow_loss": no_shadow_loss(rays, run.dead_zone),
-        "died_at_step": run.died_at_step,
-    }
-
-
-def ray_points(
+def _points(
     run: TrainingRun, rays: RaySet, threads: int, after_step: Callable[[int], object]
 ) -> Iterator[int]:
-    """Do the steps that are left, see `curve_points`.
+    """Do the remaining steps, see `curve_points`.
 
     Args:
-        after_step: told of the samples of each step.
+        after_step: called with the samples of each step.
     """
     batch_size = run.settings["batch_size"]
     source = batch_source(rays, run.device)
     with gradient_pool(threads) as pool:
-        # A GPU is given its work by one thread, whose stream can be recorded.
+        # One thread feeds a GPU, so that its stream can be recorded.
         workers = pool if run.device.type == "cpu" else None
 
         def advance() -> None:

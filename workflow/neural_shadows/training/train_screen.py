@@ -1,10 +1,10 @@
-"""Stage: train a screen-space network on a frame set [Datta et al. 2022, 3.3], resumable and
-reproducible from its seed.
+"""Stage: train a screen-space network on a frame set [Datta et al. 2022, 3.3].
+
+Resumable and reproducible from the seed.
 """
 
 import hashlib
 import json
-import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -31,14 +31,14 @@ from neural_shadows.training.screen_loss import ScreenLoss
 from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.screen_validation import (
     mse_by_radius,
-    network_answer,
-    null_answers,
+    network_predictor,
+    null_predictors,
 )
 from neural_shadows.training.steps import curve_points, train_to_end
 from neural_shadows.training.training_state import gradient_pool
 
-# Validations on the way, the last at the end. On the way only each third frame: all 60 pictures of
-# 12 frames take as long as ten steps.
+# Validations in a training, the last at its end. Before that only each third frame: all 60 pictures
+# of 12 frames take as long as ten steps.
 VALIDATIONS = 10
 EVERY = 3
 
@@ -60,46 +60,46 @@ def train_screen(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Train one network on crops of frames, for all radii of the frame set at once.
+    """Train a network on crops, for all radii at once.
 
-    A run that was killed continues from its checkpoint when it is called again with the same
-    arguments, and on a CPU ends in the same weights as an undisturbed one. A run that saved a
-    checkpoint leaves that of its end: see `checkpoints.remove_finished`.
+    A killed run, called again with the same arguments, continues from its checkpoint, and on a CPU
+    ends in the same weights as an uninterrupted one. A final checkpoint stays, see
+    `checkpoints.remove_finished`.
 
     Args:
         train, validation: JSON files of the parts of a frame set.
-        trunk: weights file of the perceptual distance's network; None for L1 alone.
+        trunk: weights file of the perceptual distance's backbone; None for L1 alone.
         weights: in a folder of the experiment's, with `checkpoints` beside it.
-        training_json: gets the settings and what came of them: `samples` (pixels), `seconds`,
-            `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them `train_mse` of as
-            many training frames as validation has, `validation_mse`, `null_mse` of what learns nothing
-            (`no_shadow`, `hard_map`, and the network's own base); `validations` on the way;
-            `perceptual` (`none` for L1 alone), `perceptual_factor`.
-        network: what `make_screen_network` makes it from.
-        training: see the config's `screen_trainings`; `perceptual` as it is in this run.
-        scenes: whose parts these are.
+        training_json: for the settings and their results: `samples` (pixels), `seconds`,
+            `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them `train_mse` of
+            as many training frames as validation has, `validation_mse`, `null_mse` of null
+            predictors (`no_shadow`, `hard_map`, and the network's own base); `validations` on the
+            way; `perceptual` (`none` for L1 alone), `perceptual_factor`.
+        network: settings for `make_screen_network`.
+        training: see the config's `screen_trainings`; `perceptual` of this run.
+        scenes: of the parts.
         threads: crops of a batch computed side by side; the weights do not depend on it.
 
     Raises:
-        InputError: a file is missing or damaged or holds NaN, or the frames have no twins but the
-            training wants them.
+        InputError: a missing or damaged file, NaN, or no perturbed frames for `perturbation`.
     """
     torch.set_num_threads(1)  # the pool's threads work side by side
     started = time.monotonic()
-    chosen = choose_device(device)
-    dtype = choose_dtype(precision, chosen)
+    torch_device = choose_device(device)
+    dtype = choose_dtype(precision, torch_device)
     model = make_screen_network(network)
     model.initialise(seed)
     frames, held_out = (ScreenFrames(paths, model.features) for paths in (train, validation))
     model.normalise(frames.ranges)
-    _check_twins(frames, train, training)
+    _check_perturbed(frames, train, training)
     net = training["perceptual"]["net"]
-    perceptual = None if trunk is None else Perceptual(net, trunk, chosen, dtype)
-    run_on = {"seed": seed, "device": chosen.type, "precision": str(dtype).removeprefix("torch.")}
+    perceptual = None if trunk is None else Perceptual(net, trunk, torch_device, dtype)
+    dtype_name = str(dtype).removeprefix("torch.")
+    platform = {"seed": seed, "device": torch_device.type, "precision": dtype_name}
     header = {
         "name": experiment,
         "network": dict(network),
-        "training": {**training, **run_on},
+        "training": {**training, **platform},
         "features": list(model.features),
         "radii": frames.about.get("given_radii", frames.about["radii"]),
         "radius_unit": frames.about.get("radius_unit", "metres"),
@@ -108,50 +108,52 @@ def train_screen(
     }
     loss = ScreenLoss(training["alpha"], training["perturbation"], perceptual)
     run = ScreenRun(model, header["training"], frames, loss)
-    digested = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
+    identity = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
     code = (STAGES / "train_screen.py", form_module(network["form"]))
-    checkpoint = checkpoint_folder(weights, digested, code)
+    checkpoint = checkpoint_folder(weights, identity, code)
     with gradient_pool(threads) as pool:
         if perceptual is not None:
-            # Of the first weights, whatever step the run continues at.
+            # From the initial weights, whatever step the run continues at.
             loss.factor = loss.factor_for(run.first_terms(pool))
         if (checkpoint / STATE).exists():
             run.restore(checkpoint / STATE)
         points = partial(_points, run, held_out, pool)
         train_to_end(run, points, experiment, checkpoint, started, "pixels")
-        compute = pool.map if chosen.type == "cpu" else map
-        validation_mse = mse_by_radius(held_out, network_answer(run, held_out), compute)
-        nulls = null_answers(held_out).items()
+        compute = pool.map if torch_device.type == "cpu" else map
+        validation_mse = mse_by_radius(held_out, network_predictor(run, held_out), compute)
+        nulls = null_predictors(held_out).items()
         null_mse = {name: mse_by_radius(held_out, null, compute) for name, null in nulls}
-        every = -(-len(frames) // len(held_out))  # as many as these, spread over all
-        train_mse = mse_by_radius(frames, network_answer(run, frames), compute, every)
+        every = -(-len(frames) // len(held_out))  # as many frames, evenly spread
+        train_mse = mse_by_radius(frames, network_predictor(run, frames), compute, every)
 
     save_screen_network(weights, model, header)
     write_text(loss_csv, run.curve_csv())
     errors = {"train_mse": train_mse, "validation_mse": validation_mse, "null_mse": null_mse}
-    result = _outcome(run) | errors
-    about = {"parameters": sum(weight.numel() for weight in run.weights.values()), **result}
-    about |= {"perceptual_factor": loss.factor if perceptual is not None else None}
-    write_json(training_json, {**header, **about, **describe_origin(), "threads": threads})
+    result = {"parameters": sum(weight.numel() for weight in run.weights.values()), **run.outcome()}
+    result |= {"died_at_step": run.died_at_step, "validations": run.validations, **errors}
+    result |= {"perceptual_factor": loss.factor if perceptual is not None else None}
+    write_json(training_json, {**header, **result, **describe_origin(), "threads": threads})
 
 
-def _check_twins(frames: ScreenFrames, train: Sequence[Path], training: TrainingSettings) -> None:
+def _check_perturbed(
+    frames: ScreenFrames, train: Sequence[Path], training: TrainingSettings
+) -> None:
     if training["perturbation"] > 0 and frames.twins == 0:
         raise InputError(
-            f"{train[0].parent}: its frames have no twins, which `perturbation` needs; give the "
-            "frame set `twins: {count: 3}`, or set `perturbation: 0`"
+            f"{train[0].parent}: no perturbed frames for `perturbation`. Give the frame set "
+            "`twins: {count: 3}`, or set `perturbation: 0`."
         )
 
 
 def _digest(files: Sequence[Path]) -> str:
-    """Of the files that say how the data was made; the arrays beside them follow from these."""
+    """Digest of the data's descriptions; the arrays beside them follow from these."""
     return hashlib.sha256(json.dumps([sha256_of(path) for path in files]).encode()).hexdigest()
 
 
 def _points(
     run: ScreenRun, held_out: ScreenFrames, pool, after_step: Callable[[int], object]
 ) -> Iterator[int]:
-    """Do the steps that are left, and validate on the way."""
+    """Do the remaining steps, with validations on the way."""
     number, steps = int(run.step), run.settings["steps"]
     compute = pool.map if run.device.type == "cpu" else map
 
@@ -163,25 +165,11 @@ def _points(
     before = number
     for step in curve_points(run, advance, after_step):
         if VALIDATIONS * step // steps > VALIDATIONS * before // steps and step < steps:
-            found = mse_by_radius(held_out, network_answer(run, held_out), compute, EVERY)
-            # In the order of the alphabet, in which a checkpoint gives them back.
-            run.validations.append({"mse": found, "step": step})
+            mse = mse_by_radius(held_out, network_predictor(run, held_out), compute, EVERY)
+            # In alphabetical order, as a checkpoint restores them.
+            run.validations.append({"mse": mse, "step": step})
         before = step
         yield step
-
-
-def _outcome(run: ScreenRun) -> dict[str, Any]:
-    """What came of a training that is at its end, or dead."""
-    samples = int(run.step) * run.samples_a_step
-    final_loss = run.curve[-1][2]
-    return {
-        "samples": samples,
-        "seconds": round(run.seconds, 1),
-        "samples_per_second": round(samples / run.seconds),
-        "final_loss": final_loss if math.isfinite(final_loss) else None,
-        "died_at_step": run.died_at_step,
-        "validations": run.validations,
-    }
 
 
 if "snakemake" in globals():

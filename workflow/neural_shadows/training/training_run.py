@@ -14,7 +14,7 @@ from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
 
 
 class TrainingRun(TrainingState):
-    """The changing state of one run, and what a step of it does.
+    """State and step of one training on rays.
 
     Args:
         network: with the weights to start from; goes to the device.
@@ -22,27 +22,26 @@ class TrainingRun(TrainingState):
             `schedule`, `loss`, `seed`, `device` and `precision`.
 
     Raises:
-        InputError: an optimiser that is not for this network.
+        InputError: an optimiser unfit for this network.
     """
 
     def __init__(self, network: ShadowNetwork, settings: Mapping[str, Any]):
         device = torch.device(settings["device"])
         self.network, self.dead_zone = network.to(device), DeadZone(**settings["loss"])
         self.dtype = choose_dtype(settings["precision"], device)
-        self.chunk = settings["batch_size"]  # rays that one thread takes at once
+        self.chunk = settings["batch_size"]  # rays of a thread at once
         if device.type == "cpu":
             self.chunk = min(network.training_chunk, -(-self.chunk // 2))
         super().__init__(dict(network.named_parameters()), settings, settings["batch_size"])
         self.loss_scale = LOSS_SCALE.get(self.dtype, 1.0)
 
     def train_step(self, batch: LabelledBatch, pool: Executor | None = None) -> None:
-        """One step on the batch's mean loss.
+        """Do one step on the batch's mean loss.
 
-        Gradients of chunks are computed in the pool's threads and added in the chunks' order,
-        so that the result does not depend on the number of threads. Nothing is read back from
-        a GPU, which therefore need not be waited for.
-
-        What a network's loss draws depends on the seed, the step and the chunk's number.
+        Gradients of chunks are computed in the pool's threads and added in the chunks' order, so
+        that the result is independent of the number of threads. Nothing is read back from a GPU.
+        Random numbers of a network's loss are determined by the seed, the step and the chunk's
+        number.
         """
         count = len(batch.origins)
         weights = list(self.weights.values())

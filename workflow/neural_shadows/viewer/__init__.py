@@ -1,1 +1,1 @@
-"""What leaves for a renderer or a browser: the network as ONNX and how it is asked."""
+"""Exports: networks as ONNX, and interactive pages."""

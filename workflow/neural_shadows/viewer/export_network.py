@@ -1,4 +1,4 @@
-"""A trained network as ONNX, with what a renderer must know to use it."""
+"""Export of a trained network as ONNX, with its conventions."""
 
 import warnings
 from pathlib import Path
@@ -17,11 +17,11 @@ from neural_shadows.running.stage import run_stage
 
 OPSET = 20
 CHECKED_RAYS = 512
-TOLERANCE = 1e-4  # sphere radii, for all but a few rays at an edge, which rounding can turn
+TOLERANCE = 1e-4  # sphere radii, at the 99th percentile: rounding may flip rays at an edge
 
 
 class _InFloat32(nn.Module):
-    """The network as a function of rays alone."""
+    """Network as a function of rays only, in float32."""
 
     def __init__(self, network: ShadowNetwork):
         super().__init__()
@@ -32,7 +32,9 @@ class _InFloat32(nn.Module):
 
 
 def random_rays(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rays into the unit sphere: origins on it and unit directions inward, (count, 3) float32."""
+    """Random rays into the unit sphere, (count, 3) float32 each.
+
+    Origins lie on the sphere; directions are unit vectors inward."""
     points = np.random.default_rng(seed).normal(size=(2, count, 3))
     origins, ends = points / np.linalg.norm(points, axis=-1, keepdims=True)
     directions = ends - origins
@@ -41,11 +43,13 @@ def random_rays(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def export_onnx(network: ShadowNetwork, path: Path) -> None:
-    """Write a network as ONNX: `origins`, `directions` (rays, 3) float32 to `t_pred` (rays,)."""
+    """Write a network as ONNX.
+
+    Inputs `origins` and `directions`, (rays, 3) float32; output `t_pred`, (rays,) float32."""
     origins, directions = map(torch.from_numpy, random_rays(64, seed=0))
     network.eval()
     with warnings.catch_warnings():
-        # They are about the exporter itself, not the network.
+        # The warnings concern the exporter, not the network.
         warnings.simplefilter("ignore")
         program = torch.onnx.export(
             _InFloat32(network),
@@ -59,22 +63,22 @@ def export_onnx(network: ShadowNetwork, path: Path) -> None:
         )
     model = program.model_proto
     for node in model.graph.node:
-        # Where in whose folders the exporter found it: nothing for a file that is given away.
+        # Local paths of the exporting machine.
         del node.metadata_props[:]
     with whole_file(path) as part:
         part.write_bytes(model.SerializeToString())
 
 
 def largest_difference(network: ShadowNetwork, path: Path) -> float:
-    """How far ONNX Runtime's t_pred is from PyTorch's, at the 99th percentile of random rays."""
+    """Difference of ONNX Runtime's t_pred from PyTorch's, 99th percentile."""
     import onnxruntime
 
     origins, directions = random_rays(CHECKED_RAYS, seed=1)
     with torch.inference_mode():
         expected = _InFloat32(network)(torch.from_numpy(origins), torch.from_numpy(directions))
     session = onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
-    (found,) = session.run(None, {"origins": origins, "directions": directions})
-    return float(np.quantile(np.abs(found - expected.numpy()), 0.99))
+    (t_pred,) = session.run(None, {"origins": origins, "directions": directions})
+    return float(np.quantile(np.abs(t_pred - expected.numpy()), 0.99))
 
 
 def export_network(
@@ -86,32 +90,31 @@ def export_network(
     network_json: Path,
     bias: float | str,
 ) -> None:
-    """Write a trained network as ONNX, check it, and write its conventions.
+    """Write and check a network as ONNX, with its conventions.
 
     Args:
-        mesh_json: description of the mesh that it was trained on.
-        depth_bias_json: the depth bias and the push that were found for it, where `bias` is
-            `held_out`.
+        mesh_json: description of the training mesh.
+        depth_bias_json: held-out depth bias and push, where `bias` is `held_out`.
 
     Raises:
-        InputError: an input file is damaged; its kind has no ONNX form; or ONNX Runtime answers
-            otherwise than PyTorch.
+        InputError: an input file is damaged, the network's kind cannot be exported, or ONNX Runtime
+            and PyTorch differ.
     """
     network, header = load_network(weights)
     if not network.exportable:
         raise InputError(
-            f"{weights}: {header['network']['encoding']!r} is no network and has no ONNX form; "
-            "export one of another encoding"
+            f"{weights}: the encoding {header['network']['encoding']!r} has no ONNX form. "
+            "Export a network of another encoding"
         )
     mesh = read_json(mesh_json)
     depth_bias = take_found(network, depth_bias_json) if depth_bias_json else bias
     export_onnx(network, network_onnx)
     difference = largest_difference(network, network_onnx)
-    if not difference <= TOLERANCE:  # which NaN is not either
+    if not difference <= TOLERANCE:  # catches NaN
         network_onnx.unlink()
         raise InputError(
             f"{network_onnx}: ONNX Runtime's depths differ from PyTorch's by {difference:.2g} sphere "
-            f"radii, more than {TOLERANCE}; the network cannot be exported with these versions"
+            f"radii, more than {TOLERANCE}. Install other versions of torch or onnxruntime"
         )
     write_json(
         network_json,

@@ -1,4 +1,4 @@
-"""What the viewer's shaders need of a network: its arrays and a few numbers, by kind."""
+"""Arrays and constants of networks for the viewer's shaders."""
 
 from typing import Any
 
@@ -13,14 +13,14 @@ from neural_shadows.networks.quantisation import quantise
 from neural_shadows.representations.distance_bricks.field_marching import SAMPLES_PER_CELL, SOLID
 from neural_shadows.viewer.packed import packed
 
-SOLID_CODE = 255  # of a brick; 0 holds values, others say how many bricks may be skipped
+SOLID_CODE = 255  # of a brick; 0: has values, others: number of bricks to skip
 
 
 def network_arrays(network: ShadowNetwork) -> dict[str, Any]:
-    """A field's or the thesis's network's settings, and its `arrays`, packed.
+    """Settings of a field or network, and its packed `arrays`.
 
     Raises:
-        TypeError: no shader is written for its kind.
+        TypeError: the kind has no shader.
     """
     if isinstance(network, OccupancyFieldNetwork):
         return _field(network)
@@ -30,7 +30,9 @@ def network_arrays(network: ShadowNetwork) -> dict[str, Any]:
 
 
 def _field(network: OccupancyFieldNetwork) -> dict[str, Any]:
-    """A byte for each brick and each value, the latter in shares of the largest."""
+    """Field with one byte per brick and per value.
+
+    Values are shares of the largest."""
     values, scale = quantise({"": network.shares().detach()}, "int8").values()
     grid = network.grid.numpy()
     codes = np.where(grid >= 0, 0, np.minimum(-grid, SOLID_CODE - 1))
@@ -45,7 +47,7 @@ def _field(network: OccupancyFieldNetwork) -> dict[str, Any]:
 
 
 def _frequency_network(network: FrequencyNetwork) -> dict[str, Any]:
-    """The weights as float16, in the order in which network.glsl multiplies them."""
+    """Weights as float16, in the order of network.glsl."""
     layers = [_blocks(weight.detach()) for weight in network.layers]
     output = network.output.detach().reshape(-1).numpy()
     output = np.pad(output, (0, -len(output) % 4))
@@ -59,7 +61,7 @@ def _frequency_network(network: FrequencyNetwork) -> dict[str, Any]:
 
 
 def _blocks(weight: Tensor) -> np.ndarray:
-    """A layer's matrix (out, in) in blocks of 4 × 4, each by columns; what is missing is zeros."""
+    """Matrix (out, in) in zero-padded 4 × 4 blocks, column by column."""
     out, into = weight.shape
     padded = torch.nn.functional.pad(weight, (0, -into % 4, 0, -out % 4))
     blocks = padded.reshape(len(padded) // 4, 4, -1, 4)

@@ -1,4 +1,4 @@
-"""Arrays as text for a page: few letters, and read by a browser without a library."""
+"""Arrays as compact text for a page."""
 
 import base64
 import zlib
@@ -7,10 +7,10 @@ import numpy as np
 
 
 def packed(array: np.ndarray) -> dict[str, str]:
-    """Its `kind`, such as uint16, and its `data`: bytes in planes, deflated, in base64.
+    """`kind`, such as uint16, and `data`: byte planes, deflated, base64.
 
-    In planes, all values' first bytes before all second ones, since the high bytes of small numbers
-    are alike: the Stanford dragon takes 660 KiB so, and 835 with each value's bytes together.
+    Planes have all values' first bytes before all second ones, since the high bytes of small numbers are
+    equal: the Stanford dragon takes 660 KiB instead of 835.
     """
     little = np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
     planes = little.reshape(-1).view(np.uint8).reshape(little.size, -1).T

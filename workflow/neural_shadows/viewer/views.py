@@ -1,4 +1,4 @@
-"""Where a viewer starts from, and its still."""
+"""Initial views of a viewer, and its still image."""
 
 from dataclasses import replace
 from typing import Any
@@ -20,16 +20,16 @@ POSTER = (960, 640)  # pixels
 
 
 def shown_views(scene: Scene, frames: ViewSettings, count: int) -> list[dict[str, Any]]:
-    """The whole object, and the evaluation's `count` viewpoints of each set, with their lights.
+    """The whole object, and `count` viewpoints per view set.
 
     Args:
-        frames: `width` and `height`, and what `draw_viewpoints` is told.
+        frames: `width` and `height`, and settings of `draw_viewpoints`.
     """
     aspect = frames["width"] / frames["height"]
     sets, seed, least = frames["view_sets"], frames["seed"], frames.get("least_shadow", 0.0)
     drawn = draw_viewpoints(scene, sets, range(count), aspect, seed, least)
     named = {"Whole object": _hero_view(scene)}
-    # As the page names them (`reports.frames`).
+    # Named as on the page (`reports.frames`).
     named |= {f"View {view.index}, {VIEW_SETS[view.view_set]}": view for view in drawn}
     return [
         {"name": name, "fov": view.fov}
@@ -39,7 +39,7 @@ def shown_views(scene: Scene, frames: ViewSettings, count: int) -> list[dict[str
 
 
 def poster(scene: Scene) -> Image.Image:
-    """The whole object with its exact shadow, smoothed from four pixels each."""
+    """Still of the whole object with exact shadow, 2 × 2 antialiased."""
     width, height = (2 * size for size in POSTER)
     frame = render_gbuffer(scene, _hero_view(scene), width, height)
     picture = shade(frame, exact_visibility(scene.tracer, frame))
@@ -48,7 +48,7 @@ def poster(scene: Scene) -> Image.Image:
 
 
 def _hero_view(scene: Scene) -> Viewpoint:
-    """The hero's view; where the light moves on an arc, it stands 45 degrees from the zenith."""
+    """The hero view; on an arc, the light is 45° from zenith."""
     view, (light,) = hero_view(scene.up), scene.lights
     if light["domain"] != "single_axis":
         return view

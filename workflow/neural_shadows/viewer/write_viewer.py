@@ -1,4 +1,4 @@
-"""The stage that writes a scene and its methods as a page in which the light can be dragged."""
+"""Stage for interactive pages with a movable light."""
 
 import io
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ from neural_shadows.viewer.network_arrays import network_arrays
 from neural_shadows.viewer.packed import packed
 from neural_shadows.viewer.views import poster, shown_views
 
-# Some 3.4 bytes each: with these, a 256³ field and a network 64 wide a viewer takes 2 MiB.
+# 3.4 bytes per triangle: with a 256³ field and a network of width 64 a viewer takes 2 MiB.
 MOST_TRIANGLES, MOST_BYTES = 210_000, 2 << 20
 
 
@@ -49,18 +49,18 @@ def write_viewer(
     about: Mapping[str, Any],
     run: Mapping[str, Any],
 ) -> None:
-    """Write a viewer of a scene as one self-contained file, and its poster.
+    """Write a scene's viewer as one file, and its poster.
 
     Args:
         template: the files of `workflow/report/viewer`.
         weights: of the networks, in the order of their rows.
-        depth_biases: those that were found, named after their methods.
+        depth_biases: held-out ones, named after their methods.
         name: of the scene.
         rows: `method`, `experiment`, `label` and `bias` of each network.
         scene: `up`, `ground` and `light`, see `open_scene`.
-        frames: how the evaluation's viewpoints are drawn, see `render_references`.
-        views: how many of each set there are.
-        about: `describe_mesh`'s of the scene.
+        frames: settings of the evaluation's viewpoints, see `render_references`.
+        views: viewpoints per view set.
+        about: the scene's argument of `describe_mesh`.
 
     Raises:
         InputError: an input file cannot be read.
@@ -73,11 +73,11 @@ def write_viewer(
     with whole_file(png) as part:
         image.save(part, "PNG")
     report = read_mesh_report(mesh_json)
-    found = {path.stem: path for path in depth_biases}
+    biases = {path.stem: path for path in depth_biases}
     title = f"Shadows of the {name}: {report['name']}"
     data = {
         "name": name,
-        "mesh": {"bits": BITS, **{key: packed(of) for key, of in arrays._asdict().items()}},
+        "mesh": {"bits": BITS, **{key: packed(array) for key, array in arrays._asdict().items()}},
         "scene": {
             "up": opened.up.tolist(),
             "ground": opened.ground,
@@ -93,11 +93,11 @@ def write_viewer(
             )
         },
         "views": shown_views(opened, frames, views),
-        "networks": [_network(path, row, found) for path, row in zip(weights, rows)],
+        "networks": [_network(path, row, biases) for path, row in zip(weights, rows)],
         "shaders": _shaders(template),
     }
-    fewer = "is decimated to" if len(faces) < report["faces"] else "has its"
-    quantised = f"Here it {fewer} {len(faces):,} triangles, with vertices in {BITS} bits."
+    verb = "is decimated to" if len(faces) < report["faces"] else "has its"
+    quantised = f"Here it {verb} {len(faces):,} triangles, with vertices in {BITS} bits."
     (folder,) = {path.parent for path in template if path.suffix == ".html"}
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
@@ -112,15 +112,15 @@ def write_viewer(
     )
     if len(page) > MOST_BYTES:
         print(
-            f"{html}: {len(page):,} bytes, more than the {MOST_BYTES:,} that are quick to open; take "
-            "a field of fewer cells",
+            f"{html}: {len(page):,} bytes, more than {MOST_BYTES:,}, is slow to open. Use a field "
+            "of fewer cells",
             file=progress.TERMINAL,
         )
     write_text(html, page)
 
 
 def _network(weights: Path, row: Row, depth_biases: Mapping[str, Path]) -> dict[str, Any]:
-    """What the viewer is told of a network."""
+    """Description of a network for the viewer."""
     network, header = load_network(weights)
     depth_bias = row["bias"]
     if depth_bias == "held_out":
@@ -137,27 +137,27 @@ def _network(weights: Path, row: Row, depth_biases: Mapping[str, Path]) -> dict[
 
 
 def _jpeg(image: Image.Image) -> str:
-    """An image within the page, for the while in which the viewer starts."""
+    """Image as a data URI, shown while the viewer starts."""
     file = io.BytesIO()
     image.save(file, "JPEG", quality=80)
     return data_uri("image/jpeg", file.getvalue())
 
 
 def _text(template: Sequence[Path], ending: str) -> str:
-    """The template's files of an ending; main.js, which starts it all, last."""
+    """Joined template files of one suffix; main.js last."""
     paths = sorted(template, key=lambda path: path.name == "main.js")
     return "\n".join(path.read_text(encoding="utf-8") for path in paths if path.suffix == ending)
 
 
 def _shaders(template: Sequence[Path]) -> dict[str, str]:
-    """By name: `field` of field.glsl, `surface_vert` of surface.vert."""
-    found = {}
+    """Shaders by name: `field` for field.glsl, `surface_vert` for surface.vert."""
+    shaders = {}
     for path in template:
         if path.suffix in (".vert", ".frag"):
-            found[f"{path.stem}_{path.suffix[1:]}"] = path.read_text(encoding="utf-8")
+            shaders[f"{path.stem}_{path.suffix[1:]}"] = path.read_text(encoding="utf-8")
         elif path.suffix == ".glsl":
-            found[path.stem] = path.read_text(encoding="utf-8")
-    return found
+            shaders[path.stem] = path.read_text(encoding="utf-8")
+    return shaders
 
 
 if "snakemake" in globals():

@@ -85,7 +85,7 @@ def test_open_objects_are_traced_as_they_are():
 @pytest.fixture
 def nothing_kept(monkeypatch):
     """Neither fields of other tests, nor files."""
-    monkeypatch.setattr(scene_fields, "_kept", {})
+    monkeypatch.setattr(scene_fields, "_cache", {})
     monkeypatch.setattr(scene_fields, "_stored", [])
 
 
@@ -96,7 +96,7 @@ def test_stored_fields_are_taken_and_answer_alike(tmp_path, nothing_kept, monkey
     fitted = SceneFields(scene)
     write_fields(tmp_path / "fields.npz", fields_in(scene))
     take_stored([tmp_path / "fields.npz"])
-    scene_fields._kept.clear()
+    scene_fields._cache.clear()
     monkeypatch.setattr(scene_fields, "fitted_field", lambda mesh, cell: None)  # of the sheet
     stored = SceneFields(scene)
     assert len(stored.fields) == 1
@@ -107,5 +107,5 @@ def test_stored_fields_are_taken_and_answer_alike(tmp_path, nothing_kept, monkey
 def test_a_damaged_file_of_fields_names_itself(tmp_path):
     path = tmp_path / "fields.npz"
     path.write_bytes(b"PK\x03\x04 no archive")
-    with pytest.raises(InputError, match=r"fields\.npz: damaged .* delete it"):
+    with pytest.raises(InputError, match=r"fields\.npz: damaged .* Delete it"):
         StoredFields(path)

@@ -1,4 +1,4 @@
-"""The network of Kernel Predicting Neural Shadow Maps: its counts, and answers that are known."""
+"""Kernel Predicting Neural Shadow Maps: counts, and known outputs."""
 
 import pytest
 import torch
@@ -27,7 +27,7 @@ MACS = {3: 75_520, 4: 48_128, 5: 56_704}
 
 
 def parameters(network):
-    return sum(one.numel() for one in network.parameters())
+    return sum(parameter.numel() for parameter in network.parameters())
 
 
 # A form and its ends, by one word.
@@ -42,10 +42,10 @@ def tiny(name="kernels", seed=0):
     network = KernelUnet(form, TINY, features, filters=2, seed=seed, ends=ends)
     generator = torch.Generator().manual_seed(1)
     for norm in network.norms():
-        for one in (norm.weight.data, norm.running_var):
-            one.copy_(0.5 + torch.rand(one.shape, generator=generator))
-        for one in (norm.bias.data, norm.running_mean):
-            one.copy_(torch.randn(one.shape, generator=generator) / 4)
+        for parameter in (norm.weight.data, norm.running_var):
+            parameter.copy_(0.5 + torch.rand(parameter.shape, generator=generator))
+        for parameter in (norm.bias.data, norm.running_mean):
+            parameter.copy_(torch.randn(parameter.shape, generator=generator) / 4)
     return network
 
 
@@ -86,10 +86,12 @@ def test_modules_of_a_level_have_its_weights(form):
     network = KernelUnet(name, SLIM, EIGHT, filters=3, ends=ends)
     layers = kernel_convolutions(name, SLIM, 8, 3, ends)
     levels = range(5 if ends == "half" else 4)
-    expected, found = {0: 0} | by_level(layers, "weights"), dict.fromkeys(levels, 0)
+    expected, result = {0: 0} | by_level(layers, "weights"), dict.fromkeys(levels, 0)
     for (level, _), part in network.parts().items():
-        found[level] += sum(one.numel() for one in part.parameters() if one.ndim == 4)
-    assert found == expected
+        result[level] += sum(
+            parameter.numel() for parameter in part.parameters() if parameter.ndim == 4
+        )
+    assert result == expected
     assert counted(network, 8) == (total(layers, "weights"), total(layers, "macs"))
 
 
@@ -111,7 +113,9 @@ def test_full_ends_have_a_level_more_and_kernels_of_each_pixel():
     network = KernelUnet("kernels", widths, EIGHT, ends="full")
     assert counted(network, 8) == (total(layers, "weights"), total(layers, "macs"))
     own = 9 * 8 * 32 + 3 * 9 * 32 * 32 + 4 * 32 * 32 + 32 * 100
-    assert by_level(layers, "weights")[0] == own and max(one.level for one in layers) == 4
+    assert (
+        by_level(layers, "weights")[0] == own and max(parameter.level for parameter in layers) == 4
+    )
     network, size = tiny("full"), (13, 21)
     x = planes(network, *size)
     with torch.inference_mode():
@@ -124,9 +128,9 @@ def test_full_ends_have_a_level_more_and_kernels_of_each_pixel():
 def test_logits_lie_plane_by_plane_and_are_the_convolution_s(images):
     head = tiny().head
     x = torch.rand(images, 4, 6, 10).contiguous(memory_format=torch.channels_last)
-    found = head(x)
-    assert found.is_contiguous()
-    assert torch.allclose(found, functional.conv2d(x, head.weight, head.bias), atol=1e-6)
+    result = head(x)
+    assert result.is_contiguous()
+    assert torch.allclose(result, functional.conv2d(x, head.weight, head.bias), atol=1e-6)
 
 
 @each_form
@@ -134,19 +138,19 @@ def test_logits_lie_plane_by_plane_and_are_the_convolution_s(images):
 def test_any_size_is_padded_by_its_border_and_cropped(form, size):
     network = tiny(form)
     x = planes(network, *size)
-    found = answer(network, x)
+    result = answer(network, x)
     multiple = 4 if form == "full" else 8
     border = (0, -size[1] % multiple, 0, -size[0] % multiple)
     padded = functional.pad(x, border, mode="replicate")
-    assert found.shape == (1, 1, *size) and found.dtype == torch.float32
+    assert result.shape == (1, 1, *size) and result.dtype == torch.float32
     with torch.inference_mode():
         assert torch.equal(network.inner(x), network.inner(padded))
     if form == "direct":
-        assert torch.equal(found, answer(network, padded)[..., : size[0], : size[1]])
+        assert torch.equal(result, answer(network, padded)[..., : size[0], : size[1]])
 
 
 @each_form
-def test_norms_that_are_folded_into_convolutions_answer_the_same(form):
+def test_folded_norms_give_the_same_output(form):
     network = tiny(form)
     x, folded = planes(network, 24, 16), network.for_inference()
     more = {"kernels": 0, "direct": 1, "full": 1}  # of the head, and of the first level's second
@@ -155,43 +159,45 @@ def test_norms_that_are_folded_into_convolutions_answer_the_same(form):
 
 
 @each_form
-def test_norms_are_told_of_statistics_in_the_order_in_which_they_compute(form):
+def test_norms_are_updated_in_order_of_computation(form):
     network, order = tiny(form), []
     before = [norm.running_mean.clone() for norm in network.norms()]
     for norm in network.norms():
         norm.register_forward_hook(lambda layer, *_: order.append(layer))
     chunks = []
     for _ in range(2):
-        with chunk_statistics() as seen:
+        with chunk_statistics() as chunk:
             network(planes(network, 16, 16))
-        chunks.append(seen)
+        chunks.append(chunk)
     assert order == 2 * network.norms()
     network.update_norms(chunks)
-    for norm, old, one in zip(network.norms(), before, chunks[0], strict=True):
-        assert torch.allclose(norm.running_mean, 0.9 * old + 0.1 * one.mean, atol=1e-6)
+    for norm, old, parameter in zip(network.norms(), before, chunks[0], strict=True):
+        assert torch.allclose(norm.running_mean, 0.9 * old + 0.1 * parameter.mean, atol=1e-6)
 
 
 @each_form
-def test_every_weight_learns_in_bfloat16_too(form):
+def test_every_weight_has_a_gradient_in_bfloat16(form):
     network = tiny(form).in_format(torch.bfloat16)
     x = planes(network, 16, 16).contiguous(memory_format=torch.channels_last)
     with chunk_statistics():
         network(x).square().mean().backward()
-    assert all(one.grad.abs().sum() > 0 for one in network.parameters() if one.ndim == 4)
-    assert {one.weight.dtype for one in network.norms()} == {torch.float32}
+    assert all(
+        parameter.grad.abs().sum() > 0 for parameter in network.parameters() if parameter.ndim == 4
+    )
+    assert {parameter.weight.dtype for parameter in network.norms()} == {torch.float32}
 
 
 @each_form
-def test_bfloat16_answers_nearly_the_same(form):
+def test_bfloat16_output_is_close(form):
     network = tiny(form)
     x = planes(network, 32, 32)
     exact = answer(network, x)
-    for one in (network, network.for_inference()):
-        off = (answer(one.in_format(torch.bfloat16), x) - exact).abs().mean()
+    for parameter in (network, network.for_inference()):
+        off = (answer(parameter.in_format(torch.bfloat16), x) - exact).abs().mean()
         assert 0 < off < 0.1 * exact.std()
 
 
-def test_weights_are_of_the_seed_alone():
+def test_weights_depend_on_the_seed_alone():
     first, other = tiny(seed=3), tiny()
     other.initialise(3)
     second = KernelUnet("kernels", TINY, EIGHT, filters=2, seed=3)
@@ -203,7 +209,9 @@ def test_weights_are_of_the_seed_alone():
 @each_form
 def test_all_convolutions_but_the_first_and_the_last_are_hidden(form):
     network = tiny(form)
-    weights = {name: one for name, one in network.named_parameters() if one.ndim == 4}
+    weights = {
+        name: parameter for name, parameter in network.named_parameters() if parameter.ndim == 4
+    }
     ends = {*weights} - {*network.hidden()}
     assert ends == {
         "levels.0.encoder.0.weight",
@@ -211,7 +219,7 @@ def test_all_convolutions_but_the_first_and_the_last_are_hidden(form):
     }
 
 
-def test_the_base_is_found_behind_features_of_three_channels():
+def test_index_of_the_base_after_three_channel_features():
     """Kernels of one base everywhere leave it as it is."""
     network = KernelUnet("kernels", TINY, ["n", "base_hard"])
     planes = torch.rand(1, 4, 16, 16)
@@ -219,15 +227,15 @@ def test_the_base_is_found_behind_features_of_three_channels():
     assert torch.allclose(network(planes), torch.tensor(0.25))
 
 
-def test_first_kernels_leave_most_of_a_point_where_it_is():
+def test_initial_kernels_are_near_the_identity():
     """Two of 25 weights each, the middle one of e⁴ against 1: 0.69² of it. A blur would leave 0.002."""
     network = KernelUnet("kernels", TINY, EIGHT, filters=2)
     x = planes(network, 32, 32)
     x[:, -1] = 0
     x[0, -1, 16, 16] = 1
     with chunk_statistics():
-        found = answer(network, x)[0, 0]
-    assert 0.3 < found[16, 16] < 0.6 and found.flatten().sort().values[-2] < 0.1
+        result = answer(network, x)[0, 0]
+    assert 0.3 < result[16, 16] < 0.6 and result.flatten().sort().values[-2] < 0.1
 
 
 def test_kernels_without_a_base_are_refused():

@@ -1,4 +1,4 @@
-"""The filter by pixels' own kernels, beside `unfold` in float64 and by answers that are known."""
+"""The per-pixel kernel filter against `unfold` in float64."""
 
 from concurrent.futures import ThreadPoolExecutor
 
@@ -27,28 +27,28 @@ def drawn(size, factor=1, levels=4, images=2, spread=3.0, dtype=torch.float32):
 
 
 def values_and_gradients(work, logits, base, gradient, factor, dtype):
-    inputs = [one.detach().to(dtype or one.dtype).requires_grad_() for one in (logits, base)]
-    found = work(*inputs, factor)
-    return [found.detach(), *torch.autograd.grad(found, inputs, gradient.to(found.dtype))]
+    inputs = [array.detach().to(dtype or array.dtype).requires_grad_() for array in (logits, base)]
+    output = work(*inputs, factor)
+    return [output.detach(), *torch.autograd.grad(output, inputs, gradient.to(output.dtype))]
 
 
 @pytest.mark.parametrize("work", [filtered, by_shifts])
 @pytest.mark.parametrize("factor", [1, 2])
 @pytest.mark.parametrize("size", SIZES.values(), ids=SIZES)
 def test_values_and_gradients_are_those_of_unfold(work, factor, size):
-    made = drawn(size, factor)
-    ours = values_and_gradients(work, *made, factor, None)
-    theirs = values_and_gradients(by_unfold, *made, factor, torch.float64)
-    for one, other in zip(ours, theirs, strict=True):
-        assert one.dtype == torch.float32
-        assert torch.allclose(one.double(), other, rtol=0, atol=3e-6)
+    inputs_of = drawn(size, factor)
+    ours = values_and_gradients(work, *inputs_of, factor, None)
+    theirs = values_and_gradients(by_unfold, *inputs_of, factor, torch.float64)
+    for array, other in zip(ours, theirs, strict=True):
+        assert array.dtype == torch.float32
+        assert torch.allclose(array.double(), other, rtol=0, atol=3e-6)
 
 
 @pytest.mark.parametrize("factor", [1, 2])
 def test_bfloat16_is_read_to_its_last_digit(factor):
-    made = drawn((18, 130), factor, dtype=torch.bfloat16)
-    value, of_logits, of_base = values_and_gradients(filtered, *made, factor, None)
-    theirs = values_and_gradients(by_unfold, *made, factor, torch.float64)
+    inputs_of = drawn((18, 130), factor, dtype=torch.bfloat16)
+    value, of_logits, of_base = values_and_gradients(filtered, *inputs_of, factor, None)
+    theirs = values_and_gradients(by_unfold, *inputs_of, factor, torch.float64)
     assert value.dtype == of_base.dtype == torch.float32 and of_logits.dtype == torch.bfloat16
     assert torch.allclose(value.double(), theirs[0], rtol=0, atol=3e-6)
     assert torch.allclose(of_base.double(), theirs[2], rtol=0, atol=3e-6)
@@ -61,13 +61,13 @@ def test_gradients_are_differences_of_values():
     inputs = [logits.detach(), base.detach()]
     slopes = torch.autograd.grad(filtered(logits, base), [logits, base], gradient)
     for number, slope in enumerate(slopes):
-        way, ends = slope / slope.abs().max(), []
+        direction, ends = slope / slope.abs().max(), []
         for far in (0.02, -0.02):
             moved = list(inputs)
-            moved[number] = moved[number] + far * way
+            moved[number] = moved[number] + far * direction
             ends.append((filtered(*moved).double() * gradient).sum())
-        found = float(ends[0] - ends[1]) / 0.04
-        assert float((slope * way).sum()) == pytest.approx(found, rel=1e-3)
+        output = float(ends[0] - ends[1]) / 0.04
+        assert float((slope * direction).sum()) == pytest.approx(output, rel=1e-3)
 
 
 @pytest.mark.parametrize(("levels", "reach"), [(3, 14), (4, 30), (5, 62)])
@@ -75,22 +75,22 @@ def test_a_pixel_is_within_what_its_kernels_reach(levels, reach):
     """The smallest and the largest of 29, 61, 125 pixels along and down; and no fewer count."""
     logits, base, _ = drawn((130, 132), levels=levels, images=1)
     base = base.detach() * (base.detach() > 0.998)
-    found = filtered(logits, base).detach()
+    output = filtered(logits, base).detach()
     largest = functional.max_pool2d(base, 2 * reach + 1, 1, reach)
     smallest = -functional.max_pool2d(-base, 2 * reach + 1, 1, reach)
-    assert bool((found <= largest * (1 + 1e-6)).all())
-    assert bool((found >= smallest * (1 - 1e-6)).all())
+    assert bool((output <= largest * (1 + 1e-6)).all())
+    assert bool((output >= smallest * (1 - 1e-6)).all())
     assert bool((largest == 0).any() or levels > 3)
     impulse = torch.zeros_like(base)
     impulse[0, 0, 65, 66] = 1
-    seen = filtered(torch.zeros_like(logits), impulse)[0, 0] > 0
-    assert seen.any(0).sum() == seen.any(1).sum() == min(2 * reach + 1, 130)
+    reached = filtered(torch.zeros_like(logits), impulse)[0, 0] > 0
+    assert reached.any(0).sum() == reached.any(1).sum() == min(2 * reach + 1, 130)
 
 
-def test_a_picture_of_one_value_stays_as_it_is_up_to_its_border():
+def test_a_constant_picture_stays_constant():
     logits, base, _ = drawn((33, 140), spread=30.0)
-    found = filtered(logits, torch.full_like(base, 0.3))
-    assert torch.allclose(found, torch.tensor(0.3), rtol=1e-6, atol=0)
+    output = filtered(logits, torch.full_like(base, 0.3))
+    assert torch.allclose(output, torch.tensor(0.3), rtol=1e-6, atol=0)
 
 
 def test_a_constant_added_to_a_level_s_logits_changes_nothing():
@@ -99,21 +99,21 @@ def test_a_constant_added_to_a_level_s_logits_changes_nothing():
     assert torch.allclose(filtered(logits, base), filtered(logits + added, base), atol=2e-6)
 
 
-def test_weight_outside_the_frame_alone_leaves_the_taps_within():
+def test_weights_outside_the_frame_are_ignored():
     """Softmax first would leave 0 / 0 in float32."""
     logits, base = torch.zeros(1, 25, 1, 4), torch.tensor([[[[1.0, 2.0, 3.0, 4.0]]]])
     logits[:, 2] = 200  # the row above
-    found = filtered(logits, base)
-    assert torch.allclose(found[0, 0, 0], torch.tensor([2.0, 2.5, 2.5, 3.0]))
+    output = filtered(logits, base)
+    assert torch.allclose(output[0, 0, 0], torch.tensor([2.0, 2.5, 2.5, 3.0]))
 
 
 @pytest.mark.parametrize("broken", [torch.nan, torch.inf])
-def test_a_logit_that_is_no_number_shows(broken):
+def test_nan_logits_give_nan(broken):
     """A training looks for it in the loss."""
     logits, base = torch.zeros(1, 25, 4, 4), torch.rand(1, 1, 4, 4)
     logits[0, 12, 1, 2] = broken
-    found = filtered(logits, base)[0, 0]
-    assert found.isnan()[1, 2] and found.isnan().sum() == 1
+    output = filtered(logits, base)[0, 0]
+    assert output.isnan()[1, 2] and output.isnan().sum() == 1
 
 
 @pytest.mark.parametrize(
@@ -131,22 +131,22 @@ def test_a_tap_is_moved_by_its_level_s_dilation():
     chosen = torch.full_like(logits, -100.0)
     for level, tap in enumerate((3, 10, 12)):  # right and up; left by two; the middle
         chosen[:, 25 * level + tap] = 100
-    found = filtered(chosen, base)[0, 0, 10:20, 10:20]
+    output = filtered(chosen, base)[0, 0, 10:20, 10:20]
     # Level 0 goes two up and one right, level 1 four left.
-    assert torch.allclose(found, base[0, 0, 8:18, 7:17])
+    assert torch.allclose(output, base[0, 0, 8:18, 7:17])
 
 
-def test_threads_change_nothing_neither_inside_nor_outside():
-    made = drawn((40, 64), factor=2, images=1)
-    expected = values_and_gradients(filtered, *made, 2, None)
+def test_threads_do_not_change_results():
+    inputs_of = drawn((40, 64), factor=2, images=1)
+    expected = values_and_gradients(filtered, *inputs_of, 2, None)
     with ThreadPoolExecutor(3) as pool:
         side_by_side = [
-            pool.submit(values_and_gradients, filtered, *made, 2, None) for _ in range(6)
+            pool.submit(values_and_gradients, filtered, *inputs_of, 2, None) for _ in range(6)
         ]
-        assert all(map(torch.equal, one.result(), expected) for one in side_by_side)
-    kept = torch.get_num_threads()
+        assert all(map(torch.equal, array.result(), expected) for array in side_by_side)
+    threads = torch.get_num_threads()
     try:
         torch.set_num_threads(3)
-        assert torch.equal(filtered(made[0], made[1], 2).detach(), expected[0])
+        assert torch.equal(filtered(inputs_of[0], inputs_of[1], 2).detach(), expected[0])
     finally:
-        torch.set_num_threads(kept)
+        torch.set_num_threads(threads)

@@ -1,4 +1,4 @@
-"""Weight files of networks of whole frames."""
+"""Weight files of screen-space networks."""
 
 import pytest
 import torch
@@ -33,8 +33,8 @@ def test_a_file_of_a_network_of_kernels_holds_the_statistics_of_its_norms(tmp_pa
     save_screen_network(path, network, {"network": settings})
     loaded, _ = load_screen_network(path)
     assert loaded.features == ("z", "base_hard")
-    for name, one in loaded.state_dict().items():
-        assert torch.equal(one, network.state_dict()[name].half().float()), name
+    for name, weight in loaded.state_dict().items():
+        assert torch.equal(weight, network.state_dict()[name].half().float()), name
 
 
 @pytest.mark.parametrize(
@@ -51,5 +51,5 @@ def test_weights_of_another_width_table_are_refused(tmp_path, change, reason):
     path = tmp_path / "weights.safetensors"
     header = {"network": SETTINGS | change}
     save_screen_network(path, make_screen_network(SETTINGS), header)
-    with pytest.raises(InputError, match=f"safetensors: its weights do not fit.*{reason}.*train"):
+    with pytest.raises(InputError, match=f"safetensors: weights do not fit.*{reason}.*train"):
         load_screen_network(path)

@@ -1,4 +1,4 @@
-"""What a network of a whole frame does, by answers that are known."""
+"""Neural Shadow Mapping's networks: known outputs."""
 
 import math
 
@@ -18,7 +18,7 @@ FORMS = {
 }
 
 
-def made(form="full", **more):
+def build(form="full", **more):
     return make_screen_network({**FORMS[form], "features": FOUR, **more})
 
 
@@ -30,38 +30,40 @@ def answer(network, x):
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("size", [(1, 1), (5, 7), (8, 12)])
 def test_any_size_is_padded_by_its_border_and_cropped(form, size):
-    network, x = made(form), torch.rand(2, 4, *size)
-    found = answer(network, x)
-    assert found.shape == (2, 1, *size)
+    network, x = build(form), torch.rand(2, 4, *size)
+    result = answer(network, x)
+    assert result.shape == (2, 1, *size)
     padded = functional.pad(x, (0, -size[1] % 4, 0, -size[0] % 4), mode="replicate")
-    assert torch.equal(found, answer(network, padded)[..., : size[0], : size[1]])
+    assert torch.equal(result, answer(network, padded)[..., : size[0], : size[1]])
 
 
 @pytest.mark.parametrize("form", ["full", "shuffle", "half"])
-def test_a_frame_of_one_value_is_answered_alike_up_to_its_border(form):
+def test_a_constant_frame_has_a_constant_output(form):
     """Convolutions that pad with zeros see an edge there; shuffled pixels differ within squares."""
-    found = answer(made(form), torch.full((1, 4, 24, 24), 0.7))
-    squares = found.unfold(2, 2, 2).unfold(3, 2, 2)[0, 0]
+    result = answer(build(form), torch.full((1, 4, 24, 24), 0.7))
+    squares = result.unfold(2, 2, 2).unfold(3, 2, 2)[0, 0]
     assert torch.allclose(squares, squares[:1, :1].expand_as(squares), atol=1e-5)
 
 
-def test_weights_are_of_the_seed_alone():
+def test_weights_depend_on_the_seed_alone():
     torch.manual_seed(1)
-    first = made()
+    first = build()
     torch.manual_seed(2)
-    second, other = made(), made()
+    second, other = build(), build()
     other.initialise(3)
     pairs = list(zip(first.parameters(), second.parameters(), other.parameters()))
-    assert all(torch.equal(one, same) for one, same, _ in pairs)
-    assert not any(torch.equal(one, third) for one, _, third in pairs if one.ndim == 4)
+    assert all(torch.equal(parameter, same) for parameter, same, _ in pairs)
+    assert not any(
+        torch.equal(parameter, third) for parameter, _, third in pairs if parameter.ndim == 4
+    )
 
 
 @pytest.mark.parametrize("form", FORMS)
 def test_the_output_starts_about_a_half(form):
-    network = made(form)
-    for name, one in network.named_parameters():
+    network = build(form)
+    for name, parameter in network.named_parameters():
         if name.endswith("weight"):
-            torch.nn.init.zeros_(one)
+            torch.nn.init.zeros_(parameter)
     assert torch.equal(answer(network, torch.rand(1, 4, 8, 8)), torch.full((1, 1, 8, 8), 0.5))
 
 
@@ -78,45 +80,49 @@ def test_four_channels_are_the_pixels_of_a_square():
         assert torch.equal(SquareOfPixels()(impulse), expected)
 
 
-def test_the_first_skip_and_the_pool_are_what_they_are_set_to():
+def test_first_skip_and_pool():
     """A network that hands on level 0 alone sees it by its skip only."""
     x = torch.rand(1, 4, 8, 8)
     for first_skip in (False, True):
-        network = made(first_skip=first_skip)
+        network = build(first_skip=first_skip)
         torch.nn.init.zeros_(network.levels[1].decoder[2].weight)
         varies = bool(answer(network, x).std() > 1e-6)
         assert varies == first_skip
-    average, largest = made(pool="average"), made(pool="max")
+    average, largest = build(pool="average"), build(pool="max")
     assert not torch.allclose(answer(average, x), answer(largest, x))
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_every_weight_learns_in_bfloat16_too(form):
-    network = made(form, extraction=6, first_skip=True) if form == "full" else made(form)
+def test_every_weight_has_a_gradient_in_bfloat16(form):
+    network = build(form, extraction=6, first_skip=True) if form == "full" else build(form)
     reduced = network.in_format(torch.bfloat16)
-    found = reduced(torch.rand(1, 4, 16, 16).contiguous(memory_format=torch.channels_last))
-    found.float().square().mean().backward()
-    assert all(one.grad.abs().sum() > 0 for one in reduced.parameters() if one.ndim == 4)
+    result = reduced(torch.rand(1, 4, 16, 16).contiguous(memory_format=torch.channels_last))
+    result.float().square().mean().backward()
+    assert all(
+        parameter.grad.abs().sum() > 0 for parameter in reduced.parameters() if parameter.ndim == 4
+    )
 
 
 def test_a_network_in_another_format_scales_channels_as_before():
-    network = made()
+    network = build()
     network.centres[:], network.spreads[:] = 1.003, 0.01
     x = 1 + 0.01 * torch.rand(1, 4, 16, 16)
-    found = answer(network.in_format(torch.bfloat16), x).float()
-    off = (found - answer(network, x)).abs().mean()
+    result = answer(network.in_format(torch.bfloat16), x).float()
+    off = (result - answer(network, x)).abs().mean()
     assert off < 0.1 * answer(network, x).std()
 
 
 def test_features_of_three_channels_count_as_three():
-    network = made(features=["ratio", "n"])
+    network = build(features=["ratio", "n"])
     assert network.features == ("ratio", "n")
     assert answer(network, torch.zeros(1, 4, 4, 4)).shape == (1, 1, 4, 4)
 
 
 def test_all_convolutions_but_the_first_and_the_last_are_hidden():
-    network = made(extraction=6)
-    weights = {name: one for name, one in network.named_parameters() if one.ndim == 4}
+    network = build(extraction=6)
+    weights = {
+        name: parameter for name, parameter in network.named_parameters() if parameter.ndim == 4
+    }
     ends = {*weights} - {*network.hidden()}
     assert ends == {"extraction.0.weight", "levels.0.decoder.4.weight"}
     shapes = {tuple(weights[name].shape[:2]) for name in ends}
@@ -125,23 +131,25 @@ def test_all_convolutions_but_the_first_and_the_last_are_hidden():
 
 def test_an_exponent_s_visibility_falls_with_the_distance_behind():
     """Of one α everywhere: exp(−α b), and what it is trained by is linear in b."""
-    network = made("shuffle", features=[*FOUR, "behind"], answer="exponent")
+    network = build("shuffle", features=[*FOUR, "behind"], answer="exponent")
     with torch.no_grad():
-        for one in network.parameters():
-            one.zero_()
+        for parameter in network.parameters():
+            parameter.zero_()
         network.levels[0].decoder[-1].bias[0] = 3.0
     x = torch.rand(1, 5, 8, 12)
     x[:, 4, 0] = 0  # nothing hides the light
     alpha = 3.0 * math.log(256)
-    found = answer(network, x)
-    assert torch.allclose(found, torch.exp(-alpha * x[:, 4:]), rtol=1e-4)
-    assert (found[..., 0, :] == 1).all()
+    result = answer(network, x)
+    assert torch.allclose(result, torch.exp(-alpha * x[:, 4:]), rtol=1e-4)
+    assert (result[..., 0, :] == 1).all()
     compared = 1 - alpha * x[:, 4:] / math.log(256)
-    assert torch.allclose(network.learned(x), compared, atol=1e-5)
-    seen = torch.tensor([1.0, 1 / 16, 1 / 256, 0.0]).view(1, 1, 1, 4)
-    assert network.aim(seen).flatten().tolist() == pytest.approx([1, 0.5, 0, 0], abs=1e-6)
+    assert torch.allclose(network.loss_input(x), compared, atol=1e-5)
+    reached = torch.tensor([1.0, 1 / 16, 1 / 256, 0.0]).view(1, 1, 1, 4)
+    assert network.loss_target(reached).flatten().tolist() == pytest.approx(
+        [1, 0.5, 0, 0], abs=1e-6
+    )
 
 
 def test_an_exponent_needs_the_distance_behind():
-    with pytest.raises(ValueError, match="needs the feature 'behind'; there is .'c_e', 'view'"):
-        made("shuffle", answer="exponent")
+    with pytest.raises(ValueError, match="'c_e', 'view'.*no 'behind'"):
+        build("shuffle", answer="exponent")

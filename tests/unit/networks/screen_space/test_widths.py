@@ -1,4 +1,4 @@
-"""Every count that Datta et al. 2022 print or imply, of the networks as they compute."""
+"""Counts of Datta et al. 2022 against the networks' own."""
 
 import functools
 
@@ -52,20 +52,20 @@ def test_weights_and_multiply_adds_are_the_paper_s(name):
 def test_levels_are_those_of_table_s2():
     _, layers = layers_of("trimmed")
     for level, (compute, weights, storage) in enumerate(TABLE_S2):
-        found = {what: by_level(layers, what)[level] for what in ("macs", "weights", "storage")}
-        assert found["macs"] * PIXELS / 1e9 == pytest.approx(compute, abs=0.005)
-        assert found["weights"] / 1e3 == pytest.approx(weights, abs=0.05)
-        assert found["storage"] * PIXELS / 1e6 == pytest.approx(storage, rel=0.003)
+        result = {what: by_level(layers, what)[level] for what in ("macs", "weights", "storage")}
+        assert result["macs"] * PIXELS / 1e9 == pytest.approx(compute, abs=0.005)
+        assert result["weights"] / 1e3 == pytest.approx(weights, abs=0.05)
+        assert result["storage"] * PIXELS / 1e6 == pytest.approx(storage, rel=0.003)
 
 
 def test_modules_of_a_level_have_its_weights():
     for name in COUNTS:
         network, layers = layers_of(name)
         expected = by_level(layers, "weights")
-        found = dict.fromkeys([0, *expected], 0)
+        result = dict.fromkeys([0, *expected], 0)
         for (level, _), part in network.parts().items():
-            found[level] += sum(one.numel() for one in part.parameters() if one.ndim == 4)
-        assert found == {0: 0, **expected}, name
+            result[level] += sum(weight.numel() for weight in part.parameters() if weight.ndim == 4)
+        assert result == {0: 0, **expected}, name
 
 
 def test_an_unknown_form_is_refused():

@@ -13,9 +13,9 @@ def test_every_method_has_a_row_of_numbered_views(tmp_path, monkeypatch, views, 
     monkeypatch.setattr(contact_sheet, "write_figure", lambda figure, *paths: drawn.append(figure))
     lit = np.ones((8, 12))
     lit[2:4] = 0
-    seen = {m: {("shadow", i): lit for i in range(views)} for m in ("reference", "same", "none")}
-    seen["none"] = dict.fromkeys(seen["none"], np.ones_like(lit))
-    references, visibilities = write_frames(tmp_path, seen)
+    frames = {m: {("shadow", i): lit for i in range(views)} for m in ("reference", "same", "none")}
+    frames["none"] = dict.fromkeys(frames["none"], np.ones_like(lit))
+    references, visibilities = write_frames(tmp_path, frames)
     key = {"view_set": "shadow", "metric": "psnr"}
     psnr = {"same": 100.0, "none": 10.0}
     rows = [

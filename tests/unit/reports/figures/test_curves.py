@@ -1,4 +1,4 @@
-"""The figures of what was measured: losses, widths, fronts."""
+"""Figures of measurements: losses, widths, fronts."""
 
 from xml.etree import ElementTree
 
@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from report_samples import row
 
-from neural_shadows.reports.drawing.chart import saying_points, write_chart
+from neural_shadows.reports.drawing.chart import points_with_tooltips, write_chart
 from neural_shadows.reports.drawing.point_labels import label_points
 from neural_shadows.reports.drawing.style import new_figure, write_figure
 from neural_shadows.reports.figures import loss, pareto, widths
@@ -36,7 +36,7 @@ def test_losses_are_drawn_over_their_samples_twice_alike(tmp_path):
     np.testing.assert_allclose(means[1], 5 - 4 * means[0] / 499)  # of a line, on it
 
 
-def test_a_curve_ends_where_its_training_died():
+def test_a_curve_ends_where_its_training_diverged():
     alive = pd.DataFrame({"samples": [64, 128, 192], "loss": [1.0, 0.5, 0.25]})
     dead = pd.DataFrame({"samples": [64, 128, 192], "loss": [1.0, 2.0, NAN]})
     never = pd.DataFrame({"samples": [64], "loss": [NAN]})
@@ -45,13 +45,13 @@ def test_a_curve_ends_where_its_training_died():
     (axes,) = loss.loss_figure(curves, died, title="Losses").axes
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
     assert labels[0] == "alive (at the end 0.25)"
-    assert labels[1:] == ["dead (died at step 1,300)", "never (died at step 1)"]
+    assert labels[1:] == ["dead (diverged at step 1,300)", "never (diverged at step 1)"]
     (cross,) = [line for line in axes.lines if line.get_marker() == "X"]
     assert cross.get_xydata().tolist() == [[128, 2]]
 
 
 def widths_table(**changes):
-    """What figure 4.8 reads, of two scenes."""
+    """The table behind figure 4.8, of two scenes."""
     table = {
         "method": ["64", "256", "64", "256", "ray traced"],
         "scene": ["dragon", "dragon", "landscape", "landscape", "dragon"],
@@ -102,14 +102,14 @@ def test_widths_without_lpips_have_times_alone():
     assert [axes.get_ylabel()[:10] for axes in figure.axes] == ["LPIPS as t", "frame time"]
 
 
-def test_front_is_what_nothing_else_undercuts():
+def test_the_front_has_all_optimal_points():
     rng = np.random.default_rng(0)
     cost, error = rng.integers(0, 12, (2, 40)).astype(float)
     points = np.stack([cost, error], axis=1)
     undercut = [(np.all(points <= p, axis=1) & np.any(points < p, axis=1)).any() for p in points]
-    found = pareto.front(cost, error)
-    assert {*map(tuple, points[found])} == {*map(tuple, points[~np.array(undercut)])}
-    assert (np.diff(cost[found]) > 0).all() and (np.diff(error[found]) < 0).all()
+    indices = pareto.front(cost, error)
+    assert {*map(tuple, points[indices])} == {*map(tuple, points[~np.array(undercut)])}
+    assert (np.diff(cost[indices]) > 0).all() and (np.diff(error[indices]) < 0).all()
 
 
 METHODS = {  # key: label, encoding, samples, LPIPS, PSNR, stored bytes, own ms, build s
@@ -128,7 +128,7 @@ PRINTED = ("Thesis's network, as printed", None, NAN, 0.0379, 27.39, NAN, NAN, N
 
 
 def written_fronts(folder):
-    """The CSV of a table of networks, as `pareto.draw` reads it."""
+    """The CSV of a table of networks for `pareto.draw`."""
     names = (
         "method",
         "encoding",
@@ -173,7 +173,7 @@ def drawn(tmp_path, monkeypatch):
     return drawn
 
 
-def test_panels_name_points_and_what_costs_nothing(drawn):
+def test_panels_name_points_and_methods_without_a_cost(drawn):
     panels = np.array((figure := drawn([*pareto.COSTS])).axes).reshape(4, 2)
     named = [[{text.get_text() for text in axes.texts} for axes in row] for row in panels]
     printed = "Thesis's network, as printed"
@@ -234,18 +234,18 @@ def test_a_line_leads_to_a_name_that_another_point_is_as_near_to():
     limits = *axes.get_xlim(), *axes.get_ylim()
     label_points(axes, points, [str(i) + " is its name" for i in range(80)], fontsize=7)
     leaders = {tuple(line.get_xydata()[0].round(9)) for line in axes.lines[1:]}
-    places = axes.transData.transform(points)
+    centres = axes.transData.transform(points)
     for text in axes.texts:
         box, own = text.get_window_extent(), int(text.get_text().split(" ")[0])
-        far = np.linalg.norm(places - np.clip(places, box.min, box.max), axis=1)
+        far = np.linalg.norm(centres - np.clip(centres, box.min, box.max), axis=1)
         clear = 1.5 * far[own] <= np.delete(far, own).min()
         assert clear or tuple(points[own].round(9)) in leaders
     assert 3 < len(leaders) < len(axes.texts) and (*axes.get_xlim(), *axes.get_ylim()) == limits
 
 
-def test_points_say_their_values_in_the_svg(tmp_path):
+def test_points_have_tooltips_in_the_svg(tmp_path):
     figure = new_figure("Chart", 4, 3)
-    saying_points(figure.subplots(), [1, 2], [3, 4], ["one & <two>", "three"])
+    points_with_tooltips(figure.subplots(), [1, 2], [3, 4], ["one & <two>", "three"])
     write_chart(figure, tmp_path / "c.png", tmp_path / "c.svg")
     root = ElementTree.parse(tmp_path / "c.svg").getroot()
     svg = "{http://www.w3.org/2000/svg}"

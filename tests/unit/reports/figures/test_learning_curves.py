@@ -11,7 +11,7 @@ BUDGETS = 1e6 * np.array([1, 2, 4, 8])
 
 
 def lines_of(label, metric, values, *, null, thesis=np.nan):
-    """The lines of a method in the table: two trainings at each budget, no extrapolation."""
+    """A method's rows: two trainings a budget, no extrapolation."""
     seeds = [f"{0.99 * value:.6g} {1.01 * value:.6g}" for value in values]
     budgets = pd.DataFrame({"samples": BUDGETS, "mean": values, "by_seed": seeds, "kind": MEASURED})
     predicted = pd.DataFrame({"predicted": [0.2], "predicted_low": 0.18, "predicted_high": 0.23})
@@ -66,6 +66,6 @@ def test_a_scene_of_a_table_is_drawn(table, tmp_path):
     png, svg = tmp_path / "figure.png", tmp_path / "figure.svg"
     draw(tmp_path / "table.csv", png, svg, title="Curves", rows=rows, run=RUN)
     assert png.stat().st_size
-    said = svg.read_text()
-    assert ">B<" in said and ">C<" not in said
-    assert ">Curves (test scale)<" in said
+    text = svg.read_text()
+    assert ">B<" in text and ">C<" not in text
+    assert ">Curves (test scale)<" in text

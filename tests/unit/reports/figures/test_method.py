@@ -1,4 +1,4 @@
-"""The pictures of the method and of scenes, each drawn by its kind's own `draw`."""
+"""Pictures of the method and of scenes."""
 
 from importlib import import_module
 
@@ -74,13 +74,13 @@ def test_bounds_of_a_sphere_are_its_chords():
     assert not rays.hit[beside].any() and rays.hit[inside].all()
 
 
-def test_the_preview_says_the_up_axis_and_a_sheet(tmp_path, capsys):
+def test_the_preview_names_the_up_axis_and_a_sheet(tmp_path, capsys):
     box(1, 0.4, 0.6).export(tmp_path / "mesh.ply")
     files = [tmp_path / name for name in ("mesh.ply", "mesh.json", "a.png", "a.svg")]
     write_json(files[1], {"name": "a mesh", "faces": 12, "watertight": False, "sheet": True})
     draw_preview(*files, scene={"up": "z", "ground": True, "light": SPHERE_OF_LIGHTS})
-    said = capsys.readouterr().out
-    assert "Up is z:" in said and "so are its occupancy fields" in said
+    notes = capsys.readouterr().out
+    assert "Up is z:" in notes and "so are its occupancy fields" in notes
     assert imread(files[2])[..., :3].std() > 0.05
 
 

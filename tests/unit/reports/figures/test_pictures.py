@@ -46,9 +46,9 @@ def test_errors_are_red_where_too_dark_and_blue_where_too_light():
     assert red[0, 1] > blue[0, 1] + 0.3 and blue[0, 2] > red[0, 2] + 0.3
     three = np.full((3, 9), 0.5)
     three[1, 4:7] = 0.6, 0.4, 0.6
-    wide = error_layer(three, np.full_like(three, 0.5), 3)
-    assert wide[0, :, 3].astype(bool).tolist() == [False] * 3 + [True] * 5 + [False]
-    assert (wide[:, 4:7, 2] > wide[:, 4:7, 0]).tolist() == [[False, True, False]] * 3
+    layer = error_layer(three, np.full_like(three, 0.5), 3)
+    assert layer[0, :, 3].astype(bool).tolist() == [False] * 3 + [True] * 5 + [False]
+    assert (layer[:, 4:7, 2] > layer[:, 4:7, 0]).tolist() == [[False, True, False]] * 3
     same = np.isin(image, (0.5, 0.52, 0.48))
     for channel in (red, green, blue):
         np.testing.assert_array_equal(channel[same], image[same])
@@ -85,13 +85,13 @@ def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():
     )
 
 
-def test_a_network_that_has_not_learned_says_so_under_its_name(tmp_path, monkeypatch):
+def test_an_unlearned_network_is_marked_under_its_name(tmp_path, monkeypatch):
     drawn = []
     monkeypatch.setattr(pictures, "write_figure", lambda figure, *paths: drawn.append(figure))
     labels = {"dragon": "Network", "shadow_map_512": "512² shadow map"}
     images = {"dragon": discs(20, 0), "shadow_map_512": discs(20, 12), "reference": discs(20, 12)}
-    seen = {m: {("shadow", view): image for view in range(6)} for m, image in images.items()}
-    references, visibilities = write_frames(tmp_path, seen)
+    frames = {m: {("shadow", view): image for view in range(6)} for m, image in images.items()}
+    references, visibilities = write_frames(tmp_path, frames)
     worse, better = (0.2, 15.0, 0.8), (0.1, 30.0, 0.9)
     quality = {"dragon": worse, "no_shadow": worse, "shadow_map_512": better}
     means = {

@@ -1,4 +1,4 @@
-"""The figures in three dimensions and of fields, each drawn by its kind's own `draw`."""
+"""Figures in 3D and of fields."""
 
 from contextlib import suppress
 
@@ -37,7 +37,7 @@ RADIUS = 0.7
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    """A ball, a field that holds it exactly, references of a view, and a few rays."""
+    """A ball, its exact field, references and rays."""
     folder = tmp_path_factory.mktemp("ball")
     ball = trimesh.creation.icosphere(4, radius=RADIUS)
     ball.export(folder / "mesh.ply")
@@ -45,9 +45,9 @@ def files(tmp_path_factory):
     field = make_network(FIELD)
     field.prepare(folder / "mesh.ply")
     corner = 4 * np.argwhere(field.grid.view(8, 8, 8).numpy() >= 0)
-    place = (corner[:, None] + np.indices((5, 5, 5)).reshape(3, -1).T) / 16 - 1
+    vertices = (corner[:, None] + np.indices((5, 5, 5)).reshape(3, -1).T) / 16 - 1
     with torch.no_grad():
-        inside = torch.from_numpy(RADIUS - np.linalg.norm(place, axis=-1)).float()
+        inside = torch.from_numpy(RADIUS - np.linalg.norm(vertices, axis=-1)).float()
         field.values[field.table.long()] = 20 * inside.flatten()
     (folder / "field").mkdir()
     save_network(folder / "field" / "weights.safetensors", field, {"network": FIELD})
@@ -71,22 +71,26 @@ def test_each_kind_is_drawn(files, tmp_path, kind):
         pytest.skip("no OpenGL")
     weights, bias_json = files / "field" / "weights.safetensors", tmp_path / "field.json"
     write_json(bias_json, {"depth_bias": 0.01, "push": 0.0})
-    given = {"mesh_ply": files / "mesh.ply", "png": tmp_path / "f.png", "svg": tmp_path / "f.svg"}
-    given |= {"title": "Title", "scene": SCENE}
+    arguments = {
+        "mesh_ply": files / "mesh.ply",
+        "png": tmp_path / "f.png",
+        "svg": tmp_path / "f.svg",
+    }
+    arguments |= {"title": "Title", "scene": SCENE}
     if kind is scene_3d:
-        given |= {"mesh_json": files / "mesh.json", "directions_npy": files / "directions.npy"}
-        given |= {key: [files / f"{key}.000.npy"] for key in ("origins", "bounds")}
+        arguments |= {"mesh_json": files / "mesh.json", "directions_npy": files / "directions.npy"}
+        arguments |= {key: [files / f"{key}.000.npy"] for key in ("origins", "bounds")}
     elif kind is errors_3d:
-        given |= {"references": files / "000.safetensors", "run": {"scale": "test"}}
-        given |= {"weights": [weights], "depth_biases": [bias_json]}
+        arguments |= {"references": files / "000.safetensors", "run": {"scale": "test"}}
+        arguments |= {"weights": [weights], "depth_biases": [bias_json]}
         map_ = {"method": "shadow_map_16", "label": "a map", "experiment": None, "bias": None}
         field = {"method": "field", "label": "a field", "experiment": "field", "bias": "held_out"}
-        given["rows"] = [map_, field]
+        arguments["rows"] = [map_, field]
     else:
-        given["weights"] = weights
-    kind.draw(**given)
-    assert imread(given["png"])[..., :3].std() > 0.04
-    assert given["svg"].stat().st_size < 1_500_000
+        arguments["weights"] = weights
+    kind.draw(**arguments)
+    assert imread(arguments["png"])[..., :3].std() > 0.04
+    assert arguments["svg"].stat().st_size < 1_500_000
 
 
 def test_the_slice_of_a_ball_is_held_at_its_surface_and_enclosed_inside(files):

@@ -71,11 +71,10 @@ def test_rows_are_sorted_by_lpips_beside_the_thesis_and_no_shadow_is_last(writte
     assert cells["LPIPS ↓"] == f"0.0400 [{ours['lpips_low']:.4f}, {ours['lpips_high']:.4f}]"
     assert (cells["thesis LPIPS"], cells["thesis PSNR"]) == ("0.0379", "27.39")
     text = md.read_text()
-    assert "Field: a depth bias of 0.008 sphere radii, the best on held-out views (the" in text
+    assert "Field: a depth bias of 0.008 sphere radii, the best on held-out views (at" in text
     assert "128² shadow map, with bias: a depth bias of -0.002 sphere radii, the best" in text
     assert (
-        "Cast shadow on dragon, of the points that are seen: 9.9 % in shadow views, 10 % in surface"
-        in text
+        "Cast shadow on dragon, of visible points: 9.9 % in shadow views, 10 % in surface" in text
     )
 
 

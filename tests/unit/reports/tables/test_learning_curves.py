@@ -122,7 +122,7 @@ def test_nothing_is_said_beyond_what_the_budgets_license(written):
     assert missed == f"the hold-out is missed by +25.0 %, outside its interval; {why}"
     assert beyond["kind"].unique().tolist() == ["extrapolated"]
     assert beyond["step"].tolist() == pytest.approx([8192] * 8)
-    assert "tries a step of 2 times the samples, and that to the thesis's is 8,192 times" in (
+    assert "predicts 2 times the samples, the extrapolation to the thesis's 8,192 times" in (
         md.read_text()
     )
     assert samples.cells_of(md, 0)["at the thesis's samples"] == why
@@ -153,5 +153,5 @@ def test_one_seed_has_neither_spread_nor_interval(written):
     assert np.isnan(last[["spread", "predicted_low", "predicted_high"]].astype(float)).all()
     assert last["predicted"] == pytest.approx(last["mean"], rel=1e-4)
     cells = samples.cells_of(md, 0)
-    assert cells["at the thesis's samples"] == "one seed does not say how sure the fit is"
+    assert cells["at the thesis's samples"] == "one seed gives no uncertainty of the fit"
     assert "[" not in cells["largest, as predicted"]

@@ -125,7 +125,9 @@ def test_rivals_have_what_networks_have(written):
     # A mesh's file, its rays and its training or building; a benchmark that is gone hides the sum.
     assert mesh["build_seconds"] == 1 + 10 + 2 and np.isnan(table["build_seconds"][4])
     assert (mesh["push"], mesh["bias_at_end"]) == (0.05, True)
-    assert samples.cells_of(md, 3)["bias"] == "0 †" and "†: the first or last" in md.read_text()
+    assert (
+        samples.cells_of(md, 3)["bias"] == "0 †" and "†: at an end of the range" in md.read_text()
+    )
     assert mesh["psnr_difference"] > 0 > mesh["lpips_difference"]
     # It needs an inside that its mesh does not have.
     assert mesh["unfit"] and not table["unfit"][4] and np.isnan(table["unfit"][1])

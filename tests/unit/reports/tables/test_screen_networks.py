@@ -9,7 +9,7 @@ from report_samples import MACHINE, PUBLISHED, RUN, write_record, written_table
 from shipped import shipped
 
 from neural_shadows.networks.screen_space.widths import by_level, convolutions
-from neural_shadows.reports.data.published_nsm import read_published_nsm
+from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.figures.screen_level_time import draw
 from neural_shadows.reports.tables import screen_levels, screen_networks, screen_parts
 
@@ -44,7 +44,7 @@ def made(module, folder, published, **given):
 
 
 def test_the_file_of_printed_numbers_is_whole():
-    published = read_published_nsm(PRINTED)
+    published = read_published(PRINTED)
     assert len(published) == 127 and published.index.is_unique and np.isfinite(published).all()
     parts = published["nsm.s3"].unstack()
     # The paper's own sums; of level 1 the parts are 3.68 and the total is printed as 3.67.
@@ -70,7 +70,7 @@ def test_frames_of_another_size_have_no_differences_but_of_weights(tmp_path):
     table, md = made(screen_levels, tmp_path, "nsm.s2", profile_json=small)
     assert table[["runtime_minus_printed", "compute_minus_printed"]].isna().all(axis=None)
     assert table["parameters_minus_printed"].notna().all()
-    assert "of frames of another size" in md.read_text()
+    assert "Our frames have another size" in md.read_text()
     table, _ = made(screen_parts, tmp_path, "nsm.s3", profile_json=small)
     assert table["ms_minus_printed"].isna().all()
 

@@ -190,7 +190,7 @@ def test_what_died_is_named(tmp_path):
         for name, died in {"three": None, "five": 146}.items()
     }
     alike, dead = describe_trainings(records, LABELS)
-    assert "3 levels, 5 levels." in alike and "Died" in dead
+    assert "3 levels, 5 levels." in alike and "Diverged" in dead
     assert "5 levels at step 146" in dead and "3 levels" not in dead
 
 
@@ -247,7 +247,7 @@ def test_what_was_learned_beside_what_was_not(tmp_path, trained, about):
     assert cells.loc[("room_dragon", "all"), "ratio"] == 3
     assert cells.loc[("sequences", "1"), "ratio"] == 3
     assert cells.loc[("room", "1"), "width"] == 12 and "exact width, px" in text
-    assert "room_dragon (never seen)" in text and "room (never seen)" not in text
+    assert "room_dragon (unseen)" in text and "room (unseen)" not in text
 
 
 def test_a_line_over_the_solids_before_the_light(tmp_path, trained, about):
@@ -333,8 +333,8 @@ def test_what_learns_nothing_is_in_the_csv_alone(tmp_path, trained, about):
 @pytest.mark.parametrize(
     ("scenes", "said"),
     [
-        (["room"], "95 % over 16 frames of one scene, room: nothing is said of others"),
-        (["a", "b"], "95 % over 16 frames in 2 scenes, a, b: nothing is said of others"),
+        (["room"], "95 % over 16 frames of one scene, room; not valid for others"),
+        (["a", "b"], "95 % over 16 frames in 2 scenes, a, b; not valid for others"),
         ([*"abcde"], "95 % over 5 scenes, by Student's t of their means"),
     ],
 )

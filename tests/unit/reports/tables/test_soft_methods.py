@@ -101,11 +101,11 @@ def test_what_looks_at_a_map_waits_for_it(written):
 
 def test_notes_say_constants_and_where_they_end(written):
     text = written[1].read_text()
-    assert "PCSS, filtered, by radius: bias 3, 3 (bias at an end of what was tried)." in text
+    assert "PCSS, filtered, by radius: bias 3, 3 (bias at an end of the range tried)." in text
     assert (
-        "Not to be had on this machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text
+        "Not available on this machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text
     )
-    assert "[95 % over 12 frames in 2 scenes, room, tree: nothing is said of others]" in text
+    assert "[95 % over 12 frames in 2 scenes, room, tree; not valid for others]" in text
     assert "Off edges: of pixels" in text and "off edges |" in text
     assert "unseen scenes: tree" in text and "FLIP ↓" not in text  # of which there is none here
 

@@ -1,1 +1,1 @@
-"""What must hold between the sections of a configuration; a file for each section."""
+"""Consistency checks between sections, one file per section."""

@@ -1,4 +1,4 @@
-"""What must hold of `frame_sets`."""
+"""Checks of `frame_sets`."""
 
 from itertools import combinations
 from typing import Any
@@ -10,37 +10,37 @@ from neural_shadows.sections.sections import Sections
 
 
 def check(config: Sections) -> None:
-    """Check that what networks may train on is kept apart from what they never see."""
+    """Check that training scenes and unseen scenes are disjoint."""
     for name, frames in config.frame_sets.items():
         if isinstance(frames, OwnFrames):
             continue
         trained = [config.soft_scenes[scene] for scene in frames.scenes]
-        for scene, one in zip(frames.scenes, trained):
-            if one.generate in UNTRAINED:
+        for scene, settings in zip(frames.scenes, trained):
+            if settings.generate in UNTRAINED:
                 raise ValueError(
-                    f"frame_sets.{name}.scenes: {scene!r} is a {one.generate}, which no network "
-                    f"may train on; put it among `unseen` (for training: {', '.join(TRAINED)})"
+                    f"frame_sets.{name}.scenes: {scene!r} has the generator {settings.generate!r}, which "
+                    f"is for tests only. Move it to `unseen` (for training: {', '.join(TRAINED)})"
                 )
-        # Another seed moves what stands in a trained generator's scene by 15 cm: nothing new.
-        generators = {one.generate for one in trained}
-        objects = {inserted for one in trained for inserted in one.inserted}
+        # Another seed moves objects of a training generator by only 15 cm: such a scene is not unseen.
+        generators = {settings.generate for settings in trained}
+        objects = {inserted for settings in trained for inserted in settings.inserted}
         for scene in frames.unseen:
-            one = config.soft_scenes[scene]
-            if one.generate in generators and objects.issuperset(one.inserted):
+            settings = config.soft_scenes[scene]
+            if settings.generate in generators and objects.issuperset(settings.inserted):
                 raise ValueError(
-                    f"frame_sets.{name}.unseen: {scene!r} is a {one.generate}, which networks train "
-                    "on here, and nothing in it is new to them; let another object stand in it "
-                    "(`inserted`)"
+                    f"frame_sets.{name}.unseen: {scene!r} has the generator {settings.generate!r} and "
+                    "no object beyond those of `scenes`. Insert another object (`inserted`)"
                 )
-        for scene, twin in combinations(measured_scenes(frames), 2):
-            if _drawn_from(config, scene) == _drawn_from(config, twin):
+        for first, second in combinations(measured_scenes(frames), 2):
+            if _drawn_from(config, first) == _drawn_from(config, second):
                 raise ValueError(
-                    f"frame_sets.{name}: {scene!r} and {twin!r} are one scene and would count twice; "
-                    "give one of them another `seed`"
+                    f"frame_sets.{name}: {first!r} and {second!r} are the same scene. "
+                    "Change the `seed` of one"
                 )
 
 
 def _drawn_from(config: Sections, scene: str) -> tuple[Any, ...]:
-    """All that a scene depends on: of one generator another seed is another layout."""
-    one = config.soft_scenes[scene]
-    return one.generate, config.layout_seed(scene), set(one.inserted), one.penumbra
+    """Generator, seed, objects and penumbra of a scene."""
+    settings = config.soft_scenes[scene]
+    seed = config.layout_seed(scene)
+    return settings.generate, seed, set(settings.inserted), settings.penumbra

@@ -1,4 +1,4 @@
-"""Null predictors, whose only cue is which side faces the light."""
+"""Null predictors: visibility by facing the light alone."""
 
 from functools import partial
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""Shadow maps of N² texels, with 2 × 2 PCF and with heights of 16 bits."""
+"""Shadow maps of N² texels: plain, 2 × 2 PCF, 16-bit heights."""
 
 from functools import partial
 from typing import TYPE_CHECKING
@@ -19,8 +19,8 @@ _PLAIN = Look(
     GREY,
     "s",
     "■",
-    "Renders the scene's depth from the light into a picture of N × N texels; a point that "
-    "lies deeper than its texel is in shadow. What games have done for decades.",
+    "Renders the scene's depth from the light into a picture of N × N texels; a point "
+    "behind its texel is in shadow. The standard of games for decades.",
 )
 _PCF = Look(
     "filtered shadow map",
@@ -78,7 +78,7 @@ def _heights_at(
     return lambda texels: heights[texels]
 
 
-def _method(ending: str, look: Look, *, pcf: bool = False, sixteen_bit: bool = False) -> HardMethod:
+def _method(suffix: str, look: Look, *, pcf: bool = False, sixteen_bit: bool = False) -> HardMethod:
     """Maps of one kind.
 
     Args:
@@ -86,7 +86,7 @@ def _method(ending: str, look: Look, *, pcf: bool = False, sixteen_bit: bool = F
         sixteen_bit: heights as unorm16, or as float32.
     """
     return HardMethod(
-        f"{{}}² shadow map{ending}",
+        f"{{}}² shadow map{suffix}",
         look,
         partial(_of_scene, pcf=pcf, sixteen_bit=sixteen_bit),
         range(2, LARGEST + 1),

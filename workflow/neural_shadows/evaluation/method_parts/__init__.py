@@ -1,1 +1,1 @@
-"""What computes soft shadows; methods import it when they answer."""
+"""Computation of soft shadows, imported when methods run."""

@@ -1,4 +1,4 @@
-"""Denoisers of pictures of visibility by few rays a pixel."""
+"""Denoisers of visibility images from few rays a pixel."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -21,13 +21,13 @@ from neural_shadows.rendering.surface import Surface
 
 @dataclass(frozen=True)
 class Denoiser:
-    """A denoiser: the last step, on one thread.
+    """A denoiser on one thread.
 
     Attributes:
         single: of pictures (height, width) float32, the surface and the constants, the smooth
-            picture. They are the visibility by rays and, if `distances`, the penumbrae's radii of
+            picture. The inputs are the visibility by rays and, if `distances`, the penumbrae's radii of
             `ray_traced_penumbrae`; lit, and −1, where there is no surface.
-        temporal: of a height, a width and the constants, what does so for frames in turn, if it
+        temporal: of a height, a width and the constants, a filter of consecutive frames, if it
             has a history: `next_frame` of the pictures, the surface, and where its points were.
     """
 
@@ -36,7 +36,7 @@ class Denoiser:
     distances: bool = False
 
     def pictures(self, frame: SoftFrame, radius: float, samples: int) -> tuple[np.ndarray, ...]:
-        """Pictures of a frame's rays, to be smoothed."""
+        """Images of a frame's rays, for the filter."""
         surface = frame.surface
         if not self.distances:
             return (surface.image(ray_traced(frame, radius, samples=samples), 1.0),)
@@ -72,13 +72,11 @@ def denoised_sequence(
     was: Iterable[np.ndarray | None] | None = None,
     **constants: float,
 ) -> Iterator[np.ndarray]:
-    """Rays of frames in turn, then a denoiser's temporal part.
-
-    (n,) float32 each.
+    """Rays of consecutive frames, then a denoiser's temporal filter. (n,) float32 each.
 
     Args:
         radius, samples, denoiser: see `denoised`.
-        frames: whose numbers grow. was: of each, where its points were in the one before, (n, 3), if
+        frames: with increasing numbers. was: of each, its points' previous positions, (n, 3), if
             anything moved.
     """
     kind, temporal = BY_KEY[denoiser], None
@@ -92,7 +90,7 @@ def denoised_sequence(
         yield temporal.next_frame(*pictures, surface, points).ravel()[surface.pixel]
 
 
-# Only the last of a kind is kept: 50 MB for a million pixels, and the frames of a set have one size.
+# One of a kind is cached: 50 MB for a million pixels, and the frames of a set have one size.
 _svgf_filter, _ffx_filter, _sigma_filter, _sigma_ffx_filter = (
     lru_cache(maxsize=1)(kind) for kind in (SvgfFilter, FfxFilter, SigmaFilter, SigmaFfxFilter)
 )

@@ -1,4 +1,4 @@
-"""The occupancy field of one object of a scene: fitted, marched by rays, kept in a file."""
+"""The distance field of one object: fitted, marched, stored."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -31,7 +31,7 @@ _MARGIN = 1.02  # of an object's sphere, so that its surface is inside the grid
 
 @dataclass(frozen=True, eq=False)
 class ObjectField:
-    """The field of one closed object, int8 values in bricks; lengths in the scene's unit."""
+    """The field of a closed object, int8 values in bricks. Lengths are in the scene's unit."""
 
     centre: np.ndarray  # (3,) float32
     radius: np.float32  # of the sphere that the grid's cube is around
@@ -51,7 +51,7 @@ class ObjectField:
 
     @cached_property
     def cone_field(self) -> ConeField:
-        """Its values, and distances where they end, for cones."""
+        """Values, and distances beyond them, for cones."""
         unit = np.float32(REACH / 127 * 2 / self.resolution)
         around = distances_around(self.grid, self.bricks).ravel()
         return ConeField(self.grid, self.bricks, unit, around)
@@ -63,24 +63,24 @@ class ObjectField:
 
 
 def fitted_field(mesh: PreparedMesh, cell: float) -> ObjectField | None:
-    """The field of an object where it stands; None of an open one.
+    """The field of an object in place; None of an open one.
 
-    Its cells are this wide if `MOST` allow. What is open has no inside.
+    Its cells are this wide if `MOST` allows. An open mesh has no inside.
     """
     merged = _merged(mesh)
     # 4 faces an edge where two parts of an object touch.
     if np.any(np.bincount(merged.edges_unique_inverse) % 2):
         return None
     centre = (mesh.vertices.min(0) + mesh.vertices.max(0)).astype(np.float32) / 2
-    away = np.linalg.norm(mesh.vertices - centre, axis=1).max()
-    radius = np.float32(_MARGIN * away)
+    reach = np.linalg.norm(mesh.vertices - centre, axis=1).max()
+    radius = np.float32(_MARGIN * reach)
     wanted = int(np.ceil(2 * radius / cell / BRICK)) * BRICK
     resolution = int(np.clip(wanted, 8 * BRICK, MOST))
     unit = with_normals((merged.vertices - centre) / radius, merged.faces)
     surface = surface_cells(unit.vertices, unit.faces, resolution // BRICK)
     layout = lay_out(surface, solid=True)
     distances = signed_distances(unit, layout, REACH)  # in cells, positive inside
-    # As they are, they cut off convex edges. Eight cones of a sun of 1° past the Stanford dragon
+    # Unfitted ones cut off convex edges. Eight cones of a sun of 1° past the Stanford dragon
     # then had 2.3 times the squared error, that of 5.3 rays instead of 9.2.
     distances = fitted_distances(unit, layout, distances).clip(-REACH, REACH)
     values = np.round(127 / REACH * distances).astype(np.int8)
@@ -88,22 +88,22 @@ def fitted_field(mesh: PreparedMesh, cell: float) -> ObjectField | None:
 
 
 def _merged(mesh: PreparedMesh) -> trimesh.Trimesh:
-    """Each vertex once: generated objects have one for each face."""
+    """The mesh with merged vertices: generated objects have one a face."""
     return trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
 
 
 def field_key(mesh: PreparedMesh, cell: float) -> str:
-    """A digest of a field's mesh, where it stands, and its cells."""
-    held = mesh.vertices.tobytes() + mesh.faces.tobytes() + np.float64(cell).tobytes()
-    return sha256(held).hexdigest()
+    """A digest of a field's mesh, position and cell size."""
+    content = mesh.vertices.tobytes() + mesh.faces.tobytes() + np.float64(cell).tobytes()
+    return sha256(content).hexdigest()
 
 
 def write_fields(path: Path, fields_by_key: Mapping[str, ObjectField]) -> None:
     """Write fields by their keys, one compressed npz."""
     arrays = {
-        f"{key}.{one.name}": getattr(field, one.name)
+        f"{key}.{attribute.name}": getattr(field, attribute.name)
         for key, field in fields_by_key.items()
-        for one in fields(ObjectField)
+        for attribute in fields(ObjectField)
     }
     with whole_file(path) as part, part.open("wb") as file:
         np.savez_compressed(file, **arrays)
@@ -122,17 +122,19 @@ class StoredFields:
             self._keys = {name.partition(".")[0] for name in arrays.files}
 
     def get(self, key: str) -> ObjectField | None:
-        """The field of a key; None if it is not there."""
+        """The field of a key, or None."""
         if key not in self._keys:
             return None
         with self._opened() as arrays:
-            kept = {one.name: arrays[f"{key}.{one.name}"] for one in fields(ObjectField)}
-        return ObjectField(**kept | {"radius": np.float32(kept["radius"])})
+            stored = {each.name: arrays[f"{key}.{each.name}"] for each in fields(ObjectField)}
+        return ObjectField(**stored | {"radius": np.float32(stored["radius"])})
 
     @contextmanager
     def _opened(self) -> Iterator[np.lib.npyio.NpzFile]:
         try:
             with self._path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
                 yield arrays
-        except Exception as error:  # whatever a damaged archive makes zipfile and zlib raise
-            raise InputError(f"{self._path}: damaged ({error}); delete it and run again") from error
+        except Exception as error:  # zipfile and zlib raise many kinds
+            raise InputError(
+                f"{self._path}: damaged ({error}). Delete it and run again."
+            ) from error

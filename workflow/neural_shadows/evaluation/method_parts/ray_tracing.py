@@ -1,4 +1,4 @@
-"""Few rays a pixel: from its centre's point to points spread over the light."""
+"""Few rays a pixel, from its centre to the light."""
 
 from collections.abc import Callable, Iterator
 
@@ -6,14 +6,14 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.rendering.light_samples import ring_ways
+from neural_shadows.rendering.light_samples import ring_vectors
 from neural_shadows.rendering.soft_shadows import PLACES
 from neural_shadows.scenes.tracing import NEARLY_ALL
 
 _CHUNK = 1 << 16  # at once: 1.6 MB of them stay in a core's cache
 _SALT = 1 << 26  # more than a frame's pixels
 
-# Places in a pixel: of four a turned grid, of eight those of the targets.
+# Positions in a pixel: four of a rotated grid, eight of the targets.
 _SPREAD = {
     2: ((0.25, 0.25), (0.75, 0.75)),
     4: ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875)),
@@ -31,16 +31,16 @@ def ray_traced(
     starts: np.ndarray | None = None,
     blocked: Blocked | None = None,
 ) -> np.ndarray:
-    """Share of a pixel's rays to reach the light, (n,) float32.
+    """Share of a pixel's unblocked rays, (n,) float32.
 
     On one thread. The rays of a pixel go to a low-discrepancy set of its own, on the disc that the
-    light is from there (`ring_ways`), so that pixels' errors are independent and 0 on average.
+    light is from there (`ring_vectors`), so that pixels' errors are independent and 0 on average.
 
     Args:
         radius: of the light, in the scene's unit; 0 is a point, to which one ray goes.
         samples: rays of each pixel; in a sequence its next frame's go elsewhere.
         starts: of the rays, (n, 3) float32; without them the frame's.
-        blocked: of points (m, 3) and vectors (m, 3) from them to the light, which rays are blocked,
+        blocked: of points (m, 3) and vectors (m, 3) from them to the light, the mask of blocked rays,
             (m,) bool; without it by the scene's triangles.
     """
     starts = frame.starts if starts is None else starts
@@ -57,17 +57,16 @@ def ray_traced(
 def ray_traced_penumbrae(
     frame: SoftFrame, radius: float, *, samples: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The same share, by first hits, and radii of penumbrae.
+    """Share of free rays by first hits, and penumbrae's radii.
 
-    Distances took 1.2 times as long as whether rays are blocked.
+    Distances took 1.2 times as long as occlusion tests.
 
     Args:
         radius, samples: see `ray_traced`; the radius is above 0.
 
     Returns:
-        visibility (n,) float32, and the mean radius of the penumbrae of all that blocks a pixel's
-        rays, (n,) float32 in the scene's unit, −1 where nothing does: what blocks a ray of length 1
-        at t blurs the light's edge by radius · t / (1 − t).
+        visibility (n,) float32, and the mean radius of the penumbrae of a pixel's blockers, (n,)
+        float32 in the scene's unit, −1 without any: a blocker of a ray of length 1 at t blurs the light's edge by radius · t / (1 − t).
     """
     starts, normals, tracer = frame.starts, frame.surface.n_g, frame.scene.tracer
     visibility, penumbra = np.empty((2, len(starts)), np.float32)
@@ -83,22 +82,22 @@ def ray_traced_penumbrae(
 def _rays(
     frame: SoftFrame, radius: float, samples: int, starts: np.ndarray
 ) -> Iterator[tuple[slice, np.ndarray, np.ndarray]]:
-    """Parts of the points, their rays' origins, vectors to the light.
+    """Slices of the points, rays' origins, vectors to the light.
 
     (part, samples, 3) each, overwritten by those of the next part.
     """
-    # Other numbers than the exact shadow's, whose errors would be these rays' own.
+    # Other random numbers than the exact shadow's, to keep errors independent.
     keys, drawn = frame.surface.pixel + _SALT, frame.number * samples
     radii, counts = np.array([radius], np.float64), np.array([samples], np.int64)
     size = max(1, _CHUNK // samples)
     to_light, origins = (np.empty((size, samples, 3), np.float32) for _ in range(2))
     for begin in range(0, len(starts), size):
         part = slice(begin, begin + size)
-        some = starts[part]
-        there, here = to_light[: len(some)], origins[: len(some)]
-        ring_ways(some, keys[part], drawn, frame.centre, radii, counts, there)
-        here[:] = some[:, None]
-        yield part, here, there
+        points = starts[part]
+        vectors, ray_origins = to_light[: len(points)], origins[: len(points)]
+        ring_vectors(points, keys[part], drawn, frame.centre, radii, counts, vectors)
+        ray_origins[:] = points[:, None]
+        yield part, ray_origins, vectors
 
 
 def _shares(blocked: Blocked, starts: np.ndarray, to_light: np.ndarray, normals: np.ndarray):
@@ -109,7 +108,7 @@ def _shares(blocked: Blocked, starts: np.ndarray, to_light: np.ndarray, normals:
 
 @njit(cache=True, nogil=True)
 def _share_free(blocked, to_light, normals):
-    """Free shares; as in the reference, nothing below the surface's plane counts."""
+    """Free shares; as in the reference, only above the surface's plane."""
     points, samples = blocked.shape
     shares = np.empty(points, np.float32)
     for i in range(points):
@@ -123,20 +122,20 @@ def _share_free(blocked, to_light, normals):
 
 
 def spread(frame: SoftFrame, radius: float, *, samples: int) -> np.ndarray:
-    """The same from as many places in each pixel, a ray each.
+    """Share of free rays, one from each position in a pixel.
 
     As a path tracer or a multisampled G-buffer sends them. (n,) float32 of the frame's points.
     """
     images = [
-        one.surface.image(ray_traced(one, radius, samples=1), 1.0)
-        for one in frame.at_places(_SPREAD[samples])
+        shifted.surface.image(ray_traced(shifted, radius, samples=1), 1.0)
+        for shifted in frame.at_places(_SPREAD[samples])
     ]
     return np.mean(images, axis=0, dtype=np.float32).ravel()[frame.surface.pixel]
 
 
 @njit(cache=True, nogil=True)
 def _mean_penumbra(blocked, free, to_light, normals, radius):
-    """Mean radius by blockers above a surface's plane; −1 without one."""
+    """Mean penumbra radius by blockers above the plane; −1 without."""
     points, samples = blocked.shape
     penumbra = np.empty(points, np.float32)
     for i in range(points):

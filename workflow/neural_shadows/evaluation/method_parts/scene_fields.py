@@ -1,4 +1,4 @@
-"""The occupancy fields of a scene's objects, kept from frame to frame, and rays through them."""
+"""Distance fields of a scene's objects, cached, with rays through."""
 
 from collections.abc import Iterable
 from functools import lru_cache
@@ -18,14 +18,14 @@ from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.scenes.tracing import Tracer
 
-CELL = 0.0005  # of the scene's size: how wide a field's cells are wanted
-_MOST_KEPT = 64  # objects, of some 5 MiB each
-_kept: dict[str, ObjectField | None] = {}
+CELL = 0.0005  # of the scene's size: preferred width of a field's cells
+_MOST_CACHED = 64  # objects of about 5 MiB each
+_cache: dict[str, ObjectField | None] = {}
 _stored: list[StoredFields] = []
 
 
 class SceneFields:
-    """The fields of a scene's closed objects, and a tracer of the others."""
+    """Fields of a scene's closed objects; a tracer of the others."""
 
     def __init__(self, scene: Scene):
         fields = [_field_of(mesh, CELL * scene.size) for mesh in scene.objects]
@@ -35,7 +35,7 @@ class SceneFields:
         self.tracer = Tracer(joined.vertices, joined.faces) if rest else None
 
     def blocked(self, points: np.ndarray, to_light: np.ndarray) -> np.ndarray:
-        """Whether each vector (n, 3) from its point is blocked, (n,) bool."""
+        """Occlusion of vectors (n, 3) from their points, (n,) bool."""
         blocked = np.zeros(len(points), bool)
         if self.tracer is not None:
             blocked |= self.tracer.blocked(points, to_light)
@@ -45,22 +45,22 @@ class SceneFields:
 
 
 def _field_of(mesh: PreparedMesh, cell: float) -> ObjectField | None:
-    """The field of an object where it stands; None of an open one.
+    """The field of an object in place; None of an open one.
 
-    Kept until other scenes need the room: of a sequence in which one object moves, all others are
-    made once.
+    Cached until other scenes need the memory: in a sequence with one moving object, all others are
+    fitted once.
     """
     key = field_key(mesh, cell)
-    if key not in _kept:
-        if len(_kept) >= _MOST_KEPT:
-            _kept.clear()
-        stored = (one.get(key) for one in _stored)
-        _kept[key] = next(filter(None, stored), None) or fitted_field(mesh, cell)
-    return _kept[key]
+    if key not in _cache:
+        if len(_cache) >= _MOST_CACHED:
+            _cache.clear()
+        stored = (file.get(key) for file in _stored)
+        _cache[key] = next(filter(None, stored), None) or fitted_field(mesh, cell)
+    return _cache[key]
 
 
 def take_stored(paths: Iterable[Path]) -> None:
-    """Take fields from files of `write_fields`, fit those in none.
+    """Load fields of files of `write_fields`; fit any others.
 
     Raises:
         InputError: a file is missing or damaged.
@@ -79,8 +79,8 @@ def field_traced(frame: SoftFrame, radius: float, *, samples: int, cells: float)
     """Share of a pixel's rays unblocked by fields, (n,) float32.
 
     Args:
-        radius, samples: see `ray_traced`. cells: by how many times `CELL` rays start off the
-            surface, which a field has not quite where the triangles have it.
+        radius, samples: see `ray_traced`. cells: offset of the rays' starts from the surface, in
+            `CELL`s, as a field's surface is not quite at the triangles.
     """
     off = np.float32(cells * CELL * frame.scene.size)
     starts = frame.surface.p + off * frame.surface.n_g

@@ -1,1 +1,1 @@
-"""Families of methods for soft shadows: how much of a spherical light each point of a frame sees."""
+"""Families of methods for soft shadows: visibility of a spherical light at a frame's points."""

@@ -1,9 +1,9 @@
-"""Shadows that networks begin with, as a frame's buffers hold them, a user's own frames' too."""
+"""Base shadows from a frame's buffers, also of a user's frames."""
 
 from neural_shadows.evaluation.look import BLACK, Look
 from neural_shadows.evaluation.soft_method import SoftMethod
 
-LOOK = Look("what networks begin with", BLACK, "<", "◄", "The map's shadow, as stored.")
+LOOK = Look("base shadows", BLACK, "<", "◄", "The map's shadow, as stored.")
 
 _LABELS = {"hard": "Base: hard", "pcf": "Base: PCF 2 × 2", "msm": "Base: MSM 3 × 3, σ 0.55"}
 METHODS = {

@@ -1,4 +1,4 @@
-"""Ray tracing with few rays a pixel, and what a denoiser makes of its picture."""
+"""Ray tracing with few rays a pixel, then a denoiser."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,10 +10,10 @@ from neural_shadows.evaluation.soft_method import SoftMethod, rays_label
 
 @dataclass(frozen=True)
 class Denoiser:
-    """A denoiser of `method_parts.denoisers`, after so many rays of a pixel.
+    """A denoiser of `method_parts.denoisers`, with its ray counts.
 
     Args:
-        tried: its constants, see `SoftMethod`. history: whether it has one in sequences.
+        tried: its constants, see `SoftMethod`. history: uses previous frames of sequences.
     """
 
     label: str
@@ -24,7 +24,7 @@ class Denoiser:
     package: str | None = None
 
 
-_OIDN = {"history": False, "package": "pyoidn"}  # which is for x86-64 alone
+_OIDN = {"history": False, "package": "pyoidn"}  # x86-64 only
 _SIGMA = (0.5, 1.0, 2.0, 4.0, 8.0)
 DENOISERS = {
     "svgf": Denoiser(
@@ -54,7 +54,7 @@ DENOISERS = {
             BLUE,
             "d",
             "♦",
-            "Rays, blurred as the distances to what blocks the light ask.",
+            "Rays, blurred by the distances to occluders.",
             joined=True,
         ),
         tried={"reach": (0.12, 0.25, 0.5, 0.7, 1.0, 1.4, 2.0)},

@@ -1,7 +1,7 @@
-"""The exact soft shadow at the middle of each pixel: the best of one place a pixel.
+"""Exact soft shadow at each pixel's centre: without antialiasing.
 
-The targets are antialiased, over eight places a pixel; methods see one. This row says how much of an
-error is that of the place alone.
+The targets are antialiased, over eight samples a pixel; methods see one. This row is the part of an
+error due to that alone.
 """
 
 from typing import TYPE_CHECKING
@@ -19,10 +19,10 @@ LOOK = Look(
     BLACK,
     "d",
     "◈",
-    "What a perfect answer at the middle of each pixel still lacks of the antialiased target.",
+    "A perfect shadow at each pixel's centre, without the antialiasing of the target.",
 )
 
-# Of each mixed pixel; as many as a target's eight places have of one ring.
+# Of each mixed pixel; as many as a target's eight samples have of one ring.
 _SAMPLES = 128
 
 
@@ -30,7 +30,7 @@ def _visibility(frame: "SoftFrame", radius: float) -> np.ndarray:
     from neural_shadows.rendering.soft_shadows import soft_visibility
 
     surface = frame.surface
-    visible = soft_visibility(
+    images = soft_visibility(
         frame.scene,
         surface.camera,
         surface.width,
@@ -40,7 +40,7 @@ def _visibility(frame: "SoftFrame", radius: float) -> np.ndarray:
         samples=_SAMPLES,
         surfaces=[surface],
     )
-    return visible[0].ravel()[surface.pixel]
+    return images[0].ravel()[surface.pixel]
 
 
 METHODS = {

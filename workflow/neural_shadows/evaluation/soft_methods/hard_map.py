@@ -10,13 +10,13 @@ from neural_shadows.evaluation.soft_method import SoftMethod
 if TYPE_CHECKING:
     from neural_shadows.frames.soft_frame import SoftFrame
 
-LOOK = Look("shadow map", GREY, "s", "■", "One test a pixel against the light's map.")
+LOOK = Look("shadow map", GREY, "s", "■", "One test a pixel against the light map.")
 
 
 def _visibility(frame: "SoftFrame", radius: float) -> np.ndarray:
     from neural_shadows.shadow_maps.light_filters import hard_visibility
 
-    return hard_visibility(frame.light_map, frame.depths, frame.ways, frame.bias)
+    return hard_visibility(frame.light_map, frame.depths, frame.from_light, frame.bias)
 
 
 METHODS = {"hard": SoftMethod(_visibility, label="Shadow map", null=True, of_radius=False)}

@@ -1,4 +1,4 @@
-"""Maps of depth's moments, filtered by a kernel of one width before they are looked up.
+"""Moments of depth, filtered by a fixed kernel before lookup.
 
 Variance shadow maps: two moments, Chebyshev's bound (Donnelly and Lauritzen 2006); exponential ones
 (Lauritzen and McCool 2008); four moments, Hamburger (Peters and Klein 2015). Depth is the distance
@@ -24,9 +24,9 @@ LOOK = Look(
     "Blurs powers of depth before they are looked up.",
 )
 
-# `bias`: times a cone's, which grows with the kernel: of a slanted receiver's own texels half lie
-# before it. `bleeding`: visibilities up to it are made 0, and those above it stretched to [0, 1] again
-# (Lauritzen 2007).
+# `bias`: times a cone's, which grows with the kernel: half of a slanted receiver's texels lie before
+# it. `bleeding`: visibilities up to it become 0, and those above are rescaled to [0, 1] (Lauritzen
+# 2007).
 CONSTANTS = {"bias": (0.0, 0.03, 0.1, 0.3, 1.0), "bleeding": (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)}
 _FLOATS = {"vsm": 2, "evsm": 4, "msm": 4}  # of a texel
 
@@ -46,38 +46,38 @@ def _visibility(
     from neural_shadows.shadow_maps.light_filters import receiver_bias
     from neural_shadows.shadow_maps.light_map import distances_of
 
-    of, bounded = {
+    moments_of, bound = {
         "vsm": (partial(moments.powers, count=2), moments.variance_visibility),
         "evsm": (moments.warped, moments.exponential_visibility),
         "msm": (partial(moments.powers, count=4), moments.hamburger_visibility),
     }[kind]
     kernel = moments.box(size) if sigma is None else moments.gaussian(size, sigma)
-    from_light = frame.ways
+    from_light = frame.from_light
     distances = distances_of(from_light)
-    # A light far outside of the scene has receivers beyond.
-    far = float(distances.max(initial=2 * frame.scene.size))
+    # A light far outside the scene has receivers beyond this.
+    farthest = float(distances.max(initial=2 * frame.scene.size))
     filtered = filtered_moments(
-        frame.light_map, frame.depths, from_light, of=of, far=far, kernel=kernel
+        frame.light_map, frame.depths, from_light, of=moments_of, far=farthest, kernel=kernel
     )
     reach = 0.75 + _spread(kernel)
     cone = receiver_bias(frame.light_map, from_light, frame.cosines, frame.scene.size, reach)
-    depth = np.maximum(distances - np.float32(bias) * cone, 0) / far
-    visible = (bounded(filtered, depth) - bleeding) / (1 - bleeding)
-    return np.maximum(visible, 0).astype(np.float32)
+    depth = np.maximum(distances - np.float32(bias) * cone, 0) / farthest
+    shares = (bound(filtered, depth) - bleeding) / (1 - bleeding)
+    return np.maximum(shares, 0).astype(np.float32)
 
 
 def _spread(kernel: np.ndarray) -> float:
     """Standard deviation of a kernel's texels."""
-    places = np.arange(len(kernel)) - len(kernel) // 2
-    return float(np.sqrt(np.sum(kernel * places**2)))
+    offsets = np.arange(len(kernel)) - len(kernel) // 2
+    return float(np.sqrt(np.sum(kernel * offsets**2)))
 
 
 def _method(kind: str, size: int, sigma: float | None = None) -> SoftMethod:
     """Moments filtered over size × size texels, odd.
 
     Args:
-        sigma: of a Gaussian, in texels (Hu et al. 2025, 6.1); None for the mean, for the kernels
-            that Datta et al. 2022 name by their sizes alone.
+        sigma: of a Gaussian, in texels (Hu et al. 2025, 6.1); None for the mean, as in Datta et al.
+            2022, who give sizes alone.
     """
     label = f"{kind.upper()} {size} × {size}" + (f", σ {sigma:g}" if sigma else "")
     visible = partial(_visibility, kind=kind, size=size, sigma=sigma)

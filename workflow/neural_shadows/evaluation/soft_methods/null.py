@@ -1,4 +1,4 @@
-"""Null predictors, whose only cue is which side faces the light."""
+"""Null predictors: visibility by facing the light alone."""
 
 from neural_shadows.evaluation import null_predictors
 from neural_shadows.evaluation.soft_method import SoftMethod

@@ -1,6 +1,6 @@
-"""A pixel's whole light by one walk through the field of each object, which may be split.
+"""Cone tracing of a light through each object's distance field.
 
-The fields are those of `object_fields`. What is open has no inside, and takes a few rays.
+The fields are those of `object_fields`; open objects take a few rays. A cone may be split.
 """
 
 from functools import partial
@@ -19,20 +19,20 @@ LOOK = Look(
     GREY,
     "h",
     "⬢",
-    "Walks once from a point to the light, and keeps how near it comes to each object's surface.",
+    "One march from a point to the light, with the nearest distance to each object's surface.",
 )
 
-_OPEN_RAYS = 8  # of a pixel, to what is open
+_OPEN_RAYS = 8  # of a pixel, for open objects
 
 
 def cone_traced(frame: "SoftFrame", radius: float, *, walks: int, push: float) -> np.ndarray:
-    """How much of a light of a radius each point sees, (n,) float32, on one thread.
+    """Visibility of a light at each point, (n,) float32. On one thread.
 
-    Objects are taken to hide it independently of each other.
+    Objects are assumed to occlude independently.
 
     Args:
         radius: of the light, in the scene's unit; to a point one ray goes.
-        walks: into how many a walk is split that is neither free nor dark; 1 for never.
+        walks: cones in a split of a partly occluded one; 1 without splits.
         push: see `dim_by_field`.
     """
     from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced
@@ -53,13 +53,13 @@ def cone_traced(frame: "SoftFrame", radius: float, *, walks: int, push: float) -
         visible = ray_traced(frame, radius, samples=_OPEN_RAYS, blocked=fields.tracer.blocked)
     discs, push = split_disc(walks), np.float32(push)
     for field in fields.fields:
-        around = field.centre, field.radius, field.cone_field
-        dim_by_field(frame.starts, normals, to_light, size, *around, discs, push, visible)
+        grid = field.centre, field.radius, field.cone_field
+        dim_by_field(frame.starts, normals, to_light, size, *grid, discs, push, visible)
     return visible
 
 
 def _bytes(frame: "SoftFrame") -> int:
-    """In memory of all fields of a frame's scene and the distances around their surfaces."""
+    """Bytes of all fields and the distances around their surfaces."""
     from neural_shadows.evaluation.method_parts.scene_fields import fields_of
 
     fields = fields_of(frame.scene).fields

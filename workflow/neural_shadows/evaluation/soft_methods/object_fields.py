@@ -1,7 +1,7 @@
-"""Rays through an occupancy field of each object instead of its triangles.
+"""Rays through each object's distance field instead of triangles.
 
 A field is a sparse grid of signed distances, fitted to the object's convex edges and not trained,
-round each closed object of a scene; what is open has no inside and is traced as it is.
+around each closed object of a scene; open objects are traced as triangles.
 """
 
 from functools import partial
@@ -26,7 +26,7 @@ def _visibility(*of_frame, samples: int, cells: float):
 
 
 def _bytes(frame) -> int:
-    """In memory of all fields of a frame's scene; what is traced as it is counts nothing."""
+    """Bytes of all fields of a frame's scene; open objects count nothing."""
     from neural_shadows.evaluation.method_parts.scene_fields import fields_of
 
     return sum(field.bytes for field in fields_of(frame.scene).fields)
@@ -37,8 +37,7 @@ METHODS = {
         partial(_visibility, samples=count),
         {"cells": (0.25, 0.5, 1.0, 2.0, 4.0)},
         f"{rays_label(count)}, fields",
-        # How far rays start from what they leave does not depend on their number: to choose it anew
-        # took 98 s of a core.
+        # The offset of rays' starts does not depend on their number; tuning took 98 s of a core.
         tuned_as=None if count == 1 else "field_1",
         fields=True,
         held=_bytes,

@@ -1,7 +1,7 @@
 """Percentage-closer filtering by a kernel of one width (Reeves et al. 1987).
 
-A kernel fits one width of penumbra. That of k × k texels depends on nothing of the light; the disc's
-radius is tuned for each.
+A kernel fits one penumbra width. That of k × k texels is independent of the light; the disc's radius
+is tuned for each.
 """
 
 from functools import partial
@@ -20,12 +20,12 @@ LOOK = Look(
     SKY,
     "D",
     "◆",
-    "Averages the tests round a pixel's texel; as blurred everywhere.",
+    "Averages the tests around a pixel's texel, equally blurred everywhere.",
 )
 
 # Times the bias of a test against one texel.
 BIASES = (0.1, 0.3, 1.0, 3.0, 10.0)
-_SAMPLES = 128  # as Hu et al. 2025, 6.1 have it
+_SAMPLES = 128  # as in Hu et al. 2025, 6.1
 
 
 def _box(frame: "SoftFrame", radius: float, *, size: int, bias: float) -> np.ndarray:
@@ -33,7 +33,7 @@ def _box(frame: "SoftFrame", radius: float, *, size: int, bias: float) -> np.nda
     from neural_shadows.shadow_maps.box_filter import box_visibility
 
     biases = np.float32(bias) * frame.bias
-    receivers = frame.ways, frame.surface.n_g, biases
+    receivers = frame.from_light, frame.surface.n_g, biases
     return box_visibility(frame.light_map, frame.depths, *receivers, size=size)
 
 
@@ -43,7 +43,7 @@ def _disc(frame: "SoftFrame", radius: float, *, texels: float, bias: float) -> n
     return disc_visibility(
         frame.light_map,
         frame.depths,
-        frame.ways,
+        frame.from_light,
         frame.surface.n_g,
         np.float32(bias) * frame.bias,
         texels=texels,

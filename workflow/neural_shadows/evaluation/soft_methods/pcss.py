@@ -1,7 +1,7 @@
-"""Percentage-closer soft shadows: as blurred as the blockers that are found say (Fernando 2005).
+"""Percentage-closer soft shadows: blurred by blockers' distance (Fernando 2005).
 
 With 64 samples of the search and 128 of the filter (Hu et al. 2025, 6.1). The constant `scale`
-makes the light larger or smaller than it is; a point light has the four tests round each receiver.
+scales the light; a point light has the four tests round each receiver.
 """
 
 from dataclasses import replace
@@ -21,7 +21,7 @@ LOOK = Look(
     BLUE,
     "P",
     "✚",
-    "Looks for blockers first, and filters as widely as they ask.",
+    "Searches for blockers first, and sets the filter's width by them.",
 )
 
 
@@ -29,7 +29,7 @@ def _visibility(frame: "SoftFrame", radius: float, *, scale: float, bias: float)
     from neural_shadows.shadow_maps.box_filter import box_visibility
     from neural_shadows.shadow_maps.light_filters import soft_disc_visibility
 
-    receivers = frame.ways, frame.surface.n_g, np.float32(bias) * frame.bias
+    receivers = frame.from_light, frame.surface.n_g, np.float32(bias) * frame.bias
     if radius == 0:
         return box_visibility(frame.light_map, frame.depths, *receivers, size=1)
     return soft_disc_visibility(
@@ -41,10 +41,10 @@ def _visibility(frame: "SoftFrame", radius: float, *, scale: float, bias: float)
     )
 
 
-def _filtered(surface: "Surface", visible: np.ndarray) -> np.ndarray:
+def _filtered(surface: "Surface", shares: np.ndarray) -> np.ndarray:
     from neural_shadows.evaluation.method_parts.depth_aware_filter import depth_aware
 
-    return depth_aware(surface, visible)
+    return depth_aware(surface, shares)
 
 
 _CONSTANTS = {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)}

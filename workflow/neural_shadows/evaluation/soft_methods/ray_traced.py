@@ -1,13 +1,11 @@
-"""Few rays a pixel, from its centre's point, or places spread over it, to points of the light."""
+"""Few rays a pixel to the light, from centre or spread."""
 
 from functools import partial
 
 from neural_shadows.evaluation.look import GREEN, Look
 from neural_shadows.evaluation.soft_method import SoftMethod, rays_label
 
-LOOK = Look(
-    "rays", GREEN, "o", "●", "Sends so many rays from each pixel to the light.", joined=True
-)
+LOOK = Look("rays", GREEN, "o", "●", "Sends a few rays from each pixel to the light.", joined=True)
 
 
 def _from_centres(*of_frame, samples: int):
@@ -16,7 +14,7 @@ def _from_centres(*of_frame, samples: int):
     return ray_traced(*of_frame, samples=samples)
 
 
-def _from_places(*of_frame, samples: int):
+def _from_spread(*of_frame, samples: int):
     from neural_shadows.evaluation.method_parts.ray_tracing import spread
 
     return spread(*of_frame, samples=samples)
@@ -32,7 +30,7 @@ METHODS = {
     },
     **{
         f"rt_{count}_spread": SoftMethod(
-            partial(_from_places, samples=count), label=f"{rays_label(count)}, spread", **_BY_RAYS
+            partial(_from_spread, samples=count), label=f"{rays_label(count)}, spread", **_BY_RAYS
         )
         for count in (2, 4, 8)
     },

@@ -1,1 +1,1 @@
-"""Networks of one object: a ray on its sphere to the depth of its shadow."""
+"""Networks of one object: from rays to shadow depths."""

@@ -1,4 +1,4 @@
-"""The dead-zone loss [3.5], and a weight on false shadow that the thesis proposes [5.1]."""
+"""Dead-zone loss [3.5], and a weight on false shadow [5.1]."""
 
 from dataclasses import dataclass
 

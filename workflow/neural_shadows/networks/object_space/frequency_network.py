@@ -1,4 +1,4 @@
-"""The thesis's shadow network: a ray on the bounding sphere to its shadow depth [3.3]."""
+"""The thesis's shadow network, from rays to shadow depths [3.3]."""
 
 import math
 
@@ -22,18 +22,17 @@ class FrequencyEncoding(nn.Module):
         self.register_buffer("scale", scale, persistent=False)
 
     def forward(self, x: Tensor) -> Tensor:
-        """(n, 6) float32 in [0, 1] to (n, 6(1 + 2L)) float32: x, then all sines, then all cosines."""
-        # float32 is needed here whatever the products use: bfloat16's 8 bits cannot hold
-        # the phase 2⁹πx.
+        """Encode (n, 6) float32 in [0, 1] as (n, 6(1 + 2L)): x, sines, cosines."""
+        # Always float32: bfloat16's 8 bits cannot hold the phase 2⁹πx.
         phase = (x[:, :, None] * self.scale).flatten(1)
         return torch.cat([x, phase.sin(), phase.cos()], dim=1)
 
 
 class FrequencyNetwork(ShadowNetwork):
-    """t_pred(o, d): encoding, a layer into `width`, hidden layers, one output; no biases.
+    """t_pred(o, d) by a multilayer perceptron without biases.
 
-    ReLU follows every layer, the last one too [4.1]. The output is t/2, in [0, 1] for rays
-    inside the unit sphere; `forward` returns t.
+    The encoding, a layer into `width`, hidden layers, one output. ReLU follows every layer, the
+    last too [4.1]. The output is t/2, in [0, 1] inside the unit sphere; `forward` returns t.
 
     Args:
         frequencies: L of the frequency encoding.
@@ -53,7 +52,7 @@ class FrequencyNetwork(ShadowNetwork):
         self.output = nn.Parameter(torch.empty(1, width))
 
     def initialise(self, seed: int) -> None:
-        """He initialisation with an output that cannot be dead at the start.
+        """He initialisation with an output layer alive from the start.
 
         Activations after a ReLU are never negative, so an output layer without negative
         weights makes every first prediction positive, whatever the seed. Over 64 seeds and

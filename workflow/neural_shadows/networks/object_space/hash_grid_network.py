@@ -7,12 +7,12 @@ from torch import Tensor
 from neural_shadows.networks.object_space.occupancy_ray_grid_network import OccupancyRayGridNetwork
 from neural_shadows.networks.object_space.ray_grid_network import FeatureGrid
 
-# Of Instant-NGP's hash of a vertex.
+# Of Instant-NGP's vertex hash.
 PRIMES = (1, 2654435761, 805459861)
 
 
 class HashedGrid(FeatureGrid):
-    """A feature grid whose vertices share a table's entries, 2^n; dense if all fit into it."""
+    """Feature grid with a hash table of 2^n entries; dense if possible."""
 
     def __init__(self, resolution: int, channels: int, table_size: int):
         super().__init__(resolution, channels, min(resolution**3, table_size))
@@ -25,7 +25,7 @@ class HashedGrid(FeatureGrid):
 
 
 class HashGridNetwork(OccupancyRayGridNetwork):
-    """t_pred(o, d) from hashed features of points on the occupied part of the ray.
+    """t_pred(o, d) from hashed features on the occupied part of rays.
 
     Args:
         table_size: entries of each grid's hash table, a power of two.

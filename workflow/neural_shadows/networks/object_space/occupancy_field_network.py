@@ -1,17 +1,17 @@
-"""Occupancy field: one trained logit at each grid vertex near the surface; positive is inside.
+"""Occupancy field: a trained logit at each vertex near the surface.
 
-A network of one layer, trilinear interpolation, and no direction: where the surface is does not
-depend on the ray. The cube [−1, 1]³ is divided into bricks of 4³ cells. Only bricks that the
-surface touches hold values; the others are empty, or enclosed and so in shadow. t_pred is the
-first sample on the ray with a positive logit, or on an open sheet, which has no inside, the
-first change of sign. (Around the border of a sheet its shadow then reaches to its bricks' end,
-where the signs of both sides meet.) The field is trained on points of the labelled rays by
-cross-entropy: points before the first hit are outside, those between the two hits inside.
+Positive is inside. A network of one layer, trilinear interpolation, independent of the ray's
+direction. The cube [−1, 1]³ is divided into bricks of 4³ cells. Only bricks touched by the surface
+hold values; the others are empty, or enclosed and so in shadow. t_pred is the first sample on the
+ray with a positive logit, or on an open sheet, which has no inside, the first change of sign.
+(A sheet's shadow thus reaches to the end of its border bricks, where the signs of both sides meet.)
+The field is trained on points of the labelled rays by cross-entropy: points before the first hit
+are outside, those between the two hits inside.
 
-It may start from signed distances to the mesh; not trained at all it is then a sparse grid of
-them, and with one bit a value, of which vertices are inside. Or it starts from distances fitted to
-the mesh's convex edges, where shadows end: of the Stanford dragon at 256³ these have 42.0 dB pooled
-without a training, and the field that is trained from nothing 40.9.
+It may start from signed distances to the mesh; untrained it is then a sparse grid of distances, or,
+with one bit a value, of inside flags. Or it starts from distances fitted to the mesh's convex
+edges, where shadows end: on the Stanford dragon at 256³ these reach 42.0 dB pooled without
+training, a field trained from zero 40.9.
 """
 
 from collections.abc import Callable
@@ -56,22 +56,22 @@ from neural_shadows.representations.packed_bits import pack_bits, unpack_bits
 from neural_shadows.representations.voxels.occupancy import surface_cells
 from neural_shadows.scenes.tracing import Tracer
 
-# Logits end here: smoothly, so that int8 holds them. At 8 the surface blurs (−1.1 dB at 128³),
-# and without an end int8's steps are too coarse (−3 dB).
+# Smooth limit of logits, for int8. At 8 the surface blurs (−1.1 dB at 128³); without a limit int8's
+# steps are too coarse (−3 dB).
 LIMIT = 16.0
 
 # Points drawn on each ray in training: half close to its first hit, half anywhere before and
-# between the hits. Those in bricks without values are dropped.
+# between the hits. Points in bricks without values are dropped.
 POINTS_PER_RAY = 8
 NEAR = 0.7  # of the close points' distances, in cells: a normal times an exponential variable
-SHEET_REACH = 4.0  # cells around a sheet's hit that its points lie in; farther is another surface
+SHEET_REACH = 4.0  # cells around a sheet's hit for its points; beyond may lie another surface
 
-# The share of LIMIT where signed distances end; at 1 a logit could not be trained.
+# Share of LIMIT at the largest signed distance; at 1 a logit could not be trained.
 START_SHARE = 0.9
-CELL_SHARE = START_SHARE / REACH  # the share of LIMIT of a distance of one cell
-# By how many cells the surface of distances may be moved out, see `ShadowNetwork.pushes`:
-# interpolation cuts off what is convex. On the Stanford dragon 0.05 is best at 256³ (39.5 dB for
-# 37.7), 0.075 at 128³ (34.8 for 30.2), and of signs −0.1 at 256³.
+CELL_SHARE = START_SHARE / REACH  # share of LIMIT for one cell of distance
+# Offsets in cells of a distance surface outwards, see `ShadowNetwork.pushes`: interpolation cuts
+# off convex parts. On the Stanford dragon 0.05 is best at 256³ (39.5 dB instead of 37.7), 0.075 at
+# 128³ (34.8 instead of 30.2), and for signs −0.1 at 256³.
 PUSHES = (-0.2, -0.1, 0.0, 0.025, 0.05, 0.075, 0.1, 0.15)
 
 
@@ -80,18 +80,18 @@ class OccupancyFieldNetwork(ShadowNetwork):
 
     Args:
         resolution: cells along an axis, a multiple of 4.
-        surface: `solid`, an object with an inside; or `sheet`, an open surface, on which the
-            sign says which side its faces turn to.
+        surface: `solid`, an object with an inside; or `sheet`, an open surface, whose sign is the
+            faces' side.
         start: the values before training: `undecided`, `distances` to a solid's surface, or these
             `fitted` to where its shadows end.
-        stored: how values are written: `float32`, `float16`, `int8`, `coded`, see `coded_field`, or
-            `sign`, one bit each.
-        corner_bits: 4 or 8, which a CPU holds of each corner of a solid's crossed cells.
+        stored: format in the weight file: `float32`, `float16`, `int8`, `coded`, see `coded_field`,
+            or `sign`, one bit each.
+        corner_bits: 4 or 8, bits in a CPU's memory of each corner of a solid's crossed cells.
     """
 
     # Gradients of all values are added for each chunk: few, large ones.
     training_chunk = 1 << 15
-    # The torch form looks at all samples of all rays at once.
+    # The torch form evaluates all samples of all rays at once.
     query_chunks = {"cpu": 256, "cuda": 1 << 14}
 
     def __init__(
@@ -112,10 +112,10 @@ class OccupancyFieldNetwork(ShadowNetwork):
         offsets = torch.tensor([(BRICK + 1) ** 2, BRICK + 1, 1])
         self.register_buffer("corners", corners, persistent=False)
         self.register_buffer("offsets", offsets, persistent=False)
-        # One brick's place, until `prepare` or `restore` knows better: a file may say any resolution.
-        self._use(lay_out(np.zeros((1, 1, 1), bool), solid=False))
+        # A single brick until `prepare` or `restore`: a file may have any resolution.
+        self._set_layout(lay_out(np.zeros((1, 1, 1), bool), solid=False))
 
-    def _use(self, layout: BrickLayout) -> None:
+    def _set_layout(self, layout: BrickLayout) -> None:
         self.register_buffer("grid", torch.from_numpy(layout.grid.reshape(-1)), persistent=False)
         self.register_buffer("table", torch.from_numpy(layout.table.reshape(-1)), persistent=False)
         self._layout = layout
@@ -124,16 +124,16 @@ class OccupancyFieldNetwork(ShadowNetwork):
         self._field: tuple[tuple[int, float], FieldBricks] | None = None
 
     def prepare(self, mesh_ply: Path) -> None:
-        """Lay out the bricks that the surface touches.
+        """Lay out the bricks touched by the surface.
 
         Raises:
-            InputError: they would take more memory than there is.
+            InputError: too little memory.
         """
         mesh = read_prepared(mesh_ply)
         surface = surface_cells(mesh.vertices, mesh.faces, self.resolution // BRICK)
         check_memory(self.resolution, int(surface.sum()))
         layout = lay_out(surface, self.surface == "solid")
-        self._use(layout)
+        self._set_layout(layout)
         if self.start != "undecided":
             distances = signed_distances(mesh, layout, REACH)
             if self.start == "fitted":
@@ -144,7 +144,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
             self._face_normals = mesh.face_normals
 
     def initialise(self, seed: int) -> None:
-        """Undecided everywhere, logits of next to zero; or the distances."""
+        """Set logits near zero, or the start distances."""
         generator = torch.Generator().manual_seed(seed)
         with torch.no_grad():
             if self.start != "undecided":
@@ -153,26 +153,26 @@ class OccupancyFieldNetwork(ShadowNetwork):
                 self.values.uniform_(-0.01, 0.01, generator=generator)
 
     def logits(self) -> Tensor:
-        """The logits at all vertices, (count,) float32, in (−LIMIT, LIMIT)."""
+        """Logits at all vertices, (count,) float32, in (−LIMIT, LIMIT)."""
         return LIMIT * self.shares()
 
     def shares(self) -> Tensor:
-        """Logits as shares of LIMIT, which is how they are stored."""
+        """Logits as shares of LIMIT, the stored form."""
         return torch.tanh(self.values / LIMIT)
 
     def level(self) -> float:
-        """The share at which the surface lies: below zero if it is pushed out."""
-        # Of signs the surface is halfway between two vertices, ±1 is half a cell away.
+        """Share at the surface; below zero if the surface is pushed out."""
+        # With signs the surface is halfway between two vertices, ±1 is half a cell away.
         return -self.push * (2 if self.storage == "sign" else CELL_SHARE)
 
     def bricks_at(self, p: Tensor) -> Tensor:
-        """The `grid` entry (n,) int64 of the brick that each point (n, 3) is in."""
+        """`grid` entries (n,) int64 at points (n, 3)."""
         size = self.resolution // BRICK
         x, y, z = ((p + 1) * (size / 2)).long().clamp(0, size - 1).unbind(-1)
         return self.grid[(x * size + y) * size + z].long()
 
     def logits_at(self, p: Tensor, bricks: Tensor, logits: Tensor) -> Tensor:
-        """Interpolated logits (n,) at points (n, 3) in these bricks (n,), none of them empty."""
+        """Interpolate logits (n,) at points (n, 3) in nonempty bricks (n,)."""
         size = self.resolution // BRICK
         u = ((p + 1) * (size / 2)).clamp(0, size)
         u = (u - u.long().clamp(max=size - 1)) * BRICK
@@ -183,8 +183,8 @@ class OccupancyFieldNetwork(ShadowNetwork):
         values = logits.index_select(0, self.table.index_select(0, index.flatten()))
         values = values.unflatten(0, (-1, 2, 2, 2))
         for axis in range(3):
-            part = w[:, axis].view(-1, *[1] * (2 - axis))
-            values = values[:, 0] * (1 - part) + values[:, 1] * part
+            weight = w[:, axis].view(-1, *[1] * (2 - axis))
+            values = values[:, 0] * (1 - weight) + values[:, 1] * weight
         return values
 
     def losses(
@@ -194,7 +194,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         dtype: torch.dtype,
         generator: torch.Generator | None,
     ) -> tuple[Tensor, Tensor]:
-        """Cross-entropy of points on the rays; there is no depth for the dead zone to judge."""
+        """Cross-entropy of points on the rays, without the dead zone."""
         origins, directions, t_lb, t_ub = batch
         chord, hit = chords(origins, directions), hits(batch)
         cell = 2 / self.resolution
@@ -208,7 +208,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         low = torch.zeros_like(chord)
         high = torch.minimum(t_ub, chord)
         if self.surface == "sheet":
-            # Far from the hit, a sheet's own side says nothing of other parts of it.
+            # Far from the hit, a sheet's side is unknown.
             low = torch.where(hit, t_lb - SHEET_REACH * cell, low).clamp(min=0)
             high = torch.where(hit, torch.minimum(high, t_lb + SHEET_REACH * cell), low)
         t = low[:, None] + uniform * (high - low)[:, None]
@@ -220,15 +220,15 @@ class OccupancyFieldNetwork(ShadowNetwork):
             inside = inside ^ self._meets_back(origins, directions)[:, None]
         p = origins[:, None] + t[:, :, None] * directions[:, None]
         bricks = self.bricks_at(p)
-        kept = (t > low[:, None]) & (t < high[:, None]) & (bricks >= 0)
-        logits = self.logits_at(p[kept], bricks[kept], self.logits())
+        valid = (t > low[:, None]) & (t < high[:, None]) & (bricks >= 0)
+        logits = self.logits_at(p[valid], bricks[valid], self.logits())
         loss = nn.functional.binary_cross_entropy_with_logits(
-            logits, inside[kept].float(), reduction="none"
+            logits, inside[valid].float(), reduction="none"
         )
         return loss, logits
 
     def _meets_back(self, origins: Tensor, directions: Tensor) -> Tensor:
-        """Whether each ray's first hit is on the side that the faces turn away from, (n,) bool."""
+        """Mask (n,) bool of rays hitting a back face first."""
         d = directions.cpu().numpy()
         _, face = self._tracer.first_hit(origins.cpu().numpy(), d)
         normals = self._face_normals[np.maximum(face, 0)]
@@ -238,8 +238,8 @@ class OccupancyFieldNetwork(ShadowNetwork):
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
         """See `ShadowNetwork.forward`; `LIT` for rays without a crossing.
 
-        All samples of all rays at once: for a GPU and for export. On a CPU `depths` answers the
-        same, and skips what is empty.
+        All samples of all rays at once, for a GPU and for export. On a CPU `depths` computes the
+        same and skips empty space.
         """
         steps = SAMPLES_PER_CELL * self.resolution
         step = 2 / steps
@@ -284,48 +284,49 @@ class OccupancyFieldNetwork(ShadowNetwork):
     def lit(
         self, rays: SphereRays, d: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
     ) -> Callable[[float], Tensor]:
-        """See `ShadowNetwork.lit`; on a CPU a solid is asked whether it is met, not where.
+        """See `ShadowNetwork.lit`; on a CPU a solid needs no depths.
 
-        Where a depth bias moves a point, the samples end with it.
+        The samples end at the point, moved by the depth bias.
         """
         if self.device.type != "cpu" or self.surface == "sheet":
             return super().lit(rays, d, dtype, t_pred)
-        bricks, steps = self.held_bricks(), SAMPLES_PER_CELL * self.resolution
+        bricks, steps = self.cached_bricks(), SAMPLES_PER_CELL * self.resolution
         s = torch.minimum(rays.s, rays.chord)
 
         def lit(depth_bias: float) -> Tensor:
             ends = torch.minimum(s - depth_bias, rays.chord)
-            met = occluded(rays.origins.numpy(), d.numpy(), ends.numpy(), bricks, steps)
-            return torch.from_numpy(~met)
+            occlusion = occluded(rays.origins.numpy(), d.numpy(), ends.numpy(), bricks, steps)
+            return torch.from_numpy(~occlusion)
 
         return lit
 
     def resident_bytes(self) -> int:
-        """See `ShadowNetwork.resident_bytes`: on a CPU the bricks, and of a solid a light's tables,
-        1.6 MiB of the Stanford dragon at 256³, with 4 bits a corner 1.0; `values` and `table`, which
-        these are made of, are not read.
+        """See `ShadowNetwork.resident_bytes`: on a CPU bricks and a light's tables.
+
+        The tables of a solid take 1.6 MiB of the Stanford dragon at 256³, with 4 bits a corner 1.0.
+        `values` and `table`, their sources, are not read.
         """
         if self.device.type != "cpu":
             return super().resident_bytes()
         if self.surface == "sheet":
             return self.grid.numel() * self.grid.element_size() + self._brick_values()[0].nbytes
-        bricks = self.held_bricks()
+        bricks = self.cached_bricks()
         return bricks.bytes + most_bytes(bricks)
 
-    def held_bricks(self) -> FieldBricks:
-        """What `occluded` reads, kept until the weights or the push change."""
-        known = self.values._version, self.push
-        if self._field is None or self._field[0] != known:
+    def cached_bricks(self) -> FieldBricks:
+        """Field for `occluded`, cached until weights or push change."""
+        state = self.values._version, self.push
+        if self._field is None or self._field[0] != state:
             size = self.resolution // BRICK
             values, scale = self._brick_values()
             grid = self.grid.view(size, size, size).numpy()
-            self._field = known, field_bricks(grid, values, self.level() / scale, self.corner_bits)
+            self._field = state, field_bricks(grid, values, self.level() / scale, self.corner_bits)
         return self._field[1]
 
     def _brick_values(self) -> tuple[np.ndarray, float]:
-        """The values of each brick, (bricks, 125), as they are stored, and the share of one.
+        """Stored values of each brick, (bricks, 125), and their unit share.
 
-        Kept until the weights change: an evaluation asks for them in each of its frames.
+        Cached until the weights change, because each frame of an evaluation needs them.
         """
         if self._bricks is None or self._bricks[0] != self.values._version:
             shares, scale = self.shares().detach(), 1.0
@@ -333,7 +334,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
                 shares = (shares > 0).to(torch.int8) * 2 - 1
             elif self.storage == "int8":
                 shares, scale = quantise({"": shares}, "int8").values()
-            elif self.storage == "coded":  # halfway between two levels, in half levels
+            elif self.storage == "coded":  # the middle of a level, in half levels
                 shares = torch.from_numpy(2 * self._levels() + 1)
                 scale = CELL_SHARE / LEVELS_PER_CELL / 2
             bricks = shares[self.table.long()].view(-1, BRICK_VERTICES)
@@ -344,7 +345,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
         return levels_of(self.shares().detach().cpu().numpy() / CELL_SHARE)
 
     def stored(self) -> dict[str, Tensor]:
-        """See `ShadowNetwork.stored`; a bit for each brick that has values."""
+        """See `ShadowNetwork.stored`; a bit for each surface brick."""
         if self.storage == "coded":
             return coded(self._layout, self._levels())
         shares = self.shares().detach()
@@ -359,16 +360,16 @@ class OccupancyFieldNetwork(ShadowNetwork):
         size = self.resolution // BRICK
         if self.storage == "coded":
             layout, levels = decoded(tensors, size, self.surface == "solid")
-            self._use(layout)
+            self._set_layout(layout)
             shares = torch.from_numpy(levels + np.float32(0.5)) * (CELL_SHARE / LEVELS_PER_CELL)
             self.load_state_dict({"values": LIMIT * shares.atanh()})
             return
         surface = unpack_bits(tensors.pop("bricks"), size**3).view(size, size, size).numpy()
         layout = lay_out(surface, self.surface == "solid")
-        self._use(layout)
+        self._set_layout(layout)
         if self.storage == "sign":
             values = 2.0 * unpack_bits(tensors["values"], layout.count) - 1
         else:
             values = restore_values(tensors, self.storage)["values"]
-        # Inside the limit, or its inverse would be infinite.
+        # Clamped below the limit, where the inverse is infinite.
         self.load_state_dict({"values": LIMIT * values.clamp(-0.99999, 0.99999).atanh()})

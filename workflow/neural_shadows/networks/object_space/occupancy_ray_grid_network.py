@@ -1,7 +1,7 @@
-"""Occupancy-clipped ray grid: its points lie where the ray is near the surface.
+"""Occupancy-clipped ray grid: sample points only near the surface.
 
-They are spread between the first and the last cell on the ray that the surface touches, and a
-ray that meets none is lit without any network.
+They are spread between a ray's first and last cell touched by the surface. A ray without such a
+cell is lit without any network.
 """
 
 from pathlib import Path
@@ -18,7 +18,7 @@ from neural_shadows.representations.voxels.occupancy import surface_cells
 
 
 class OccupancyRayGridNetwork(RayGridNetwork):
-    """t_pred(o, d) from the features of points on the occupied part of the ray.
+    """t_pred(o, d) from features on the occupied part of rays.
 
     Args:
         occupancy: cells along an axis of the occupancy.
@@ -31,7 +31,7 @@ class OccupancyRayGridNetwork(RayGridNetwork):
         self.register_buffer("cells", cells, persistent=False)
 
     def prepare(self, mesh_ply: Path) -> None:
-        """Mark the cells that the surface touches."""
+        """Mark the cells touched by the surface."""
         mesh = read_prepared(mesh_ply)
         cells = surface_cells(mesh.vertices, mesh.faces, self.occupancy)
         self.cells = torch.from_numpy(cells.reshape(-1))
@@ -39,7 +39,7 @@ class OccupancyRayGridNetwork(RayGridNetwork):
     def span(self, origins: Tensor, directions: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         chord = chords(origins, directions)
         n = self.occupancy
-        # Two steps a cell: a corner that is cut in between loses half a cell of the span.
+        # Two steps a cell: a corner cut between them loses half a cell of the span.
         steps = 2 * n
         t = (torch.arange(steps, device=chord.device) + 0.5) * (2 / steps)
         p = origins[:, None] + t[:, None] * directions[:, None]
@@ -53,7 +53,7 @@ class OccupancyRayGridNetwork(RayGridNetwork):
         return t_a, torch.where(meets, torch.minimum(last + half, chord), chord), meets
 
     def stored(self) -> dict[str, Tensor]:
-        """Weights as they are stored, and a bit for each cell of the occupancy."""
+        """Quantised weights, and a bit for each occupancy cell."""
         return super().stored() | {"cells": pack_bits(self.cells)}
 
     def restore(self, tensors: dict[str, Tensor]) -> None:

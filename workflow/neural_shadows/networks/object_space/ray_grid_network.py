@@ -1,7 +1,7 @@
-"""Ray grid: features of points along a ray, from 3-D grids, into a small network.
+"""Ray grid: a small network over grid features along a ray.
 
-Instead of (o, d) alone, the network sees what dense grids of trained features hold at K points,
-evenly spread over the ray's chord.
+Besides (o, d) its inputs are the features of dense grids at K points, evenly spread over the ray's
+chord.
 """
 
 import torch
@@ -17,18 +17,18 @@ from neural_shadows.networks.object_space.shadow_network import (
 from neural_shadows.networks.quantisation import quantise, restore_values
 from neural_shadows.representations.depths import LIT
 
-# Of the cross-entropy of hit or miss, beside the dead-zone loss, which is in sphere radii and so
-# the smaller of the two. Not tuned.
+# Weight of the cross-entropy of hit or miss beside the dead-zone loss, which is smaller (in sphere
+# radii). Not tuned.
 CONFIDENCE_WEIGHT = 0.1
 
 
 class FeatureGrid(nn.Module):
-    """Trained features at the vertices of a cubic grid over [−1, 1]³, trilinear in between.
+    """Trained features on a cubic grid over [−1, 1]³, interpolated trilinearly.
 
     Args:
         resolution: vertices along an axis.
         channels: features of a vertex.
-        entries: vertices that have features of their own.
+        entries: vertices with features of their own.
     """
 
     def __init__(self, resolution: int, channels: int, entries: int | None = None):
@@ -39,7 +39,7 @@ class FeatureGrid(nn.Module):
         self.register_buffer("corners", corners, persistent=False)
 
     def index(self, vertices: Tensor) -> Tensor:
-        """Where the features of vertices (..., 3) int64 are: (...)."""
+        """Indices (...) of the features of vertices (..., 3) int64."""
         x, y, z = vertices.unbind(-1)
         return (x * self.resolution + y) * self.resolution + z
 
@@ -49,7 +49,7 @@ class FeatureGrid(nn.Module):
         cell = u.floor().clamp(max=self.resolution - 2)
         w = u - cell
         index = self.index(cell.long()[:, None] + self.corners)  # (n, 8)
-        # One index_select: its backward pass takes half the time of that of values[index].
+        # The backward pass of index_select takes half the time of that of values[index].
         features = self.values.index_select(0, index.flatten()).unflatten(0, (-1, 8))
         weights = torch.where(self.corners.bool(), w[:, None], 1 - w[:, None]).prod(-1)
         return (features * weights[:, :, None]).sum(1)
@@ -63,13 +63,13 @@ class RayGridNetwork(ShadowNetwork):
         grids: vertices along an axis of each grid.
         channels: features of each vertex.
         width, hidden_layers: of the network behind; ReLU, with biases.
-        head: `depth`, or `depth_confidence`: a second output says hit or miss, the depth is
-            trained on hits alone, and only a ray with confidence > 0.5 casts shadow.
-        stored: how weights are written: `float32`, `float16` or `int8`.
+        head: `depth`, or `depth_confidence`: a second output predicts hit or miss, the depth is
+            trained on hits alone, and only confidence > 0.5 casts shadow.
+        stored: format in the weight file: `float32`, `float16` or `int8`.
     """
 
     training_chunk = 4096
-    # A GPU's memory, not its speed: marching 128 steps takes some 10 KiB a ray.
+    # Bounded by a GPU's memory: marching 128 steps takes some 10 KiB a ray.
     query_chunks = {"cpu": 4096, "cuda": 1 << 15}
 
     def __init__(
@@ -86,7 +86,7 @@ class RayGridNetwork(ShadowNetwork):
         super().__init__()
         self.points, self.head, self.storage = points, head, stored
         self.grids = nn.ModuleList(self.feature_grid(n, channels) for n in grids)
-        # Features of all points, o, d, and the depths t_a and t_b between which they lie.
+        # Features of all points, o, d, and the depths t_a and t_b of their span.
         sizes = [points * channels * len(grids) + 8] + [width] * hidden_layers
         outputs = {"depth": 1, "depth_confidence": 2}[head]
         self.layers = nn.ModuleList(nn.Linear(a, b) for a, b in zip(sizes, sizes[1:]))
@@ -95,11 +95,11 @@ class RayGridNetwork(ShadowNetwork):
         self.register_buffer("fractions", fractions, persistent=False)
 
     def feature_grid(self, resolution: int, channels: int) -> FeatureGrid:
-        """One of the grids."""
+        """Build one of the grids."""
         return FeatureGrid(resolution, channels)
 
     def initialise(self, seed: int) -> None:
-        """Nearly nothing in the grids, He initialisation behind them."""
+        """Nearly zero grids, He initialisation behind them."""
         generator = torch.Generator().manual_seed(seed)
         with torch.no_grad():
             for grid in self.grids:
@@ -109,10 +109,10 @@ class RayGridNetwork(ShadowNetwork):
                 layer.bias.zero_()
 
     def span(self, origins: Tensor, directions: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """The part of each ray that its points are spread over.
+        """Part of each ray to spread its points over.
 
         Returns:
-            t_a, t_b (n,) float32, and whether there is anything to hit (n,) bool.
+            t_a, t_b (n,) float32; (n,) bool: there is something to hit.
         """
         chord = chords(origins, directions)
         return torch.zeros_like(chord), chord, torch.ones_like(chord, dtype=torch.bool)
@@ -120,7 +120,7 @@ class RayGridNetwork(ShadowNetwork):
     def outputs(
         self, origins: Tensor, directions: Tensor, t_a: Tensor, t_b: Tensor, dtype: torch.dtype
     ) -> Tensor:
-        """What the last layer gives for rays (n,): the depth behind t_a, and the confidence."""
+        """Outputs (n, 1 or 2): depth behind t_a, and the confidence logit."""
         t = t_a[:, None] + self.fractions * (t_b - t_a)[:, None]
         p = (origins[:, None] + t[:, :, None] * directions[:, None]).flatten(0, 1)
         features = [grid(p).view(-1, self.points * grid.channels) for grid in self.grids]
@@ -143,7 +143,7 @@ class RayGridNetwork(ShadowNetwork):
         outputs = self.outputs(origins, directions, t_a, t_b, dtype)
         depth = t_a + outputs[:, 0]
         if self.head == "depth_confidence":
-            # A confidence of more than 0.5 is a logit of more than zero.
+            # confidence > 0.5
             depth = torch.where(outputs[:, 1] > 0, depth, LIT)
         return depth
 
@@ -154,7 +154,7 @@ class RayGridNetwork(ShadowNetwork):
         dtype: torch.dtype,
         generator: torch.Generator | None,
     ) -> tuple[Tensor, Tensor]:
-        """See `ShadowNetwork.losses`; rays with nothing to hit have none."""
+        """See `ShadowNetwork.losses`; rays without anything to hit have none."""
         t_a, t_b, meets = self.span(batch.origins, batch.directions)
         rays = meets.nonzero().squeeze(1)
         batch = LabelledBatch(*(part[rays] for part in batch))
@@ -171,7 +171,7 @@ class RayGridNetwork(ShadowNetwork):
         return loss, outputs[:, 0]
 
     def stored(self) -> dict[str, Tensor]:
-        """Weights as they are stored."""
+        """Quantised weights."""
         return quantise(self.state_dict(), self.storage)
 
     def restore(self, tensors: dict[str, Tensor]) -> None:

@@ -1,4 +1,4 @@
-"""Which points a shadow network calls lit [3.6]; all on the device that the network is on."""
+"""Lit points of a shadow network [3.6], on its device."""
 
 from collections.abc import Callable
 
@@ -18,14 +18,14 @@ def network_lit(
     dtype: torch.dtype,
     t_pred: Tensor | None = None,
 ) -> Callable[[float], Tensor]:
-    """What a network says of points, asked once for any number of depth biases [3.6.2].
+    """Evaluate a network once for any number of depth biases [3.6.2].
 
-    p and light are as of `sphere_rays`, in normalised space and on the network's device; `t_pred`
-    are the depths of their rays, where they are known already.
+    p and light as for `sphere_rays`, in normalised space and on the network's device; `t_pred` are
+    the depths of their rays, if already predicted.
 
     Returns:
-        a function of the depth bias, in units of the sphere's radius, that gives (m,) bool: which
-        points are lit. See `ShadowNetwork.lit`; culled points are.
+        a function from the depth bias, in sphere radii, to (m,) bool: lit points. See
+        `ShadowNetwork.lit`; culled points are lit.
     """
     rays = sphere_rays(p, light)
     rays_lit = network.lit(rays, -light, dtype, t_pred)
@@ -38,6 +38,6 @@ def network_lit(
 
 
 def on_device(points: np.ndarray, light: np.ndarray, device: torch.device) -> tuple[Tensor, Tensor]:
-    """Points (m, 3) float32 and a light (3,) as the functions above take them."""
+    """Points (m, 3) float32 and light (3,) as tensors on a device."""
     light = torch.from_numpy(np.asarray(light, np.float32))
     return torch.from_numpy(points).to(device), light.to(device)

@@ -1,1 +1,1 @@
-"""Networks of whole frames, from buffers to visibility (Datta et al. 2022)."""
+"""Screen-space networks, from buffers to visibility (Datta et al. 2022)."""

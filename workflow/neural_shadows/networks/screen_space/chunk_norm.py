@@ -1,4 +1,4 @@
-"""Batch normalisation of a step that threads compute in chunks, each alone."""
+"""Batch normalisation by chunk, for steps computed in threads."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -19,28 +19,29 @@ class Statistics(NamedTuple):
     variance: Tensor
 
 
-_SEEN: ContextVar[list[Statistics] | None] = ContextVar("statistics", default=None)
+_STATISTICS: ContextVar[list[Statistics] | None] = ContextVar("statistics", default=None)
 
 
 @contextmanager
 def chunk_statistics() -> Iterator[list[Statistics]]:
-    """While it lasts, this thread's chunk norms take the statistics of what they are given, and add
-    them to this list. Elsewhere, and in other threads, they take the running ones.
+    """Record the statistics of this thread's chunk norms.
+
+    Meanwhile they normalise by the chunk's own statistics; elsewhere, and in other threads, by the
+    running ones.
     """
-    seen: list[Statistics] = []
-    token = _SEEN.set(seen)
+    statistics: list[Statistics] = []
+    token = _STATISTICS.set(statistics)
     try:
-        yield seen
+        yield statistics
     finally:
-        _SEEN.reset(token)
+        _STATISTICS.reset(token)
 
 
 class ChunkNorm(nn.Module):
-    """Batch normalisation (Ioffe and Szegedy 2015) with the statistics of one chunk of a batch.
+    """Batch normalisation (Ioffe and Szegedy 2015) by a chunk's own statistics.
 
-    A chunk's answer depends on nothing but the chunk and the weights, however many threads compute
-    and in whatever order (ghost batch normalisation, Hoffer et al. 2017). Running statistics are
-    changed by `update` alone.
+    A chunk's output depends on the chunk and the weights alone, whatever the threads and their
+    order (ghost batch normalisation, Hoffer et al. 2017). Only `update` changes running statistics.
     """
 
     def __init__(self, channels: int):
@@ -48,33 +49,33 @@ class ChunkNorm(nn.Module):
         self.weight, self.bias = (nn.Parameter(torch.empty(channels)) for _ in range(2))
         for name in ("running_mean", "running_var"):
             self.register_buffer(name, torch.empty(channels))
-        self.eps = EPSILON  # under the name that `fuse_conv_bn_eval` asks for
+        self.eps = EPSILON  # named for `fuse_conv_bn_eval`
         self.reset()
 
     def reset(self) -> None:
-        """To where a training starts: it changes nothing."""
-        for name, one in (*self.named_parameters(), *self.named_buffers()):
-            one.data.fill_(0 if name in ("bias", "running_mean") else 1)
+        """Reset to the identity."""
+        for name, tensor in (*self.named_parameters(), *self.named_buffers()):
+            tensor.data.fill_(0 if name in ("bias", "running_mean") else 1)
 
     def forward(self, x: Tensor) -> Tensor:
         """(B, C, H, W), in the format of x."""
-        mean, variance, seen = self.running_mean, self.running_var, _SEEN.get()
-        if seen is not None:
+        mean, variance, statistics = self.running_mean, self.running_var, _STATISTICS.get()
+        if statistics is not None:
             mean, variance = torch.zeros_like(mean), torch.zeros_like(variance)
-            seen.append(Statistics(mean, variance))
-        own = seen is not None
-        # Of momentum 1 it leaves a chunk's own statistics in both.
+            statistics.append(Statistics(mean, variance))
+        own = statistics is not None
+        # With momentum 1 it leaves a chunk's own statistics in both.
         return functional.batch_norm(x, mean, variance, self.weight, self.bias, own, 1.0, self.eps)
 
     def update(self, chunks: Sequence[Statistics]) -> None:
-        """Move the running statistics by a tenth to those of all pixels of a step.
+        """Move the running statistics by a tenth to a step's.
 
         Args:
-            chunks: of one size, added in their order.
+            chunks: of all of its pixels, of one size, added in their order.
         """
-        means = torch.stack([one.mean for one in chunks])
+        means = torch.stack([chunk.mean for chunk in chunks])
         mean = means.mean(0)
-        variance = torch.stack([one.variance for one in chunks]).mean(0)
+        variance = torch.stack([chunk.variance for chunk in chunks]).mean(0)
         variance = variance + (means - mean).square().mean(0)
         self.running_mean.lerp_(mean, MOMENTUM)
         self.running_var.lerp_(variance, MOMENTUM)

@@ -1,4 +1,4 @@
-"""Neural Shadow Mapping's network with an exponent for its output (Datta et al. 2022, S6)."""
+"""Neural Shadow Mapping with a learned exponent (Datta et al. 2022, S6)."""
 
 import math
 from collections.abc import Sequence
@@ -11,14 +11,14 @@ from neural_shadows.frames.feature_names import channels_of
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
 
 BEHIND = "behind"
-DARKEST = 1 / 256  # what is darker is so dark in logarithms; not in the text
+DARKEST = 1 / 256  # lower bound in logarithms; not in the text
 
 
 def trimmed_network(*, answer: str = "visibility", **settings: Any) -> ShadowUnet:
     """A trimmed network of visibility or of an exponent.
 
     Raises:
-        KeyError, TypeError, ValueError: an argument is missing, unknown or wrong.
+        KeyError, TypeError, ValueError: a missing, unknown or wrong argument.
     """
     return {"visibility": ShadowUnet, "exponent": ExponentUnet}[answer](**settings)
 
@@ -26,32 +26,32 @@ def trimmed_network(*, answer: str = "visibility", **settings: Any) -> ShadowUne
 class ExponentUnet(ShadowUnet):
     """Visibility exp(−α b) from a learned α.
 
-    b is the distance behind what the light's map shows. An exponential shadow map (Annen et al.
-    2008) whose sharpness is learned. A training compares logarithms: 1 − α b / ln 256 with that of
-    the target, from 0 at `DARKEST` to 1 where all is lit.
+    b is the distance behind the light map's surface. An exponential shadow map (Annen et al. 2008)
+    of learned sharpness. A training compares logarithms: 1 − α b / ln 256 with that of the target,
+    from 0 at `DARKEST` to 1 where all is lit.
 
     Args:
-        features: see `ShadowUnet`; `behind` is among them.
+        features: see `ShadowUnet`; with `behind`.
 
     Raises:
-        ValueError: it is not.
+        ValueError: without `behind`.
     """
 
     def __init__(self, form: str, widths: Sequence, features: Sequence[str], **settings: Any):
         if BEHIND not in features:
-            raise ValueError(f"an exponent needs the feature {BEHIND!r}; there is {list(features)}")
+            raise ValueError(f"features: {list(features)}: no {BEHIND!r}, which an exponent needs")
         super().__init__(form, widths, features, **settings)
         self._behind = channels_of(features[: features.index(BEHIND)])
 
-    def learned(self, x: Tensor) -> Tensor:
-        """Logarithms of visibility as a training compares them, (B, 1, H, W) float32."""
-        sharpness = super().learned(x).float()
+    def loss_input(self, x: Tensor) -> Tensor:
+        """Logarithms of visibility for the loss, (B, 1, H, W) float32."""
+        sharpness = super().loss_input(x).float()
         return 1 - sharpness * x[:, self._behind : self._behind + 1]
 
-    def aim(self, target: Tensor) -> Tensor:
-        """The target of `learned`, of visibility (B, 1, H, W)."""
+    def loss_target(self, target: Tensor) -> Tensor:
+        """Target of `loss_input` from visibility (B, 1, H, W)."""
         return 1 - target.clamp(min=DARKEST).log() / math.log(DARKEST)
 
     def forward(self, x: Tensor) -> Tensor:
         """Visibility, not cut off at 1: (B, 1, H, W) float32 of features (B, C, H, W)."""
-        return torch.exp((self.learned(x) - 1) * -math.log(DARKEST))
+        return torch.exp((self.loss_input(x) - 1) * -math.log(DARKEST))

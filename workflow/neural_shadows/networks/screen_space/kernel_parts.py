@@ -1,4 +1,4 @@
-"""Parts of networks of kernels, each a module to be timed."""
+"""Parts of networks of kernels, as modules for timing."""
 
 from collections.abc import Sequence
 
@@ -14,29 +14,27 @@ from neural_shadows.networks.screen_space.widths import Convolution
 
 
 class KernelLevel(nn.Module):
-    """A level but the deepest, on the way down and up."""
+    """A level above the deepest, down and up."""
 
     def __init__(self, layers: Sequence[Convolution]):
         super().__init__()
         self.encoder = normed(layers, "encoder")
         self.downsample = nn.MaxPool2d(2)
-        (raised,) = (layer for layer in layers if layer.part == "upsample")
-        self.upsample = nn.ConvTranspose2d(raised.inputs, raised.outputs, 2, stride=2)
+        (upsampling,) = (layer for layer in layers if layer.part == "upsample")
+        self.upsample = nn.ConvTranspose2d(upsampling.inputs, upsampling.outputs, 2, stride=2)
         self.skip = Sum()
         self.decoder = normed(layers, "decoder")
 
 
 class PlanesOfLogits(nn.Conv2d):
-    """A 1 × 1 convolution with output channel by channel.
+    """A 1 × 1 convolution with output in planes.
 
-    So the filter reads it.
-
-    From channels-last to there a copy takes 8 ms of 256 × 128 pixels, 320 ms of 1024 × 512; as a
-    product of matrices it needs none.
+    A copy from channels-last takes 8 ms for 256 × 128 pixels, 320 ms for 1024 × 512; a matrix
+    product needs none.
     """
 
     def start_at_the_base(self) -> None:
-        """Make first kernels that leave most of their base as it is, instead of a blur of 61 pixels.
+        """Initialise kernels near the identity instead of a 61-pixel blur.
 
         Squared error × 1e-4 on validation windows after 300 steps of L1 (base 81): 54.6 instead of
         62.3; with the paper's widths after 600 of the whole loss 49.0 instead of 64.1. Larger and
@@ -54,7 +52,7 @@ class PlanesOfLogits(nn.Conv2d):
 
 
 class PixelKernels(nn.Module):
-    """The filter as a part of a network: of a frame's kernels, and its base; see `filtered`."""
+    """The filter as a module; see `filtered`."""
 
     def __init__(self, factor: int):
         super().__init__()
@@ -66,7 +64,7 @@ class PixelKernels(nn.Module):
 
 
 def normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:
-    """The convolutions of a part, with a norm and a ReLU after each; a 3 × 3 has no bias."""
+    """Convolutions of a part with norms and ReLUs; 3 × 3 without bias."""
     modules: list[nn.Module] = []
     for layer in layers:
         if layer.part == part:
@@ -77,7 +75,7 @@ def normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:
 
 
 def fold(block: nn.Sequential) -> None:
-    """Take the norms of a block into the convolutions before them."""
+    """Fold a block's norms into the convolutions before them."""
     for number in reversed(range(1, len(block))):
         if isinstance(block[number], ChunkNorm):
             block[number - 1] = fuse_conv_bn_eval(block[number - 1].eval(), block[number].eval())

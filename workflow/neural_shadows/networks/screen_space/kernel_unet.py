@@ -26,25 +26,26 @@ _CONVOLUTIONS = nn.Conv2d | nn.ConvTranspose2d
 
 
 class KernelUnet(ScreenNetwork):
-    """A U-Net with batch norms and sums for skips (Hu et al. 2025, 4.2.1, and its code).
+    """A U-Net of kernels: batch norms, additive skips (Hu et al. 2025, 4.2.1, and its code).
 
-    The last 1 × 1 convolution of the kernels computes before the bilinear enlargement, at half the
+    The last 1 × 1 convolution of the kernels precedes the bilinear enlargement, at half the
     resolution: both orders are equal, and this one is a quarter of the work.
 
     Args:
-        form: `kernels`, which filter the one of its features in BASES; `direct`, with
-            visibility itself for its output: the paper's form of Neural Shadow Mapping.
+        form: `kernels`, which filter its feature in BASES; `direct`, which outputs visibility: the
+            paper's form of Neural Shadow Mapping.
         widths: channels of each level, from that of half the frame's resolution, or with full ends
             from that of the frame's own.
         features: names in FEATURES; their planes are the input, in this order, without any scaling.
         filters: 5 × 5 kernels of a pixel, of dilation 1, 2, 4 …
         seed: of the first weights.
-        ends: of the kernels, `half` (2 × 2 pixels as channels, and a bilinear enlargement) or `full`.
+        ends: of the kernels, `half` (2 × 2 pixels as channels, and a bilinear enlargement) or
+            `full`.
 
-    Its norms take running statistics, but for inside `chunk_statistics`, where a training computes.
+    Its norms use running statistics, except in training, inside `chunk_statistics`.
 
     Raises:
-        KeyError, ValueError: there is no such form, feature or end, or not one base to be filtered.
+        KeyError, ValueError: unknown form, feature or ends, or not exactly one base.
     """
 
     def __init__(
@@ -62,7 +63,7 @@ class KernelUnet(ScreenNetwork):
         layers = kernel_convolutions(form, widths, sum(channels), filters, ends)
         if form == "kernels":
             base = self.features.index(base_of(self.features))
-            self._base = sum(channels[:base])  # its plane
+            self._base = sum(channels[:base])  # index of its plane
         self._first = FIRST_LEVELS[ends]
         last_level = self._first + len(widths) - 1
         self.multiple = 2**last_level
@@ -85,7 +86,7 @@ class KernelUnet(ScreenNetwork):
         self.initialise(seed)
 
     def initialise(self, seed: int) -> None:
-        """Set the first weights: the same of a seed, everywhere."""
+        """Set the initial weights, determined by the seed."""
         generator = torch.Generator().manual_seed(seed)
         for layer in self.modules():
             if isinstance(layer, _CONVOLUTIONS):
@@ -98,7 +99,7 @@ class KernelUnet(ScreenNetwork):
     def forward(self, x: Tensor) -> Tensor:
         """Visibility, (B, 1, H, W) float32, of planes (B, C, H, W) float32 of any H and W.
 
-        Of the direct form it is not cut off at 0 and 1.
+        Not clamped to [0, 1] by the direct form.
         """
         height, width = x.shape[-2:]
         inner = self.inner(x)
@@ -106,13 +107,13 @@ class KernelUnet(ScreenNetwork):
             return self.exit(self.head(inner), x[:, self._base : self._base + 1].float())
         return self.head(self.exit(inner))[..., :height, :width].float()
 
-    def learned(self, x: Tensor) -> Tensor:
+    def loss_input(self, x: Tensor) -> Tensor:
         """Visibility, for a training's loss."""
         return self(x)
 
     @property
     def reach(self) -> int:
-        """Pixels of a side of its kernels; 1 of the direct form."""
+        """Side of its kernels in pixels; 1 for the direct form."""
         return 1 + 4 * (2**self.filters - 1) if self.form == "kernels" else 1
 
     def inner(self, x: Tensor) -> Tensor:
@@ -127,23 +128,23 @@ class KernelUnet(ScreenNetwork):
         return [f"{name}.weight" for name in names if name not in ends]
 
     def in_format(self, dtype: torch.dtype) -> "KernelUnet":
-        """A copy with its convolutions in a number format, norms in float32."""
-        copied = deepcopy(self).to(memory_format=torch.channels_last)
-        for layer in copied.modules():
+        """A copy with convolutions in a format, norms in float32."""
+        network = deepcopy(self).to(memory_format=torch.channels_last)
+        for layer in network.modules():
             if isinstance(layer, _CONVOLUTIONS):
                 layer.to(dtype)
-        return copied
+        return network
 
     def for_inference(self) -> "KernelUnet":
-        """A copy with each norm in the convolution before it."""
-        copied = deepcopy(self)
-        for block in copied.modules():
+        """A copy with norms folded into convolutions."""
+        network = deepcopy(self)
+        for block in network.modules():
             if isinstance(block, nn.Sequential):
                 fold(block)
-        return copied
+        return network
 
     def norms(self) -> list[ChunkNorm]:
-        """Batch norms in the order of their computation."""
+        """Batch norms in order of computation."""
         levels = [*self.levels]
         blocks = [level.encoder for level in levels] + [self.deepest]
         blocks += [level.decoder for level in reversed(levels)] + [self.head]

@@ -1,7 +1,7 @@
 """Convolutions of networks of kernels (Hu et al. 2025, 4.2.1, and its code).
 
-Level 1 is the first, where 2 × 2 pixels are channels; with full ends, which the paper replaced by
-these, level 0. Counts are those of `widths.py`.
+The first level is 1, with 2 × 2 pixels as channels; with full ends, which the paper replaced, 0.
+Counts as in `widths.py`.
 """
 
 from collections.abc import Sequence
@@ -10,34 +10,34 @@ from neural_shadows.networks.screen_space.widths import Convolution
 
 FORMS = ("kernels", "direct")
 FIRST_LEVELS = {"half": 1, "full": 0}  # by the resolution of a network's ends
-KERNEL_TAPS = 25  # of each of a pixel's kernels
-_BEFORE_LAST = 16  # channels in front of the direct form's output
+KERNEL_TAPS = 25  # of a kernel
+_BEFORE_LAST = 16  # channels before the direct form's output
 
 
 def kernel_convolutions(
     form: str, widths: Sequence[int], channels: int, filters: int, ends: str = "half"
 ) -> list[Convolution]:
-    """All convolutions of a network, in the order of computation.
+    """All convolutions of a network, in order of computation.
 
     Args:
-        form: `kernels`, or `direct`, with visibility itself for its output.
+        form: `kernels`, or `direct`, which outputs visibility.
         widths: channels of each level, from the first. channels: of its input.
-        filters: how many kernels a pixel has; of no account in the direct form.
+        filters: kernels of a pixel; unused by the direct form.
         ends: one of `FIRST_LEVELS`; of the direct form `half`.
 
     Raises:
-        KeyError, ValueError: there are no such ends, or there is no such form.
+        KeyError, ValueError: unknown ends or form.
     """
     if form not in FORMS:
         raise ValueError(f"form {form!r} is not among {', '.join(FORMS)}")
     first = FIRST_LEVELS[ends]
     down, up = [Convolution(1, "encoder", 1, 4 * channels, widths[0])], []
-    if ends == "full":  # a level as all others are
+    if ends == "full":  # a level like the others
         down = _pair(0, "encoder", channels, widths[0])
     for level, (above, width) in enumerate(zip(widths, widths[1:]), first + 1):
         down += _pair(level, "encoder", above, width)
-        raised = Convolution(level - 1, "upsample", 2, width, above, transposed=True)
-        up = [raised, *_pair(level - 1, "decoder", above, above)] + up
+        upsampling = Convolution(level - 1, "upsample", 2, width, above, transposed=True)
+        up = [upsampling, *_pair(level - 1, "decoder", above, above)] + up
     if form == "kernels":
         return down + up + [Convolution(first, "head", 1, widths[0], filters * KERNEL_TAPS)]
     return (

@@ -1,4 +1,4 @@
-"""Parts of networks of whole frames, each a module to be timed."""
+"""Parts of screen-space networks, as modules for timing."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,7 @@ from neural_shadows.networks.screen_space.widths import Convolution
 
 
 class ReplicatedConvolution(nn.Conv2d):
-    """A convolution of the same size out as in, whose border pixels are repeated outwards."""
+    """Convolution of equal output size with replicated border pixels."""
 
     def forward(self, x: Tensor) -> Tensor:
         border = self.kernel_size[0] // 2
@@ -20,31 +20,31 @@ class ReplicatedConvolution(nn.Conv2d):
 
 
 class Sum(nn.Module):
-    """Adds what a level's encoder left to what comes up from below, in the latter's memory."""
+    """Add encoder output to the decoder input, in place."""
 
-    def forward(self, below: Tensor, kept: Tensor) -> Tensor:
-        return below.add_(kept)
+    def forward(self, below: Tensor, encoded: Tensor) -> Tensor:
+        return below.add_(encoded)
 
 
 class Concatenation(nn.Module):
-    """Puts both beside each other."""
+    """Concatenate both."""
 
-    def forward(self, below: Tensor, kept: Tensor) -> Tensor:
-        return torch.cat([kept, below], dim=1)
+    def forward(self, below: Tensor, encoded: Tensor) -> Tensor:
+        return torch.cat([encoded, below], dim=1)
 
 
 class Halved(nn.Module):
-    """A frame at half its resolution, bilinearly: the mean of each 2 × 2 square."""
+    """Halve the resolution: the mean of each 2 × 2 square."""
 
     def forward(self, x: Tensor) -> Tensor:
         return functional.avg_pool2d(x, 2)
 
 
 class SquareOfPixels(nn.Module):
-    """Four channels become the 2 × 2 pixels of each of their own (Datta et al. 2022, 3.5).
+    """Four channels as 2 × 2 pixels (Datta et al. 2022, 3.5).
 
-    The first is enlarged bilinearly; the others are added to the right upper, left lower and right
-    lower pixel of each square.
+    The first is enlarged bilinearly; the others are added to the upper right, lower left and lower
+    right pixel of each square.
     """
 
     def forward(self, o: Tensor) -> Tensor:
@@ -54,34 +54,32 @@ class SquareOfPixels(nn.Module):
 
 
 def doubled() -> nn.Module:
-    """Bilinear enlargement by two; corners of images, not of pixel centres, stay in place."""
+    """Bilinear enlargement by two; image corners stay in place."""
     return nn.Upsample(scale_factor=2, mode="bilinear", align_corners=False)
 
 
 def padded(x: Tensor, multiple: int) -> Tensor:
-    """Pictures whose sides are multiples of a number: their last rows and columns are repeated."""
+    """Pad sides to multiples by repeating last rows and columns."""
     below, right = (-side % multiple for side in x.shape[-2:])
     return functional.pad(x, (0, right, 0, below), mode="replicate") if below or right else x
 
 
 def down_and_up(levels: nn.ModuleList, deepest: nn.Module, x: Tensor) -> Tensor:
-    """What a U-Net makes of its finest level's input: of each level `encoder` and `downsample`, then
-    the deepest, and back by `upsample`, `skip` (None for none) and `decoder`.
-    """
-    kept = []
+    """Evaluate a U-Net: encoder and downsample; the deepest; upsample, any skip, decoder."""
+    skips = []
     for level in levels:
         x = level.encoder(x)
-        kept.append(x)
+        skips.append(x)
         x = level.downsample(x)
     x = deepest(x)
     for level in reversed(levels):
-        x, beside = level.upsample(x), kept.pop()
-        x = level.decoder(x if level.skip is None else level.skip(x, beside))
+        x, encoded = level.upsample(x), skips.pop()
+        x = level.decoder(x if level.skip is None else level.skip(x, encoded))
     return x
 
 
 def stacked(layers: Sequence[Convolution], linear_end: bool = False) -> nn.Sequential:
-    """Convolutions with a ReLU after each, but for the last if the end is linear."""
+    """Convolutions with ReLUs, the last without for a linear end."""
     modules: list[nn.Module] = []
     for layer in layers:
         modules += [module_of(layer), nn.ReLU(inplace=True)]
@@ -98,10 +96,10 @@ def module_of(layer: Convolution) -> nn.Module:
 def initialise(layer: nn.Conv2d | nn.ConvTranspose2d, generator: torch.Generator) -> None:
     """He's normal weights, and biases of zero."""
     transposed = isinstance(layer, nn.ConvTranspose2d)
-    # Each output of a transposed one is of one input pixel, for these do not overlap.
+    # Each output of a transposed one has one input pixel, without overlap.
     inputs = layer.in_channels * (1 if transposed else layer.weight[0, 0].numel())
-    drawn = torch.randn(layer.weight.shape, generator=generator)
+    normals = torch.randn(layer.weight.shape, generator=generator)
     with torch.no_grad():
-        layer.weight.copy_((2 / inputs) ** 0.5 * drawn)
+        layer.weight.copy_((2 / inputs) ** 0.5 * normals)
         if layer.bias is not None:
             layer.bias.zero_()

@@ -1,8 +1,7 @@
-"""Loops of the filter by pixels' own kernels: forward, and back to the kernels and to the picture.
+"""Loops of the per-pixel kernel filter and of its gradients.
 
-A level's 25 logits of a block of pixels are put into 25 rows, so that a processor works on many
-pixels at once; weights live there alone. Renormalised at borders, a softmax is one over the taps
-within the frame.
+A level's 25 logits of a block of pixels are copied into 25 rows for vector instructions; weights
+exist only there. Renormalised at borders, a softmax is one over the taps within the frame.
 """
 
 import numpy as np
@@ -11,10 +10,10 @@ from numpy.polynomial import Chebyshev, Polynomial
 
 SIDE = 5  # taps along and down
 TAPS = SIDE**2
-BLOCK = 512  # pixels; even. Of 256 it is a tenth slower, of 128 more
-_NEAR, _FAR = np.float32(0.75), np.float32(0.25)  # shares of two neighbours, enlarged bilinearly
+BLOCK = 512  # pixels; even. 256 is a tenth slower, 128 more
+_NEAR, _FAR = np.float32(0.75), np.float32(0.25)  # weights of bilinear enlargement
 _LOG2_E = np.float32(np.log2(np.e))
-# Of 2^f, |f| ≤ 1/2, to 1e-7.
+# Coefficients of 2^f, |f| ≤ 1/2, accurate to 1e-7.
 _P0, _P1, _P2, _P3, _P4, _P5 = np.float32(
     Chebyshev.interpolate(np.exp2, 5, [-0.5, 0.5]).convert(kind=Polynomial).coef
 )
@@ -24,10 +23,10 @@ _LEAST = np.float32(-1e30)
 
 @njit(cache=True, nogil=True, inline="always")
 def _exp(x):
-    """Of x ≤ 0, to 3e-7 of itself at x = −10; numba's own is a call for each number."""
+    """exp(x) for x ≤ 0: to 3e-7 at x = −10; numba's own is a function call."""
     t = x * _LOG2_E
-    t = np.float32(-126) if t < np.float32(-126) else t  # what is no number stays none
-    rounded = np.float32(t + _ROUNDS)  # its last bits are the whole number next to t
+    t = np.float32(-126) if t < np.float32(-126) else t  # NaN stays NaN
+    rounded = np.float32(t + _ROUNDS)  # its last bits are t rounded
     f = t - (rounded - _ROUNDS)
     p = ((((_P5 * f + _P4) * f + _P3) * f + _P2) * f + _P1) * f + _P0
     power = np.int32(np.int32(rounded.view(np.int32) << 23) + np.int32(0x3F800000))
@@ -35,29 +34,29 @@ def _exp(x):
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _row():
-    """Of a block. A row taken out of an array of several is to numba one with gaps, and slow."""
+def _block_row():
+    """A block's row; rows of a 2-D array are strided to numba, and slow."""
     return np.empty(BLOCK, np.float32)
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _reach(tap, y, left, right, step, height, width):
-    """Row v that a tap reads for pixels (y, left … right), by how far to the right it looks, and for
-    which pixels [first, last) of the block it lies within the frame; none if v does not.
+def _tap_span(tap, y, left, right, step, height, width):
+    """Row and span of a tap for pixels (y, left … right).
+
+    Returns row v, the offset to the right, and the block's pixels [first, last) with the tap inside
+    the frame; zeros if v is outside.
     """
     v = y + (tap // SIDE - SIDE // 2) * step
-    aside = (tap % SIDE - SIDE // 2) * step
-    first, last = max(left, -aside) - left, min(right, width - aside) - left
+    offset = (tap % SIDE - SIDE // 2) * step
+    first, last = max(left, -offset) - left, min(right, width - offset) - left
     if v < 0 or v >= height or last < first:
         return 0, 0, 0, 0
-    return v, aside, first, last
+    return v, offset, first, last
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _halves(y, left, right, rows, columns):
-    """Where logits of half the resolution lie for pixels (y, left … right): the two rows that they
-    are between, the nearer first; and columns [begin, end), with how many are lacking in front.
-    """
+def _half_span(y, left, right, rows, columns):
+    """Half-resolution rows (nearer, farther), columns [begin, end), number missing in front."""
     near = y // 2
     far = min(max(near + (1 if y % 2 else -1), 0), rows - 1)
     low, high = left // 2 - 1, (right + 1) // 2 + 1
@@ -66,25 +65,26 @@ def _halves(y, left, right, rows, columns):
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
 def _load(bits, factor, y, left, right, half, planes):
-    """The logits of pixels (y, left … right) by tap, into planes (25, block)."""
+    """Load the logits of pixels (y, left … right) into planes (25, block)."""
     shift = np.int32(32 - 8 * bits.itemsize)  # bfloat16 is the upper half of float32
     _, rows, columns = bits.shape
     if factor == 1:
         for tap in range(TAPS):
-            here, plane = bits[tap, y, left:right], planes[tap]
-            for i in range(len(here)):
-                plane[i] = np.int32(np.int32(here[i]) << shift).view(np.float32)
+            row, plane = bits[tap, y, left:right], planes[tap]
+            for i in range(len(row)):
+                plane[i] = np.int32(np.int32(row[i]) << shift).view(np.float32)
         return
-    near, far, begin, end, lacking = _halves(y, left, right, rows, columns)
-    pairs, inner = (right - left + 1) // 2, half[lacking:]
+    near, far, begin, end, missing = _half_span(y, left, right, rows, columns)
+    pairs, inner = (right - left + 1) // 2, half[missing:]
     for tap in range(TAPS):
-        here, there, plane = bits[tap, near, begin:end], bits[tap, far, begin:end], planes[tap]
-        for i in range(len(here)):
-            a = np.int32(np.int32(here[i]) << shift).view(np.float32)
-            b = np.int32(np.int32(there[i]) << shift).view(np.float32)
+        near_row, far_row = bits[tap, near, begin:end], bits[tap, far, begin:end]
+        plane = planes[tap]
+        for i in range(len(near_row)):
+            a = np.int32(np.int32(near_row[i]) << shift).view(np.float32)
+            b = np.int32(np.int32(far_row[i]) << shift).view(np.float32)
             inner[i] = _NEAR * a + _FAR * b
-        inner[end - begin] = inner[end - begin - 1]  # read only where none is left
-        if lacking:
+        inner[end - begin] = inner[end - begin - 1]  # read only beyond the last
+        if missing:
             half[0] = half[1]
         for j in range(pairs):
             plane[2 * j] = _NEAR * half[j + 1] + _FAR * half[j]
@@ -93,21 +93,21 @@ def _load(bits, factor, y, left, right, half, planes):
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
 def _add(planes, factor, y, left, right, half, to_logits):
-    """Add what belongs to logits of pixels (y, left … right), as `_load` has read them."""
+    """Add gradients of logits of pixels (y, left … right), inverse to `_load`."""
     _, rows, columns = to_logits.shape
     if factor == 1:
         for tap in range(TAPS):
-            here, plane = to_logits[tap, y, left:right], planes[tap]
-            for i in range(len(here)):
-                here[i] += plane[i]
+            row, plane = to_logits[tap, y, left:right], planes[tap]
+            for i in range(len(row)):
+                row[i] += plane[i]
         return
-    near, far, begin, end, lacking = _halves(y, left, right, rows, columns)
-    pairs, inner = (right - left + 1) // 2, half[lacking:]
+    near, far, begin, end, missing = _half_span(y, left, right, rows, columns)
+    pairs, inner = (right - left + 1) // 2, half[missing:]
     for tap in range(TAPS):
         plane = planes[tap]
         for j in range(1, pairs - 1):
-            both = plane[2 * j] + plane[2 * j + 1]
-            half[j + 1] = _NEAR * both + _FAR * (plane[2 * j - 1] + plane[2 * j + 2])
+            pair = plane[2 * j] + plane[2 * j + 1]
+            half[j + 1] = _NEAR * pair + _FAR * (plane[2 * j - 1] + plane[2 * j + 2])
         last = 2 * pairs - 1
         half[0], half[pairs + 1] = _FAR * plane[0], _FAR * plane[last]
         half[1] = _NEAR * (plane[0] + plane[1])
@@ -115,35 +115,35 @@ def _add(planes, factor, y, left, right, half, to_logits):
         if pairs > 1:
             half[1] += _FAR * plane[2]
             half[pairs] += _FAR * plane[last - 2]
-        if lacking:
+        if missing:
             half[1] += half[0]
-        if lacking + end - begin < pairs + 2:
+        if missing + end - begin < pairs + 2:
             half[pairs] += half[pairs + 1]
-        here, there = to_logits[tap, near, begin:end], to_logits[tap, far, begin:end]
-        for i in range(len(here)):
-            here[i] += _NEAR * inner[i]
-        for i in range(len(there)):
-            there[i] += _FAR * inner[i]
+        near_row, far_row = to_logits[tap, near, begin:end], to_logits[tap, far, begin:end]
+        for i in range(len(near_row)):
+            near_row[i] += _NEAR * inner[i]
+        for i in range(len(far_row)):
+            far_row[i] += _FAR * inner[i]
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
-def _weigh(planes, y, left, right, step, height, width, top, total):
-    """Logits become exponentials, 0 of taps outside the frame, and `total` their sums."""
+def _exponentiate(planes, y, left, right, step, height, width, top, total):
+    """Replace logits by exponentials, 0 outside the frame; sum into `total`."""
     top[:] = _LEAST
     total[:] = 0
     for tap in range(TAPS):
-        _, _, first, last = _reach(tap, y, left, right, step, height, width)
-        logits, most = planes[tap, first:last], top[first:last]
+        _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
+        logits, maxima = planes[tap, first:last], top[first:last]
         for i in range(last - first):
-            most[i] = logits[i] if logits[i] > most[i] else most[i]
+            maxima[i] = logits[i] if logits[i] > maxima[i] else maxima[i]
     for tap in range(TAPS):
-        _, _, first, last = _reach(tap, y, left, right, step, height, width)
+        _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
         plane = planes[tap]
         plane[:first] = 0
         plane[last:] = 0
-        logits, most, sums = plane[first:last], top[first:last], total[first:last]
+        logits, maxima, sums = plane[first:last], top[first:last], total[first:last]
         for i in range(last - first):
-            weight = _exp(logits[i] - most[i])
+            weight = _exp(logits[i] - maxima[i])
             logits[i] = weight
             sums[i] += weight
 
@@ -160,19 +160,19 @@ def filter_rows(bits, factor, step, source, begin, end, result):
     """
     height, width = source.shape
     planes, half = np.empty((TAPS, BLOCK), np.float32), np.empty(BLOCK // 2 + 3, np.float32)
-    top, total, sums = _row(), _row(), _row()
+    top, total, sums = _block_row(), _block_row(), _block_row()
     for y in range(begin, end):
         for left in range(0, width, BLOCK):
             right = min(left + BLOCK, width)
             _load(bits, factor, y, left, right, half, planes)
-            _weigh(planes, y, left, right, step, height, width, top, total)
+            _exponentiate(planes, y, left, right, step, height, width, top, total)
             sums[:] = 0
             for tap in range(TAPS):
-                v, aside, first, last = _reach(tap, y, left, right, step, height, width)
+                v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
                 weights, mean = planes[tap, first:last], sums[first:last]
-                seen = source[v, left + aside + first : left + aside + last]
+                values = source[v, left + offset + first : left + offset + last]
                 for i in range(last - first):
-                    mean[i] += weights[i] * seen[i]
+                    mean[i] += weights[i] * values[i]
             filtered = result[y, left:right]
             for i in range(right - left):
                 filtered[i] = sums[i] / total[i]
@@ -180,34 +180,34 @@ def filter_rows(bits, factor, step, source, begin, end, result):
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
 def add_gradients(bits, factor, step, source, result, gradient, to_source, to_logits):
-    """Add a level's gradients, from that of its result: to those of its source and its logits.
+    """Add a level's gradients to source and logits.
 
     Args:
-        bits, factor, step, source: as for `filter_rows`. result: what it filled.
+        bits, factor, step, source: as for `filter_rows`. result: its output.
         gradient, to_source: (H, W) float32. to_logits: (25, h, w) float32.
     """
     height, width = source.shape
     planes, half = np.empty((TAPS, BLOCK), np.float32), np.empty(BLOCK // 2 + 3, np.float32)
-    top, total, shares = _row(), _row(), _row()
+    top, total, shares = _block_row(), _block_row(), _block_row()
     for y in range(height):
         for left in range(0, width, BLOCK):
             right = min(left + BLOCK, width)
             _load(bits, factor, y, left, right, half, planes)
-            _weigh(planes, y, left, right, step, height, width, top, total)
-            given, mean = gradient[y, left:right], result[y, left:right]
+            _exponentiate(planes, y, left, right, step, height, width, top, total)
+            to_result, mean = gradient[y, left:right], result[y, left:right]
             for i in range(right - left):
-                shares[i] = given[i] / total[i]
+                shares[i] = to_result[i] / total[i]
             for tap in range(TAPS):
-                v, aside, first, last = _reach(tap, y, left, right, step, height, width)
+                v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
                 weights, share, middle = (
                     planes[tap, first:last],
                     shares[first:last],
                     mean[first:last],
                 )
-                seen = source[v, left + aside + first : left + aside + last]
-                back = to_source[v, left + aside + first : left + aside + last]
+                values = source[v, left + offset + first : left + offset + last]
+                to_values = to_source[v, left + offset + first : left + offset + last]
                 for i in range(last - first):
                     part = weights[i] * share[i]
-                    back[i] += part
-                    weights[i] = part * (seen[i] - middle[i])
+                    to_values[i] += part
+                    weights[i] = part * (values[i] - middle[i])
             _add(planes, factor, y, left, right, half, to_logits)

@@ -1,4 +1,4 @@
-"""The forms of networks of whole frames, by name."""
+"""Forms of screen-space networks, by name."""
 
 from collections.abc import Mapping
 from types import ModuleType
@@ -11,10 +11,10 @@ from neural_shadows.settings.kinds import kinds
 
 
 def form_of(settings: Mapping[str, Any]) -> ModuleType:
-    """The form of an entry of the config's `screen_networks`.
+    """Form of an entry of the config's `screen_networks`.
 
     Raises:
-        KeyError, ValueError: there is no such form.
+        KeyError, ValueError: unknown form.
     """
     if settings["form"] not in kinds(FORMS):
         raise ValueError(f"form {not_among(str(settings['form']), kinds(FORMS))}")
@@ -22,5 +22,5 @@ def form_of(settings: Mapping[str, Any]) -> ModuleType:
 
 
 def layers_of(settings: Mapping[str, Any]) -> list[Convolution]:
-    """The convolutions of an entry of `screen_networks`, in order."""
+    """Convolutions of an entry of `screen_networks`, in order."""
     return form_of(settings).convolutions(settings)

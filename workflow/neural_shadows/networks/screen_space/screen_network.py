@@ -1,4 +1,4 @@
-"""The common interface of networks of whole frames."""
+"""Common interface of screen-space networks."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
@@ -13,7 +13,7 @@ from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm, Statistic
 class ScreenNetwork(nn.Module, ABC):
     """Visibility (B, 1, H, W) from planes (B, C, H, W) float32.
 
-    Of any H and W. A form of network is a file of `forms/`, and a class if none of these is right.
+    Of any H and W. A form of network is a file of `forms/`, if needed with a class of its own.
     """
 
     features: tuple[str, ...]  # names in FEATURES; their channels are the planes, in this order
@@ -21,23 +21,23 @@ class ScreenNetwork(nn.Module, ABC):
 
     @abstractmethod
     def initialise(self, seed: int) -> None:
-        """Set the first weights: the same of a seed, everywhere."""
+        """Set the initial weights, determined by the seed."""
 
     def normalise(self, ranges: Callable[[], tuple[np.ndarray, np.ndarray]]) -> None:
-        """Take the means and deviations of a training's channels.
+        """Take means and deviations of a training's channels.
 
-        Here they are of no use, and `ranges` is not called.
+        Unused here: `ranges` is not called.
 
         Args:
-            ranges: for means and standard deviations, (C,) float32 each.
+            ranges: returns means and standard deviations, (C,) float32 each.
         """
 
     @abstractmethod
-    def learned(self, x: Tensor) -> Tensor:
+    def loss_input(self, x: Tensor) -> Tensor:
         """Visibility, or a function of it, for a training's loss."""
 
-    def aim(self, target: Tensor) -> Tensor:
-        """The target of `learned`, of visibility; here that itself."""
+    def loss_target(self, target: Tensor) -> Tensor:
+        """Target of `loss_input` from visibility; here visibility itself."""
         return target
 
     @abstractmethod
@@ -53,9 +53,9 @@ class ScreenNetwork(nn.Module, ABC):
         return self
 
     def norms(self) -> list[ChunkNorm]:
-        """Batch norms in the order of their computation.
+        """Batch norms in order of computation.
 
-        With any, a training's chunk is of two crops.
+        With norms, a training's chunk has two crops.
         """
         return []
 
@@ -65,8 +65,8 @@ class ScreenNetwork(nn.Module, ABC):
         Args:
             chunks: the step's, each from `chunk_statistics`.
         """
-        for norm, *seen in zip(self.norms(), *chunks, strict=True):
-            norm.update(seen)
+        for norm, *statistics in zip(self.norms(), *chunks, strict=True):
+            norm.update(statistics)
 
     @abstractmethod
     def parts(self) -> dict[tuple[int, str], nn.Module]:

@@ -1,4 +1,4 @@
-"""Networks of whole frames: built from settings, written, read."""
+"""Screen-space networks: built from settings, written, read."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,25 +15,25 @@ STORED = torch.float16
 
 
 def make_screen_network(settings: Mapping[str, Any]) -> ScreenNetwork:
-    """A network from an entry of the config's `screen_networks`.
+    """Build a network from an entry of the config's `screen_networks`.
 
     Raises:
-        KeyError, TypeError, ValueError: an argument is missing, unknown or wrong.
+        KeyError, TypeError, ValueError: a missing, unknown or wrong argument.
     """
     return form_of(settings).network(settings)
 
 
 def save_screen_network(path: Path, network: ScreenNetwork, header: Mapping[str, Any]) -> None:
-    """Write a network's weights in 16 bits; `header["network"]` must hold its settings."""
+    """Write weights in 16 bits; `header["network"]` holds the settings."""
     tensors = {name: weight.to(STORED) for name, weight in network.state_dict().items()}
     save_tensors(path, tensors, header)
 
 
 def load_screen_network(path: Path) -> tuple[ScreenNetwork, dict[str, Any]]:
-    """Read a network, in float32, and the header that it was saved with.
+    """Read a network in float32, and its header.
 
     Raises:
-        InputError: the file is damaged, or its weights are not of the widths in its header.
+        InputError: a damaged file, or weights of other widths than its header's.
     """
     tensors, header = load_tensors(path)
     try:
@@ -42,7 +42,6 @@ def load_screen_network(path: Path) -> tuple[ScreenNetwork, dict[str, Any]]:
     except (KeyError, TypeError, ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())[:200]
         raise InputError(
-            f"{path}: its weights do not fit the settings in its header ({reason}); delete it and "
-            "train again"
+            f"{path}: weights do not fit the header ({reason}). Delete it and train again."
         ) from error
     return network, header

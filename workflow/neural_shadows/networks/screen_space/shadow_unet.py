@@ -32,11 +32,11 @@ POOLS = {"average": nn.AvgPool2d, "max": nn.MaxPool2d}
 
 
 class Level(nn.Module):
-    """A level but the deepest, on the way down and up."""
+    """A level above the deepest, down and up."""
 
     def __init__(self, layers: Sequence[Convolution], pool: str, skip: nn.Module | None, end: bool):
         super().__init__()
-        parts = {name: [each for each in layers if each.part == name] for name in PARTS_OF_LAYERS}
+        parts = {name: [x for x in layers if x.part == name] for name in PARTS_OF_LAYERS}
         self.encoder = stacked(parts["encoder"])
         self.downsample = POOLS[pool](2)
         # Transposed convolutions have no activation of their own.
@@ -52,23 +52,23 @@ class ShadowUnet(ScreenNetwork):
     """A U-Net from a table of widths (Datta et al. 2022, 3.5, S3, S4.1).
 
     Args:
-        form: `full`, the trimmed network; `shuffle`, its fast form, whose first level sees 2 × 2
-            pixels as channels; `half`, which sees a frame of half the resolution; `original`, before
-            trimming: two 3 × 3 convolutions a level, concatenation, transposed convolutions, max pool.
+        form: `full`, the trimmed network; `shuffle`, its fast form, with 2 × 2 pixels as channels
+            of the first level; `half`, at half the resolution; `original`, before trimming: two 3 ×
+            3 convolutions a level, concatenation, transposed convolutions, max pool.
         widths: of each level, a number or [mid, out], see `widths.py`.
         features: names in FEATURES; their channels are the input's, in this order.
-        pool: `average` or `max`. first_skip: whether the level of the frame's own size has a skip,
-            too; the other levels always have one.
+        pool: `average` or `max`. first_skip: a skip at the level of the frame's own size; the other
+            levels always have one.
         extraction: hidden channels of a learned reduction to four channels in front (3.2).
         seed: of the first weights.
 
-    From channels `centres` are taken, and what is left is divided by `spreads`: means and standard
-    deviations over a training's frames, see `normalise`. The latter differ by 60 times; and of a ratio
-    near 1 bfloat16 would leave steps of 0.004, more than most shadows' rims are away from it. So it
-    takes float32, whatever format it computes in: that of its weights, see `in_format`.
+    Channels are normalised by `centres` and `spreads`, means and standard deviations over a
+    training's frames, see `normalise`. The latter differ by 60 times; and bfloat16's steps of 0.004
+    for a ratio near 1 are larger than most shadow rims' distance from it. So the input is float32,
+    whatever format the weights have, see `in_format`.
 
     Raises:
-        KeyError, ValueError: there is no such form, pool or feature.
+        KeyError, ValueError: unknown form, pool or feature.
     """
 
     def __init__(
@@ -88,13 +88,13 @@ class ShadowUnet(ScreenNetwork):
         first, deepest = first_level(form), deepest_level(form, widths)
         original = form == "original"
         self.first, self.multiple = first, 2**deepest
-        reduced = [layer for layer in layers if layer.part == "extraction"]
-        self.extraction = stacked(reduced, linear_end=True) if reduced else None
+        reduction = [layer for layer in layers if layer.part == "extraction"]
+        self.extraction = stacked(reduction, linear_end=True) if reduction else None
         self.entrance = {"shuffle": nn.PixelUnshuffle(2), "half": Halved()}.get(form)
         self.exit = {"shuffle": SquareOfPixels(), "half": doubled()}.get(form)
         self.levels = nn.ModuleList(
             Level(
-                [each for each in layers if each.level == level and each.part != "extraction"],
+                [x for x in layers if x.level == level and x.part != "extraction"],
                 "max" if original else pool,
                 Concatenation() if original else Sum() if level or first_skip else None,
                 end=level == first,
@@ -107,9 +107,9 @@ class ShadowUnet(ScreenNetwork):
         self.initialise(seed)
 
     def initialise(self, seed: int) -> None:
-        """Set the first weights: the same of a seed, everywhere.
+        """Set the initial weights, determined by the seed.
 
-        The output starts about a half: its bias is 0.5, of four that of the first.
+        The output starts about a half: the bias of its first channel is 0.5.
         """
         generator = torch.Generator().manual_seed(seed)
         for layer in self.modules():
@@ -119,22 +119,22 @@ class ShadowUnet(ScreenNetwork):
             self.levels[0].decoder[-1].bias[0] = 0.5
 
     def forward(self, x: Tensor) -> Tensor:
-        """Visibility, not cut off at 0 and 1: (B, 1, H, W)."""
-        return self.learned(x)
+        """Visibility, not clamped to [0, 1]: (B, 1, H, W)."""
+        return self.loss_input(x)
 
     def normalise(self, ranges: Callable[[], tuple[np.ndarray, np.ndarray]]) -> None:
         """Take means as `centres` and standard deviations as `spreads`."""
-        for place, values in zip((self.centres, self.spreads), ranges()):
-            place.copy_(torch.from_numpy(values))
+        for buffer, values in zip((self.centres, self.spreads), ranges()):
+            buffer.copy_(torch.from_numpy(values))
 
-    def learned(self, x: Tensor) -> Tensor:
+    def loss_input(self, x: Tensor) -> Tensor:
         """Visibility, for a training's loss."""
         x = (x - self.centres[:, None, None]) / self.spreads[:, None, None]
         x = x.to(next(self.parameters()).dtype)
         height, width = x.shape[-2:]
         x = padded(x, self.multiple)
-        for before in (self.extraction, self.entrance):
-            x = x if before is None else before(x)
+        for module in (self.extraction, self.entrance):
+            x = x if module is None else module(x)
         x = down_and_up(self.levels, self.deepest, x)
         x = x if self.exit is None else self.exit(x)
         return x[..., :height, :width]
@@ -147,11 +147,11 @@ class ShadowUnet(ScreenNetwork):
         return [f"{name}.weight" for name in names[1:] if name != last]
 
     def in_format(self, dtype: torch.dtype) -> "ShadowUnet":
-        """A copy in a number format, but for centres and spreads."""
-        copied = deepcopy(self).to(memory_format=torch.channels_last)
-        for weight in copied.parameters():
+        """A copy in a number format, except centres and spreads."""
+        network = deepcopy(self).to(memory_format=torch.channels_last)
+        for weight in network.parameters():
             weight.data = weight.data.to(dtype)
-        return copied
+        return network
 
     def parts(self) -> dict[tuple[int, str], nn.Module]:
         """Modules by level and part.
@@ -163,4 +163,4 @@ class ShadowUnet(ScreenNetwork):
         for number, level in enumerate(self.levels, self.first):
             parts |= {(number, name): part for name, part in level.named_children()}
         parts[(self.first + len(self.levels), "encoder")] = self.deepest
-        return {place: part for place, part in parts.items() if part is not None}
+        return {key: part for key, part in parts.items() if part is not None}

@@ -1,24 +1,24 @@
-"""Convolutions of a network from its table of widths, and their counts.
+"""Convolutions of a network by its widths, and their counts.
 
 Tables S2, S4 and S5 of Datta et al. 2022 determine every layer. A level of the trimmed network is a
-3 × 3 convolution (in → mid) and a 1 × 1 (mid → out) on the way down, and the same on the way up, where
-the 1 × 1 goes to the channels of the level above; the deepest level has the first pair alone. The
-paper counts a multiply-add as one operation, weights without biases, and as storage the channels
-that each convolution reads and writes.
+3 × 3 convolution (in → mid) and a 1 × 1 (mid → out) on the way down, and the same on the way up,
+where the 1 × 1 goes to the channels of the level above; the deepest level has the first pair alone.
+The paper counts a multiply-add as one operation, weights without biases, and as storage the
+channels read and written by each convolution.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-Widths = Sequence[int | Sequence[int]]  # a level's width, or its [mid, out] where they differ
+Widths = Sequence[int | Sequence[int]]  # a level's width, or its [mid, out]
 
 FORMS = ("full", "shuffle", "half", "original")
-EXTRACTED = 4  # channels that a learned extraction leaves (3.2)
+EXTRACTED = 4  # outputs of a learned extraction (3.2)
 
 
 @dataclass(frozen=True)
 class Convolution:
-    """A convolution at level k, where a frame of H × W pixels has (H / 2^k) × (W / 2^k)."""
+    """A convolution at level k, on (H / 2^k) × (W / 2^k) pixels."""
 
     level: int
     part: str  # `extraction`, `encoder`, `upsample` or `decoder`
@@ -39,30 +39,30 @@ class Convolution:
 
     @property
     def storage(self) -> float:
-        """Numbers that it reads and writes for a pixel of the whole frame."""
+        """Numbers read and written, for a pixel of the frame."""
         read = self.inputs / 4 if self.transposed else self.inputs
         return (read + self.outputs) / 4**self.level
 
 
 def first_level(form: str) -> int:
-    """The level that the convolutions begin at: 1 if they never see the frame's own size."""
+    """First level of the convolutions: 1 without the frame's own size."""
     return int(form not in ("full", "original"))
 
 
 def deepest_level(form: str, widths: Widths) -> int:
-    """The last level: sides of frames must be multiples of 2 to this power."""
+    """Last level: frames' sides are multiples of 2 to its power."""
     return first_level(form) + len(widths) - 1
 
 
 def outputs_of(form: str) -> int:
-    """Channels that the convolutions end in: four make the pixels of a 2 × 2 square."""
+    """Output channels of the convolutions; four make a 2 × 2 square."""
     return 4 if form == "shuffle" else 1
 
 
 def convolutions(
     form: str, widths: Widths, channels: int, extraction: int | None = None
 ) -> list[Convolution]:
-    """All convolutions of a network, in the order of computation.
+    """All convolutions of a network, in order of computation.
 
     Args:
         form: one of `FORMS`. widths: of each level, from the first.
@@ -70,7 +70,7 @@ def convolutions(
         extraction: hidden channels of a learned reduction to `EXTRACTED`; None for none.
 
     Raises:
-        ValueError: there is no such form.
+        ValueError: unknown form.
     """
     if form not in FORMS:
         raise ValueError(f"form {form!r} is not among {', '.join(FORMS)}")
@@ -95,7 +95,7 @@ def _trimmed(form: str, widths: Widths, channels: int) -> list[Convolution]:
         down += [Convolution(level, "encoder", 3, above, mid)]
         down += [Convolution(level, "encoder", 1, mid, out)]
         if level < deepest:
-            # The whole form has a 1 × 1 more behind its first level; the others end with that one.
+            # The full form has one more 1 × 1 after its first level; the others end with that one.
             last = (mid, 1) if form == "full" else (outputs_of(form),)
             ends = last if level == first else (above,)
             sizes = (out, mid, *ends)
@@ -108,24 +108,24 @@ def _trimmed(form: str, widths: Widths, channels: int) -> list[Convolution]:
 
 
 def _original(form: str, widths: Widths, channels: int) -> list[Convolution]:
-    """Two 3 × 3 convolutions a level, transposed ones between them, concatenation."""
+    """Convolutions before trimming: two 3 × 3 a level, transposed ones, concatenation."""
     down, up, above = [], [], channels
     for level, width in enumerate(widths):
         down += [Convolution(level, "encoder", 3, above, width)]
         down += [Convolution(level, "encoder", 3, width, width)]
         if level:
-            there = level - 1
+            finer = level - 1
             up = [
-                Convolution(there, "upsample", 2, width, above, transposed=True),
-                Convolution(there, "decoder", 3, 2 * above, above),
-                Convolution(there, "decoder", 3, above, above),
+                Convolution(finer, "upsample", 2, width, above, transposed=True),
+                Convolution(finer, "decoder", 3, 2 * above, above),
+                Convolution(finer, "decoder", 3, above, above),
             ] + up
         above = width
     return down + up + [Convolution(0, "decoder", 1, widths[0], outputs_of(form))]
 
 
 def by_level(layers: Sequence[Convolution], quantity: str) -> dict[int, float]:
-    """The sum of `weights`, `macs` or `storage` over the convolutions of each level."""
+    """Sums of `weights`, `macs` or `storage` over each level's convolutions."""
     sums = dict.fromkeys(sorted({layer.level for layer in layers}), 0.0)
     for layer in layers:
         sums[layer.level] += getattr(layer, quantity)
@@ -133,5 +133,5 @@ def by_level(layers: Sequence[Convolution], quantity: str) -> dict[int, float]:
 
 
 def total(layers: Sequence[Convolution], quantity: str) -> float:
-    """The sum over all levels."""
+    """Sum over all levels."""
     return sum(by_level(layers, quantity).values())

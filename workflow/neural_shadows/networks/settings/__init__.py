@@ -1,1 +1,1 @@
-"""Common settings of the kinds of networks; in no digest of code."""
+"""Settings common to kinds of networks; in no digest of code."""

@@ -18,16 +18,16 @@ class NetworkModel(Model):
     `encoding` is the name of the kind's file.
     """
 
-    trained: ClassVar[bool] = True  # else an experiment of it has no sampling and no training
+    trained: ClassVar[bool] = True  # else its experiments have no sampling and no training
     needs_mesh: ClassVar[bool] = False
-    of_scene: ClassVar[tuple[str, ...]] = ()  # settings of its scene that its class takes
-    loss_of_depths: ClassVar[bool] = False  # the dead zone's and no other, as the thesis's
-    holds_field: ClassVar[bool] = False  # an occupancy field, which figures of fields show
+    of_scene: ClassVar[tuple[str, ...]] = ()  # its class's arguments from the scene's settings
+    loss_of_depths: ClassVar[bool] = False  # the dead-zone loss alone, as the thesis's
+    holds_field: ClassVar[bool] = False  # an occupancy field, for figures of fields
     has_shader: ClassVar[bool] = False  # in workflow/report/viewer/shaders
 
     @property
     def needs_training(self) -> bool:
-        """Whether the weights are of no use before a training."""
+        """True for weights useless before training."""
         return self.trained
 
     @property

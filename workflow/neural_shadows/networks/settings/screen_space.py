@@ -1,4 +1,4 @@
-"""Common settings of networks of whole frames."""
+"""Common settings of screen-space networks."""
 
 from typing import Annotated, ClassVar, Literal
 
@@ -9,7 +9,7 @@ from neural_shadows.settings.base import Model, not_among
 
 BEHIND = "behind"
 Channels = Annotated[int, Field(ge=1, le=4096)]
-# Mid and out: what the 3 × 3 convolution leaves, and the 1 × 1 behind it.
+# Mid and out: outputs of the 3 × 3 convolution, and of the 1 × 1 behind it.
 Pair = Annotated[list[Channels], Field(min_length=2, max_length=2)]
 Width = Annotated[
     Annotated[Channels, Tag("Number")] | Annotated[Pair, Tag("Pair")],
@@ -20,10 +20,10 @@ Width = Annotated[
 class AnyScreenNetwork(Model):
     """Settings of all forms; `form` is the name of a form's file."""
 
-    crops_in_pairs: ClassVar[bool] = False  # its batch norms see two crops at a time
+    crops_in_pairs: ClassVar[bool] = False  # for batch norms over two crops
 
     features: list[str] = Field(
-        min_length=1, description="its input of a pixel: names in frames/feature_names.py"
+        min_length=1, description="input channels: names in frames/feature_names.py"
     )
 
     @field_validator("features")
@@ -33,7 +33,7 @@ class AnyScreenNetwork(Model):
             if name not in FEATURES:
                 raise ValueError(not_among(name, FEATURES))
             if features.count(name) > 1:
-                raise ValueError(f"{name!r} is there twice; should be there once")
+                raise ValueError(f"{name!r} is listed twice. List it once.")
         return features
 
 
@@ -46,20 +46,20 @@ class Trimmed(AnyScreenNetwork):
     widths: list[Width] = Field(
         min_length=2,
         max_length=8,
-        description="channels of each level, from the finest; [mid, out] where its two "
-        "convolutions differ",
+        description="channels of each level, from the finest; [mid, out] for different "
+        "convolutions",
     )
     answer: Literal["visibility", "exponent"] = Field(
         "visibility",
-        description="`exponent`: visibility is exp(−α `behind`) and it learns α, in logarithms",
+        description="`exponent`: visibility exp(−α `behind`) with a learned α, compared in logarithms",
     )
 
     @model_validator(mode="after")
     def _check_answer(self):
         if self.answer == "exponent" and BEHIND not in self.features:
             raise ValueError(
-                f"features: an exponent is multiplied by {BEHIND!r}, which is not there; there is "
-                f"{', '.join(self.features)}"
+                f"features: {', '.join(self.features)}: no {BEHIND!r}, which answer: exponent needs. "
+                "Add it."
             )
         return self
 

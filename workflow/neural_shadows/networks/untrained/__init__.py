@@ -1,1 +1,1 @@
-"""Rivals of the networks for the same query, without any training."""
+"""Untrained baselines for the networks' query."""

@@ -1,7 +1,6 @@
-"""Height map: the heights of a landscape over a grid.
+"""Height map: heights of a landscape on a grid, the usual representation.
 
-A ray ends where it crosses their surface. What such an object is usually held as. Nothing is
-trained.
+A ray ends where it crosses their surface. Nothing is trained.
 """
 
 from pathlib import Path
@@ -21,52 +20,52 @@ _TYPES = {8: np.uint8, 16: np.uint16}
 
 
 class HeightMapNetwork(UntrainedNetwork):
-    """t_pred(o, d), where the ray crosses the surface between the heights, from either side.
+    """t_pred(o, d) at the surface between the heights, from either side.
 
     Args:
-        up: `x`, `y` or `z`, the axis that heights are along.
+        up: `x`, `y` or `z`, the axis of the heights.
         resolution: heights along a side of the map, which is the mesh's rectangle across `up`.
         bits: of a height, 8 or 16, between the mesh's lowest and highest.
     """
 
     def __init__(self, *, up: str, resolution: int, bits: int):
         super().__init__()
-        # Across and across, and up.
+        # Two horizontal axes, and up.
         self.axes = [("xyz".index(up) + k) % 3 for k in (1, 2, 0)]
         self.heights = np.zeros((resolution, resolution), _TYPES[bits])
         self.box = np.zeros((2, 3), np.float32)
 
     def prepare(self, mesh_ply: Path) -> None:
-        """Take the mesh's height at each place of the grid.
+        """Sample the mesh's heights on the grid.
 
         Raises:
             InputError: the mesh is no height field over its rectangle across `up`.
         """
         mesh = read_prepared(mesh_ply)
-        places = mesh.vertices[:, self.axes]
-        self.box = np.stack([places.min(0), places.max(0)])
-        heights = _heights(mesh, self.axes, self.box, len(self.heights))
-        # Without gaps, overlaps and walls: each place has one height.
+        points = mesh.vertices[:, self.axes]
+        self.box = np.stack([points.min(0), points.max(0)])
+        heights = _sampled_heights(mesh, self.axes, self.box, len(self.heights))
+        # One height everywhere: no gaps, overlaps or walls.
         area = np.prod(np.ptp(self.box[:, :2], axis=0))
-        once = abs(_covered(places[mesh.faces]) - area) < 1e-3 * area
+        covers_once = abs(_projected_area(points[mesh.faces]) - area) < 1e-3 * area
         walls = np.abs(mesh.face_normals[:, self.axes[2]]).min() < 1e-6
-        if not once or walls or not np.isfinite(heights).all():
+        if not covers_once or walls or not np.isfinite(heights).all():
             raise InputError(
                 f"{mesh_ply}: no height field along {'xyz'[self.axes[2]]}: seen from there, its "
-                "faces stand upright, overlap, or do not fill a rectangle; give another `up` or "
-                "another `encoding`"
+                "faces stand upright, overlap, or do not fill a rectangle. Give another `up` or "
+                "`encoding`."
             )
         share = (heights - self.box[0, 2]) / self._extent()[2]
-        most = np.iinfo(self.heights.dtype).max
-        self.heights = np.rint(share.clip(0, 1) * most).astype(self.heights.dtype)
+        maximum = np.iinfo(self.heights.dtype).max
+        self.heights = np.rint(share.clip(0, 1) * maximum).astype(self.heights.dtype)
 
     def _extent(self) -> np.ndarray:
-        """Of the box: (3,) float64; 1 for the height of a plane."""
+        """Extent of the box, (3,) float64; 1 for the height of a plane."""
         extent = np.ptp(self.box.astype(np.float64), axis=0)
         return np.where(extent > 0, extent, 1)
 
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
-        """See `ShadowNetwork.forward`; `LIT` for rays that cross nothing."""
+        """See `ShadowNetwork.forward`; `LIT` for misses."""
         cells = len(self.heights) - 1
         scale = np.array([cells, cells, np.iinfo(self.heights.dtype).max]) / self._extent()
         o = (origins.numpy()[:, self.axes] - self.box[0].astype(np.float64)) * scale
@@ -90,23 +89,25 @@ class HeightMapNetwork(UntrainedNetwork):
         self.heights, self.box = heights, tensors["box"].numpy()
 
 
-def _covered(corners: np.ndarray) -> float:
-    """The area of triangles (F, 3, 3), seen along the last axis."""
+def _projected_area(corners: np.ndarray) -> float:
+    """Area of triangles (F, 3, 3), projected along the last axis."""
     a, b, c = (corners[:, k, :2].astype(np.float64) for k in range(3))
     (ux, uy), (vx, vy) = (b - a).T, (c - a).T
     return float(np.abs(ux * vy - uy * vx).sum() / 2)
 
 
-def _heights(mesh: PreparedMesh, axes: list[int], box: np.ndarray, resolution: int) -> np.ndarray:
-    """The mesh's highest point over each place of a grid, (r, r) float64; −∞ where there is none."""
-    # A millionth from the rim, which rays would pass by.
+def _sampled_heights(
+    mesh: PreparedMesh, axes: list[int], box: np.ndarray, resolution: int
+) -> np.ndarray:
+    """Highest points of the mesh on a grid, (r, r) float64; else −∞."""
+    # A millionth inside the rim, where rays would miss.
     share = np.linspace(1e-6, 1 - 1e-6, resolution)
     top = float(box[1, 2]) + 0.1
-    places = np.empty((resolution, resolution, 3), np.float32)
-    places[..., axes[0]] = (box[0, 0] + share * np.ptp(box[:, 0]))[:, None]
-    places[..., axes[1]] = box[0, 1] + share * np.ptp(box[:, 1])
-    places[..., axes[2]] = top
+    points = np.empty((resolution, resolution, 3), np.float32)
+    points[..., axes[0]] = (box[0, 0] + share * np.ptp(box[:, 0]))[:, None]
+    points[..., axes[1]] = box[0, 1] + share * np.ptp(box[:, 1])
+    points[..., axes[2]] = top
     down = np.zeros((resolution**2, 3), np.float32)
     down[:, axes[2]] = -1
-    t, _ = Tracer(mesh.vertices, mesh.faces).first_hit(places.reshape(-1, 3), down)
+    t, _ = Tracer(mesh.vertices, mesh.faces).first_hit(points.reshape(-1, 3), down)
     return (top - t.astype(np.float64)).reshape(resolution, resolution)

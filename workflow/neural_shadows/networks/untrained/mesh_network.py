@@ -17,20 +17,20 @@ from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.representations.packed_bits import pack_integers, unpack_integers
 from neural_shadows.scenes.tracing import Tracer
 
-# What Embree 4 holds: its own copy of the mesh, 16 bytes a vertex and 12 a triangle, and its tree.
-# The tree is measured: `held_bytes` before and after building, once the C library had given back
-# what it kept free (malloc_trim), less the copy. Of the Stanford dragon with 9,203, 20,139, 86,698
-# and 201,031 triangles it took 72, 71, 69 and 69 bytes a triangle.
+# Memory of Embree 4: its own copy of the mesh, 16 bytes a vertex and 12 a triangle, and its tree.
+# The tree is measured: `held_bytes` before and after building, after malloc_trim, less the copy.
+# For the Stanford dragon with 9,203, 20,139, 86,698 and 201,031 triangles it took 72, 71, 69 and 69
+# bytes a triangle.
 VERTEX_BYTES, FACE_BYTES, TREE_BYTES = 16, 12, 70
 
 
 class MeshNetwork(UntrainedNetwork):
-    """t_pred(o, d), where the ray first hits a mesh.
+    """t_pred(o, d) at a ray's first hit of a mesh.
 
     Args:
-        triangles: what the mesh is decimated to; None for all.
+        triangles: number after decimation; None for all.
         bits: of each coordinate of a vertex, in [−1, 1].
-        stored: how it is written: `packed`, bits and no more, or `coded`, see `coded_mesh`.
+        stored: `packed` bits, or `coded`, see `coded_mesh`.
     """
 
     query_chunks = {"cpu": 1 << 16}
@@ -45,17 +45,17 @@ class MeshNetwork(UntrainedNetwork):
         vertices, faces = mesh.vertices, mesh.faces
         if self.triangles is not None:
             vertices, faces = decimated(vertices, faces, self.triangles)
-        steps = np.round((vertices.clip(-1, 1) + 1) / 2 * self._most)
-        # Vertices that rounding brings together are one, and faces of no height none.
-        self._use(*clean_mesh(steps, faces, str(mesh_ply))[:2])
+        steps = np.round((vertices.clip(-1, 1) + 1) / 2 * self._max_step)
+        # Merge vertices rounded to one, and remove faces of no height.
+        self._set_mesh(*clean_mesh(steps, faces, str(mesh_ply))[:2])
 
     @property
-    def _most(self) -> int:
+    def _max_step(self) -> int:
         return (1 << self.bits) - 1
 
-    def _use(self, steps: np.ndarray, faces: np.ndarray) -> None:
+    def _set_mesh(self, steps: np.ndarray, faces: np.ndarray) -> None:
         self._steps, self._faces = steps.astype(np.int64), faces
-        vertices = (steps / self._most * 2 - 1).astype(np.float32)
+        vertices = (steps / self._max_step * 2 - 1).astype(np.float32)
         self._tracer = Tracer(vertices, faces.astype(np.int32))
 
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
@@ -65,7 +65,7 @@ class MeshNetwork(UntrainedNetwork):
     def lit(
         self, rays: SphereRays, d: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
     ) -> Callable[[float], Tensor]:
-        """See `ShadowNetwork.lit`: whether nothing lies between a point and the light.
+        """See `ShadowNetwork.lit`: free rays from points to the light.
 
         The depth bias moves the point towards the light.
         """
@@ -79,12 +79,12 @@ class MeshNetwork(UntrainedNetwork):
         return lit
 
     def resident_bytes(self) -> int:
-        """See `ShadowNetwork.resident_bytes`: what Embree holds."""
+        """See `ShadowNetwork.resident_bytes`: Embree's memory."""
         count = len(self._faces)
         return VERTEX_BYTES * len(self._steps) + (FACE_BYTES + TREE_BYTES) * count
 
     def stored(self) -> dict[str, Tensor]:
-        """See `ShadowNetwork.stored`; packed indices have as many bits as the largest needs."""
+        """See `ShadowNetwork.stored`; indices packed in the fewest bits."""
         if self.storage == "coded":
             return {"mesh": torch.from_numpy(coded(self._steps, self._faces, self.bits))}
         counts = len(self._steps), len(self._faces)
@@ -97,13 +97,13 @@ class MeshNetwork(UntrainedNetwork):
     def restore(self, tensors: dict[str, Tensor]) -> None:
         if self.storage == "coded":
             steps, faces = decoded(tensors["mesh"].numpy())
-            if steps.min(initial=0) < 0 or steps.max(initial=0) > self._most:
+            if steps.min(initial=0) < 0 or steps.max(initial=0) > self._max_step:
                 raise ValueError(f"vertices beyond {self.bits} bits")
         else:
             steps, faces = self._unpacked(tensors)
         if len(faces) == 0 or faces.max() >= len(steps):  # Embree would read beyond its vertices
-            raise ValueError(f"faces of other than its {len(steps)} vertices")
-        self._use(steps, faces)
+            raise ValueError(f"faces with vertices beyond its {len(steps)}")
+        self._set_mesh(steps, faces)
 
     def _unpacked(self, tensors: dict[str, Tensor]) -> tuple[np.ndarray, np.ndarray]:
         vertices, faces = tensors["counts"].tolist()

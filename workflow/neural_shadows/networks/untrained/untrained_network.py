@@ -1,4 +1,4 @@
-"""What is common to the rivals of the networks."""
+"""Common base of the untrained baselines."""
 
 import torch
 
@@ -6,13 +6,13 @@ from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 
 
 class UntrainedNetwork(ShadowNetwork):
-    """Answers of a mesh's own, without weights; on the CPU."""
+    """Shadow network without weights, from the mesh; on the CPU."""
 
     on_gpu = False
     exportable = False
 
     def initialise(self, seed: int) -> None:
-        """There is nothing to set."""
+        """Do nothing."""
 
     @property
     def device(self) -> torch.device:

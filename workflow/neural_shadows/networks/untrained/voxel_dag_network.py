@@ -1,8 +1,8 @@
 """Voxel DAG: a ray ends in the object's first voxel.
 
-Nothing is trained. The closest relatives of the fields that are: Kämpe et al. 2013, "High
-resolution sparse voxel DAGs", and Sintorn et al. 2014, "Compact precomputed voxelized shadows",
-whose voxels are those that one light does not reach; here they are the object's, for all lights.
+Nothing is trained. The closest relatives of trained fields: Kämpe et al. 2013, "High resolution
+sparse voxel DAGs", and Sintorn et al. 2014, "Compact precomputed voxelized shadows", whose voxels
+are the shadow of one light; here they are the object's, for all lights.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.untrained.untrained_network import UntrainedNetwork
 from neural_shadows.representations.voxels.voxel_bricks import surface_bricks
 from neural_shadows.representations.voxels.voxel_dag import (
-    check_places,
+    check_offsets,
     first_voxels,
     merged,
     octree,
@@ -25,14 +25,14 @@ from neural_shadows.representations.voxels.voxel_inside import inside_of
 
 
 class VoxelDagNetwork(UntrainedNetwork):
-    """t_pred(o, d), where the ray enters the first voxel.
+    """t_pred(o, d) at a ray's first voxel.
 
     Args:
         resolution: voxels along an axis of [−1, 1]³, a power of two from 8 to 4096.
-        surface: `solid`, the voxels that the surface encloses without touching them; or `sheet`,
-            those that it touches. The latter stand out from the object by up to a voxel, so that
-            it shadows itself: on the Stanford dragon at 512³, 27.7 dB with the best depth bias
-            for the former's 32.4 dB with none. Both together are to a ray from outside the latter.
+        surface: `solid`, the voxels enclosed but not touched by the surface; or `sheet`, the
+            touched ones. The latter stand out from the object by up to a voxel, so that it shadows
+            itself: on the Stanford dragon at 512³, 27.7 dB with the best depth bias, the former
+            32.4 dB with none. To a ray from outside both together equal the latter.
     """
 
     def __init__(self, *, resolution: int, surface: str):
@@ -50,16 +50,16 @@ class VoxelDagNetwork(UntrainedNetwork):
         self.words = words_of(merged(tree))
 
     def forward(self, origins: Tensor, directions: Tensor, dtype: torch.dtype) -> Tensor:
-        """See `ShadowNetwork.forward`; `LIT` for rays that meet no voxel."""
+        """See `ShadowNetwork.forward`; `LIT` for misses."""
         rays = origins.contiguous().numpy(), directions.contiguous().numpy()
         return torch.from_numpy(first_voxels(*rays, self.words, self.levels))
 
     def resident_bytes(self) -> int:
-        """See `ShadowNetwork.resident_bytes`; the file's words are what a query reads."""
+        """See `ShadowNetwork.resident_bytes`: the file's words."""
         return self.words.nbytes
 
     def stored(self) -> dict[str, Tensor]:
-        """See `ShadowNetwork.stored`; one word of 32 bits for each node and each child."""
+        """See `ShadowNetwork.stored`; a 32-bit word a node and a child."""
         return {"words": torch.from_numpy(self.words.view(np.int32))}
 
     def restore(self, tensors: dict[str, Tensor]) -> None:
@@ -67,5 +67,5 @@ class VoxelDagNetwork(UntrainedNetwork):
         words = tensors["words"].numpy()
         if words.dtype != np.int32 or words.ndim != 1:
             raise ValueError(f"{words.shape} {words.dtype} words")
-        check_places(words.view(np.uint32), self.levels)
+        check_offsets(words.view(np.uint32), self.levels)
         self.words = words.view(np.uint32)

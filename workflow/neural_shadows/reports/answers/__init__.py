@@ -1,1 +1,1 @@
-"""What a network answers on frames of the user's own."""
+"""Visibility of the user's own frames by a method."""

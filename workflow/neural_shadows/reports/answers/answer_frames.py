@@ -1,4 +1,4 @@
-"""The stage that answers test frames by one method: visibility and pictures of each, and their errors."""
+"""Visibility, pictures and errors of test frames by one method."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -33,21 +33,21 @@ def answer_frames(
     label: str,
     by_scene: bool = False,
 ) -> None:
-    """Answer each frame for all radii of its light.
+    """Evaluate each frame for all radii of its light.
 
     `SCENE/FRAME.exr` or `.npz` (as an engine's frames came; npz of others) has the visibility of each
-    radius, `visibility_K` (H, W) half floats, 1 where nothing is seen; `SCENE/FRAME.png` shows it.
+    radius, `visibility_K` (H, W) half floats, 1 without a surface; `SCENE/FRAME.png` shows it.
     The errors have a row for each frame and radius; of a frame without targets they are empty.
 
     Args:
         parts: of test frames. meshes: see `measured_frames`.
-        constants_json: what `tune_soft_method` wrote; None for a method without constants.
+        constants_json: of `tune_soft_method`; None for a method without constants.
         weights: of a network, or of one for each scene; none of any other method.
         answers: the folder of the answers.
         label: of the method; by_scene: see `evaluate_soft`.
 
     Raises:
-        InputError: an input file cannot be read, or the method cannot answer a frame.
+        InputError: an input file cannot be read, or the method cannot evaluate a frame.
     """
     method_of = soft_methods_by_scene(method, weights, by_scene=by_scene)
     constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
@@ -55,31 +55,31 @@ def answer_frames(
     total = sum(len(FrameSetPart(path)) for path in parts)
     with progress_bar(total, "frames", f"answer by {method}") as bar:
         for measured in measured_frames(parts, meshes):
-            asked = method_of(measured.scene_name)
-            if asked is None:
+            evaluate = method_of(measured.scene_name)
+            if evaluate is None:
                 raise InputError(
-                    f"{method}: none of its networks has learned {measured.scene_name}"
+                    f"{method}: none of its networks is trained on {measured.scene_name}"
                 )
-            found = np.stack([*all_radii(measured, asked, constants)])
+            visibility = np.stack([*all_radii(measured, evaluate, constants)])
             form = measured.part.about.get("form", "npz")
             stem = answers / measured.scene_name / _name(measured)
-            images = {f"visibility_{k}": one for k, one in enumerate(found)}
+            images = {f"visibility_{k}": image for k, image in enumerate(visibility)}
             write_images(stem.with_name(f"{stem.name}.{form}"), images)
-            _draw(measured, found, label, stem.with_name(f"{stem.name}.png"))
-            rows += _rows(measured, found)
+            _draw(measured, visibility, label, stem.with_name(f"{stem.name}.png"))
+            rows += _rows(measured, visibility)
             bar.update()
     _write_rows(errors_csv, rows)
 
 
 def _name(measured: MeasuredFrame) -> str:
-    """A frame's: the folder's of an engine's, `test_000_7` of another."""
+    """A frame's name: an engine's folder, or `test_000_7`."""
     part = measured.part
     if "source" in part.about:
         return Path(part.about["source"]).name
     return f"{part.frames_json.stem}_{measured.number}"
 
 
-def _rows(measured: MeasuredFrame, found: np.ndarray) -> list[dict[str, Any]]:
+def _rows(measured: MeasuredFrame, visibility: np.ndarray) -> list[dict[str, Any]]:
     about = measured.part.about
     given = about.get("given_radii", about["radii"])
     key = {"scene": measured.scene_name, "frame": _name(measured)}
@@ -87,8 +87,8 @@ def _rows(measured: MeasuredFrame, found: np.ndarray) -> list[dict[str, Any]]:
     rows = []
     for k, radius in enumerate(given):
         row = {**key, "radius": radius, "radius_unit": about.get("radius_unit", "metres")}
-        known = measured.part.has_targets
-        rows.append(row | (errors_of(measured, found[k], k, {"ssim": ssim}) if known else {}))
+        exact = measured.part.has_targets
+        rows.append(row | (errors_of(measured, visibility[k], k, {"ssim": ssim}) if exact else {}))
     return rows
 
 
@@ -99,13 +99,13 @@ def _write_rows(path: Path, rows: list[Mapping[str, Any]]) -> None:
         pd.DataFrame(rows).to_csv(part, index=False, lineterminator="\n")
 
 
-def _draw(measured: MeasuredFrame, found: np.ndarray, label: str, png: Path) -> None:
+def _draw(measured: MeasuredFrame, visibility: np.ndarray, label: str, png: Path) -> None:
     about = measured.part.about
-    shown = shown_radii(len(found))
+    shown = shown_radii(len(visibility))
     lights = [light_names(about)[k] for k in shown]
     bases = [one for one in METHODS.values() if one.channel in about["channels"]]
     pictures = {one.label: [measured.picture(one.channel)] * len(shown) for one in bases}
-    pictures[label] = [found[k] for k in shown]
+    pictures[label] = [visibility[k] for k in shown]
     title = f"{label}: {measured.scene_name}, {_name(measured)}"
     if measured.part.has_targets:
         targets = [measured.target[k] for k in shown]

@@ -9,5 +9,5 @@ comparison    one comparison of a claim, and the verdict of all comparisons toge
 measured      the measured values, by method, budget and seed
 learning      the trend over learning curves, and the extrapolation that they license
 unlearned     the tests of whether networks have learned
-setting_types, row_claims, network_claims, soft_claims   what several kinds share
+setting_types, row_claims, network_claims, soft_claims   shared by several kinds
 """

@@ -5,15 +5,15 @@ Each has
     files(layout, claim): paths by argument of `write_claims.claims`.
     comparisons(claim, data): a list of `Comparison`.
 Where it applies, it has
-    compared(claim): the rows of methods on scenes' viewpoints, by comparison.
-    without_networks(claim, data): by null predictor the comparisons with it in the networks' place.
-    network_wins(claim): whether a network is a claimed winner; in kinds without it one is.
-    not_comparable(claim, data): why the measurements are of something else; empty if not.
-    not_learned(claim, row, budget, data): why a row has not learned; empty if it has.
-    by_all_pixels(claim): the claim on errors of all pixels; None of one without errors off edges.
+    compared(claim): rows of methods on scenes' viewpoints, by comparison.
+    without_networks(claim, data): comparisons with null predictors for networks, by null predictor.
+    network_wins(claim): a network is a claimed winner; True in kinds without this function.
+    not_comparable(claim, data): reason against comparable measurements, or "".
+    not_learned(claim, row, budget, data): evidence that a row has not learned, or "".
+    by_all_pixels(claim): the claim on errors of all pixels, or None without errors off edges.
     counts_by_view(metrics): values beside image metrics, a row a view.
-    NEEDS_SEEDS: it compares trainings, of which one alone decides nothing.
-    COUNTS_VIOLATIONS: it counts how often depths break their bounds.
+    NEEDS_SEEDS: it compares trainings and needs several seeds.
+    COUNTS_VIOLATIONS: it counts violations of depth bounds.
     OF_SOFT_METHODS: its `table` is of methods for soft shadows.
 """
 
@@ -32,7 +32,7 @@ def kind_of(claim: Claim) -> ModuleType:
 
 
 def by_kind(claim: Claim, function: str, *arguments: Any, default: Any) -> Any:
-    """Call a function of a claim's kind, if there."""
+    """Call a function of a claim's kind, if defined."""
     kind = kind_of(claim)
     return getattr(kind, function)(claim, *arguments) if hasattr(kind, function) else default
 

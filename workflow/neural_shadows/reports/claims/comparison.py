@@ -29,16 +29,16 @@ class Comparison:
     """The outcome of one comparison of a claim.
 
     Args:
-        metric, methods: what is compared, and of which methods.
+        metric, methods: of the comparison.
         text: the methods and their values.
-        number: the advantage, or what else is judged, and its interval, as text; empty if there is
-            too little for one. remark: what follows it.
+        number: the advantage or another judged value with its interval, as text; empty without
+            enough data. remark: text behind it.
         supports: its interval lies wholly on the claim's side.
-        against: p-value of its lying on the claim's side in truth; 1 if it does as measured.
-        seeds, samples: of the trainings that it compares; None if nothing is trained.
-        learning: over the learning curves, if there are any.
-        incomparable: why the methods cannot be compared, if they cannot.
-        untested: what there is too little of for a test, if there is.
+        against: p-value of the true advantage on the claim's side; 1 if the measured one is there.
+        seeds, samples: of the compared trainings; None without any.
+        learning: over the learning curves, if any.
+        incomparable: reason against a comparison of the methods, if any.
+        untested: data missing for a test, if any.
     """
 
     metric: str
@@ -68,17 +68,17 @@ class Comparison:
         return replace(self, **judged(*self.learning.extrapolated))
 
 
-def unjudged(**why: str) -> dict[str, object]:
+def unjudged(**reason: str) -> dict[str, object]:
     """Fields of an undecided `Comparison` for a reason."""
-    (reason,) = why.values()
-    return {"number": "", "remark": reason, "supports": False, "against": 1.0, **why}
+    (text,) = reason.values()
+    return {"number": "", "remark": text, "supports": False, "against": 1.0, **reason}
 
 
 def judged(value: float, low: float, high: float, p: float) -> dict[str, object]:
     """Fields of a `Comparison` by the interval of an advantage.
 
-    The interval is the 95 % one, p two-sided. 0 itself is neither side: methods that are alike in
-    every view decide nothing.
+    The interval is the 95 % one, p two-sided. 0 is on neither side: equal methods decide
+    nothing.
     """
     return {
         "number": interval_text(value, low, high),
@@ -124,8 +124,8 @@ def against(comparisons: Sequence[Comparison]) -> list[Comparison]:
 def most_against(comparisons: Sequence[Comparison]) -> Comparison | None:
     """The comparison most against a claim, if any.
 
-    That of the least p-value: the one that contradicts it, if one does. Of those that lie on the
-    claim's side the first that does not support it.
+    The one with the least p-value, which contradicts the claim if any does. Among those on the
+    claim's side the first without support.
     """
     numbered = [comparison for comparison in comparisons if comparison.number]
     return min(numbered, key=lambda each: (each.against, each.supports), default=None)

@@ -18,9 +18,9 @@ def files(layout: Layout) -> dict[str, Any]:
     """The files of all claims, each once."""
     paths = {name: [] for name in FILES}
     for claim in layout.settings["claims"].values():
-        for name, some in kind_of(claim).files(layout, claim).items():
-            paths[name] += some
-    paths = {name: tables.unique(some) for name, some in paths.items()}
+        for name, claim_paths in kind_of(claim).files(layout, claim).items():
+            paths[name] += claim_paths
+    paths = {name: tables.unique(all_paths) for name, all_paths in paths.items()}
     return paths | {"published_csv": layout.source("config/published.csv")}
 
 

@@ -24,10 +24,10 @@ class Learning:
     Args:
         trend: its change for each tenfold of the samples, and the 95 % interval over seeds.
         relative: the same of the logarithm of the errors' ratio.
-        extrapolated: it at the thesis's samples, its 95 % interval and two-sided p-value; None if
-            the curves do not license it, for the reason `unlicensed`.
-        steps: how many times the samples of the largest budget those of the thesis are, and how
-            many times those of the one before its own, which is as far as a hold-out tries.
+        extrapolated: at the thesis's samples, with 95 % interval and two-sided p-value; None if the
+            curves do not license it, for the reason `unlicensed`.
+        steps: the thesis's samples over those of the largest budget, and these over those of the
+            second largest, the step of the hold-out.
     """
 
     trend: tuple[float, float, float]
@@ -40,7 +40,7 @@ class Learning:
     def direction(self) -> str:
         """Towards the claim, away from it, or neither.
 
-        Empty of one seed. Any gap closes while both errors fall, and opens while they do not: from
+        Empty for one seed. Any gap closes while both errors fall, and opens while they do not: from
         5 to 20 million samples that of 10 frequencies to none fell from 0.049 to 0.044 in loss, and
         their ratio grew from 1.28 to 1.40. So both must agree.
         """
@@ -57,15 +57,15 @@ class Learning:
         text = f"trend {value:+.3g}{ends} for each tenfold of the samples"
         if self.extrapolated:
             at, below, above, _ = self.extrapolated
-            far, tried = self.steps
+            step, held_out_step = self.steps
             text += (
-                f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}] ({short(far)} "
-                f"times the largest budget, the hold-out tries {short(tried)} times)"
+                f", at the thesis's samples {at:+.3g} [{below:+.3g}, {above:+.3g}] ({short(step)} "
+                f"times the largest budget, the hold-out tries {short(held_out_step)} times)"
             )
         return text
 
 
-def followed(
+def follow(
     pair: Sequence[Row],
     budgets: Sequence[Budget],
     errors: Sequence[Sequence[np.ndarray]],
@@ -75,12 +75,12 @@ def followed(
 ) -> Learning | None:
     """Follow the advantage of a pair's first method over budgets.
 
-    None of fewer than `FEWEST_BUDGETS`. A training that died is on no curve.
+    None for fewer than `FEWEST_BUDGETS`. Diverged trainings are on no curve.
 
     Args:
-        errors: of each method and budget those of its trainings.
+        errors: of the trainings, by method and budget.
         psnr: the errors are squared ones, and the advantage is in dB.
-        views: from the advantage down and up to the ends of its 95 % interval over views alone.
+        views: distances from the advantage down and up to the ends of its 95 % interval over views.
     """
     if budgets[-1].samples is None or len(budgets) < power_law.FEWEST_BUDGETS:
         return None
@@ -88,15 +88,15 @@ def followed(
     a, b = (Curve(samples, np.array(each)) for each in errors)
     gaps = psnr_of(a.values) - psnr_of(b.values) if psnr else b.values - a.values
     trend = power_law.trend(samples, gaps)
-    # An error may be 0, that of a frame like its reference: 1e-10, as in PSNR.
+    # An error may be 0, of a frame equal to its reference: 1e-10, as in PSNR.
     ratios = np.log(np.maximum(b.values, 1e-10) / np.maximum(a.values, 1e-10))
     relative = power_law.trend(samples, ratios)
     steps = THESIS_SAMPLES / samples[-1], samples[-1] / samples[-2]
     curves = [curve for curve, row in zip((a, b), pair) if row["trained"]]
     died = any(data.died(row, budgets) for row in pair)
-    allowed, why = power_law.licensed(curves, THESIS_SAMPLES, data.seed, died)
-    if not allowed:
-        return Learning(trend, relative, None, why, steps)
+    licensed, reason = power_law.licensed(curves, THESIS_SAMPLES, data.seed, died)
+    if not licensed:
+        return Learning(trend, relative, None, reason, steps)
     # A map's errors are the same at all budgets.
     arms = [
         curve if row["trained"] else curve.values[-1].mean() for curve, row in zip((a, b), pair)
@@ -109,25 +109,25 @@ def followed(
 def widened(
     difference: tuple[float, float, float], views: tuple[float, float]
 ) -> tuple[float, float, float, float]:
-    """Widen an extrapolated value's interval by that over views.
+    """Widen an extrapolated value's interval by the views' interval.
 
-    Each side is scaled from 90 % and widened apart: what falls towards a floor is skew. Errors of
+    Each side is scaled from 90 % and widened separately: values near a floor are skewed. Errors of
     fits and of views are taken as independent, and each side as that of a normal distribution.
 
     Args:
         difference: a value and its 90 % interval over seeds alone.
-        views: how far the 95 % interval over views alone goes down and up.
+        views: lengths of the 95 % interval over views alone, down and up.
 
     Returns: the value, the ends of its 95 % interval and its two-sided p-value.
     """
     value, low, high = difference
-    wide, narrow = (scipy.stats.norm.ppf((1 + level) / 2) for level in (LEVEL, power_law.LEVEL))
+    z_95, z_90 = (scipy.stats.norm.ppf((1 + level) / 2) for level in (LEVEL, power_law.LEVEL))
     # The value may lie outside its interval, which is of resampled fits.
-    sides = np.maximum([value - low, high - value], 0.0) * wide / narrow
+    sides = np.maximum([value - low, high - value], 0.0) * z_95 / z_90
     down, up = np.hypot(sides, views)
     towards_0 = down if value > 0 else up
     if not towards_0:
         p = float(value == 0)
     else:
-        p = float(2 * scipy.stats.norm.sf(wide * abs(value) / towards_0))
+        p = float(2 * scipy.stats.norm.sf(z_95 * abs(value) / towards_0))
     return value, float(value - down), float(value + up), p

@@ -1,4 +1,4 @@
-"""All that claims are judged by."""
+"""The measurements behind claims."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,8 +10,8 @@ from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
 from neural_shadows.settings.records import SceneInfo
 
-# Training samples of networks by text: rays of the thesis, pixels of the papers. Own claims are of
-# methods that are not trained.
+# Training samples of networks by text: rays of the thesis, pixels of the papers. Own claims are
+# about methods without training.
 TEXT_SAMPLES = {
     "thesis": THESIS_SAMPLES,
     "nsm": 75 * 400 * 2048 * 1024,  # epochs of up to 400 images [4]
@@ -29,14 +29,14 @@ NO_SHADOW_ROW = {
 
 
 class Claim(TypedDict, total=False):
-    """A claim as `Settings.resolved` of its kind gives it; a kind has some of the keys."""
+    """A resolved claim, with some of these keys by kind."""
 
     kind: str
     text: str
     section: str
     statement: str
     needs: dict[str, Any]
-    pairs: list[Any]  # of rows, or of keys of methods on frames
+    pairs: list[Any]  # of rows, or of keys of screen-space methods
     methods: list[Any]
     metrics: list[str]
     table: str
@@ -64,9 +64,9 @@ class Measured(Trained):
         times: of `measure_frame_times`, by table and scene.
         published: the thesis's numbers as config/published.csv has them; margins: of each metric
             the difference between the thesis's own trainings.
-        scenes: `procedural` of each: a mesh made to the thesis's description stands in for its own.
+        scenes: `procedural` marks stand-ins made to the thesis's description.
         soft: of each table of soft methods its per-frame metrics, labels and times.
-        tables: CSVs of tables, by name; screen_trainings: training.json of networks of frames.
+        tables: CSVs of tables, by name; screen_trainings: training.json of screen-space networks.
     """
 
     times: Mapping[tuple[str, str], Mapping[str, Any]]
@@ -78,8 +78,8 @@ class Measured(Trained):
     screen_trainings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def pixels(self, claim: Claim) -> int | None:
-        """The fewest training pixels of networks of frames, if any."""
-        records = [self.screen_trainings.get(name, {}) for name in networks_of_frames(claim)]
+        """The fewest training pixels of screen-space networks, if any."""
+        records = [self.screen_trainings.get(name, {}) for name in trained_screen_networks(claim)]
         return min((record["samples"] for record in records if "samples" in record), default=None)
 
 
@@ -90,8 +90,8 @@ def labels(rows: Sequence[Row]) -> list[str]:
     return [f"{row['label']} ({row['scene']})" for row in rows]
 
 
-def networks_of_frames(claim: Claim) -> list[str]:
-    """A claim's trained networks of frames, each once."""
+def trained_screen_networks(claim: Claim) -> list[str]:
+    """A claim's trained screen-space networks, each once."""
     return [*dict.fromkeys(claim.get("networks") or [])]
 
 

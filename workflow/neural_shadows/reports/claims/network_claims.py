@@ -1,17 +1,17 @@
-"""Claims on trained networks of frames from several seeds."""
+"""Claims on trained screen-space networks from several seeds."""
 
 from typing import Any
 
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.claims.measured import Claim, networks_of_frames
+from neural_shadows.reports.claims.measured import Claim, trained_screen_networks
 from neural_shadows.sections.any_report import AnyClaim
 from neural_shadows.sections.sections import Sections
 
 
 class NetworksClaim(AnyClaim):
-    """A claim on trained networks of frames.
+    """A claim on trained screen-space networks.
 
-    Its kind has `named_networks()` and `other_seeds(config)`, networks each with their
+    Its kind has `named_networks()` and `other_seeds(config)`, pairs of a network and its
     counterparts.
     """
 
@@ -27,19 +27,19 @@ class NetworksClaim(AnyClaim):
 
     def check(self, config: Sections, key: str) -> None:
         for network, others in self.other_seeds(config):
-            where, seeds = f"{key}.again.{network}", {}
+            again_key, seeds = f"{key}.again.{network}", {}
             for name in others:
                 if unlike := config.differences(network, name):
                     raise ValueError(
-                        f"{where}: {name!r} has another {unlike[0]} than {network!r}; should "
-                        "differ from it in `seed` and `label` alone"
+                        f"{again_key}: {name!r} has another {unlike[0]} than {network!r}. Let it "
+                        "differ in `seed` and `label` alone"
                     )
             for name in (network, *others):
                 seed = config.screen_seed_of(name)
                 if seed in seeds:
                     raise ValueError(
-                        f"{where}: {name!r} has the seed {seed} of {seeds[seed]!r}; each should "
-                        "have its own"
+                        f"{again_key}: {name!r} has the seed {seed} of {seeds[seed]!r}. Give each "
+                        "its own"
                     )
                 seeds[seed] = name
 
@@ -49,7 +49,6 @@ class NetworksClaim(AnyClaim):
 
 def training_files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
     """The training.json of each of a claim's networks."""
-    paths = [
-        layout.paths.screen_network("training.json", name) for name in networks_of_frames(claim)
-    ]
+    names = trained_screen_networks(claim)
+    paths = [layout.paths.screen_network("training.json", name) for name in names]
     return {"screen_trainings": paths}

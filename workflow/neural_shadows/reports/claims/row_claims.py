@@ -32,16 +32,16 @@ class RowsClaim(AnyClaim):
             for name in names:
                 self.check_method(config, key, name)
             if all(is_classic(unbiased(name)) for name in names):
-                raise ValueError(f"{key}: {names}: one of them should be an experiment")
+                raise ValueError(f"{key}: {names}: no experiment among them. Add one")
             if len(set(names)) < len(names):
-                raise ValueError(f"{key}: {names[0]!r} is compared with itself")
+                raise ValueError(f"{key}: {names[0]!r} is compared with itself. Name two methods")
 
     def check_method(self, config: Sections, key: str, method: str) -> None:
         """Check one method alone."""
         name = unbiased(method)
         if is_null(name) and name != method:
             raise ValueError(
-                f"{key}: {method!r}: a null predictor has no depth bias; write {name!r}"
+                f"{key}: {method!r}: a null predictor has no depth bias. Write {name!r}"
             )
         if not is_classic(name):
             check_among(key, name, config.experiments)
@@ -70,7 +70,7 @@ def compared_in_pairs(claim: Claim) -> list[Sequence[Row]]:
 
 
 def row_files(layout: Layout, rows: Sequence[Row]) -> dict[str, list[str]]:
-    """Trainings and meshes of some rows."""
+    """Trainings and meshes of rows."""
     scenes = tables.unique(row["scene"] for row in rows)
     return {
         "trainings": tables.networks(layout, rows, "training.json"),
@@ -79,7 +79,7 @@ def row_files(layout: Layout, rows: Sequence[Row]) -> dict[str, list[str]]:
 
 
 def picture_files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
-    """Files of a claim on pictures, no shadow's among them."""
+    """Files of a claim on images, with those without shadow."""
     rows = tables.with_curves(layout, methods(claim))
     null = tables.unshadowed(tables.unique(row["scene"] for row in rows))
     return row_files(layout, rows) | {"metrics": tables.metrics(layout, [*rows, *null])}

@@ -13,23 +13,23 @@ Radius = Annotated[int, Field(ge=0)]  # its number
 def _check_once(values: list[Any]) -> list[Any]:
     for value in values:
         if values.count(value) > 1:
-            raise ValueError(f"{value!r} is there twice; should be there once")
+            raise ValueError(f"{value!r} is listed twice. List it once")
     return values
 
 
-def _check_each_once(again: dict[str, list[str]]) -> dict[str, list[str]]:
-    for name, others in again.items():
+def _check_each_once(counterparts: dict[str, list[str]]) -> dict[str, list[str]]:
+    for name, others in counterparts.items():
         _check_once([name, *others])
-    return again
+    return counterparts
 
 
 def metrics(*names: str) -> Any:
-    """A list of some of these metrics, each once."""
+    """A list of these metrics, each at most once."""
     return Annotated[list[Literal[names]], Field(min_length=1), AfterValidator(_check_once)]
 
 
 def again(name: Any) -> Any:
-    """By name its counterparts from other seeds, each once."""
+    """Counterparts from other seeds by name, each once."""
     return Annotated[dict[Name, list[name]], AfterValidator(_check_each_once)]
 
 

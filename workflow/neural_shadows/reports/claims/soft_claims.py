@@ -27,8 +27,8 @@ from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name, check_among, name_in
 from neural_shadows.settings.records import SoftTimes
 
-ITS_BASE = "base"  # a null of each network: the shadow that it is given, or the light's map
-# What values are multiplied by, as their names in `NAMES` have it.
+ITS_BASE = "base"  # a null predictor by network: its base, or the light's map
+# Factors of values, see their names in `NAMES`.
 FACTORS = {"mse": 1e4, "mse_off_edges": 1e4, "l1": 100, "light_leak": 100, "false_shadow": 100}
 
 
@@ -42,7 +42,7 @@ class SoftClaim(NetworksClaim):
 
     table: Name = Field(description="a table of `soft_methods` or `soft_summary` in `tables`")
     again: setting_types.again(name_in("screen_experiments")) = Field(
-        {}, description="by network, those that are the same, trained from other seeds"
+        {}, description="by network, its counterparts trained from other seeds"
     )
 
     def named_networks(self) -> Iterator[str]:
@@ -57,7 +57,9 @@ class SoftClaim(NetworksClaim):
         table = config.tables[self.table]
         frames = config.frame_sets[table.frame_set]
         if isinstance(frames, OwnFrames):
-            raise ValueError(f"{key}.table: {self.table!r} is of frames of a user's own")
+            raise ValueError(
+                f"{key}.table: {self.table!r} is of a user's own frames. Choose another table"
+            )
         methods = self.named_methods()
         for method in methods:
             check_among(f"{key}: {self.table}.methods", method, table.methods_shown())
@@ -103,8 +105,8 @@ class SoftTable:
 
     Args:
         values: a row a frame (scene, part, frame), a column a (method, metric, radius).
-        labels: by method; times: of `time_soft_methods`, None of what is not timed; radii: as
-            texts, with their unit.
+        labels: by method; times: of `time_soft_methods`, None without timing; radii: texts with
+            their unit.
     """
 
     values: pd.DataFrame
@@ -113,9 +115,9 @@ class SoftTable:
     radii: Sequence[str]
 
     def milliseconds(self, method: str, radius: int | None) -> float:
-        """Milliseconds of a frame, its map's among them.
+        """Milliseconds of a frame, with its map's.
 
-        NaN of what is not timed; without a radius the mean over all.
+        NaN for untimed methods; without a radius the mean over all.
         """
         timed = self.times["methods"].get(method) if self.times else None
         if timed is None:
@@ -142,8 +144,8 @@ def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
 def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
     """The comparisons with null predictors for networks, by null.
 
-    In each pair one takes the place of the claimed winner, or of the loser where that alone is a
-    network; times stay the networks'. Without networks there is none.
+    In each pair the null replaces the claimed winner, or the loser where only that is a network;
+    times stay the networks'. Empty without networks.
     """
     if not claim.get("networks"):
         return {}
@@ -157,18 +159,18 @@ def comparison(
 ) -> Comparison:
     """Compare two methods by paired differences over scenes and seeds.
 
-    The interval is that of `scenes_interval`. Frames say nothing of how trainings differ: of fewer
-    seeds of a network than the claim needs (two, without such a need) nothing is judged. Other
-    seeds of a network are `again` of its name.
+    The interval is that of `scenes_interval`. Frames do not show how trainings differ: with fewer
+    seeds of a network than the claim needs (two by default) nothing is judged. Other seeds of a
+    network are `again` of its name.
     """
     table = data.soft[claim["table"]]
     if null := claim.get("null"):
         runs = _with_null(pair, null, claim.get("bases", {}))
         return _of_runs(table, metric, radius, pair, runs)
-    again, needed = claim.get("again") or {}, needs(claim, "seeds") or 2
-    runs = [[method, *again.get(method, ())] for method in pair]
-    seeds = min((len(some) for some in runs if is_network(some[0])), default=None)
-    outcome = _of_runs(table, metric, radius, pair, [some[:seeds] for some in runs])
+    other_seeds, needed = claim.get("again") or {}, needs(claim, "seeds") or 2
+    runs = [[method, *other_seeds.get(method, ())] for method in pair]
+    seeds = min((len(names) for names in runs if is_network(names[0])), default=None)
+    outcome = _of_runs(table, metric, radius, pair, [names[:seeds] for names in runs])
     if seeds is None or seeds >= needed or outcome.untested:
         return outcome
     return replace(outcome, supports=False, against=1.0, untested=seeds_of(seeds, needed))
@@ -176,9 +178,9 @@ def comparison(
 
 def _with_null(pair: Sequence[str], null: str, bases: Mapping[str, str]) -> list[list[str]]:
     """The runs of a pair, its first network's a null's."""
-    place = next((k for k, method in enumerate(pair) if is_network(method)), None)
-    stand_in = null if place is None or null != ITS_BASE else bases.get(pair[place], "hard")
-    return [[stand_in] if k == place else [method] for k, method in enumerate(pair)]
+    index = next((k for k, method in enumerate(pair) if is_network(method)), None)
+    stand_in = null if index is None or null != ITS_BASE else bases.get(pair[index], "hard")
+    return [[stand_in] if k == index else [method] for k, method in enumerate(pair)]
 
 
 def _of_runs(
@@ -190,30 +192,32 @@ def _of_runs(
 ) -> Comparison:
     """Compare two methods by their runs.
 
-    They have as many seeds, or one run is compared with all of the other's.
+    Both have the same number of seeds, or one a single run.
     """
     labels = [table.labels[name] for name in pair]
     light = "all lights" if radius is None else table.radii[radius]
-    kept = {"metric": metric, "methods": f"{' against '.join(labels)} at {light}"}
-    errors = [[table.errors(run, metric, radius) for run in some] for some in runs]
-    if missing := [label for label, some in zip(labels, errors) if any(x is None for x in some)]:
-        why = f"no {NAMES[metric]} of {', '.join(missing)}"
-        return Comparison(**kept, text=kept["methods"], **unjudged(untested=why))
-    frames = [pd.concat(some, axis=1) for some in errors]
+    fields = {"metric": metric, "methods": f"{' against '.join(labels)} at {light}"}
+    errors = [[table.errors(run, metric, radius) for run in names] for names in runs]
+    if missing := [
+        label for label, series in zip(labels, errors) if any(x is None for x in series)
+    ]:
+        reason = f"no {NAMES[metric]} of {', '.join(missing)}"
+        return Comparison(**fields, text=fields["methods"], **unjudged(untested=reason))
+    frames = [pd.concat(series, axis=1) for series in errors]
     means = [error_of(metric, each.groupby("scene").mean().mean(axis=None)) for each in frames]
     times = [table.milliseconds(name, radius) for name in pair]
     texts = [
         f"{label} {short(mean)}" + ("" if np.isnan(ms) else f" ({ms:.0f} ms)")
         for label, mean, ms in zip(labels, means, times)
     ]
-    kept["text"] = f"{NAMES[metric]} at {light} of {' against '.join(texts)}"
+    fields["text"] = f"{NAMES[metric]} at {light} of {' against '.join(texts)}"
     first, second = (each.to_numpy() for each in frames)
-    gain = pd.DataFrame(second - first, frames[0].index).dropna()  # one run stands beside several
+    gain = pd.DataFrame(second - first, frames[0].index).dropna()  # broadcasts one run over several
     scenes = gain.index.get_level_values("scene").to_numpy()
     count = len(set(scenes))
     if count < FEWEST_SCENES and len(gain) < FEWEST_VIEWS:
-        return Comparison(**kept, **unjudged(untested=f"{len(gain)} frames are too few"))
+        return Comparison(**fields, **unjudged(untested=f"{len(gain)} frames are too few"))
     units = f"{count} scenes" if count >= FEWEST_SCENES else f"{len(gain)} frames in {count} scene"
     units += "s" * (1 < count < FEWEST_SCENES)
     interval = scenes_interval(gain.to_numpy().T, scenes)
-    return Comparison(**kept, **judged(*interval), remark=f" over {units}")
+    return Comparison(**fields, **judged(*interval), remark=f" over {units}")

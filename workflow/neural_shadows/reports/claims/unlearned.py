@@ -1,10 +1,10 @@
-"""Networks of claims without content: no better than null predictors."""
+"""Networks of claims no better than null predictors."""
 
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.metrics.intervals import FEWEST_VIEWS
 from neural_shadows.reports.claims.claim_kinds import compared, kind_of
 from neural_shadows.reports.claims.comparison import NAMES, interval_text
-from neural_shadows.reports.claims.measured import Claim, Measured, networks_of_frames
+from neural_shadows.reports.claims.measured import Claim, Measured, trained_screen_networks
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.learned import THESIS_METRICS, has_learned, learned
 from neural_shadows.reports.data.trained import Budget, Row
@@ -13,17 +13,17 @@ from neural_shadows.reports.data.trained import Budget, Row
 def not_learned(claim: Claim, data: Measured) -> str:
     """Name the trained networks no better than null predictors.
 
-    Networks of frames must be better than the best of no shadow, the hard map and their own base,
-    by the squared error on validation frames. Of others each training of the budget that is
-    compared must be better than drawing no shadow, in the metrics of the thesis's tables and those
-    of the claim, or in its loss. Too few views decide nothing.
+    Screen-space networks must be better than no shadow, the hard map and their own base, by the
+    squared error on validation frames. Of others each training of the compared budget must
+    be better than no shadow, in the metrics of the thesis's tables and of the claim, or in its
+    loss. Too few views decide nothing.
     """
-    if networks := networks_of_frames(claim):
+    if networks := trained_screen_networks(claim):
         return "; ".join(filter(None, (_by_validation(name, data) for name in networks)))
     kind = kind_of(claim)
     if not hasattr(kind, "not_learned"):
         return ""
-    tested = [
+    trained = [
         (row, budget)
         for rows in compared(claim)
         for budget in data.budgets(rows)[-1:]
@@ -31,7 +31,7 @@ def not_learned(claim: Claim, data: Measured) -> str:
         if row["trained"]
     ]
     reasons = {}
-    for row, budget in tested:
+    for row, budget in trained:
         if reason := kind.not_learned(claim, row, budget, data):
             reasons[row["method"]] = f"{row['label']} ({row['scene']}): {reason}"
     return "; ".join(reasons.values())
@@ -40,7 +40,7 @@ def not_learned(claim: Claim, data: Measured) -> str:
 def by_frames(claim: Claim, row: Row, budget: Budget, data: Measured) -> str:
     """The first metric no better than no shadow's.
 
-    Better is what lies beyond the thesis's run-to-run margin.
+    Differences count beyond the thesis's run-to-run margin.
     """
     names = dict.fromkeys((*THESIS_METRICS, *claim.get("metrics", ())))
     metrics = [*dict.fromkeys(data.metric(row, name) for name in names)]

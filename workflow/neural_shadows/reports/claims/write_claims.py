@@ -58,16 +58,16 @@ def claims(
     CSV: `number` is of the comparison most against the claim, `number_of` its metric.
 
     Args:
-        metrics, losses, trainings, times, meshes, soft_metrics: the folders have the name of a
-            file's scene, experiment, table or frame set; soft_times, tables: the files that of a
-            table.
-        claims: by name, as `judge` takes them, with `section` and `statement`.
+        metrics, losses, trainings, times, meshes, soft_metrics: folders are named after a
+            file's scene, experiment, table or frame set; soft_times, tables: files are named after
+            a table.
+        claims: by name, see `judge`, with `section` and `statement`.
         learning_curves: the points of each experiment's curve, the budgets growing.
         soft_tables: of each its `frame_set`, the `labels` of its methods, its `scenes`, and its
             `radii` as texts.
 
     Raises:
-        InputError: a file is missing, or a method lacks a value of a view that others have.
+        InputError: a file is missing, or a method is without a value of another's view.
     """
     published = read_rows(published_csv)
     kinds = {claim["kind"]: kind_of(claim) for claim in claims.values()}.values()
@@ -99,7 +99,7 @@ def claims(
         "evidence": rows["evidence"],
     }
     return Table(
-        title="What is claimed, and what this run can say of it",
+        title="Claims, and the verdicts of this run",
         data=rows,
         columns=columns,
         notes=_notes(data, run, scenes),
@@ -132,22 +132,19 @@ def _soft(
 
 def _lead(verdicts: pd.Series, data: Measured) -> str:
     """The scale of a run and the meanings of verdicts."""
-    seen = [record["samples"] for record in data.trainings.values() if record["training"]]
+    rays = [record["samples"] for record in data.trainings.values() if record["training"]]
     counts = verdicts.value_counts()
     pixels = [record["samples"] for record in data.screen_trainings.values()]
-    sentences = [phrases.describe_samples(max(seen), THESIS_SAMPLES)] if seen else []
+    sentences = [phrases.describe_samples(max(rays), THESIS_SAMPLES)] if rays else []
     if pixels:
         theirs = " and ".join(f"{TEXT_SAMPLES[text] / 1e9:.3g} billion" for text in TEXTS)
         sentences.append(
-            f"Networks of frames saw at most {max(pixels):,} pixels each in this run, and {theirs} in "
-            f"{' and '.join(TEXTS.values())}."
+            f"Screen-space networks saw at most {max(pixels):,} pixels each in this run, and {theirs} "
+            f"in {' and '.join(TEXTS.values())}."
         )
     scale = " ".join(sentences) or "No network was trained for these claims."
     meanings = [f"- **{name}** ({counts.get(name, 0)}): {MEANINGS[name]}" for name in VERDICTS]
-    first = (
-        f"{scale} A verdict says what these data can carry about a claim, and nothing more: the "
-        "first of the following that applies."
-    )
+    first = f"{scale} A verdict is limited to these data: the first of the following that applies."
     return "\n".join([first, "", *meanings])
 
 
@@ -158,13 +155,13 @@ def _notes(data: Measured, run: Run, scenes: Mapping[str, SceneInfo]) -> list[st
         "(Student's t) and views within their view set (jackknife; the object is fixed) together, of "
         "soft shadows over seeds and scenes (of fewer than five: frames, and these scenes alone; both "
         "Student's t), of losses over seeds "
-        "(the last tenth of each curve is one value; of a training that died, at least the loss of "
-        "drawing no shadow), of times over frames (exact, of the median of the frames' ratios of "
+        "(the last tenth of each curve is one value; of a diverged training, at least the loss of "
+        "no shadow), of times over frames (exact, of the median of the frames' ratios of "
         "own milliseconds, without primary visibility and shading), of ratios of tables over seeds "
-        "alone (Student's t of their logarithms). Ratios without networks and the column that another "
-        "follows have no interval: their numbers decide.",
-        "Networks are compared at their largest common budget, and by the same seeds; a trend is "
-        "over the budgets of a learning curve. Of one seed there is no interval over trainings.",
+        "alone (Student's t of their logarithms). Ratios without networks and proportional "
+        "columns have no interval: their numbers decide.",
+        "Networks are compared at their largest common budget and by the same seeds; a trend is "
+        "over the budgets of a learning curve. One seed has no interval over trainings.",
         "Printed: claims on the thesis's own tables have a margin and no test: a difference counts "
         "from twice what it prints for the same configuration trained twice (tables 4.1 and 4.2). "
         "Nothing is corrected across claims.",

@@ -1,4 +1,4 @@
-"""Which viewpoint of a view set to show: a middling one that tells methods apart."""
+"""Choice of a typical viewpoint with different methods' errors."""
 
 import pandas as pd
 
@@ -11,7 +11,7 @@ RULE = (
 
 
 def choose_views(metrics: pd.DataFrame) -> dict[str, tuple[str, int]]:
-    """By view set the view to show by `RULE`, as its view set and number.
+    """Choose a view of each view set by `RULE`.
 
     Views that all methods show as the reference does are left aside where there are others, and
     of a half-finished run those that fewer methods have. Drawing no shadow has no say.
@@ -23,8 +23,8 @@ def choose_views(metrics: pd.DataFrame) -> dict[str, tuple[str, int]]:
     errors = errors.pivot(index=["view_set", "view"], columns="method", values="value")
     chosen = {}
     for view_set, views in errors.groupby("view_set"):
-        there = views.count(axis=1)
-        views = views[there == there.max()]
+        methods = views.count(axis=1)
+        views = views[methods == methods.max()]
         differing = views[views.max(axis=1) > 0]
         views = views if differing.empty else differing
         middle = views.median(axis=1).sort_values(kind="stable").index

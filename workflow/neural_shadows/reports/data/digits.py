@@ -1,8 +1,8 @@
-"""Numbers of so many digits, as people write them."""
+"""Numbers rounded for reading."""
 
 
 def short(value: float, digits: int = 3) -> str:
-    """A number rounded to so many digits, of a whole part all: "0.0123", "1,340", never "1.34e+03".
+    """Round a number to digits: "0.0123", "1,340", never "1.34e+03".
 
     A page reads its tables' numbers, and readers compare them by their length.
     """

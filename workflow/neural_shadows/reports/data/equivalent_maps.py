@@ -1,7 +1,6 @@
-"""What a method's quality is worth in shadow maps: the size of the one that would be as good.
+"""The size of the equally good shadow map.
 
-It compares across meshes, views and LPIPS networks better than the quality itself, which all three
-change: the thesis's network on the dragon equals its shadow map of 386² by LPIPS, of 191² by PSNR.
+It depends less on mesh, views and LPIPS network than the quality itself: the thesis's network on the dragon equals its shadow map of 386² by LPIPS, of 191² by PSNR.
 """
 
 from collections.abc import Sequence
@@ -17,7 +16,7 @@ from neural_shadows.metrics.pooled_psnr import mse_of
 def equivalent_maps(
     table: pd.DataFrame, methods: Sequence[str], psnr: str = "psnr_pooled"
 ) -> dict[str, list[str]]:
-    """Texels along a side of the shadow map that is as good as each method.
+    """Texels along a side of the shadow map equal to each method.
 
     Args:
         table: a row a method, with `lpips`, which may be empty, and a column of PSNRs in dB.
@@ -40,10 +39,10 @@ def _size(method: str) -> float:
 
 
 def _texts(sizes: np.ndarray, errors: np.ndarray) -> list[str]:
-    known = np.isfinite(sizes) & np.isfinite(errors)
-    if known.sum() < 2:
+    usable = np.isfinite(sizes) & np.isfinite(errors)
+    if usable.sum() < 2:
         return [""] * len(sizes)
-    measured = sizes[known].astype(int), errors[known]
+    measured = sizes[usable].astype(int), errors[usable]
     return [
         "" if np.isfinite(size) or np.isnan(error) else _text(*measured, error)
         for size, error in zip(sizes, errors)
@@ -53,5 +52,5 @@ def _texts(sizes: np.ndarray, errors: np.ndarray) -> list[str]:
 def _text(sizes: np.ndarray, errors: np.ndarray, error: float) -> str:
     if error < errors.min():
         return f"> {sizes.max()}"
-    found = equivalent_resolution(sizes, errors, error)
-    return f"< {sizes.min()}" if found is None else f"{found:.0f}"
+    resolution = equivalent_resolution(sizes, errors, error)
+    return f"< {sizes.min()}" if resolution is None else f"{resolution:.0f}"

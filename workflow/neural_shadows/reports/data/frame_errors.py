@@ -1,4 +1,4 @@
-"""Where methods' pictures of a viewpoint are wrong: the parts to show large, and their colours."""
+"""Error colours of methods' pictures, and crops to show large."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from neural_shadows.reports.data.method_look import REFERENCE
 
 # Grey levels in [0, 1]: light and shadow differ by 0.75 n.l, steps of an 8-bit picture by 0.004.
 VISIBLE_DIFFERENCE = 0.05
-FEW = 0.0005  # of a frame's pixels: a method with fewer wrong ones has less of a say
+FEW = 0.0005  # of a frame's pixels: a method with fewer wrong ones weighs less
 CROP_SHARES = (0.2, 0.06)  # of the frame's height and width
 TINT = 0.75  # of an error's colour; the rest is the picture's
 FULL = 0.5  # a soft shadow's error of so much visibility has the whole colour
@@ -41,14 +41,14 @@ class Window(NamedTuple):
 
 
 def choose_crops(images: Mapping[str, np.ndarray]) -> list[Window]:
-    """The windows, each within the one before, that show best how methods differ.
+    """Choose nested windows with most of the methods' errors.
 
     Args:
         images: greyscale, shape (H, W), in [0, 1], of the methods and of `reference`.
 
     Returns:
         Windows of `CROP_SHARES` of the frame either way, with most of the methods' visible errors:
-        each method's add up to 1, or a network that is wrong everywhere would outvote all others.
+        each method's add up to 1, so that no bad network outweighs the others.
         Of equally good windows the middle one.
     """
     reference = images[REFERENCE]
@@ -73,10 +73,10 @@ def _best_window(interest: np.ndarray, height: int, width: int) -> tuple[int, in
 
 
 def error_layer(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.ndarray:
-    """What to lay over a grey image (H, W): RGBA (H, W, 4) uint8, a tint where it is visibly wrong.
+    """Tint visible errors of a grey image (H, W): RGBA (H, W, 4) uint8.
 
-    Each wrong pixel is `size` pixels wide and high, to be seen in a small picture; where both
-    kinds of error meet, it has the colour of the more.
+    Each wrong pixel is `size` pixels wide and high, for small pictures; where both kinds of error
+    meet, it has the colour of the majority.
     """
     layer = np.zeros((*image.shape, 4), np.uint8)
     difference = image - reference
@@ -88,9 +88,9 @@ def error_layer(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.n
 
 
 def graded_layer(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """What to lay over a soft shadow (H, W), or white: RGBA (H, W, 4) uint8, by how wrong it is.
+    """Colour errors of a soft shadow (H, W): RGBA (H, W, 4) uint8.
 
-    Its opacity grows with the error, from none to all at `FULL`.
+    Opacity grows with the error, from none to all at `FULL`.
     """
     difference = image - reference
     share = np.round(SHADES * np.clip(np.abs(difference) / FULL, 0, 1)) / SHADES
@@ -109,6 +109,6 @@ def with_errors(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.n
 
 
 def error_legend() -> list[Patch]:
-    """What the colours of `with_errors` mean."""
+    """Legend of the colours of `with_errors`."""
     names = {"false shadow": FALSE_SHADOW, "light leak": LIGHT_LEAK}
     return [Patch(color=colour, label=name) for name, colour in names.items()]

@@ -1,4 +1,4 @@
-"""Means of errors over frames, their 95 % intervals, and of what these are."""
+"""Means of errors over frames, with 95 % intervals."""
 
 from collections.abc import Sequence
 
@@ -9,8 +9,8 @@ from neural_shadows.metrics.intervals import FEWEST_SCENES, scenes_interval
 
 OFF_EDGES = "mse_off_edges"
 ABOUT_EDGES = (
-    "Off edges: of pixels in which all eight places of the target see one surface. At the others an "
-    "error is of antialiasing first: the exact shadow of their centres has one, too."
+    "Off edges: of pixels in which all eight sample points see one surface. Errors of other pixels "
+    "are mostly of antialiasing: the exact shadow at pixel centres has them, too."
 )
 
 
@@ -36,21 +36,21 @@ def mean_over_scenes(values: pd.Series) -> float:
     return float(values.groupby(level="scene").mean().mean())
 
 
-def by_frame(found: pd.DataFrame, metric: str) -> pd.Series:
-    """A metric of each frame, the mean of its lights: frames are what is drawn.
+def by_frame(errors: pd.DataFrame, metric: str) -> pd.Series:
+    """A metric of each frame, averaged over its lights.
 
     Args:
-        found: rows of a method, as `read_soft_metrics` gives them.
+        errors: rows of a method, of `read_soft_metrics`.
     """
-    mine = found[found["metric"] == metric]
-    return mine.groupby(["scene", "part", "frame"])["value"].mean()
+    values = errors[errors["metric"] == metric]
+    return values.groupby(["scene", "part", "frame"])["value"].mean()
 
 
 def describe_units(scenes: Sequence[str], frames: int) -> str:
-    """What an interval of `frames` frames in all is over, and what it says nothing of."""
+    """Describe the sample of an interval over `frames` frames in all."""
     count = len(scenes)
     if count >= FEWEST_SCENES:
-        return f"95 % over {count} scenes, by Student's t of their means; each has the same weight"
+        return f"95 % over {count} scenes, by Student's t of their means, of equal weight"
     if count == 1:
-        return f"95 % over {frames} frames of one scene, {scenes[0]}: nothing is said of others"
-    return f"95 % over {frames} frames in {count} scenes, {', '.join(scenes)}: nothing is said of others"
+        return f"95 % over {frames} frames of one scene, {scenes[0]}; not valid for others"
+    return f"95 % over {frames} frames in {count} scenes, {', '.join(scenes)}; not valid for others"

@@ -1,4 +1,4 @@
-"""Viewpoints as the reference and every method show them, drawn anew from what they answered."""
+"""Pictures of viewpoints by the reference and by every method."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ View = tuple[str, int]  # a view set and a number in it
 class Frame:
     """A viewpoint by `reference` and by methods: grey `images` (H, W) float32 in [0, 1].
 
-    `caption` says which it is; `scores` are by method and metric.
+    `caption` names the view; `scores` are by method and metric.
     """
 
     view: View
@@ -35,12 +35,12 @@ def read_frames(
     metrics: pd.DataFrame,
     views: Sequence[View],
 ) -> list[Frame]:
-    """Some views of a scene, in their order, by the methods that have both answers and metrics.
+    """Read views of a scene by methods with both visibility and metrics.
 
     Args:
         references: batches of the scene, as BATCH.safetensors; visibilities: of its methods, as
-            METHOD.BATCH.npz, whose order the images have.
-        metrics: of the methods, as `read_metrics` gives them.
+            METHOD.BATCH.npz, in the order of the images.
+        metrics: of the methods, of `read_metrics`.
 
     Raises:
         InputError: a file cannot be read.
@@ -51,22 +51,22 @@ def read_frames(
     for path in references:
         batch = References(path)
         # Of another batch the key is METHOD.BATCH, of which there are no scores.
-        answered = {one.stem.removesuffix(f".{path.stem}"): one for one in visibilities}
-        for number, view in enumerate((one.view_set, one.index) for one in batch.views):
+        answered = {file.stem.removesuffix(f".{path.stem}"): file for file in visibilities}
+        for number, view in enumerate((v.view_set, v.index) for v in batch.views):
             if view not in views:
                 continue
             frame, truth = batch[number]
-            found = Frame(view, _caption(view, counts[view[0]]), {REFERENCE: shade(frame, truth)})
+            picture = Frame(view, _caption(view, counts[view[0]]), {REFERENCE: shade(frame, truth)})
             for method, file in answered.items():
                 if (*view, method) in scores.index:
-                    answer = read_visibility(file, number, frame)
-                    found.images[method] = shade(frame, answer)
-                    found.scores[method] = scores.loc[*view, method].dropna().to_dict()
-            frames[view] = found
+                    visibility = read_visibility(file, number, frame)
+                    picture.images[method] = shade(frame, visibility)
+                    picture.scores[method] = scores.loc[*view, method].dropna().to_dict()
+            frames[view] = picture
     return [frames[view] for view in views if view in frames]
 
 
 def _caption(view: View, count: int) -> str:
-    """Which view of `count` it is, and where the camera is aimed."""
+    """Number of the view, and the aim of its camera."""
     view_set, number = view
     return f"View {number} (of 0 to {count - 1}), {VIEW_SETS[view_set]}"

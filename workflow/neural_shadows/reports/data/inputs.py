@@ -1,4 +1,4 @@
-"""What files a report is given, by what their paths say."""
+"""Input files of reports, by the names in their paths."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -16,28 +16,28 @@ Record = Mapping[str, Any]
 
 def by_folder(paths: Iterable[Path]) -> dict[str, list[Path]]:
     """Paths by the name of their folder: a scene, an experiment or a table."""
-    found: dict[str, list[Path]] = {}
+    folders: dict[str, list[Path]] = {}
     for path in paths:
-        found.setdefault(path.parent.name, []).append(path)
-    return found
+        folders.setdefault(path.parent.name, []).append(path)
+    return folders
 
 
 def read_meshes(paths: Iterable[Path]) -> dict[str, dict[str, Any]]:
-    """What `prepare_mesh` wrote, by scene."""
+    """Read mesh.json by scene."""
     return {path.parent.name: read_json(path) for path in paths}
 
 
 def read_biases(
     rows: Sequence[Record], paths: Iterable[Path]
 ) -> dict[tuple[str, str], dict[str, Any]]:
-    """The depth bias of each row that has one, by scene and method.
+    """Read the depth biases of rows by scene and method.
 
-    Returns: `depth_bias` (sphere radii), `push` (cells), and `at_end`, whether a found one is the
-        first or the last that was tried.
+    Returns: `depth_bias` (sphere radii), `push` (cells), and `at_end`, true if a chosen bias is
+        the first or last one tried.
     """
-    found = {(path.parent.name, path.stem): read_json(path) for path in paths}
+    biases = {(path.parent.name, path.stem): read_json(path) for path in paths}
     return {
-        (row["scene"], row["method"]): found[row["scene"], unbiased(row["method"])]
+        (row["scene"], row["method"]): biases[row["scene"], unbiased(row["method"])]
         if row["bias"] == "held_out"
         else {"depth_bias": row["bias"], "push": 0.0, "at_end": False}
         for row in rows
@@ -46,7 +46,7 @@ def read_biases(
 
 
 def read_sizes(rows: Sequence[Record], weights: Iterable[Path]) -> dict[str, float]:
-    """Bytes that each method of the rows stores; NaN for one that stores nothing of its own."""
+    """Stored bytes of each method of the rows; NaN without own storage."""
     files = {path.parent.name: path for path in weights}
     sizes = {
         row["method"]: stored_bytes(files.get(row["experiment"], unbiased(row["method"])))
@@ -56,8 +56,8 @@ def read_sizes(rows: Sequence[Record], weights: Iterable[Path]) -> dict[str, flo
 
 
 def read_seconds(benchmarks: Iterable[Path]) -> float:
-    """Seconds of some jobs, one after another, from their benchmarks; NaN if one is missing."""
+    """Sum the seconds of benchmarks; NaN if one is missing."""
     try:
         return sum(pd.read_csv(path, sep="\t")["s"].sum() for path in benchmarks)
-    except FileNotFoundError:  # a result that was copied here, or made before a benchmark was kept
+    except FileNotFoundError:  # copied results have none
         return np.nan

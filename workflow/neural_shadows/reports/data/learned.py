@@ -1,4 +1,4 @@
-"""Whether a network has learned: whether it is better than drawing no shadow at all."""
+"""Comparison of networks with drawing no shadow at all."""
 
 from collections.abc import Mapping, Sequence
 
@@ -14,24 +14,24 @@ from neural_shadows.settings.records import Row
 
 Advantage = tuple[float, float, float]  # a value and the ends of its 95 % interval
 
-THESIS_METRICS = ("lpips", "psnr", "ssim")  # of its tables: in what it is better
+THESIS_METRICS = ("lpips", "psnr", "ssim")  # of its tables
 
 HIGHER_IS_BETTER = ("psnr", "ssim")
-# The configuration that the thesis prints twice, trained anew: its difference is what chance does.
+# The configuration that the thesis prints twice, trained anew: the difference is by chance.
 SAME = (("4.1", "poisson_quadtree"), ("4.2", "frequencies_10"))
 
 
 def margins(published: pd.Series) -> dict[str, float]:
     """The thesis's own difference from run to run in each metric that it prints (0.18 dB).
 
-    `published` is as `read_published` gives it.
+    `published`: of `read_published`.
     """
     first, second = (published.unstack().loc[printed] for printed in SAME)
     return (first - second).abs().dropna().to_dict()
 
 
 def advantage(a: pd.Series, b: pd.Series, metric: str, seed: int) -> Advantage:
-    """By how much `a` is better than `b`, of the same views, in a metric: positive if it is.
+    """Advantage of `a` over `b` in a metric, on the same views.
 
     Of PSNR the difference of pooled PSNRs, in dB; of others the mean difference.
     """
@@ -48,21 +48,21 @@ def learned(
     margins: Mapping[str, float],
     seed: int,
 ) -> dict[str, Advantage]:
-    """By how much a network is better than no shadow on the same views, beyond a margin.
+    """Advantage of a network over no shadow, less a margin.
 
     Args:
         network, null: a row a view, in one order, and a column a metric; null: of `no_shadow`.
-        metrics: which to compare.
-        margins: of each metric, 0 of those that are not there.
+        metrics: those to compare.
+        margins: of metrics, 0 by default.
         seed: of the bootstrap over views.
 
     Returns: of each metric the `advantage` less its margin.
     """
-    found = {}
+    advantages = {}
     for metric in metrics:
         ends = advantage(network[metric], null[metric], metric, seed)
-        found[metric] = tuple(end - margins.get(metric, 0.0) for end in ends)
-    return found
+        advantages[metric] = tuple(end - margins.get(metric, 0.0) for end in ends)
+    return advantages
 
 
 def learned_methods(
@@ -71,27 +71,27 @@ def learned_methods(
     margins: Mapping[str, float],
     seed: int,
 ) -> dict[str, bool]:
-    """Whether each trained network is better than no shadow, in all that the thesis prints.
+    """Compare each trained network with no shadow, in the thesis's metrics.
 
-    In LPIPS, or without it in FLIP, in pooled PSNR and in SSIM. Of too few views for an interval
-    nothing is said: there are no methods then.
+    In LPIPS, or without it in FLIP, in pooled PSNR and in SSIM. Empty with too few
+    views for an interval.
 
     Args:
-        wide: as `values_by_view` gives it, with `NO_SHADOW`.
-        rows: as `config.rows_of` gives them; those that are not `trained` are left out.
+        wide: of `values_by_view`, with `NO_SHADOW`.
+        rows: of `config.rows_of`; untrained ones are left out.
     """
     if len(wide) < FEWEST_VIEWS:
         return {}
     perceived = "lpips" if (NO_SHADOW, "lpips") in wide else "flip"
     metrics = (perceived, *THESIS_METRICS[1:])
-    found = {
+    advantages_by_method = {
         row["method"]: learned(wide[row["method"]], wide[NO_SHADOW], metrics, margins, seed)
         for row in rows
         if row["trained"]
     }
-    return {method: has_learned(advantages) for method, advantages in found.items()}
+    return {method: has_learned(advantages) for method, advantages in advantages_by_method.items()}
 
 
 def has_learned(advantages: Mapping[str, Advantage]) -> bool:
-    """Whether every interval of `learned` lies above 0."""
+    """Test that every interval of `learned` lies above 0."""
     return all(low > 0 for _, low, _ in advantages.values())

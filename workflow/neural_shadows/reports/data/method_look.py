@@ -7,14 +7,14 @@ from neural_shadows.settings.records import Row
 
 REFERENCE = "reference"
 
-# By kind, in a legend's order: by colour what is of one family, and no two of one symbol.
+# By kind, in a legend's order: a colour for each family, a symbol for each kind.
 LOOKS = {
     REFERENCE: Look(
         "exact shadow",
         BLACK,
         "*",
         "★",
-        "Follows a ray from each pixel towards the light: exact, and what all others are held to.",
+        "Traces a ray from each pixel to the light: exact, and the reference of all others.",
     ),
     **{key: method.look for key, method in METHODS.items() if key not in NULL},
     "frequency": Look(
@@ -22,30 +22,30 @@ LOOKS = {
         ORANGE,
         "o",
         "●",
-        "The thesis's method: a small neural network is given a ray through the object's sphere, "
-        "and answers the depth behind which all is in shadow.",
+        "The thesis's method: a small neural network maps a ray through the object's sphere to the "
+        "depth at which shadow begins.",
     ),
     "occupancy_field": Look(
         "occupancy field",
         BLUE,
         "P",
         "✚",
-        "A grid of small bricks at the object's surface, trained to say what is inside; shadow "
-        "rays are marched through it.",
+        "A grid of small bricks at the object's surface, trained for occupancy; shadow rays march "
+        "through it.",
     ),
     "ray_grid": Look(
         "ray grid",
         PINK,
         "v",
         "▼",
-        "Looks up trained values at points along the ray, and a small network reads them.",
+        "Looks up trained values at points along the ray, and decodes them by a small network.",
     ),
     "occupancy_ray_grid": Look(
         "clipped ray grid",
         PINK,
         "^",
         "▲",
-        "A ray grid whose points lie only where the surface is.",
+        "A ray grid with points only at the surface.",
     ),
     "hash_grid": Look(
         "hash grid",
@@ -74,7 +74,7 @@ LOOKS = {
         YELLOW,
         "<",
         "◄",
-        "Small cubes that are full or empty, equal ones stored once. No training.",
+        "Small cubes, full or empty, equal ones stored once. No training.",
     ),
     "height_map": Look(
         "heights",
@@ -90,7 +90,7 @@ LOOKS = {
 def kind_of(row: Row) -> str:
     """The key in `LOOKS` of the method of a row of `config.rows_of`.
 
-    A kind of network that is not there is a key all the same (`look_of_kind` shows it).
+    Other kinds of networks are keys, too (see `look_of_kind`).
     """
     method, encoding = unbiased(row["method"]), row["encoding"]
     if encoding is not None:
@@ -105,5 +105,5 @@ def look_of(row: Row) -> Look:
 
 
 def look_of_kind(kind: str) -> Look:
-    """The look of a kind of method; of one of the user's own a plain one."""
+    """The look of a kind of method; a plain one of the user's own kinds."""
     return LOOKS.get(kind, Look(kind.replace("_", " "), "#555555", "8", "⬤", ""))

@@ -1,4 +1,4 @@
-"""Sentences that several reports share, each worded once: equal notes are shown once on the page."""
+"""Sentences of several reports; the page shows equal notes once."""
 
 from collections.abc import Mapping, Sequence
 
@@ -16,54 +16,58 @@ from neural_shadows.settings.records import (
     TrainingRecord,
 )
 
-AT_END = "the first or last that was tried: a better one may lie beyond"
+AT_END = "at an end of the range tried: a better one may lie beyond it"
+TEXTS = {"nsm": "Datta et al. 2022", "kpnsm": "Hu et al. 2025"}
 
 
 def titled(title: str, published: str | None, mesh: MeshReport | None = None) -> str:
-    """A table's heading: what it shows, on which mesh, and whether the thesis has the same.
+    """A table's heading with its mesh and its number in the text.
 
-    `mesh` is what `prepare_mesh` wrote; None for a table of several meshes or of none.
+    Args:
+        published: `4.3` of the thesis, `nsm.s2` or `kpnsm.1`; None for a table of our own.
+        mesh: mesh.json; None for a table of several meshes or of none.
     """
     if mesh is not None and mesh["name"] not in title:
         title += f", mesh {mesh['name']}"
     if published is None:
         return title
     same = mesh is None or mesh["thesis_mesh"]
-    return f"{title} ({'' if same else 'after '}table {published} of the thesis)"
-
-
-TEXTS = {"nsm": "Datta et al. 2022", "kpnsm": "Hu et al. 2025"}
+    paper, _, number = published.rpartition(".")
+    source = (
+        f"{number.upper()} of {TEXTS[paper]}" if paper in TEXTS else f"{published} of the thesis"
+    )
+    return f"{title} ({'' if same else 'after '}table {source})"
 
 
 def section_of(claim: Mapping[str, str]) -> str:
-    """The section that a claim's `text` draws it in; of the thesis the number alone."""
+    """A claim's text and section; of the thesis the number alone."""
     if claim["text"] == "own":
         return "ours"
     return f"{TEXTS.get(claim['text'], '')} {claim['section']}".strip()
 
 
 def describe_run(run: Run) -> str:
-    """One sentence on the scale; no date, with which the same run would give other bytes."""
+    """Describe the scale, without a date: equal runs give equal bytes."""
     return f"Scale: {run['scale']}."
 
 
 def describe_frames(run: Run) -> str:
-    """One sentence on the frames whose quality is measured."""
+    """Describe the measured frames and their reference."""
     shadow_map = "a 32768² shadow map, as in the thesis"
     reference = "an exact shadow ray per pixel" if run["reference"] == "exact" else shadow_map
     return f"Frames of {run['width']} × {run['height']}; reference: {reference}."
 
 
 def is_own_mesh(mesh: MeshReport, scene: SceneInfo) -> bool:
-    """Whether a scene has the thesis's own mesh, and none made to its description.
+    """Test for the thesis's own mesh.
 
-    Of the latter `thesis_mesh` is true, too: the thesis's numbers may stand beside it.
+    `thesis_mesh` is true also of procedural meshes made to its description: its numbers may stand beside them.
     """
     return mesh["thesis_mesh"] and not scene["procedural"]
 
 
 def describe_mesh(mesh: MeshReport, scene: SceneInfo) -> str:
-    """One phrase on a mesh: name, what it is, size, whether it is closed."""
+    """Describe a mesh: name, origin, size, watertight or open."""
     stand_in = "a procedural stand-in, " if scene["procedural"] else ""
     kind = "" if is_own_mesh(mesh, scene) else f" ({stand_in}not the thesis's mesh)"
     closed = "watertight" if mesh["watertight"] else "open"
@@ -71,60 +75,60 @@ def describe_mesh(mesh: MeshReport, scene: SceneInfo) -> str:
 
 
 def describe_scene(name: str, mesh: MeshReport, scene: SceneInfo) -> str:
-    """One sentence on a scene's mesh and the seed of its viewpoints."""
+    """Describe a scene's mesh and the seed of its viewpoints."""
     return f"Mesh of {name}: {describe_mesh(mesh, scene)}; seed {scene['seed']}."
 
 
 def describe_shadows(scene: str, leaks: pd.DataFrame) -> str:
-    """One sentence on how much there is to get wrong; `leaks`: the views' light leak of no shadow.
+    """Describe the share of points in cast shadow.
 
-    `leaks` has a row a view, with its `view_set` in the index, and one column.
+    `leaks`: light leak of no shadow, a row a view, with its `view_set` in the index, and one column.
     """
     shares = leaks.groupby("view_set").mean().iloc[:, 0]
     sets = ", ".join(f"{100 * share:.2g} % in {name} views" for name, share in shares.items())
-    return f"Cast shadow on {scene}, of the points that are seen: {sets}."
+    return f"Cast shadow on {scene}, of visible points: {sets}."
 
 
 def describe_training(record: TrainingRecord) -> str:
-    """One sentence on how a network was trained or built, and on what machine."""
+    """Describe the training or building of a network, and its machine."""
     training, machine, threads = record["training"], record["machine"], record["threads"]
     device = f"{machine['cpu']} CPU"
-    made = "built without training"
+    training_text = "built without training"
     if training:
         device = machine["gpu"] if training["device"] == "cuda" else device
-        made = (
+        training_text = (
             f"{training['steps']:,} steps of {training['batch_size']:,} samples "
             f"({training['optimiser'].capitalize()}, {training['schedule']} learning rate "
             f"{training['learning_rate']:g}, {training['precision']})"
         )
-    died = record.get("died_at_step")
-    end = "" if died is None else f" It died at step {died:,}, and is shown as it was then."
+    step = record.get("died_at_step")
+    end = "" if step is None else f" It diverged at step {step:,}, and is shown as of that step."
     return (
-        f"Network {record['name']}: {record['parameters']:,} parameters, {made} in "
+        f"Network {record['name']}: {record['parameters']:,} parameters, {training_text} in "
         f"{record['seconds']:.0f} s on {device}, {_threads(threads)}.{end}"
     )
 
 
 def describe_budgets(records: Sequence[TrainingRecord]) -> list[str]:
-    """One sentence on what each kind of network learned from, where several kinds stand together."""
+    """Describe the training data of each kind of network beside others."""
     trained = [record for record in records if record["training"]]
     kinds = {record["network"]["encoding"] for record in trained}
     if not {"frequency", "occupancy_field"} <= kinds:
         return []
     samples = {
-        kind: max(one["samples"] for one in trained if one["network"]["encoding"] == kind) / 1e6
+        kind: max(rec["samples"] for rec in trained if rec["network"]["encoding"] == kind) / 1e6
         for kind in kinds
     }
     return [
         "The networks of a scene learn from the same labelled rays, but not from the same data: a "
-        "field also takes from the mesh which bricks hold a surface, which are solid, and the "
-        f"normals of sheets; it trains on up to {short(samples['occupancy_field'])} M samples of 8 "
+        "field also takes surface bricks, solid bricks and the normals of sheets from the mesh; "
+        f"it trains on up to {short(samples['occupancy_field'])} M samples of 8 "
         f"points each, the thesis's network on {short(samples['frequency'])} M."
     ]
 
 
 def describe_samples(seen: float, theirs: float) -> str:
-    """One sentence on a run's training samples a network, beside the thesis's."""
+    """Compare a run's training samples a network with the thesis's."""
     return (
         f"The thesis's networks saw at most {seen:,.0f} training samples each in this run, and "
         f"{theirs:,.0f} in the thesis: {theirs / seen:,.0f} times as many."
@@ -132,7 +136,7 @@ def describe_samples(seen: float, theirs: float) -> str:
 
 
 def describe_printed(scenes: Sequence[str]) -> list[str]:
-    """One sentence on rows of the thesis's own values, if there are some."""
+    """Describe rows of the thesis's own values; nothing without `scenes`."""
     if not scenes:
         return []
     return [
@@ -142,7 +146,7 @@ def describe_printed(scenes: Sequence[str]) -> list[str]:
 
 
 def describe_devices(devices: Sequence[str]) -> list[str]:
-    """One sentence where times do not compare, since methods ran on several devices."""
+    """Warn of times of several devices."""
     if len(devices) < 2:
         return []
     return [
@@ -152,7 +156,7 @@ def describe_devices(devices: Sequence[str]) -> list[str]:
 
 
 def describe_times(times: FrameTimes) -> str:
-    """One sentence on how the frame times of a scene were measured."""
+    """Describe the measurement of a scene's frame times."""
     machine, ran = times["machine"], {one["device"] for one in times["methods"].values()}
     where = {"cpu": f"one thread of {machine['cpu']}", "cuda": machine["gpu"]}
     return (
@@ -164,7 +168,7 @@ def describe_times(times: FrameTimes) -> str:
 
 
 def describe_biases(rows: Sequence[Row], biases: Mapping[tuple[str, str], DepthBias]) -> list[str]:
-    """A sentence for each row that is given a depth bias; `biases` as `read_biases` gives them."""
+    """Describe the depth biases of rows; `biases`: of `read_biases`."""
     sentences = []
     for row in rows:
         bias = biases.get((row["scene"], row["method"]), {"depth_bias": 0})
@@ -179,15 +183,15 @@ def describe_biases(rows: Sequence[Row], biases: Mapping[tuple[str, str], DepthB
 
 
 def describe_lpips(lpips: Lpips) -> str:
-    """One sentence on LPIPS's network, or on how to get it where it is missing."""
+    """Describe LPIPS's network, or how to install a missing one."""
     if lpips["available"]:
         return (
             f"LPIPS's network is `{lpips['net']}`; the thesis does not name its own, and values of "
             "different networks cannot be compared."
         )
     return (
-        "LPIPS is missing (`lpips.json` among the results says why), FLIP takes its place. Once "
-        "solved, add `--forcerun find_lpips`."
+        "LPIPS is missing (`lpips.json` among the results has the reason); FLIP takes its place. Once "
+        "it is installed, add `--forcerun find_lpips`."
     )
 
 

@@ -1,13 +1,14 @@
-"""The numbers that the thesis prints in its tables 4.1 to 4.7 (config/published.csv)."""
+"""Printed numbers of the thesis and of two papers (config/published*.csv)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from neural_shadows.reports.data.equivalent_maps import equivalent_maps
-from neural_shadows.settings.records import MeshReport, Row
+from neural_shadows.reports.data.phrases import TEXTS
+from neural_shadows.settings.records import MeshReport, Profile, Row
 
 OF_ANY_MESH = ("size_kib", "memory_mib")
 
@@ -19,10 +20,12 @@ NETWORKS = {
     "network_single_axis": "Thesis's network, single axis, as printed",
 }
 SIZE = ("4.6", "dragon_256", "size_kib")  # of each of these networks
+# Factors from the units of published_kpnsm.csv to ours.
+KPNSM_UNITS: Mapping[str, float] = {"mse": 1e-4, "ssim": 1, "time": 1, "temporal_error": 1e-2}
 
 
 def read_published(path: Path) -> pd.Series:
-    """Read the printed numbers: a Series of values by (table, row, column).
+    """Read printed numbers: a Series of values by (table, row, column).
 
     `row` is the pipeline's key of the method. Values are as printed, save two shadow maps of
     table 4.7: their 256 and 64 KiB are 0.25 and 0.0625 MiB, so that the column has one unit.
@@ -31,22 +34,22 @@ def read_published(path: Path) -> pd.Series:
 
 
 def read_rows(path: Path) -> pd.DataFrame:
-    """The file as it is: a row a printed number, with the `label` that the thesis gives its row."""
+    """Read a row for each printed number, with the row's `label` in the thesis."""
     return pd.read_csv(path, dtype={"table": str, "value": float})
 
 
 def by_cell(rows: pd.DataFrame) -> pd.Series:
-    """`read_rows` as `read_published` gives it."""
+    """Index the rows of `read_rows` by (table, row, column)."""
     return rows.set_index(["table", "row", "column"])["value"]
 
 
 def printed_table(published: pd.Series, number: str) -> pd.DataFrame:
-    """A table as the thesis prints it: a row a method, by key, and a column a value."""
+    """A printed table: a row a method, by key, and a column a value."""
     return published.unstack("column").loc[number]
 
 
 def printed_networks(published: pd.Series, scene: str) -> pd.DataFrame:
-    """The thesis's networks on a scene of `TABLE_OF_SCENE`, as printed.
+    """Printed values of the thesis's networks on a scene of `TABLE_OF_SCENE`.
 
     Columns `method` (a label), `lpips`, `psnr` (a mean), `ssim`, `stored_bytes`, and those of
     `equivalent_maps`, of its own shadow maps.
@@ -65,18 +68,53 @@ def add_printed(
     published_csv: Path,
     meshes: Mapping[str, MeshReport],
 ) -> pd.DataFrame:
-    """The frame with `thesis_<column>` and `<column>_minus_thesis`; NaN where none is printed.
+    """Add `thesis_<column>` and `<column>_minus_thesis`; NaN without a printed number.
 
     Beside a mesh that the thesis did not measure stand its sizes alone; `rows` are the frame's.
 
     Args:
-        number: the thesis's number of the table, "4.3"; None for one that is not in it.
+        number: the thesis's number of the table, "4.3"; None for a table of our own.
         meshes: `thesis_mesh` of each scene.
     """
     published = read_published(published_csv)
     for column in columns:
-        known = [column in OF_ANY_MESH or meshes[row["scene"]]["thesis_mesh"] for row in rows]
+        measured = [column in OF_ANY_MESH or meshes[row["scene"]]["thesis_mesh"] for row in rows]
         values = [published.get((number, row["published"], column), np.nan) for row in rows]
-        frame = frame.assign(**{f"thesis_{column}": np.where(known, values, np.nan)})
+        frame = frame.assign(**{f"thesis_{column}": np.where(measured, values, np.nan)})
     minus = {f"{name}_minus_thesis": frame[name] - frame[f"thesis_{name}"] for name in columns}
     return frame.assign(**minus)
+
+
+def printed_column(
+    published: pd.Series, table: str | None, rows: Iterable[str], column: str
+) -> np.ndarray:
+    """A printed column of some rows, (n,) float64; NaN without a printed number."""
+    return np.array([published.get((table, row, column), np.nan) for row in rows], dtype=float)
+
+
+def printed_value(
+    published: pd.Series, table: str | None, row: str | None, column: str, metric: str
+) -> float:
+    """A metric in a cell of a table (`kpnsm.1`), in our units; NaN if none is printed."""
+    if table is None or row is None:
+        return np.nan
+    key = (f"T{table.removeprefix('kpnsm.')}", row, column)
+    return KPNSM_UNITS[metric] * published.get(key, np.nan)
+
+
+def printed_size(published: pd.Series) -> tuple[int, int]:
+    """Width and height of the frames of Datta et al. 2022, in pixels."""
+    width, height = (published[("nsm.data", "frame", side)] for side in ("width", "height"))
+    return int(width), int(height)
+
+
+def describe_printed_times(profile: Profile, published: pd.Series) -> str:
+    """Describe the frames and the GPU of printed times."""
+    width, height = printed_size(published)
+    note = (
+        f"Printed: {TEXTS['nsm']}, frames of {width} × {height}, 16-bit floats on an RTX 2080 Ti. "
+        "Milliseconds are of another machine."
+    )
+    if (profile["width"], profile["height"]) == (width, height):
+        return note
+    return f"{note} Our frames have another size, so only weights have differences."

@@ -1,4 +1,4 @@
-"""Quality of methods on the same views: averages with bootstrap intervals, and paired comparisons."""
+"""Quality of methods on the same views, with intervals and paired differences."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -33,14 +33,14 @@ def scene_quality(
     against: str | None,
     seed: int,
 ) -> pd.DataFrame:
-    """A row for each method of a scene but ray tracing, which is the reference itself.
+    """Tabulate the quality of a scene's methods.
 
-    Columns: those of `quality_table`, `learned`, those of `differences` and of `equivalent_maps`.
+    Without ray tracing, the reference itself. Columns: those of `quality_table`, `learned`, those of `differences` and of `equivalent_maps`.
 
     Args:
         metrics: of all methods of the rows.
         margins: see `learned`.
-        against: the method, among the rows, that others are compared with.
+        against: the method, among the rows, of paired differences.
 
     Raises:
         InputError: a file cannot be read, or a method lacks a value of a view that others have.
@@ -48,8 +48,8 @@ def scene_quality(
     rows = [row for row in rows if row["method"] != RAY_TRACED]
     wide = values_by_view(read_metrics(metrics), [row["method"] for row in rows])
     table = quality_table(wide, rows, seed)
-    found = learned_methods(wide, rows, margins, seed)
-    table["learned"] = pd.Series([found.get(row["method"]) for row in rows], dtype=object)
+    learned = learned_methods(wide, rows, margins, seed)
+    table["learned"] = pd.Series([learned.get(row["method"]) for row in rows], dtype=object)
     table = table.assign(**equivalent_maps(table, [row["method"] for row in rows]))
     return pd.concat([table, differences(wide, rows, against, seed)], axis=1)
 
@@ -61,28 +61,31 @@ def scenes_quality(
     against: Mapping[str, str],
     seed: int,
 ) -> pd.DataFrame:
-    """`scene_quality` of each scene of the rows, and their `scene`; `against` by scene."""
+    """Tabulate `scene_quality` of all scenes, with `scene`; `against` by scene."""
     parts = []
     for scene, files in by_folder(metrics).items():
-        here = [row for row in rows if row["scene"] == scene]
-        table = scene_quality(files, here, margins, against.get(scene), seed)
+        of_scene = [row for row in rows if row["scene"] == scene]
+        table = scene_quality(files, of_scene, margins, against.get(scene), seed)
         parts.append(table.assign(scene=scene))
     return pd.concat(parts, ignore_index=True)
 
 
 def null_leaks(metrics: pd.DataFrame) -> pd.DataFrame:
-    """The light leak of no shadow by `view_set` and `view`: the share of points in cast shadow."""
+    """Share of points in cast shadow by `view_set` and `view`.
+
+    It is the light leak of no shadow.
+    """
     leaks = metrics[metrics["method"].eq(NO_SHADOW) & metrics["metric"].eq("light_leak")]
     return leaks.set_index(["view_set", "view"])[["value"]]
 
 
 def quality_table(wide: pd.DataFrame, rows: Sequence[Row], seed: int) -> pd.DataFrame:
-    """A row per method: averages over all views of a scene, and bootstrap intervals.
+    """Average each method over a scene's views, with bootstrap intervals.
 
     Columns `method` (the label), means of the metrics, `<metric>_low` and `<metric>_high` (95 %),
-    `psnr_pooled` with its ends, `psnr_median`, `identical` (how many views equal the reference),
+    `psnr_pooled` with its ends, `psnr_median`, `identical` (number of views equal to the reference),
     `views`. Shares and FLIP are in [0, 1], PSNR in dB. Without LPIPS its columns are empty.
-    `wide` is as `values_by_view` gives it, `seed` of the bootstrap.
+    `wide`: of `values_by_view`; `seed`: of the bootstrap.
     """
     records = []
     for row in rows:
@@ -101,7 +104,7 @@ def quality_table(wide: pd.DataFrame, rows: Sequence[Row], seed: int) -> pd.Data
 def differences(
     wide: pd.DataFrame, rows: Sequence[Row], against: str | None, seed: int
 ) -> pd.DataFrame:
-    """A row per method: how much it differs from one of them on the same views.
+    """Differences of methods from one of them on the same views.
 
     Columns `lpips_difference` (a mean) and `psnr_difference` (of pooled PSNRs, dB), the method's
     less the other's, with `_low` and `_high` (95 %); empty for the other itself or without one.
@@ -113,16 +116,16 @@ def differences(
         if against is not None and row["method"] != against:
             pair = wide[row["method"]], wide[against]
             if "lpips" in pair[0]:
-                better, low, high = advantage(*(one["lpips"] for one in pair), "lpips", seed)
+                better, low, high = advantage(*(values["lpips"] for values in pair), "lpips", seed)
                 record |= dict(zip(columns[:3], (-better, -high, -low)))
-            found = advantage(*(one["psnr"] for one in pair), "psnr", seed)
-            record |= dict(zip(columns[3:], found))
+            difference = advantage(*(values["psnr"] for values in pair), "psnr", seed)
+            record |= dict(zip(columns[3:], difference))
         records.append(record)
     return pd.DataFrame(records, columns=columns)
 
 
 def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFrame:
-    """Values with a row per view and a column per (method, metric), none of them missing.
+    """Pivot values to a row per view and a column per (method, metric).
 
     Without LPIPS there are no columns of it.
 
@@ -145,7 +148,7 @@ def values_by_view(metrics: pd.DataFrame, methods: Sequence[str]) -> pd.DataFram
 
 
 def context_columns(mesh: MeshReport, lpips: Lpips, run: Run, seed: int) -> dict[str, Any]:
-    """What every row of a table of quality says of where it comes from; seed: of the views."""
+    """Context of each row of a quality table; seed: of the views."""
     size = {name: run[name] for name in ("scale", "width", "height")}
     network = lpips["net"] if lpips["available"] else None
     return {"mesh": mesh["name"], **size, "lpips_net": network, "seed": seed}

@@ -1,4 +1,4 @@
-"""The Markdown's cells of quality, and what their columns mean."""
+"""Cells and notes of quality columns."""
 
 from dataclasses import replace
 
@@ -21,18 +21,18 @@ READING = {
 
 
 def describe_quality(table: pd.DataFrame, against: str | None) -> list[str]:
-    """Sentences on the columns of `scene_quality`; `against`: the label of the other method."""
+    """Describe the columns of `scene_quality`; `against`: the other method's label."""
     most = table["identical"].max()
     notes = [
-        "pooled PSNR: of the mean squared error of all views, which identical frames (100 dB by "
-        "agreement) do not drive as they do the mean; "
+        "pooled PSNR: of the mean squared error of all views; identical frames (100 dB by "
+        "convention) do not dominate it as they do the mean; "
         + (f"a method has up to {most:.0f} of them." if most else "there are none here."),
         *describe_learned(table),
         *describe_unfit(table),
     ]
     if table["map_psnr"].fillna("").any():
         notes.append(
-            "equal map: texels along a side of the shadow map that would be as good, by LPIPS / by "
+            "equal map: texels along a side of the equally good shadow map, by LPIPS / by "
             "pooled PSNR; –: not measured."
         )
     if against:
@@ -41,7 +41,7 @@ def describe_quality(table: pd.DataFrame, against: str | None) -> list[str]:
 
 
 def describe_learned(table: pd.DataFrame) -> list[str]:
-    """One sentence on what it is not to have learned, if a network has not."""
+    """Explain `not learned`; nothing without such networks."""
     if not table["learned"].eq(False).any():
         return []
     return [
@@ -52,17 +52,17 @@ def describe_learned(table: pd.DataFrame) -> list[str]:
 
 
 def describe_unfit(table: pd.DataFrame) -> list[str]:
-    """One sentence on what it is to be unfit, if a network is."""
+    """Explain `unfit`; nothing without such networks."""
     if not table["unfit"].eq(True).any():
         return []
     return [
-        "**unfit**: it needs an inside, which this open and thin mesh does not have; leave out its "
-        "`start` and `surface`, and it is trained as a sheet."
+        "**unfit**: it needs an inside, and this open, thin mesh has none. Leave out its "
+        "`start` and `surface` to train it as a sheet."
     ]
 
 
 def method_column(table: pd.DataFrame) -> Column:
-    """The names of methods, of a network with whether it is unfit or has learned nothing."""
+    """Names of methods, marked if unfit or not learned."""
     marks = pd.Series("", table.index)
     marks[table["learned"].eq(False)] = " (**not learned**)"
     if "unfit" in table:

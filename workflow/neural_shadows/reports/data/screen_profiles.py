@@ -1,4 +1,4 @@
-"""What `profile_screen_network` wrote, as tables of times."""
+"""Tables of times from `profile_screen_network`."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,28 +11,28 @@ from neural_shadows.settings.records import Profile, ProfileRun
 
 def run_key(run: ProfileRun) -> str:
     """A column's name for a run: `bfloat16_2`, of two threads, or `bfloat16_gpu`."""
-    place = "gpu" if run["device"] == "cuda" else run["threads"]
-    return f"{run['precision']}_{place}"
+    processor = "gpu" if run["device"] == "cuda" else run["threads"]
+    return f"{run['precision']}_{processor}"
 
 
 def run_name(run: ProfileRun) -> str:
-    """What a run is called."""
+    """A run's label."""
     threads = f"{run['threads']} thread{'s' * (run['threads'] > 1)}"
     return f"{run['precision']}, {'GPU' if run['device'] == 'cuda' else threads}"
 
 
 def compared(profile: Profile) -> Mapping[str, Any]:
-    """The run that printed times stand beside: on all that the machine has, in 16 bits if it can."""
+    """The run beside printed times: all threads or the GPU, 16 bits if possible."""
     return profile["runs"][-1]
 
 
 def part_times(profile: Profile) -> pd.DataFrame:
     """A row for each level and part in the order of levels, and a column of ms for each run."""
-    found = {
+    times = {
         run_key(run): pd.DataFrame(run["parts"]).set_index(["level", "part"])["ms"]
         for run in profile["runs"]
     }
-    return pd.DataFrame(found).sort_index(level="level", sort_remaining=False, kind="stable")
+    return pd.DataFrame(times).sort_index(level="level", sort_remaining=False, kind="stable")
 
 
 def product_share(profile: Profile, run: ProfileRun) -> float:
@@ -43,7 +43,7 @@ def product_share(profile: Profile, run: ProfileRun) -> float:
 
 
 def not_timed(profile: Profile) -> str:
-    """Which formats have no times, with why, after a space; empty if all have."""
+    """Describe formats without times, after a space; empty without such formats."""
     devices = dict.fromkeys(run["device"] for run in profile["runs"])
     timed = {(run["device"], run["precision"]) for run in profile["runs"]}
     lacking = [
@@ -60,7 +60,7 @@ def not_timed(profile: Profile) -> str:
 
 
 def describe(profile: Profile) -> str:
-    """What was measured, how and where."""
+    """Describe the measurement and its machine."""
     machine, size = profile["machine"], profile["product_size"]
     whole = "; ".join(
         f"{run_name(run)} {run['whole_ms']:.4g} ms, {100 * product_share(profile, run):.0f} % of the "

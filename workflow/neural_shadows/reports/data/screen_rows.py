@@ -1,4 +1,4 @@
-"""What tables of networks on frames have in common."""
+"""Rows and notes shared by tables of screen-space networks."""
 
 from collections.abc import Mapping
 
@@ -9,31 +9,31 @@ from neural_shadows.evaluation.soft_registry import LABELS, UNLEARNED
 from neural_shadows.settings.records import TrainingRecord
 
 ABOUT_NULLS = (
-    "The CSV also has rows of what learns nothing (no shadow, all dark, the light's map as it is), "
-    "named in `null`: a claim that holds of them as well is vacuous."
+    "The CSV also has rows of null predictors (no shadow, all dark, the light map as it is), "
+    "named in `null`. A claim that also holds of them is vacuous."
 )
 
 
-def nulls_in(found: pd.DataFrame) -> dict[str, str]:
-    """What learns nothing and was measured, with its label: rows of a CSV that `null` names."""
-    measured = set(found["method"])
+def nulls_in(errors: pd.DataFrame) -> dict[str, str]:
+    """Labels of the measured null predictors."""
+    measured = set(errors["method"])
     return {method: LABELS[method] for method in UNLEARNED if method in measured}
 
 
 def learned_rows(table: pd.DataFrame) -> pd.DataFrame:
-    """A table without the rows of what learns nothing."""
+    """The table without null predictors."""
     return table[table["null"].isna()] if "null" in table else table
 
 
 def with_printed(
     table: pd.DataFrame, number: str | None, name: str, column: str | None, published: pd.Series
 ) -> pd.DataFrame:
-    """The table with `printed_NAME` and `NAME_minus_printed`; NaN where none is printed.
+    """Add `printed_NAME` and `NAME_minus_printed`; NaN without a printed number.
 
     Args:
         table: has `row`, the paper's key of each. number: the paper's of the table.
         column: the paper's name of the column; None if the table has a column of such names.
-        published: see `read_published_nsm`.
+        published: see `read_published`.
     """
     columns = [column] * len(table) if column else table["column"]
     keys = [(number, *key) for key in zip(table["row"], columns)]
@@ -44,9 +44,9 @@ def with_printed(
 def describe_trainings(
     records: Mapping[str, TrainingRecord], labels: Mapping[str, str]
 ) -> list[str]:
-    """How networks were trained, those that were trained alike in one sentence; and which died."""
-    alike: dict[str, list[str]] = {}
-    died = [
+    """Describe trainings, equal ones together, and name diverged ones."""
+    names_by_text: dict[str, list[str]] = {}
+    diverged = [
         f"{labels.get(name, name)} at step {record['died_at_step']}"
         for name, record in records.items()
         if record["died_at_step"] is not None
@@ -60,11 +60,11 @@ def describe_trainings(
             f"{training['seed']}, perceptual term: {record['perceptual']}, perturbation's weight "
             f"{training['perturbation']:g}{begins if training['perturbation'] else ''}"
         )
-        alike.setdefault(text, []).append(labels.get(name, name))
-    notes = [f"Trained for {text}: {', '.join(names)}." for text, names in alike.items()]
-    if died:
+        names_by_text.setdefault(text, []).append(labels.get(name, name))
+    notes = [f"Trained for {text}: {', '.join(names)}." for text, names in names_by_text.items()]
+    if diverged:
         notes.append(
-            f"**Died**, and says the same of every pixel since: {', '.join(died)}. Its numbers say "
-            "nothing of its form; a lower `learning_rate` or another `seed` may keep it alive."
+            f"**Diverged**, with the same output for every pixel since: {', '.join(diverged)}. Such numbers "
+            "do not judge the network's form. Try a lower `learning_rate` or another `seed`."
         )
     return notes

@@ -1,4 +1,4 @@
-"""What methods for soft shadows cost, as `time_soft_methods` wrote it."""
+"""Costs of soft-shadow methods, from `time_soft_methods`."""
 
 import numpy as np
 
@@ -11,13 +11,13 @@ def cost(times: SoftTimes, method: str, number: int) -> dict[str, float]:
         return dict.fromkeys(("own_ms", "map_ms", "ms", "bytes"), np.nan)
     timed = times["methods"][method]
     light_map = times["maps"].get(timed["map"], {"ms": 0.0, "texels": 0})
-    own, made = timed["ms"][number], light_map["ms"]
+    own, map_ms = timed["ms"][number], light_map["ms"]
     held = 4 * timed["texel_floats"] * light_map["texels"] + timed["held_bytes"]
-    return {"own_ms": own, "map_ms": made, "ms": own + made, "bytes": held}
+    return {"own_ms": own, "map_ms": map_ms, "ms": own + map_ms, "bytes": held}
 
 
 def describe_times(times: SoftTimes) -> list[str]:
-    """A note on how times were measured; none if nothing was timed."""
+    """Describe the timing; nothing without times."""
     if not times["methods"]:
         return []
     share = times["map_share"]
@@ -25,16 +25,16 @@ def describe_times(times: SoftTimes) -> list[str]:
     part = f": {share:.1%} of a whole frame's, of which it is a window" if share < 1 else ""
     return [
         f"ms: median of {times['frames']} frames, each the median of {times['repeats']}, or one above "
-        f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; methods that look at a "
-        f"map have the ms of rasterising it in theirs ({maps}){part}."
+        f"{times['once_above_ms']} ms, one thread of {times['machine']['cpu']}; with a light map "
+        f"its rasterisation is included ({maps}){part}."
     ]
 
 
 def describe_bytes(times: SoftTimes) -> list[str]:
-    """A note on what counts as bytes; none if nothing was timed."""
+    """Describe the bytes; nothing without times."""
     if not times["methods"]:
         return []
     return [
-        "KiB: the map with its moments, or the fields. What only needs rays has none, but the mesh and "
-        "its tree, which all have for the primary rays."
+        "KiB: the light map with its moments, or the fields. Ray methods count none: all methods hold "
+        "the mesh and its tree for primary rays."
     ]

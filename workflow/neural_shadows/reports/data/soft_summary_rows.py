@@ -1,4 +1,4 @@
-"""The numbers of summaries of methods for soft shadows: means over frames and lights, and what is printed."""
+"""Means over frames and lights of soft-shadow methods, beside printed numbers."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -8,7 +8,7 @@ import pandas as pd
 
 from neural_shadows.evaluation.soft_registry import UNLEARNED
 from neural_shadows.reports.data.frame_means import OFF_EDGES, by_frame, mean_with_interval
-from neural_shadows.reports.data.published_kpnsm import printed_value
+from neural_shadows.reports.data.published import printed_value
 from neural_shadows.reports.data.soft_costs import cost
 from neural_shadows.settings.records import Row, SoftTimes
 
@@ -16,7 +16,7 @@ MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is th
 
 
 def summary_table(
-    found: pd.DataFrame,
+    errors: pd.DataFrame,
     times: SoftTimes,
     radii: Sequence[float],
     *,
@@ -25,21 +25,21 @@ def summary_table(
     metrics: Sequence[str],
     measured: Sequence[str],
 ) -> pd.DataFrame:
-    """A row for each method, or for each scene or radius and method.
+    """Tabulate methods, for each scene or radius if `by` names one.
 
     Columns: `scene`, or `number` and `radius` of the light, where rows are by these; `method`, `label`;
-    `null`, the method if it learns nothing; of `metrics` those that are named: `mse` with
+    `null`, the method if it is a null predictor; of `metrics`: `mse` with
     `mse_off_edges`, and `ssim`, with the ends of their intervals, `time` (ms), those of `_in_sequences`.
 
     Args:
-        found: of `read_soft_metrics`; times: what `time_soft_methods` wrote; radii: of the lights.
-        methods, by, metrics, measured: as the table's `write` is told them.
+        errors: of `read_soft_metrics`; times: of `time_soft_methods`; radii: of the lights.
+        methods, by, metrics, measured: as of `tables.soft_summary.table`.
     """
-    frames = found[found["scene"].isin(measured)]
+    frames = errors[errors["scene"].isin(measured)]
     return pd.DataFrame(
         [
-            group | _row(some, found, times, row, metrics, len(radii))
-            for group, some in _groups(frames, by, measured, radii)
+            group | _row(group_frames, errors, times, row, metrics, len(radii))
+            for group, group_frames in _groups(frames, by, measured, radii)
             for row in methods
         ]
     )
@@ -48,7 +48,7 @@ def summary_table(
 def _groups(
     frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Sequence[float]
 ) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
-    """The frames of each part of the table, and the columns that tell it."""
+    """Key columns and frames of each part of the table."""
     match by:
         case "scene":
             for scene in scenes:
@@ -62,38 +62,38 @@ def _groups(
 
 def _row(
     frames: pd.DataFrame,
-    found: pd.DataFrame,
+    errors: pd.DataFrame,
     times: SoftTimes,
     row: Row,
     metrics: Sequence[str],
     radii: int,
 ) -> dict[str, Any]:
-    """A method's row: `method`, `label`, and what `metrics` name."""
-    mine = frames[frames["method"] == row["method"]]
+    """A method's row: `method`, `label` and `metrics`."""
+    own = frames[frames["method"] == row["method"]]
     values: dict[str, Any] = {"method": row["method"], "label": row["label"]}
     values["null"] = row["method"] if row["method"] in UNLEARNED else None
     for metric in ("mse", "ssim"):
         if metric in metrics:
-            values |= mean_with_interval(by_frame(mine, metric), metric)
+            values |= mean_with_interval(by_frame(own, metric), metric)
     if "mse" in metrics:
-        values |= mean_with_interval(by_frame(mine, OFF_EDGES), OFF_EDGES)
+        values |= mean_with_interval(by_frame(own, OFF_EDGES), OFF_EDGES)
     if "time" in metrics:
         values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
     if "temporal_error" in metrics:
-        values |= _in_sequences(found[found["method"] == row["method"]])
+        values |= _in_sequences(errors[errors["method"] == row["method"]])
     return values
 
 
-def _in_sequences(mine: pd.DataFrame) -> dict[str, float]:
-    """The temporal error by what moves, the exact shadow's own, and the squared error there."""
-    moves = mine["part"].str.rsplit("_", n=1).str[0]
+def _in_sequences(own: pd.DataFrame) -> dict[str, float]:
+    """Temporal errors by mover, the exact shadow's, and the squared error."""
+    moves = own["part"].str.rsplit("_", n=1).str[0]
 
-    def mean(metric: str, what: str) -> float:
-        return float(mine[(mine["metric"] == metric) & (moves == what)]["value"].mean())
+    def mean(metric: str, mover: str) -> float:
+        return float(own[(own["metric"] == metric) & (moves == mover)]["value"].mean())
 
     return {
         "temporal_error": mean("temporal_error", MOVES[0]),
-        **{f"temporal_error_{what}": mean("temporal_error", what) for what in MOVES[1:]},
+        **{f"temporal_error_{mover}": mean("temporal_error", mover) for mover in MOVES[1:]},
         "temporal_error_reference": mean("temporal_error_reference", MOVES[0]),
         "mse_sequence": mean("mse_sequence", MOVES[0]),
     }
@@ -107,7 +107,7 @@ def with_printed(
     methods: Sequence[Row],
     numbers: pd.Series,
 ) -> pd.DataFrame:
-    """The table with `printed_METRIC` and `METRIC_minus_printed`."""
+    """Add `printed_METRIC` and `METRIC_minus_printed`."""
     printed = [
         printed_value(numbers, published, row["published"], row["column"] or metric, metric)
         if first or not row["column"]

@@ -1,4 +1,4 @@
-"""A table as a value: its numbers, what is shown of them, and its notes."""
+"""A table: numbers, formatted columns and notes."""
 
 import json as json_text
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -14,20 +14,20 @@ from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_text
 from neural_shadows.running.origin import describe_origin
 
-PARTING = ("scene", "light")  # first columns: a table is in parts by them
+PARTING = ("scene", "light")  # first columns that part a table
 BETTER = {"↑": "high", "↓": "low"}  # by the end of a heading
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column as it is read.
+    """A formatted column.
 
     Args:
         texts: a text a row, empty where there is nothing.
         values: the numbers that the texts show, NaN where there is none; None of a column of text.
         intervals: the texts of their intervals, ` [low, high]`; ends: their ends, (n, 2).
-        printed_of: the heading of the column whose printed twin it is.
-        comparable: whether printed numbers can stand on its scale.
+        printed_of: the heading of the measured column beside it.
+        comparable: true if printed numbers can share its scale.
         labels: of a column of methods their names, without what the texts add.
     """
 
@@ -51,10 +51,10 @@ class Table:
 
     Args:
         data: the CSV, all digits.
-        columns: what is read, by heading; plain texts are a `Column` of text.
+        columns: formatted, by heading; plain texts are a `Column` of text.
         notes: one a line, below the table; of inline Markdown.
-        lead: Markdown between the title and the table: what must be known to read it.
-        text_columns: how many columns from the left hold text; the others are aligned right.
+        lead: Markdown between the title and the table.
+        text_columns: number of text columns from the left; the others are aligned right.
     """
 
     title: str
@@ -77,7 +77,7 @@ def write_table(table: Table, csv: Path, md: Path, json: Path) -> None:
     columns = table.shown()
     write_text(csv, table.data.to_csv(index=False, float_format="%.6g"))
     text = tabulate(
-        {_escaped(heading): [*map(_escaped, one.cells)] for heading, one in columns.items()},
+        {_escaped(heading): [*map(_escaped, column.cells)] for heading, column in columns.items()},
         headers="keys",
         tablefmt="pipe",
         disable_numparse=True,
@@ -85,15 +85,17 @@ def write_table(table: Table, csv: Path, md: Path, json: Path) -> None:
     )
     items = "\n".join(f"- {note}" for note in table.notes)
     origin = describe_origin()
-    # Not a note: of each table on the page it would be another.
-    made = f"<!-- commit {origin['commit']}, code {origin['code']}, {origin['machine']['cpu']} -->"
-    parts = [f"# {table.title}", table.lead, text, items, made]
+    # Not a note: it differs by table, and the page shows equal notes once.
+    comment = (
+        f"<!-- commit {origin['commit']}, code {origin['code']}, {origin['machine']['cpu']} -->"
+    )
+    parts = [f"# {table.title}", table.lead, text, items, comment]
     write_text(md, "\n\n".join(part for part in parts if part) + "\n")
     record = {
         "title": table.title,
         "lead": table.lead,
         "parted": [*columns][0] in PARTING,
-        "columns": [_as_json(heading, one) for heading, one in columns.items()],
+        "columns": [_as_json(heading, column) for heading, column in columns.items()],
         "notes": [*table.notes],
         "origin": origin,
     }
@@ -130,7 +132,7 @@ def _escaped(cell: str) -> str:
 
 
 def read_table(path: Path, texts: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
-    """The named columns of a table's CSV; an empty cell is NaN.
+    """Read the named columns of a table's CSV; an empty cell is NaN.
 
     Raises:
         InputError: it has no such columns.
@@ -143,7 +145,7 @@ def read_table(path: Path, texts: Sequence[str], numbers: Sequence[str]) -> pd.D
 
 
 def filled(columns: Mapping[str, Column | Iterable[str]]) -> dict[str, Column | Iterable[str]]:
-    """The columns in which something stands."""
+    """The columns with any text."""
     return {
         heading: column
         for heading, column in columns.items()

@@ -1,4 +1,4 @@
-"""What methods take: the time of a frame, their own part of it, and bytes."""
+"""Frame times, methods' own times, and bytes."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -19,7 +19,7 @@ def timing_table(
     rows: Sequence[Row],
     weights: Sequence[Path],
 ) -> pd.DataFrame:
-    """A row for each of the rows; `times` by scene, as `measure_frame_times` wrote them.
+    """Tabulate times and bytes by row; `times`: of `measure_frame_times`, by scene.
 
     Columns `scene`, `method` (the label), `FRAME_MS`, `OWN_MS`, `repeats`, `device`,
     `stored_bytes`, `resident_bytes`: what a file of the method holds, and what is in memory while
@@ -42,5 +42,5 @@ def timing_table(
 
 def devices(times: Mapping[str, FrameTimes]) -> list[str]:
     """The devices that the methods ran on, each once: times of several do not compare."""
-    found = {method["device"] for one in times.values() for method in one["methods"].values()}
-    return sorted(found)
+    names = {method["device"] for one in times.values() for method in one["methods"].values()}
+    return sorted(names)

@@ -1,4 +1,4 @@
-"""Trainings by method, budget and seed, and what they reached."""
+"""Trainings by method, budget and seed, and their errors."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from neural_shadows.metrics.error_scale import error_of
 from neural_shadows.settings.records import CurvePoint, MeshReport, Row
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
-LOSS_SHARE = 0.1  # of a loss curve: its end is what was reached
+LOSS_SHARE = 0.1  # the end of a loss curve
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Budget:
 
 @dataclass(frozen=True, kw_only=True)
 class Trained:
-    """Metrics and losses of networks on scenes, and the trainings that they are of.
+    """Metrics, losses and trainings of networks by scene.
 
     Args:
         metrics: a row a view, with its view set, and a column a (method, metric), by scene.
@@ -80,7 +80,7 @@ class Trained:
         return f"trained on {' and '.join(f'{samples:,}' for samples in most)} samples"
 
     def died(self, row: Row, budgets: Iterable[Budget]) -> bool:
-        """Check for dead trainings of a method."""
+        """Check for diverged trainings of a method."""
         runs = [run for budget in budgets for run in budget.runs.get(row["experiment"], ())]
         return any(self.trainings[run]["died_at_step"] is not None for run in runs)
 
@@ -93,7 +93,7 @@ class Trained:
         return [run + bias for run in budget.runs[name]]
 
     def metric(self, row: Row, metric: str) -> str:
-        """The metric, or FLIP for LPIPS without its trunk."""
+        """The metric, or FLIP for LPIPS without its backbone."""
         measured = self.metrics[row["scene"]].columns.get_level_values(1)
         return "flip" if metric == "lpips" and metric not in measured else metric
 
@@ -109,8 +109,8 @@ class Trained:
     def end_losses(self, row: Row, budget: Budget) -> np.ndarray:
         """The end losses of each training (S,).
 
-        Each is the mean of the last tenth. Of a dead one at least that of drawing no shadow: the
-        loss before it died is of a network that is no more.
+        Each is the mean of the last tenth. Of a diverged one at least that of drawing no shadow: its
+        loss before is of lost weights.
         """
         return np.array([self._end_loss(run) for run in budget.runs[row["experiment"]]])
 
@@ -126,7 +126,7 @@ class Trained:
         """The trainings of an experiment's curve, or its own."""
         if points := self.curves.get(experiment):
             return points
-        # Its whole length: a training that died did not come so far, but was one of that budget.
+        # The planned length, also of a diverged training.
         training = self.trainings[experiment]["training"]
         samples = training["steps"] * training["batch_size"]
         return [{"experiment": experiment, "samples": samples, "seed": training["seed"]}]

@@ -1,4 +1,4 @@
-"""What is said of a claim: the verdicts, and what each of them means."""
+"""Verdicts of claims and their meanings."""
 
 NOT_COMPARABLE = "not comparable"
 NOT_LEARNED = "not learned"

@@ -1,1 +1,1 @@
-"""What figures are drawn with."""
+"""Drawing of figures."""

@@ -1,4 +1,4 @@
-"""Charts: figures whose text stays text, and whose points say their values under the pointer."""
+"""Charts with text as text, and tooltips at their points."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -17,30 +17,32 @@ if TYPE_CHECKING:
 
 SVG = "http://www.w3.org/2000/svg"
 DATA = "data"
-SAYS = "says "  # an SVG's identifier that is what a point says begins so
-REACH = "9"  # points about a marker's middle in which it is pointed at
+TOOLTIP = "says "  # prefix of SVG identifiers that hold a tooltip
+REACH = "9"  # radius in points about a marker's middle that shows its tooltip
 
 
-def say(artist: "Artist", text: str) -> None:
-    """Let what is drawn say a text when it is pointed at."""
-    artist.set_gid(SAYS + text)
+def add_tooltip(artist: "Artist", text: str) -> None:
+    """Show a text under the pointer on an artist."""
+    artist.set_gid(TOOLTIP + text)
 
 
-def saying_points(
+def points_with_tooltips(
     axes: "Axes", x: Iterable[float], y: Iterable[float], texts: Iterable[str], **look: Any
 ) -> None:
-    """Draw points that each say a text."""
-    for *place, text in zip(x, y, texts):
-        (point,) = axes.plot(
-            *([value] for value in place), **{"linestyle": "", "marker": "o"} | look
-        )
-        say(point, text)
+    """Draw points with a tooltip each."""
+    look = {"linestyle": "", "marker": "o"} | look
+    for point_x, point_y, text in zip(x, y, texts):
+        (point,) = axes.plot([point_x], [point_y], **look)
+        add_tooltip(point, text)
 
 
 def write_chart(figure: "Figure", png: Path, svg: Path, data: pd.DataFrame | None = None) -> None:
-    """`write_figure`, with `<title>` elements in the SVG that browsers show at the points.
+    """Write a figure with tooltips in its SVG.
 
-    `data` is what no table shows: the SVG holds it as CSV (`data_of`).
+    These are `<title>` elements, shown by browsers at the points.
+
+    Args:
+        data: values without a table, held as CSV in the SVG (`data_of`).
     """
     from matplotlib import rc_context
 
@@ -50,22 +52,22 @@ def write_chart(figure: "Figure", png: Path, svg: Path, data: pd.DataFrame | Non
         ElementTree.register_namespace(prefix, address)
     tree = ElementTree.parse(svg)
     for group in [*tree.iter(f"{{{SVG}}}g")]:
-        if group.get("id", "").startswith(SAYS):
+        if group.get("id", "").startswith(TOOLTIP):
             title = ElementTree.Element("title")
-            title.text = group.attrib.pop("id").removeprefix(SAYS)
+            title.text = group.attrib.pop("id").removeprefix(TOOLTIP)
             group.set("class", "says")
             group.insert(0, title)
             for mark in [*group.iter(f"{{{SVG}}}use")]:
-                place = {"cx": mark.get("x"), "cy": mark.get("y"), "r": REACH, "fill": "none"}
-                group.append(ElementTree.Element("circle", {**place, "pointer-events": "all"}))
+                circle = {"cx": mark.get("x"), "cy": mark.get("y"), "r": REACH, "fill": "none"}
+                group.append(ElementTree.Element("circle", {**circle, "pointer-events": "all"}))
     if data is not None:
-        held = ElementTree.SubElement(tree.getroot(), "metadata", {"id": DATA})
-        held.text = data.to_csv(index=False, float_format="%.6g")
+        metadata = ElementTree.SubElement(tree.getroot(), "metadata", {"id": DATA})
+        metadata.text = data.to_csv(index=False, float_format="%.6g")
     with whole_file(svg) as part:
         tree.write(part, encoding="utf-8", xml_declaration=True)
 
 
 def data_of(svg: bytes) -> str:
-    """The CSV that a chart's SVG holds; empty if it holds none."""
-    held = ElementTree.fromstring(svg).find(f"{{{SVG}}}metadata[@id='{DATA}']")
-    return "" if held is None else held.text
+    """The CSV in a chart's SVG; empty without one."""
+    metadata = ElementTree.fromstring(svg).find(f"{{{SVG}}}metadata[@id='{DATA}']")
+    return "" if metadata is None else metadata.text

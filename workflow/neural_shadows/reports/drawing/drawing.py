@@ -1,4 +1,4 @@
-"""What the pictures of how the method works are drawn with [figures 3.1 to 3.6]."""
+"""Parts of the method's pictures [figures 3.1 to 3.6]."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from neural_shadows.settings.records import SamplingSettings, SceneSettings
 
 SHADE = "#b9c2cc"
 OUTLINE = "#222222"
-SHOWN_DIRECTIONS = 1000  # of the pattern: a hemisphere of them can still be told apart
+SHOWN_DIRECTIONS = 1000  # of the pattern: few enough to be distinguished on a hemisphere
 SHOWN_POINTS = 3000  # on a silhouette
 FEW_RAYS = 25
 
@@ -31,7 +31,7 @@ FEW_RAYS = 25
 def open_figure(
     mesh_ply: Path, mesh_json: Path, scene: SceneSettings, title: str, *size: float
 ) -> tuple[MeshSlice, Figure]:
-    """The slice of a scene that the figures show, and an empty figure whose title names the mesh.
+    """A scene's slice, and an empty figure titled by mesh.
 
     Args:
         size: width and height, inches.
@@ -65,23 +65,23 @@ def draw_outline(axes: Axes, cut: MeshSlice) -> None:
 
 
 def draw_bounded_rays(axes: Axes, rays: SliceRays, width: float) -> None:
-    """Draw each ray up to its lower bound, between the bounds, and in shadow from there on."""
+    """Draw rays in parts: lit, between their bounds, in shadow."""
     hit, t_lb, end = rays.hit, rays.t_lb, rays.end
     parts = (
         (slice(None), 0 * end, t_lb, ORANGE, 1, "lit: up to t$_{lb}$, the first hit or the sphere"),
         (hit, t_lb, end, BLUE, 3.2, "t$_{lb}$ to t$_{ub}$, the second hit"),
         (hit, end, rays.chord, SHADE, 1, "in shadow"),
     )
-    for which, begin, stop, colour, wide, label in parts:
-        style = {"colors": colour, "linewidths": wide * width, "label": label}
-        draw_segments(axes, rays.at(begin)[which], rays.at(stop)[which], **style)
+    for mask, begin, stop, colour, factor, label in parts:
+        style = {"colors": colour, "linewidths": factor * width, "label": label}
+        draw_segments(axes, rays.at(begin)[mask], rays.at(stop)[mask], **style)
 
 
 class SilhouetteDrawing:
-    """The silhouette along a direction, its quads, and points on these.
+    """The silhouette along a direction, its quads and points.
 
     Args:
-        basis: rows right and up, as is drawn, and the direction: (3, 3), orthonormal.
+        basis: rows right and up, as drawn, and the direction: (3, 3), orthonormal.
         resolution: of the silhouette; min_quad: of the quadtree, texels.
     """
 
@@ -94,20 +94,20 @@ class SilhouetteDrawing:
         self._upright = Affine2D(turn)
 
     def draw(self, axes: Axes, quads: bool = True) -> None:
-        """Draw what the object covers, in grey, and the quadtree."""
+        """Draw the silhouette, in grey, and the quadtree."""
         image = np.where(self.covered, 0.72, 1.0)  # row 0 is the lowest
         style = {"cmap": "gray", "vmin": 0, "vmax": 1, "interpolation": "nearest"}
-        place = self._upright + axes.transData
-        axes.imshow(image, extent=(-1, 1, -1, 1), origin="lower", transform=place, **style)
+        transform = self._upright + axes.transData
+        axes.imshow(image, extent=(-1, 1, -1, 1), origin="lower", transform=transform, **style)
         if quads:
             row, column, size = self.quads.T[:, :, None]
             x, y = column + size * [0, 0, 1, 1], row + size * [0, 1, 1, 0]
             squares = np.stack([x, y], axis=-1) * 2 / self.resolution - 1
             style = {"facecolor": "none", "edgecolor": BLUE, "linewidth": 0.4, "rasterized": True}
-            axes.add_collection(PolyCollection(squares, transform=place, **style))
+            axes.add_collection(PolyCollection(squares, transform=transform, **style))
 
     def draw_points(self, axes: Axes, count: int, seed: int, size: float) -> None:
-        """Draw so many points, divided over the quads."""
+        """Draw `count` points, divided over the quads."""
         rng, bank = np.random.default_rng(seed), PatternBank(seed)
         points = sample_quads(self.quads, self.resolution, count, rng, bank)
         style = {"s": size, "color": OUTLINE, "linewidths": 0, "rasterized": True}
@@ -117,17 +117,17 @@ class SilhouetteDrawing:
 def slice_silhouette(cut: MeshSlice, sampling: SamplingSettings) -> SilhouetteDrawing:
     """The silhouette along a slice's normal, in a sampling's resolution.
 
-    A sampling has `silhouette_resolution` and `min_quad` also if its sampler does without.
+    A sampling has `silhouette_resolution` and `min_quad` even if its sampler does not use them.
     """
-    # The direction is away from who sees `across` to the right.
+    # The direction points away from a viewer with `across` at the right.
     basis = np.stack([cut.across, cut.up, np.cross(cut.up, cut.across)])
     settings = sampling["silhouette_resolution"], sampling["min_quad"]
     return SilhouetteDrawing(cut.tracer, basis, *settings)
 
 
 def draw_hemisphere(axes: Axes, directions: np.ndarray, title: str) -> None:
-    """Draw those of some directions (n, 3) with z > 0, in Lambert's equal-area projection."""
+    """Draw directions (n, 3), z > 0, by Lambert's projection."""
     x, y, z = directions[directions[:, 2] > 0].T
-    scale = 1 / np.sqrt(1 + z)
+    scale = 1 / np.sqrt(1 + z)  # equal areas
     draw_disk(axes, title)
     axes.scatter(scale * x, scale * y, s=6, color=BLUE, linewidths=0)

@@ -1,4 +1,4 @@
-"""A slice through an object, and one light's rays in the slice's plane."""
+"""A slice of an object, with a light's rays."""
 
 from dataclasses import dataclass
 
@@ -14,22 +14,24 @@ LIGHT_ELEVATION = 50.0  # degrees in the plane: shadows as long as the object is
 
 @dataclass(frozen=True, eq=False)
 class MeshSlice:
-    """The upright plane through the origin along the object's greatest horizontal extent."""
+    """An object's section along its greatest horizontal extent."""
 
     across: np.ndarray  # (3,) unit vector, drawn to the right
     up: np.ndarray  # (3,) unit vector, drawn upwards
-    outline: np.ndarray  # (k, 2, 2) float64, the mesh's segments in the plane, (x, y)
+    outline: (
+        np.ndarray
+    )  # (k, 2, 2) float64, segments (x, y) in the upright plane through the origin
     direction: np.ndarray  # (3,) d = −l, down to the right
     tracer: Tracer
 
     def to_space(self, points: np.ndarray) -> np.ndarray:
-        """Points of the plane (n, 2) in normalised space: (n, 3)."""
+        """Convert plane points (n, 2) to normalised space (n, 3)."""
         return points @ np.stack([self.across, self.up])
 
 
 @dataclass(frozen=True, eq=False)
 class SliceRays:
-    """Parallel rays through a slice, from the unit circle, with the bounds of their labels."""
+    """A slice's parallel rays from the unit circle, with bounds."""
 
     offset: np.ndarray  # (n,) across the rays
     origins: np.ndarray  # (n, 2) entry points o in the plane
@@ -40,12 +42,12 @@ class SliceRays:
 
     @property
     def hit(self) -> np.ndarray:
-        """Whether each ray meets the object, (n,) bool."""
+        """The mask of rays with a hit, (n,) bool."""
         return self.t_lb < self.chord - 1e-6
 
     @property
     def end(self) -> np.ndarray:
-        """Where each ray is in shadow at the latest, or leaves the sphere: (n,)."""
+        """The upper bound, or the end of the chord: (n,)."""
         return np.minimum(self.t_ub, self.chord)
 
     def at(self, t: np.ndarray) -> np.ndarray:
@@ -54,7 +56,7 @@ class SliceRays:
 
 
 def slice_mesh(scene: Scene) -> MeshSlice:
-    """Cut a scene's object by the upright plane along its greatest horizontal extent."""
+    """Cut a scene's object by the plane of a `MeshSlice`."""
     (mesh,), up = scene.objects, scene.up
     horizontal = [axis for axis in np.eye(3) if axis @ up == 0]
     across = max(horizontal, key=lambda axis: np.ptp(mesh.vertices @ axis))
@@ -68,7 +70,7 @@ def slice_mesh(scene: Scene) -> MeshSlice:
 
 
 def slice_rays(cut: MeshSlice, count: int) -> SliceRays:
-    """`count` parallel rays of the slice's light, evenly spaced across it, labelled."""
+    """Labelled parallel rays of the slice's light, evenly spaced."""
     offset = (2 * np.arange(count) + 1) / count - 1
     # A little inside the circle, as training rays are: no tangents.
     offset *= 0.995

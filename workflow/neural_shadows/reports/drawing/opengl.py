@@ -1,4 +1,4 @@
-"""Whether VTK can draw on this machine; where it cannot, it would crash its process."""
+"""Availability of OpenGL; without it VTK crashes its process."""
 
 import ctypes
 import subprocess
@@ -6,7 +6,7 @@ import sys
 from functools import cache
 
 MISSING = (
-    "figures in three dimensions need OpenGL, which is not found: install it "
+    "figures in 3D need OpenGL, which is not found. Install it "
     "(apt-get install libosmesa6 on Debian and Ubuntu, dnf install mesa-libEGL on Fedora)"
 )
 _OSMESA = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")  # as VTK 9.7 tries them
@@ -14,16 +14,16 @@ _PLATFORM_DEVICE = 0x313F  # EGL_PLATFORM_DEVICE_EXT
 
 
 def available() -> bool:
-    """Whether figures in three dimensions can be drawn here: 60 ms, and VTK is not loaded."""
+    """Check for OpenGL: takes 60 ms, without loading VTK."""
     return window_class() is not None
 
 
 @cache
 def window_class() -> str | None:
-    """The class of VTK 9.7 that draws off screen here: "" for its default, None for none.
+    """The class of VTK 9.7 for drawing off screen.
 
-    A display is left out of account: a forwarded one may draw nothing, and where one does draw,
-    EGL is installed too.
+    "" is its default, None none. Displays are not considered: a forwarded one may draw nothing, and
+    where one draws, EGL is installed too.
     """
     if sys.platform != "linux":
         return ""  # OpenGL is part of the system
@@ -33,7 +33,7 @@ def window_class() -> str | None:
 
 
 def find_window() -> str | None:
-    """The same, of Linux, tried in this process."""
+    """The `window_class` on Linux, tried in this process."""
     if _egl_starts():
         return "vtkEGLRenderWindow"
     return "vtkOSOpenGLRenderWindow" if any(map(_load, _OSMESA)) else None
@@ -47,7 +47,7 @@ def _load(name: str) -> ctypes.CDLL | None:
 
 
 def _egl_starts() -> bool:
-    """Whether a device of EGL starts; the library alone may have none, or no driver for it."""
+    """Initialise an EGL device; the library alone is not enough."""
     pointer, number = ctypes.c_void_p, ctypes.c_int
     if (egl := _load("libEGL.so.1")) is None:
         return False

@@ -1,4 +1,4 @@
-"""A picture of a prepared scene: object and bounding sphere, and a silhouette's quadtree."""
+"""A picture of a prepared scene."""
 
 from pathlib import Path
 
@@ -21,12 +21,12 @@ from neural_shadows.settings.records import SceneSettings
 
 PIXELS = 700  # of the picture of the object, square
 RESOLUTION = 128  # of the silhouette, as in the default config
-CORNERS = 1.3  # radii: the quadtree is turned with the view, and wider than the sphere
+CORNERS = 1.3  # radii: the quadtree is rotated with the view, and wider than the sphere
 AXIS_COLOURS = dict(zip("xyz", (COLOURS[1], COLOURS[2], COLOURS[0])))
 
 
 def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: SceneSettings) -> None:
-    """Draw the object in its bounding sphere, and a silhouette of it with its quadtree.
+    """Draw an object in its bounding sphere, and its quadtree.
 
     Raises:
         InputError: an input file is missing or not whole.
@@ -46,8 +46,8 @@ def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: SceneS
     right.set(xlim=(-CORNERS, CORNERS), ylim=(-CORNERS, CORNERS))
     closed = "The mesh is watertight." if report["watertight"] else "The mesh is open."
     if report["sheet"]:
-        closed += " It is a sheet, without an inside: so are its occupancy fields."
-    up = f"Up is {scene['up']}: if the object does not stand as it should, change the scene's `up`."
+        closed += " It is a sheet, without an inside, and so are its occupancy fields."
+    up = f"Up is {scene['up']}: if the object is not upright, change the scene's `up`."
     notes = f"{up}\n{closed} Orange: its bounding sphere, whose radius is the unit of all lengths."
     note_below(figure, notes)
     print(notes)
@@ -62,15 +62,13 @@ def _draw_object(axes: Axes, scene: Scene, view: Viewpoint) -> None:
     # Seen from outside, the sphere's outline is the cone that touches it.
     radius = scale / np.sqrt(DISTANCE**2 - 1)
     axes.add_patch(Circle((PIXELS / 2, PIXELS / 2), radius, fill=False, color=ORANGE))
-    corner, (right, upward, _) = (
-        np.array((70, PIXELS - 70)),
-        camera_axes(view.eye, view.target, view.up),
-    )
+    corner = np.array((70, PIXELS - 70))
+    right, upward, _ = camera_axes(view.eye, view.target, view.up)
     for axis, (name, colour) in zip(np.eye(3), AXIS_COLOURS.items()):
-        at = corner + 65 * np.array((axis @ right, -axis @ upward))
+        end = corner + 65 * np.array((axis @ right, -axis @ upward))
         text = f"{name} (up)" if axis @ view.up else name
         style = {"color": colour, "weight": "bold", "ha": "center", "va": "center"}
-        axes.annotate(text, corner, at, arrowprops={"arrowstyle": "<-", "color": colour}, **style)
+        axes.annotate(text, corner, end, arrowprops={"arrowstyle": "<-", "color": colour}, **style)
 
 
 if "snakemake" in globals():

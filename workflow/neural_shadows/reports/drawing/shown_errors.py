@@ -1,4 +1,4 @@
-"""Which error figures of soft shadows show: off the geometry's edges, where that is at hand."""
+"""The errors in figures of soft shadows."""
 
 import pandas as pd
 
@@ -9,12 +9,13 @@ COLUMNS = tuple(f"{error}{part}" for error in ("mse", OFF_EDGES) for part in PAR
 
 
 def with_shown_errors(table: pd.DataFrame) -> tuple[pd.DataFrame, str]:
-    """A table with `error`, `error_low` and `error_high`, and what they are called.
+    """Add errors off edges if measured, else of all pixels.
 
     Args:
-        table: with `COLUMNS`; off edges all are NaN of a user's own frames, whose geometry is not at
-            hand.
+        table: with `COLUMNS`; of a user's own frames, without geometry, all off edges are NaN.
+
+    Returns: the table with `error`, `error_low` and `error_high`, and their name.
     """
-    known = table[OFF_EDGES].notna().any()
-    shown = {f"error{part}": table[f"{OFF_EDGES if known else 'mse'}{part}"] for part in PARTS}
-    return table.assign(**shown), "MSE off edges" if known else "MSE"
+    off_edges = table[OFF_EDGES].notna().any()
+    shown = {f"error{part}": table[f"{OFF_EDGES if off_edges else 'mse'}{part}"] for part in PARTS}
+    return table.assign(**shown), "MSE off edges" if off_edges else "MSE"

@@ -1,4 +1,4 @@
-"""What the figures in three dimensions share: VTK's window, the camera, the page around it."""
+"""Figures in 3D: VTK's window, camera and page."""
 
 import os
 from collections.abc import Mapping
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 WIDTH, HEIGHT = 900, 800  # pixels of a picture
 OBJECT_COLOUR = "#d8d4cc"
-WHITE = 250  # of 255: what all pictures have white above and below is cut off
-REACH = 1.2  # radii of what is shown of the ground
+WHITE = 250  # of 255: rows above and below that are white in all pictures are cropped
+REACH = 1.2  # radius of the drawn ground, in sphere radii
 
 
 def new_plotter(view: Viewpoint) -> "pyvista.Plotter":
-    """An empty window, off screen, seen and lit as a viewpoint says.
+    """An off-screen window with a viewpoint's camera and light.
 
     Raises:
         InputError: there is no OpenGL, without which VTK would crash.
@@ -49,7 +49,7 @@ def new_plotter(view: Viewpoint) -> "pyvista.Plotter":
 def add_object(
     plotter: "pyvista.Plotter", scene: "Scene", opacity: float = 1.0
 ) -> "pyvista.PolyData":
-    """Add a scene's object with its smooth normals; also returned."""
+    """Add and return a scene's object with smooth normals."""
     import pyvista
 
     (mesh,) = scene.objects
@@ -60,7 +60,7 @@ def add_object(
 
 
 def add_ground(plotter: "pyvista.Plotter", scene: "Scene") -> None:
-    """Add a disk of the ground, if the scene has one."""
+    """Add a disk of a scene's ground, if any."""
     import pyvista
 
     if scene.ground is not None:
@@ -78,7 +78,7 @@ def write_pictures(
     colours: Mapping[str, str] | None = None,
     scale: "tuple[str, ScalarMappable] | None" = None,
 ) -> None:
-    """Write windows beside each other, each under its heading, with one legend.
+    """Write windows with headings beside each other, with one legend.
 
     Args:
         colours: of the legend, by label.
@@ -88,7 +88,7 @@ def write_pictures(
 
     pictures = [plotter.screenshot(return_img=True) for plotter in shown.values()]
     rows = np.flatnonzero(np.min(pictures, axis=(0, 2, 3)) < WHITE)
-    width = min(6.2, 13.5 / len(shown))  # of three, names on a page of 1168 px are 13 px high
+    width = min(6.2, 13.5 / len(shown))  # with three, names on a page of 1168 px are 13 px high
     height = width * (np.ptp(rows) + 1) / WIDTH
     figure = style.new_figure(title, width * len(shown), height + 1.2)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]

@@ -1,15 +1,15 @@
-"""Figures, a module for each `kind` in the configuration, called as the kind.
+"""The kinds of figures, a file each.
 
 A kind's module has
 
-- `Settings`, the model of its section: `sections.any_report.AnyFigure` and what is its own; `check` if
-  something must fit other sections, `resolved` if it follows names; `chapter`, the page's.
-- `files(layout, figure)`: the files that it is made of, by argument of `draw`.
-- `params(layout, figure)`: what `draw` takes beside these and its `title`.
-- `draw`, which writes `png` and `svg`.
-- where they apply: `encodings(layout, figure)`, the kinds of the networks whose weights it reads;
-  `generators(layout, figure)`, those of the scenes that it looks into; `USES_GPU`.
+- `Settings`, the model of its section, an `AnyFigure` of `sections.any_report` with its own fields;
+  `check` against other sections, `resolved` for names, `chapter` of the page where they apply.
+- `files(layout, figure)`: input files by argument of `draw`.
+- `params(layout, figure)`: the other arguments of `draw`, beside `title`.
+- `draw`: writes `png` and `svg`.
+- optional: `encodings(layout, figure)`, the kinds of networks whose weights it reads;
+  `generators(layout, figure)`, the kinds of scenes that it reads; `USES_GPU`.
 
-The graph imports all kinds at each start: what computes or draws (matplotlib, trimesh, torch, numba,
-scipy.stats) is imported inside functions.
+The graph imports all kinds at each start: matplotlib, trimesh, torch, numba and scipy.stats are
+imported inside functions.
 """

@@ -1,4 +1,4 @@
-"""All views at a glance: each small, by a few methods, with its errors and its score."""
+"""Small views by each method, with errors and scores."""
 
 import textwrap
 from collections.abc import Mapping, Sequence
@@ -15,6 +15,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.metrics.pooled_psnr import identical
 from neural_shadows.reports.data.method_look import REFERENCE
+from neural_shadows.reports.drawing import figure_inputs
 from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
 from neural_shadows.reports.tables import comparison, networks
 from neural_shadows.running.stage import run_stage
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
     from neural_shadows.reports.data.frames import Frame
 
-MOST_VIEWS = 24  # of a view set; of more, so many evenly through them
+MOST_VIEWS = 24  # of a view set; of more, so many at even steps
 MOST_COLUMNS, FEWEST_COLUMNS = 8, 4
 PIXELS = 200  # across a small view, or a few more
 NOTE = (
@@ -57,8 +58,7 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
     }
 
 
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"rows": layout.entry("figures", figure)["rows"], "run": layout.run()}
+params = figure_inputs.rows_and_run
 
 
 def draw(
@@ -87,8 +87,9 @@ def draw(
     frames = {}
     for view_set, numbers in values.groupby("view_set")["view"].unique().items():
         numbers = np.sort(numbers)
-        few = np.linspace(0, len(numbers) - 1, min(len(numbers), MOST_VIEWS)).round().astype(int)
-        views = [(view_set, number) for number in numbers[few]]
+        count = min(len(numbers), MOST_VIEWS)
+        indices = np.linspace(0, len(numbers) - 1, count).round().astype(int)
+        views = [(view_set, number) for number in numbers[indices]]
         frames[view_set] = read_frames(references, visibilities, values, views)
     mesh = read_mesh_report(mesh_json)["name"]
     heading = f"{title} ({mesh}, {run['scale']} scale)"
@@ -99,7 +100,7 @@ def draw(
 def contact_sheet(
     frames: Mapping[str, Sequence["Frame"]], labels: Mapping[str, str], title: str
 ) -> "Figure":
-    """Draw a block of small views for each view set: in turn a row of them by each method.
+    """Draw the view sets' small views, rows alternating by method.
 
     Args:
         frames: by view set; all images of one shape.
@@ -107,8 +108,8 @@ def contact_sheet(
     """
     from neural_shadows.reports.data.frame_errors import error_legend, with_errors
 
-    most = max(map(len, frames.values()))
-    columns = min(max(most, FEWEST_COLUMNS), MOST_COLUMNS)
+    largest = max(map(len, frames.values()))
+    columns = min(max(largest, FEWEST_COLUMNS), MOST_COLUMNS)
     rows = [len(labels) * ceil(len(views) / columns) for views in frames.values()]
     height, width = next(iter(frames.values()))[0].images[REFERENCE].shape
     step = max(1, width // PIXELS)

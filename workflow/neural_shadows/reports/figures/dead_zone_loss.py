@@ -8,41 +8,26 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
-from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing import figure_inputs
 from neural_shadows.reports.drawing.style import GRID, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.scene_figures import SceneFigure
 
 
 class Settings(SceneFigure):
-    """The dead-zone loss of two rays of a slice [figure 3.6]."""
+    """The dead-zone loss of two rays [figure 3.6]."""
 
     kind: Literal["dead_zone_loss"] = Field(description="`dead_zone_loss`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    scene, paths = layout.entry("figures", figure)["scene"], layout.paths
-    return {
-        "mesh_ply": paths.scene("mesh.ply", scene),
-        "mesh_json": paths.scene("mesh.json", scene),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    scene = layout.entry("figures", figure)["scene"]
-    return {"scene": layout.entry("scenes", scene)["scene"]}
+files = figure_inputs.scene_files
+params = figure_inputs.scene
 
 
 def draw(
-    mesh_ply: Path,
-    mesh_json: Path,
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    scene: Mapping[str, Any],
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
-    """Draw the loss of the ray with the most distant bounds, and of the longest that misses."""
+    """Draw the loss of the thickest hit and longest miss."""
     import torch
 
     from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
@@ -53,12 +38,12 @@ def draw(
     rays = slice_rays(cut, 401)
     axes = figure.subplots()
     t = torch.linspace(0, 2, 401)
-    thick = np.where(rays.hit & np.isfinite(rays.t_ub), rays.t_ub - rays.t_lb, 0)
-    long = np.where(rays.hit, 0, rays.chord)
-    for name, size, colour in (("hits", thick, BLUE), ("misses", long, ORANGE)):
-        if not size.any():
+    thickness = np.where(rays.hit & np.isfinite(rays.t_ub), rays.t_ub - rays.t_lb, 0)
+    miss_lengths = np.where(rays.hit, 0, rays.chord)
+    for name, measure, colour in (("hits", thickness, BLUE), ("misses", miss_lengths, ORANGE)):
+        if not measure.any():
             continue
-        low, high = (float(bound[np.argmax(size)]) for bound in (rays.t_lb, rays.t_ub))
+        low, high = (float(bound[np.argmax(measure)]) for bound in (rays.t_lb, rays.t_ub))
         loss = DeadZone()(t, torch.tensor(low), torch.tensor(high))
         upper = "∞" if np.isinf(high) else f"{high:.2f}"
         label = f"a ray that {name}: t$_{{lb}}$ = {low:.2f}, t$_{{ub}}$ = {upper}"

@@ -1,4 +1,4 @@
-"""A network's depths for one light beside their bounds, in three dimensions (figure 3.2)."""
+"""A network's depths and their bounds, in 3D [figure 3.2]."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -9,8 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
-from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing import figure_inputs, space
 from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import AnyFigure
@@ -20,8 +19,8 @@ if TYPE_CHECKING:
     import pyvista
 
 RAYS = 500  # along a side of the square across the light
-TOLERANCE = 0.005  # of a depth that counts as right: two thirds of a cell of a 256³ field
-STEP = 0.15  # in depth between neighbouring rays: beyond it, a sheet is torn
+TOLERANCE = 0.005  # of a correct depth: two thirds of a cell of a 256³ field
+STEP = 0.15  # in depth between neighbouring rays: larger ones tear a sheet
 COLOURS = {
     "between the bounds": space.OBJECT_COLOUR,
     "false shadow": FALSE_SHADOW,
@@ -30,7 +29,7 @@ COLOURS = {
 
 
 class Settings(AnyFigure):
-    """A network's depths for one light, in three dimensions."""
+    """A network's depths for one light, in 3D."""
 
     needs_opengl: ClassVar[bool] = True
 
@@ -38,29 +37,15 @@ class Settings(AnyFigure):
     experiment: name_in("experiments") = Field(description="a name in `experiments`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    experiment = layout.entry("figures", figure)["experiment"]
-    scene = layout.entry("experiments", experiment)["scene"]
-    return {
-        "mesh_ply": layout.paths.scene("mesh.ply", scene),
-        "weights": layout.paths.network("weights.safetensors", experiment),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    experiment = layout.entry("figures", figure)["experiment"]
-    scene = layout.entry("experiments", experiment)["scene"]
-    return {"scene": layout.entry("scenes", scene)["scene"]}
-
-
-def encodings(layout: Layout, figure: str) -> set[str]:
-    return layout.encodings([layout.entry("figures", figure)["experiment"]])
+files = figure_inputs.experiment_files
+params = figure_inputs.experiment_scene
+encodings = figure_inputs.experiment_encodings
 
 
 def draw(
     mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
-    """Draw t_lb, t_pred and t_ub of a light's rays that hit, each as a sheet where it lies.
+    """Draw t_lb, t_pred and t_ub of hitting rays as sheets.
 
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
@@ -75,12 +60,12 @@ def draw(
     opened = open_scene(mesh_ply, **scene)
     network, _ = load_network(weights)
     view = hero_view(opened.up, 1)
-    eye = view.eye + 0.9 * view.light  # from nearer the light, where less of the sheets is torn
+    eye = view.eye + 0.9 * view.light  # from nearer the light, where the sheets are less torn
     view = replace(view, eye=3 * eye / np.linalg.norm(eye))
     d = (-view.light).astype(np.float32)
-    at = (np.arange(RAYS) + 0.5) / RAYS * 2 - 1
-    square = np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
-    o = entry_points(-view.light, square)  # offsets beyond the sphere are taken to its rim
+    offsets = (np.arange(RAYS) + 0.5) / RAYS * 2 - 1
+    square = np.stack(np.meshgrid(offsets, offsets), axis=-1).reshape(-1, 2)
+    o = entry_points(-view.light, square)  # offsets beyond the sphere are clamped to its rim
     t_lb, t_ub = dual_bounds(opened.tracer, o, d)
     chord = chord_lengths(o, np.broadcast_to(d, o.shape))
     hit = ((square**2).sum(axis=1) < 0.99) & (t_lb < chord - 1e-6)
@@ -88,11 +73,11 @@ def draw(
         t_pred = network.depths(torch.from_numpy(o), torch.from_numpy(d), torch.float32).numpy()
     t_ub, t_pred = np.minimum(t_ub, chord), np.minimum(t_pred, chord)
     error = np.select([t_pred < t_lb - TOLERANCE, t_pred > t_ub + TOLERANCE], [1, 2])
-    right = np.mean(error[hit] == 0)
+    correct = np.mean(error[hit] == 0)
     sheets = {
-        "t$_{lb}$: what the light meets": (t_lb, 0 * error),
-        f"t$_{{pred}}$: what the network answers, {right:.1%} right": (t_pred, error),
-        "t$_{ub}$: where it would leave": (t_ub, 0 * error),
+        "t$_{lb}$: first hit": (t_lb, 0 * error),
+        f"t$_{{pred}}$: the network's prediction, {correct:.1%} correct": (t_pred, error),
+        "t$_{ub}$: second hit": (t_ub, 0 * error),
     }
     shown = {}
     for heading, (t, value) in sheets.items():
@@ -103,7 +88,7 @@ def draw(
             clim=(0, 2),
             interpolate_before_map=False,
             smooth_shading=True,
-            ambient=0.3,  # so that the colour is seen of facets turned from the light
+            ambient=0.3,  # shows the colour of facets that face away from the light
             diffuse=0.7,
             show_scalar_bar=False,
         )
@@ -111,9 +96,11 @@ def draw(
 
 
 def sheet_of(depths: np.ndarray, points: np.ndarray, error: np.ndarray) -> "pyvista.PolyData":
-    """Quads between the points (RAYS², 3) of rays whose depths (RAYS²,), NaN for none, are near.
+    """Quads between the points of neighbouring rays of similar depth.
 
-    The sheet's points have the `error` (RAYS²,) of their ray.
+    Args:
+        depths: (RAYS²,), NaN without a hit; points: (RAYS², 3).
+        error: (RAYS²,), the scalar of each point.
     """
     import pyvista
 

@@ -1,4 +1,4 @@
-"""Where methods err: false shadow and light leak as points on the scene, in three dimensions."""
+"""False shadow and light leaks as points, in 3D."""
 
 from collections.abc import Mapping, Sequence
 from itertools import islice
@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     from neural_shadows.evaluation.shadow_methods import ShadowMethod
 
 USES_GPU = True
-MOST_VIEWS = 12  # of a batch; a network answers for each
+MOST_VIEWS = 12  # of a batch; a network is evaluated for each
 MOST_POINTS = 20_000
 COLOURS = {"false shadow": FALSE_SHADOW, "light leak": LIGHT_LEAK}
 
 
 class Settings(MethodsFigure):
-    """The errors of methods on the mesh, in three dimensions."""
+    """The errors of methods on the mesh, in 3D."""
 
     tables = (comparison.Settings, networks.Settings)
     needs_opengl: ClassVar[bool] = True
@@ -82,12 +82,12 @@ def draw(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Draw the wrong points of a batch of viewpoints by each method.
+    """Draw each method's wrong points in a batch of viewpoints.
 
     Args:
         references: of the batch.
         weights, depth_biases: of the rows' experiments.
-        device, precision: that networks are asked with, see `open_network`.
+        device, precision: of networks, see `open_network`.
 
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
@@ -97,19 +97,19 @@ def draw(
     from neural_shadows.scenes.scene import open_scene
 
     opened = open_scene(mesh_ply, **scene)
-    trained = {path.parent.name: path for path in weights}
-    held_out = {path.stem: path for path in depth_biases}
+    weight_paths = {path.parent.name: path for path in weights}
+    bias_paths = {path.stem: path for path in depth_biases}
     shown = {}
     for row in rows:
         name = unbiased(row["method"])
-        found = held_out[name] if row["bias"] == "held_out" else None
+        bias_path = bias_paths[name] if row["bias"] == "held_out" else None
         if row["experiment"] is None:
-            bias = read_json(found)["depth_bias"] if found else 0.0
+            bias = read_json(bias_path)["depth_bias"] if bias_path else 0.0
             method = shadow_methods.classic_method(name, opened)
         else:
-            path = trained[row["experiment"]]
+            path = weight_paths[row["experiment"]]
             network, dtype = shadow_methods.open_network(path, device, threads, precision)
-            bias = shadow_methods.take_found(network, found) if found else row["bias"]
+            bias = shadow_methods.take_found(network, bias_path) if bias_path else row["bias"]
             method = shadow_methods.network_method(network, dtype)
         p, error, share = wrong_points(method, bias, References(references))
         plotter = space.new_plotter(hero_view(opened.up, 4.1))
@@ -126,9 +126,10 @@ def draw(
 def wrong_points(
     method: "ShadowMethod", bias: float, batch: "References"
 ) -> tuple[np.ndarray, np.ndarray, float]:
-    """Points (k, 3) where a method with a depth bias errs, the sign of the error (k,), and the share of all points.
+    """Wrong points of a method, and their share.
 
-    At most `MOST_POINTS` near the object; the share is of all points that face the light.
+    Returns: points (k, 3), at most `MOST_POINTS` near the object, the sign of each error (k,), and
+    the share of wrong points among all that face the light.
     """
     points, errors = [], []
     for frame, truth in islice(batch, 0, None, 1 + (len(batch) - 1) // MOST_VIEWS):

@@ -1,4 +1,4 @@
-"""The surface that an occupancy field has learned, in three dimensions, beside the mesh."""
+"""The learned surface of an occupancy field, in 3D."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing import figure_inputs, space
 from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.scene_figures import FieldFigure
@@ -22,36 +21,22 @@ COLOURS = "RdBu_r"
 
 
 class Settings(FieldFigure):
-    """The surface of an occupancy field, in three dimensions."""
+    """The surface of an occupancy field, in 3D."""
 
     needs_opengl: ClassVar[bool] = True
 
     kind: Literal["field_3d"] = Field(description="`field_3d`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    experiment = layout.entry("figures", figure)["experiment"]
-    scene = layout.entry("experiments", experiment)["scene"]
-    return {
-        "mesh_ply": layout.paths.scene("mesh.ply", scene),
-        "weights": layout.paths.network("weights.safetensors", experiment),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    experiment = layout.entry("figures", figure)["experiment"]
-    scene = layout.entry("experiments", experiment)["scene"]
-    return {"scene": layout.entry("scenes", scene)["scene"]}
-
-
-def encodings(layout: Layout, figure: str) -> set[str]:
-    return layout.encodings([layout.entry("figures", figure)["experiment"]])
+files = figure_inputs.experiment_files
+params = figure_inputs.experiment_scene
+encodings = figure_inputs.experiment_encodings
 
 
 def draw(
     mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
-    """Draw the mesh, and beside it where the field's logit is 0, coloured by the distance.
+    """Draw the mesh, and the learned surface coloured by distance.
 
     Args:
         weights: of an occupancy field.
@@ -86,7 +71,7 @@ def draw(
 
 
 def learned_surface(field: "OccupancyFieldNetwork") -> "pyvista.PolyData":
-    """Where the logits between the vertices of the field's cells turn positive."""
+    """The zero level of the logits at the cells' vertices."""
     import pyvista
 
     from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
@@ -98,11 +83,11 @@ def learned_surface(field: "OccupancyFieldNetwork") -> "pyvista.PolyData":
     solid = np.where(bricks == SOLID, LIMIT, -LIMIT)
     logits[:-1, :-1, :-1] = solid.repeat(BRICK, 0).repeat(BRICK, 1).repeat(BRICK, 2)
     corners = np.indices((BRICK + 1,) * 3).reshape(3, -1).T
-    places = BRICK * np.argwhere(bricks >= 0)[:, None] + corners
-    logits[tuple(np.moveaxis(places, -1, 0))] = (
-        field.logits().detach()[field.table.long()].view(places.shape[:2])
+    vertices = BRICK * np.argwhere(bricks >= 0)[:, None] + corners
+    logits[tuple(np.moveaxis(vertices, -1, 0))] = (
+        field.logits().detach()[field.table.long()].view(vertices.shape[:2])
     )
-    # Rays are never followed, and nothing is learned, beyond the bounding sphere.
+    # Nothing is learned beyond the bounding sphere, where no rays run.
     square = np.linspace(-1, 1, size + 1) ** 2
     logits[square[:, None, None] + square[:, None] + square > 1] = -LIMIT
     spacing = (2 / size,) * 3

@@ -1,4 +1,4 @@
-"""What an occupancy field has learned, in a slice, beside the mesh [5.4.1]."""
+"""A slice of an occupancy field, beside the mesh [5.4.1]."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing import figure_inputs
 from neural_shadows.reports.drawing.style import legend_below, new_figure, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.scene_figures import FieldFigure
@@ -30,29 +30,15 @@ class Settings(FieldFigure):
     kind: Literal["field_slice"] = Field(description="`field_slice`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    experiment = layout.entry("figures", figure)["experiment"]
-    scene = layout.entry("experiments", experiment)["scene"]
-    return {
-        "mesh_ply": layout.paths.scene("mesh.ply", scene),
-        "weights": layout.paths.network("weights.safetensors", experiment),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    experiment = layout.entry("figures", figure)["experiment"]
-    scene = layout.entry("experiments", experiment)["scene"]
-    return {"scene": layout.entry("scenes", scene)["scene"]}
-
-
-def encodings(layout: Layout, figure: str) -> set[str]:
-    return layout.encodings([layout.entry("figures", figure)["experiment"]])
+files = figure_inputs.experiment_files
+params = figure_inputs.experiment_scene
+encodings = figure_inputs.experiment_encodings
 
 
 def draw(
     mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
 ) -> None:
-    """Draw the slice whole, and in detail where most of it is stored.
+    """Draw the whole slice, and a detail of it.
 
     Args:
         weights: of an occupancy field.
@@ -70,11 +56,11 @@ def draw(
     cut = slice_mesh(open_scene(mesh_ply, **scene))
     field, _ = load_network(weights)
     figure = new_figure(title, 13, 6.6)
-    whole, detail = figure.subplots(1, 2)
-    _show(whole, field, cut, np.zeros(2), 1.0)
-    whole.set_title(f"bricks of {BRICK}³ cells at the surface, {field.resolution}³ cells in all")
+    overview, detail = figure.subplots(1, 2)
+    _show(overview, field, cut, np.zeros(2), 1.0)
+    overview.set_title(f"bricks of {BRICK}³ cells at the surface, {field.resolution}³ cells in all")
     centre = choose_detail(slice_logits(field, cut, np.zeros(2), 1.0))
-    whole.add_patch(Rectangle(centre - DETAIL, 2 * DETAIL, 2 * DETAIL, fill=False))
+    overview.add_patch(Rectangle(centre - DETAIL, 2 * DETAIL, 2 * DETAIL, fill=False))
     image = _show(detail, field, cut, centre, DETAIL)
     detail.set_title("the square: shadow begins where the logit turns positive")
     figure.colorbar(image, ax=detail, label="logit: outside < 0 < inside", shrink=0.8)
@@ -85,9 +71,12 @@ def draw(
 
 
 def choose_detail(logits: np.ndarray) -> np.ndarray:
-    """The centre (2,) of the detail that shows most of what is stored, inside and outside alike.
+    """The centre (2,) of the detail with most stored logits.
 
-    `logits` (PIXELS, PIXELS) are of the whole slice, as `slice_logits` gives them.
+    Inside and outside count alike.
+
+    Args:
+        logits: (PIXELS, PIXELS) of the whole slice, see `slice_logits`.
     """
     from scipy.ndimage import uniform_filter
 
@@ -103,7 +92,7 @@ def choose_detail(logits: np.ndarray) -> np.ndarray:
 def slice_logits(
     field: "OccupancyFieldNetwork", cut: "MeshSlice", centre: np.ndarray, half: float
 ) -> np.ndarray:
-    """Logits (PIXELS, PIXELS) of a square of the slice, rows upwards.
+    """Logits (PIXELS, PIXELS) of a square, rows upwards.
 
     NaN in empty bricks, beyond LIMIT in enclosed ones.
 
@@ -115,15 +104,15 @@ def slice_logits(
     from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
     from neural_shadows.representations.distance_bricks.field_marching import SOLID
 
-    at = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * half - half
-    x, y = np.meshgrid(centre[0] + at, centre[1] + at)
+    offsets = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * half - half
+    x, y = np.meshgrid(centre[0] + offsets, centre[1] + offsets)
     p = cut.to_space(np.stack([x.ravel(), y.ravel()], axis=1))
     p = torch.from_numpy(p.astype(np.float32))
     with torch.inference_mode():
         bricks = field.bricks_at(p)
         logits = torch.where(bricks == SOLID, 2 * LIMIT, torch.nan)
-        held = bricks >= 0
-        logits[held] = field.logits_at(p[held], bricks[held], field.logits())
+        stored = bricks >= 0
+        logits[stored] = field.logits_at(p[stored], bricks[stored], field.logits())
     return logits.view(PIXELS, PIXELS).numpy()
 
 

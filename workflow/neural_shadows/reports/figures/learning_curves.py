@@ -1,4 +1,4 @@
-"""Loss and quality over training samples, and what the smaller budgets predict of the largest."""
+"""Loss and quality over training samples, with power laws."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,14 +9,13 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.look import COLOURS
-from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics import power_law
 from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.reports.data.table import read_table
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
-from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import say, saying_points, write_chart
+from neural_shadows.reports.drawing import figure_inputs, style
+from neural_shadows.reports.drawing.chart import add_tooltip, points_with_tooltips, write_chart
 from neural_shadows.reports.tables import learning_curves
 from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, READING, by_kind
 from neural_shadows.running.stage import run_stage
@@ -43,28 +42,16 @@ class Settings(RowsFigure):
     kind: Literal["learning_curves"] = Field(description="`learning_curves`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+files = figure_inputs.table_csv
+params = figure_inputs.rows_and_run
 
 
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"rows": layout.entry("figures", figure)["rows"], "run": layout.run()}
-
-
-def draw(
-    table: Path,
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    rows: Sequence[Row],
-    run: Run,
-) -> None:
+def draw(table: Path, png: Path, svg: Path, *, title: str, rows: Sequence[Row], run: Run) -> None:
     """Draw the learning curves of a scene.
 
     Args:
         table: CSV of a table of learning curves.
-        rows: those of the table's rows that are drawn, all of one scene.
+        rows: of the table, all of one scene.
 
     Raises:
         InputError: the table is missing or not whole.
@@ -77,7 +64,7 @@ def draw(
 
 
 def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> "Figure":
-    """Draw a panel for each metric; PSNR in dB and the others' errors logarithmic.
+    """Draw a panel a metric, PSNR in dB, errors logarithmic.
 
     Args:
         table: of `curve_table`, of one scene.
@@ -93,23 +80,23 @@ def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> 
     ):
         for i, label in enumerate(labels):
             # Beside the trainings of their budget, and beside each other.
-            aside = ScaledTranslation((8 + 8 * i) / 72, 0, figure.dpi_scale_trans)
+            shift = ScaledTranslation((8 + 8 * i) / 72, 0, figure.dpi_scale_trans)
             part = panel[panel["method"] == label]
-            _draw_curve(axes, metric, part, colours[label], axes.transData + aside)
+            _draw_curve(axes, metric, part, colours[label], axes.transData + shift)
         for level, part in panel.groupby("no_shadow"):
-            # One line for all methods, but for losses on rays of their own.
+            # One line for all methods, except for losses on rays of their own.
             methods = part["method"].unique()
-            alone = len(methods) == 1 and len(labels) > 1
-            colour = colours[methods[0]] if alone else GREY
+            of_method = len(methods) == 1 and len(labels) > 1
+            colour = colours[methods[0]] if of_method else GREY
             axes.axhline(_height(metric, level), color=colour, linewidth=1.2, linestyle=":")
-        _dress(axes, metric)
+        _format_axes(axes, metric)
         if metric == "lpips" and panel["thesis"].notna().any():
             axes.set_title("LPIPS ↓ (the thesis's may be of another network)")
     shapes = {
         "a training": {"marker": "o", "markersize": 4},
         "power law of all but the largest budget": {"linestyle": "-"},
-        "what it predicts there, 90 %": {"marker": "D", "markerfacecolor": "white"},
-        "no shadow at all": {"linestyle": ":"},
+        "its prediction there, 90 %": {"marker": "D", "markerfacecolor": "white"},
+        "no shadow": {"linestyle": ":"},
     }
     if table["thesis"].notna().any():
         shapes["as the thesis prints it"] = {"marker": "*", "markersize": 11}
@@ -128,23 +115,24 @@ def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> 
 
 
 def _draw_curve(
-    axes: "Axes", metric: str, part: pd.DataFrame, colour: str, aside: "Transform"
+    axes: "Axes", metric: str, part: pd.DataFrame, colour: str, transform: "Transform"
 ) -> None:
-    """Draw a method's trainings, the law of all budgets but the largest, and its predictions.
+    """Draw a method's trainings, power law and predictions.
 
-    These stand `aside`, which is where data lie in the panel and a little further.
+    The law is that of all budgets but the largest. Predictions have a `transform` of their own, a
+    little to the right of the data.
     """
-    measured, beyond = by_kind(part)
+    measured, extrapolated = by_kind(part)
     samples = measured["samples"].to_numpy()
-    values = np.array([[float(value) for value in one.split()] for one in measured["by_seed"]])
-    at = np.repeat(samples[:, None], values.shape[1], axis=1)
+    values = np.array([[float(value) for value in seeds.split()] for seeds in measured["by_seed"]])
+    budgets = np.repeat(samples[:, None], values.shape[1], axis=1)
     name, method = READING[metric][0], part["method"].iloc[0]
     texts = [
-        f"{method}: {name} {value:.4g} at {seen:,.0f} samples"
-        for value, seen in zip(values.flat, at.flat)
+        f"{method}: {name} {value:.4g} at {count:,.0f} samples"
+        for value, count in zip(values.flat, budgets.flat)
     ]
     look = {"color": colour, "markersize": 4, "alpha": 0.7}
-    saying_points(axes, at.flat, _height(metric, values).flat, texts, **look)
+    points_with_tooltips(axes, budgets.flat, _height(metric, values).flat, texts, **look)
     curve = Curve(samples, error_of(metric, values))
     if power_law.can_hold_out(curve):
         law = power_law.fit(Curve(samples[:-1], curve.values[:-1]))
@@ -152,35 +140,39 @@ def _draw_curve(
             along = np.geomspace(*ends, 50)
             heights = _height(metric, value_of(metric, law(along)))
             axes.plot(along, heights, line, color=colour, linewidth=1.6)
-        _draw_prediction(axes, metric, measured.iloc[-1], marker="D", color=colour, transform=aside)
-    _draw_prediction(axes, metric, beyond, marker="s", color=colour, transform=aside)
-    if np.isfinite(beyond["thesis"]):
-        axes.plot(THESIS_SAMPLES, _height(metric, beyond["thesis"]), "*", color=colour, ms=11)
+        _draw_prediction(
+            axes, metric, measured.iloc[-1], marker="D", color=colour, transform=transform
+        )
+    _draw_prediction(axes, metric, extrapolated, marker="s", color=colour, transform=transform)
+    if np.isfinite(extrapolated["thesis"]):
+        axes.plot(THESIS_SAMPLES, _height(metric, extrapolated["thesis"]), "*", color=colour, ms=11)
 
 
-def _draw_prediction(axes: "Axes", metric: str, line: pd.Series, **look: Any) -> None:
-    value, *ends = _height(metric, line[PREDICTED].to_numpy(float))
+def _draw_prediction(axes: "Axes", metric: str, row: pd.Series, **look: Any) -> None:
+    value, *ends = _height(metric, row[PREDICTED].to_numpy(float))
     spread = np.abs(np.array(ends) - value)[:, None]
-    spread = spread if metric != "ssim" else spread[::-1]  # 1 − SSIM: the ends change places
+    spread = spread if metric != "ssim" else spread[::-1]  # 1 − SSIM: the ends swap
     look |= {"markerfacecolor": "white", "markersize": 6, "capsize": 3, "zorder": 4}
-    bar = axes.errorbar(line["samples"], value, spread, **look)
-    said, low, high = (f"{number:.4g}" for number in line[PREDICTED])
-    say(bar.lines[0], f"{line['method']}, predicted: {READING[metric][0]} {said} [{low}, {high}]")
+    bar = axes.errorbar(row["samples"], value, spread, **look)
+    text, low, high = (f"{number:.4g}" for number in row[PREDICTED])
+    add_tooltip(
+        bar.lines[0], f"{row['method']}, predicted: {READING[metric][0]} {text} [{low}, {high}]"
+    )
 
 
 def _height(metric: str, values: float | np.ndarray) -> float | np.ndarray:
-    """Where a value is drawn: PSNR in dB, others as the error that falls to 0."""
+    """The drawn height: PSNR in dB, other metrics as errors."""
     return values if metric == DECIBELS else error_of(metric, values)
 
 
-def _dress(axes: "Axes", metric: str) -> None:
-    """Scales, names and grid of a panel."""
+def _format_axes(axes: "Axes", metric: str) -> None:
+    """Set a panel's scales, names and grid."""
     from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
 
     name, _ = READING[metric]
     name = "1 − SSIM ↓" if metric == "ssim" else name
     axes.set(xscale="log", xlabel="training samples", title=name)
-    axes.margins(x=0.12)  # room for what stands aside
+    axes.margins(x=0.12)  # room for the predictions at the right
     axes.xaxis.set(
         major_locator=LogLocator(numticks=12),
         major_formatter=EngFormatter(sep=" "),

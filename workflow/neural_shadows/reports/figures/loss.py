@@ -1,4 +1,4 @@
-"""Training loss of several networks over their samples [figures 4.1 to 4.3]."""
+"""Training loss of networks over samples [figures 4.1 to 4.3]."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,7 +14,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import networks
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import saying_points, write_chart
+from neural_shadows.reports.drawing.chart import points_with_tooltips, write_chart
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import AnyFigure
 from neural_shadows.sections.sections import Sections
@@ -25,13 +25,13 @@ from neural_shadows.training.loss_curve import read_loss
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-PARTS = 60  # of a curve that is drawn as means
+PARTS = 60  # of a curve, each drawn as its mean
 POINTS = ["samples", "loss"]
-SAYING = 6  # every so many of them is a point that says its value
+SAYING = 6  # every so many of them has a tooltip
 
 
 class Curve(Model):
-    """A curve that is more than a name."""
+    """A curve with a label of its own."""
 
     experiment: name_in("experiments") = Field(description="a name in `experiments`")
     label: Text | None = Field(None, description="without it the experiment's label")
@@ -50,14 +50,14 @@ class Settings(AnyFigure):
             config.label_of(curve.experiment, curve.label)
             if config.experiments[curve.experiment].training is None:
                 raise ValueError(
-                    f"{key}.curves: {curve.experiment!r} is built without training and has no loss; "
-                    "leave it out"
+                    f"{key}.curves: {curve.experiment!r} is built without training and has no loss. "
+                    "Leave it out"
                 )
 
     def resolved(self, config: Sections) -> dict[str, Any]:
+        names = ((curve.experiment, curve.label) for curve in self.curves)
         curves = [
-            {"experiment": one.experiment, "label": config.label_of(one.experiment, one.label)}
-            for one in self.curves
+            {"experiment": name, "label": config.label_of(name, label)} for name, label in names
         ]
         return self.model_dump() | {"curves": curves}
 
@@ -94,39 +94,38 @@ def draw(
     Raises:
         InputError: a loss curve is missing or not whole.
     """
-    found = {path.parent.name: path for path in losses}
+    paths = {path.parent.name: path for path in losses}
     died = {record["name"]: record["died_at_step"] for record in map(read_json, trainings)}
-    frames, ends = {}, {}
+    tables, ends = {}, {}
     for curve in curves:
-        frames[curve["label"]] = read_loss(found[curve["experiment"]])
+        tables[curve["label"]] = read_loss(paths[curve["experiment"]])
         ends[curve["label"]] = died[curve["experiment"]]
-    figure = loss_figure(frames, ends, title=f"{title} ({run['scale']} scale)")
-    data = [means_of(frame).assign(curve=label) for label, frame in frames.items()]
+    figure = loss_figure(tables, ends, title=f"{title} ({run['scale']} scale)")
+    data = [means_of(frame).assign(curve=label) for label, frame in tables.items()]
     write_chart(figure, png, svg, pd.concat(data))
 
 
 def smoothed(values: np.ndarray) -> np.ndarray:
-    """Means of a curve (n,) over parts of it that are equally wide on a logarithmic axis."""
+    """Means of a curve (n,) over logarithmically even parts."""
     starts = np.unique(np.geomspace(1, len(values), PARTS).astype(int)) - 1
     return np.add.reduceat(values, starts) / np.diff(starts, append=len(values))
 
 
 def means_of(curve: pd.DataFrame) -> pd.DataFrame:
-    """Columns `samples` and `loss` of a curve, `smoothed`, up to where its training died."""
-    alive = curve.loc[np.isfinite(curve["loss"]), POINTS].astype(float)
-    means = {name: smoothed(alive[name].to_numpy()) if len(alive) else [] for name in POINTS}
+    """Smoothed `samples` and `loss` up to a curve's divergence."""
+    finite = curve.loc[np.isfinite(curve["loss"]), POINTS].astype(float)
+    means = {name: smoothed(finite[name].to_numpy()) if len(finite) else [] for name in POINTS}
     return pd.DataFrame(means)
 
 
 def loss_figure(
     curves: Mapping[str, pd.DataFrame], died: Mapping[str, int | None], *, title: str
 ) -> "Figure":
-    """Draw loss over samples, both logarithmic; the points pale, and their means.
+    """Draw loss over samples, both logarithmic, with means.
 
     Args:
-        curves: as `read_loss` gives them, by label in the legend's order.
-        died: the step at which a training could learn nothing any more, by label; its curve ends
-            there with a cross.
+        curves: see `read_loss`, by label in the legend's order.
+        died: the step of divergence, by label; the curve ends there with a cross.
     """
     figure = style.new_figure(title, 9, 5.4)
     axes = figure.subplots()
@@ -135,8 +134,8 @@ def loss_figure(
         points = curve[POINTS].to_numpy(float).T
         colour = COLOURS[i % len(COLOURS)]
         step = died[label]
-        end = f"at the end {short(points[1, -1])}" if step is None else f"died at step {step:,}"
-        if not len(curve):  # it died before the first point
+        end = f"at the end {short(points[1, -1])}" if step is None else f"diverged at step {step:,}"
+        if not len(curve):  # diverged before the first point
             axes.plot([], [], color=colour, label=f"{label} ({end})")
             continue
         axes.plot(*points, color=colour, alpha=0.25, linewidth=0.8)
@@ -145,11 +144,11 @@ def loss_figure(
             axes.plot(*points[:, -1:], color=colour, marker="X", markersize=10)
     axes.set(xscale="log", yscale="log", xlabel="training samples", ylabel="dead-zone loss")
     for i, (label, curve) in enumerate(curves.items()):
-        places = means_of(curve)[::-SAYING].to_numpy()
-        texts = [f"{label}: {short(loss)} at {seen:,.0f} samples" for seen, loss in places]
+        points = means_of(curve)[::-SAYING].to_numpy()
+        texts = [f"{label}: {short(loss)} at {count:,.0f} samples" for count, loss in points]
         look = {"color": COLOURS[i % len(COLOURS)], "markersize": 3.5}
-        saying_points(axes, *places.T, texts, **look)
-    # A spike in the first points, of a network that knows nothing yet, would squeeze the rest.
+        points_with_tooltips(axes, *points.T, texts, **look)
+    # A spike in the first points, of an untrained network, would squeeze the rest.
     settled = [curve["loss"].iloc[len(curve) // 100 :].max() for curve in drawn.values()]
     axes.set_ylim(top=min(axes.get_ylim()[1], 3 * np.nanmax(settled)))
     style.plain_numbers(axes.yaxis)

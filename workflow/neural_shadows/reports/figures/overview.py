@@ -8,8 +8,8 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
-from neural_shadows.layout.layout import Layout
 from neural_shadows.rays.streams import DIRECTIONS
+from neural_shadows.reports.drawing import figure_inputs
 from neural_shadows.reports.drawing.style import legend_below, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.scene_figures import SamplingFigure
@@ -26,19 +26,8 @@ class Settings(SamplingFigure):
     kind: Literal["overview"] = Field(description="`overview`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    scene, paths = layout.entry("figures", figure)["scene"], layout.paths
-    return {
-        "mesh_ply": paths.scene("mesh.ply", scene),
-        "mesh_json": paths.scene("mesh.json", scene),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    scene = layout.entry("scenes", settings["scene"])
-    sampling = layout.entry("samplings", settings["sampling"])
-    return {"scene": scene["scene"], "sampling": sampling, "seed": scene["seed"]}
+files = figure_inputs.scene_files
+params = figure_inputs.scene_and_sampling
 
 
 def draw(
@@ -52,7 +41,7 @@ def draw(
     sampling: Mapping[str, Any],
     seed: int,
 ) -> None:
-    """Draw directions, points on a silhouette, labels and a query beside each other."""
+    """Draw directions, silhouette points, labels and a query."""
     from neural_shadows.rays.poisson_disk import sphere_directions
     from neural_shadows.reports.drawing import drawing
     from neural_shadows.reports.drawing.mesh_slice import slice_rays
@@ -81,7 +70,7 @@ def _draw_query(axes: "Axes", cut: "MeshSlice") -> None:
     drawing.draw_disk(axes, "d  a query: p is in shadow, as s > t$_s$")
     drawing.draw_outline(axes, cut)
     rays = slice_rays(cut, 401)
-    # The ray whose parts before, in and behind the object are all long enough to be seen.
+    # The ray with the longest shortest part of those before, in and behind the object.
     parts = np.diff([0 * rays.end, rays.t_lb, rays.end, rays.chord], axis=0)
     i = np.argmax(np.where(rays.hit, parts.min(axis=0), -1))
     o, d = rays.origins[i], rays.direction

@@ -1,4 +1,4 @@
-"""Quality over what it costs: bytes in a file and in memory, time, building [5.4.1]."""
+"""Quality over its costs: bytes, time and building [5.4.1]."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,8 +17,8 @@ from neural_shadows.reports.data.method_look import LOOKS, look_of
 from neural_shadows.reports.data.published import NETWORKS
 from neural_shadows.reports.data.quality import with_ends
 from neural_shadows.reports.data.table import read_table
-from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing import figure_inputs, style
+from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
 from neural_shadows.reports.tables import networks
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.table_figures import RowsFigure
@@ -41,7 +41,7 @@ HEADINGS = {
     "psnr_pooled": "pooled PSNR in dB, higher is better\n(bars: 95 % intervals)",
 }
 PRINTED = "printed"  # the key of the thesis's own values
-LINES = {NO_SHADOW: ":", PRINTED: "--"}  # what has a quality and no cost here
+LINES = {NO_SHADOW: ":", PRINTED: "--"}  # methods with a quality and no cost
 NOT_SHOWN = "all_dark"
 PRINTED_NOTES = {True: " (of another LPIPS network)", False: " (mean, not pooled)"}
 GREY = "#777777"
@@ -62,13 +62,12 @@ class Settings(RowsFigure):
     costs: list[Literal["stored_bytes", "resident_bytes", "own_ms", "build_seconds"]] = Field(
         ["stored_bytes", "resident_bytes", "own_ms", "build_seconds"],
         min_length=1,
-        description="what quality is drawn over; the first figure of `stored_bytes` alone opens "
+        description="costs on the horizontal axes; the first figure of `stored_bytes` alone opens "
         "the page",
     )
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+files = figure_inputs.table_csv
 
 
 def params(layout: Layout, figure: str) -> dict[str, Any]:
@@ -91,36 +90,36 @@ def draw(
 
     Args:
         table: its CSV.
-        costs: of `COSTS`; over `stored_bytes` alone only PSNR is drawn, to be seen first.
+        costs: of `COSTS`; over `stored_bytes` alone only PSNR is drawn, for the page's head.
         rows: the table's rows of that scene.
 
     Raises:
         InputError: the table is missing or not whole.
     """
     numbers = (*with_ends("lpips"), *with_ends("flip"), "psnr", *with_ends("psnr_pooled"))
-    found = read_table(table, ("scene", "method", "learned", "coded"), (*numbers, *COSTS))
-    found = found[found["scene"] == scene].set_index("method", drop=False)
-    methods = found.loc[[row["label"] for row in rows]]
+    csv = read_table(table, ("scene", "method", "learned", "coded"), (*numbers, *COSTS))
+    csv = csv[csv["scene"] == scene].set_index("method", drop=False)
+    methods = csv.loc[[row["label"] for row in rows]]
     methods = methods.assign(key=[row["method"] for row in rows], look=[*map(look_of, rows)])
-    printed = found[found["method"].isin(NETWORKS.values())].assign(key=PRINTED, look=None)
+    printed = csv[csv["method"].isin(NETWORKS.values())].assign(key=PRINTED, look=None)
     shown = pd.concat([methods[methods["key"] != NOT_SHOWN], printed], ignore_index=True)
     figure = pareto_figure(shown, costs, title=f"{title} ({run['scale']} scale)")
     write_chart(figure, png, svg)
 
 
 def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
-    """Indices of the points that no other undercuts in both, by rising cost."""
+    """Indices of the Pareto-optimal points, by rising cost."""
     order = np.lexsort((error, cost))
     best = np.minimum.accumulate(error[order])
     return order[np.r_[True, best[1:] < best[:-1]][: len(order)]]
 
 
 def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "Figure":
-    """Draw a scene's methods, a line of panels for each cost.
+    """Draw a scene's methods, a row of panels a cost.
 
     On the left LPIPS, or FLIP where there is none; on the right pooled PSNR, upwards better.
-    Networks that have not learned are hollow, what is coded by entropy is half filled. What costs nothing there, and what the thesis
-    prints, is a line.
+    Unlearned networks are hollow, entropy-coded ones half filled. Methods without a cost and the
+    thesis's printed values are lines.
 
     Args:
         table: rows of a table of networks of one scene, with their `key` and `look`; the key of
@@ -130,7 +129,7 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "
 
     from neural_shadows.reports.drawing.point_labels import label_points
 
-    measured = table["lpips_low"].notna().any()  # what is printed has no interval
+    measured = table["lpips_low"].notna().any()  # printed values have no interval
     perceived = "lpips" if measured else "flip"
     # The thesis prints a mean PSNR, and no views to pool.
     table = table.assign(psnr_pooled=table["psnr_pooled"].fillna(table["psnr"]))
@@ -139,14 +138,14 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "
     panels = figure.subplots(len(costs), len(metrics), sharex="row", sharey="col", squeeze=False)
     drawn = [*table["look"][~table["key"].isin([*LINES, RAY_TRACED])]]
     looks = dict.fromkeys([*(look for look in LOOKS.values() if look in drawn), *drawn])
-    entries = [Line2D([], [], label=look.name, **_drawn(look)) for look in looks]
+    entries = [Line2D([], [], label=look.name, **_marker(look)) for look in looks]
     entries += [
         Line2D([], [], label="the best quality at each cost", **FRONT),
         *style.hollow(table),
         *([Line2D([], [], label="coded", **CODED)] if table["coded"].eq("True").any() else []),
     ]
     style.legend_below(figure, entries, MOST_IN_LINE * len(metrics))
-    named = []
+    panel_points = []
     for row, cost in zip(panels, costs):
         for axes, metric in zip(row, metrics):
             points = table.rename(columns=dict(zip(with_ends(metric), ("value", "low", "high"))))
@@ -159,37 +158,37 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "
             axes.xaxis.set_major_formatter(_short)
             axes.margins(x=0.1)
             axes.grid(**style.GRID)
-            named.append((axes, _draw_panel(axes, points, metric)))
+            panel_points.append((axes, _draw_panel(axes, points, metric)))
     figure.draw_without_rendering()  # names are placed when the layout is done
-    for axes, points in named:
+    for axes, points in panel_points:
         label_points(axes, points[["cost", "value"]].to_numpy(), [*points["method"]], fontsize=8)
     return figure
 
 
 def _short(cost: float, _: int) -> str:
-    """A tick's label that its neighbours leave room for: 0.5, 20, 5k."""
+    """A short label of a tick: 0.5, 20, 5k."""
     return f"{cost:g}" if cost < 1000 else f"{cost / 1000:g}k"
 
 
-def _drawn(look: Look) -> dict[str, Any]:
+def _marker(look: Look) -> dict[str, Any]:
     return {"color": look.colour, "marker": look.marker, "linestyle": "", "markersize": 7}
 
 
 def _draw_panel(axes: "Axes", points: pd.DataFrame, metric: str) -> pd.DataFrame:
-    """The methods at their costs, and lines of what has a quality but no cost here.
+    """Draw the methods at their costs, and lines for others.
 
-    Returns: the methods that are points, first those that no other betters in both.
+    Returns: the methods with a cost, the Pareto-optimal ones first.
     """
     errors = metric != "psnr_pooled"
     methods = points[~points["key"].isin([*LINES, RAY_TRACED])]
     measured = methods.dropna(subset="cost")
     for row in measured.itertuples():
         spread = [[row.value - row.low], [row.high - row.value]]
-        look = _drawn(row.look) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
+        look = _marker(row.look) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
         look |= HALF if row.coded == "True" else {}
         bar = axes.errorbar(row.cost, row.value, spread, capsize=2, **look)
         value = f"{short(row.value)} [{short(row.low)}, {short(row.high)}]{'' if errors else ' dB'}"
-        say(bar.lines[0], f"{row.method}: {value}; {axes.get_xlabel()}: {short(row.cost)}")
+        add_tooltip(bar.lines[0], f"{row.method}: {value}; {axes.get_xlabel()}: {short(row.cost)}")
     _draw_lines(axes, points, methods, errors)
     error = measured["value"].to_numpy() * (1 if errors else -1)
     first = measured.iloc[front(measured["cost"].to_numpy(), error)]
@@ -198,7 +197,7 @@ def _draw_panel(axes: "Axes", points: pd.DataFrame, metric: str) -> pd.DataFrame
 
 
 def _draw_lines(axes: "Axes", points: pd.DataFrame, methods: pd.DataFrame, errors: bool) -> None:
-    """What has a quality and no cost, across the panel, and the cost of what has no error."""
+    """Draw qualities without a cost, and ray tracing's cost."""
     lines, maps = points[points["key"].isin(LINES)], methods["look"].eq(LOOKS["shadow_map"])
     if methods["cost"][maps].isna().all():  # maps are rendered anew in each frame
         lines = pd.concat([lines, methods[maps]])
@@ -208,17 +207,16 @@ def _draw_lines(axes: "Axes", points: pd.DataFrame, methods: pd.DataFrame, error
         line = LINES.get(row.key, "-.")
         axes.axhline(row.value, zorder=0, color=GREY, linewidth=0.7, linestyle=line)
         name = row.method + PRINTED_NOTES[errors] * (row.key == PRINTED)
-        place = axes.get_yaxis_transform()
-        look = {"transform": place, "fontsize": 7}
-        if row.key == PRINTED:  # no worse method takes as many bytes: on the right it stands free
+        look = {"transform": axes.get_yaxis_transform(), "fontsize": 7}
+        if row.key == PRINTED:  # at the right, where no method is as bad
             below = "bottom" if errors else "top"
             axes.text(0.99, row.value, name, ha="right", va=below, **look)
         else:
             axes.text(0.01, row.value, name, va="bottom", **look)
     for cost in points["cost"][points["key"] == RAY_TRACED].dropna():
         axes.axvline(cost, color=GREY, linewidth=0.7, zorder=0)
-        place = axes.get_xaxis_transform()
-        axes.text(cost, 0.02, " ray traced: exact", transform=place, rotation=90, fontsize=7)
+        transform = axes.get_xaxis_transform()
+        axes.text(cost, 0.02, " ray traced: exact", transform=transform, rotation=90, fontsize=7)
 
 
 if "snakemake" in globals():

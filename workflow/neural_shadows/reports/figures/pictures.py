@@ -1,4 +1,4 @@
-"""Picture strips: viewpoints as every method renders them, with crops [figures 4.4 to 4.7]."""
+"""Picture strips by method, with crops [figures 4.4–4.7]."""
 
 import textwrap
 from collections.abc import Mapping, Sequence
@@ -46,7 +46,7 @@ SCORES = {"psnr": "PSNR {:.1f} dB", "lpips": "LPIPS {:.4f}"}
 
 
 class Settings(MethodsFigure):
-    """The same viewpoints by every method, whole and as crops [figures 4.4 to 4.7]."""
+    """Viewpoints by each method, with crops [figures 4.4 to 4.7]."""
 
     tables = (comparison.Settings, networks.Settings)
 
@@ -55,16 +55,16 @@ class Settings(MethodsFigure):
 
     def check(self, config: Sections, key: str) -> None:
         super().check(config, key)
-        known = config.scenes[self.scene_of(config)].view_sets
+        view_sets = config.scenes[self.scene_of(config)].view_sets
         for view_set in self.view_sets:
-            check_among(f"{key}.view_sets", view_set, known)
+            check_among(f"{key}.view_sets", view_set, view_sets)
 
 
 def files(layout: Layout, figure: str) -> dict[str, Any]:
     settings = layout.entry("figures", figure)
     rows, scene = settings["rows"], settings["scene"]
     return {
-        # Whether a network has learned depends on no shadow's.
+        # No shadow's decide whether a network has learned.
         "metrics": tables.metrics(layout, [*rows, *tables.unshadowed([scene])]),
         "references": tables.references(layout, [scene]),
         "visibilities": tables.visibilities(layout, rows),
@@ -92,24 +92,24 @@ def draw(
     view_sets: Sequence[str],
     run: Run,
 ) -> None:
-    """Draw a frame of each view set by every method, whole and as two crops.
+    """Draw a frame of each view set by every method.
 
     Args:
         metrics: of all batches of each method and of no shadow.
         references, visibilities: of all batches, see `read_frames`.
 
     Raises:
-        InputError: a file is missing or not whole.
+        InputError: a file is missing or not frame_axes.
     """
     from neural_shadows.reports.data.frames import read_frames
 
     measured = dict.fromkeys([NO_SHADOW, *(row["method"] for row in rows)])
     values = read_metrics(metrics)
-    wide = values_by_view(values, [*measured])
-    chance = margins(read_published(published_csv))
-    found = learned_methods(wide, rows, chance, run["seed"])
+    by_view = values_by_view(values, [*measured])
+    run_margins = margins(read_published(published_csv))
+    learned = learned_methods(by_view, rows, run_margins, run["seed"])
     labels = {row["method"]: row["label"] for row in rows}
-    labels |= {method: labels[method] + NOT_LEARNED for method in found if not found[method]}
+    labels |= {method: labels[method] + NOT_LEARNED for method in learned if not learned[method]}
     heads = {row["method"]: (labels[row["method"]], look_of(row)) for row in rows}
     chosen = choose_views(values)
     frames = read_frames(references, visibilities, values, [chosen[name] for name in view_sets])
@@ -121,11 +121,11 @@ def draw(
 def picture_strip(
     frames: Sequence["Frame"], heads: Mapping[str, tuple[str, Look]], title: str
 ) -> "Figure":
-    """Draw whole frames, and below each its crops with their errors, for each viewpoint.
+    """Draw whole frames, and below each its crops with errors.
 
     Args:
-        frames: viewpoints whose images have one shape and hold `reference`, which is drawn last,
-            as in the thesis. Scores that a viewpoint has are written below its names.
+        frames: viewpoints, all images of one shape, with `reference`, drawn last as in the thesis.
+            Their scores are written below the names.
         heads: the name and the look of each method to draw, in the order to draw them.
     """
     from neural_shadows.reports.data.frame_errors import choose_crops, error_legend, with_errors
@@ -134,7 +134,9 @@ def picture_strip(
     lines = ceil(len(heads) / MOST_COLUMNS)
     columns = ceil(len(heads) / lines)
     rows, across = frames[0].images[REFERENCE].shape
-    pictures = 1.5 * WIDTH / columns * rows / across  # a whole frame, and crops of half its width
+    pictures = (
+        1.5 * WIDTH / columns * rows / across
+    )  # a frame_axes frame, and crops of half its width
     height = 1.1 + len(frames) * (0.35 + lines * (pictures + HEAD))
     figure = new_figure(title, WIDTH, height)
     figure.get_layout_engine().set(w_pad=0.03, hspace=0, wspace=0)
@@ -148,22 +150,22 @@ def picture_strip(
         for i, (method, (name, look)) in enumerate(heads.items()):
             line, column = 2 * (i // columns), 2 * (i % columns)
             image = frame.images[method]
-            whole = _panel(part, grid[line, column : column + 2], "S")
-            whole.imshow(image, cmap="gray", vmin=0, vmax=1)
-            found = frame.scores.get(method, {})
-            texts = [text.format(found[key]) for key, text in SCORES.items() if key in found]
-            _write_head(whole, name, look, "   ".join(texts), LETTERS // columns)
-            coloured, seen_in = with_errors(image, frame.images[REFERENCE]), whole
+            frame_axes = _panel(part, grid[line, column : column + 2], "S")
+            frame_axes.imshow(image, cmap="gray", vmin=0, vmax=1)
+            scores = frame.scores.get(method, {})
+            texts = [text.format(scores[key]) for key, text in SCORES.items() if key in scores]
+            _write_head(frame_axes, name, look, "   ".join(texts), LETTERS // columns)
+            coloured, panel = with_errors(image, frame.images[REFERENCE]), frame_axes
             for k, crop in enumerate(crops):
-                _mark(seen_in, crop)
-                seen_in = _panel(part, grid[line + 1, column + k], "N")
-                seen_in.spines[:].set(visible=True, edgecolor=YELLOW, linewidth=1.5)
-                seen_in.imshow(crop.of(coloured), extent=crop.extent, interpolation="none")
+                _mark(panel, crop)
+                panel = _panel(part, grid[line + 1, column + k], "N")
+                panel.spines[:].set(visible=True, edgecolor=YELLOW, linewidth=1.5)
+                panel.imshow(crop.of(coloured), extent=crop.extent, interpolation="none")
     return figure
 
 
-def _panel(part: "SubFigure", place: "SubplotSpec", anchor: str) -> "Axes":
-    axes = part.add_subplot(place, xticks=[], yticks=[], anchor=anchor)
+def _panel(part: "SubFigure", spec: "SubplotSpec", anchor: str) -> "Axes":
+    axes = part.add_subplot(spec, xticks=[], yticks=[], anchor=anchor)
     axes.spines[:].set_visible(False)
     return axes
 
@@ -176,7 +178,7 @@ def _mark(axes: "Axes", crop: "Window") -> None:
 
 
 def _write_head(axes: "Axes", name: str, look: Look, scores: str, letters: int) -> None:
-    """Write a method's mark and name, and below them its scores, above its frame."""
+    """Write a method's mark, name and scores above its frame."""
     from matplotlib.transforms import ScaledTranslation
 
     text = "\n".join(textwrap.fill(part, letters) for part in name.split("\n"))
@@ -184,8 +186,8 @@ def _write_head(axes: "Axes", name: str, look: Look, scores: str, letters: int) 
     axes.annotate(scores, (0, 1), xytext=(0, 4), xycoords="axes fraction", fontsize=9, **style)
     axes.set_title(text, loc="left", x=0.06, pad=18, fontsize=10, weight="bold")
     up = ScaledTranslation(0, (22 + 12 * text.count("\n")) / 72, axes.figure.dpi_scale_trans)
-    at = axes.transAxes + up
-    axes.plot(0.025, 1, look.marker, color=look.colour, ms=8, transform=at, clip_on=False)
+    transform = axes.transAxes + up
+    axes.plot(0.025, 1, look.marker, color=look.colour, ms=8, transform=transform, clip_on=False)
 
 
 if "snakemake" in globals():

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from neural_shadows.layout.layout import Layout
+from neural_shadows.reports.drawing import figure_inputs
 from neural_shadows.reports.drawing.style import note_below, write_figure
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.scene_figures import SamplingFigure
@@ -18,19 +18,8 @@ class Settings(SamplingFigure):
     kind: Literal["quadtree"] = Field(description="`quadtree`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    scene, paths = layout.entry("figures", figure)["scene"], layout.paths
-    return {
-        "mesh_ply": paths.scene("mesh.ply", scene),
-        "mesh_json": paths.scene("mesh.json", scene),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    scene = layout.entry("scenes", settings["scene"])
-    sampling = layout.entry("samplings", settings["sampling"])
-    return {"scene": scene["scene"], "sampling": sampling, "seed": scene["seed"]}
+files = figure_inputs.scene_files
+params = figure_inputs.scene_and_sampling
 
 
 def draw(
@@ -58,8 +47,8 @@ def draw(
     shown.draw_points(right, drawing.SHOWN_POINTS, seed, 3)
     note_below(
         figure,
-        "Grey: what the object covers, seen across the slice. Blue: squares, divided where its "
-        "outline runs.\nOrange: the bounding sphere. So most rays start where shadow meets light.",
+        "Grey: the object's silhouette, seen across the slice. Blue: squares, divided along its "
+        "outline.\nOrange: the bounding sphere. So most rays start near the shadow's boundary.",
     )
     write_figure(figure, png, svg)
 

@@ -1,4 +1,4 @@
-"""A scene in its bounding sphere, its light, and what is sampled of it, in three dimensions."""
+"""A scene, its light and its training rays, in 3D."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,7 +10,7 @@ from pydantic import Field
 from neural_shadows.evaluation.look import BLUE, COLOURS, ORANGE
 from neural_shadows.layout.layout import Layout
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing import figure_inputs, space
 from neural_shadows.reports.drawing.hero_view import hero_view
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.lights import arc_directions, lowest_elevation
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 RAYS = 300
 COLOURS = {
-    "where the light comes from": COLOURS[4],
+    "light directions": COLOURS[4],
     "view directions": COLOURS[2],
     "ray: lit": ORANGE,
     "ray: between its bounds": BLUE,
@@ -32,7 +32,7 @@ COLOURS = {
 
 
 class Settings(SamplingFigure):
-    """A scene, its light and rays, in three dimensions."""
+    """A scene, its light and rays, in 3D."""
 
     needs_opengl: ClassVar[bool] = True
 
@@ -50,9 +50,7 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
     }
 
 
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    scene = layout.entry("figures", figure)["scene"]
-    return {"scene": layout.entry("scenes", scene)["scene"]}
+params = figure_inputs.scene
 
 
 def draw(
@@ -67,7 +65,7 @@ def draw(
     title: str,
     scene: Mapping[str, Any],
 ) -> None:
-    """Draw a scene with its light and view directions, and some of its training rays.
+    """Draw a scene's light, view directions and training rays.
 
     Raises:
         InputError: an input file is missing or not whole, or there is no OpenGL.
@@ -100,9 +98,9 @@ def draw(
         (hit, t_lb, end, {"color": between, "line_width": 6}),
         (hit, end, chord, {"color": shade, "line_width": 2}),
     )
-    for which, begin, stop, look in parts:
-        if which.any():
-            ends = np.stack([o + begin[:, None] * d, o + stop[:, None] * d], axis=1)[which]
+    for mask, begin, stop, look in parts:
+        if mask.any():
+            ends = np.stack([o + begin[:, None] * d, o + stop[:, None] * d], axis=1)[mask]
             segments = pyvista.line_segments_from_points(ends.reshape(-1, 3))
             right.add_mesh(segments, lighting=False, **look)
     shown = {
@@ -114,7 +112,7 @@ def draw(
 
 
 def light_domain(scene: "Scene") -> "pyvista.DataSet":
-    """The part of the unit sphere that the scene's light comes from, a little outside it."""
+    """The light's domain, a little outside the unit sphere."""
     import pyvista
 
     (domain,) = scene.lights
@@ -123,7 +121,7 @@ def light_domain(scene: "Scene") -> "pyvista.DataSet":
         angle = np.linspace(-1, 1, 90) * (np.pi / 2 - lowest)
         arc = 1.01 * arc_directions(domain, scene.up, angle)
         return pyvista.lines_from_points(arc).tube(radius=0.02)
-    # With no elevation below the lowest; a sphere's angles are counted from its direction.
+    # Elevations from the lowest on; a sphere's angles are counted from its direction.
     angles = {"end_phi": 90 - np.degrees(lowest), "theta_resolution": 90, "phi_resolution": 40}
     return pyvista.Sphere(radius=1.01, direction=scene.up, **angles)
 

@@ -1,4 +1,4 @@
-"""Where methods flicker in a sequence (Datta et al. 2022, figures 5 and 6)."""
+"""Flicker of methods [Datta et al. 2022, figures 5, 6]."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -21,9 +21,9 @@ from neural_shadows.settings.records import Run
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# As the paper has it: purple is calm, gold flickers.
+# As in the paper: purple is stable, gold flickers.
 COLOURS = ["#2d0b59", "#8c2981", "#e69f00", "#fff7bc"]
-FULL = 0.1  # a mean change of so much visibility from frame to frame has the whole colour
+FULL = 0.1  # mean change of visibility from frame to frame at the end of the colour map
 WIDTH = 12.0  # inches
 
 
@@ -34,7 +34,7 @@ class Settings(TableFigure):
     chapter: ClassVar[Chapter] = "soft"
 
     kind: Literal["screen_flicker"] = Field(description="`screen_flicker`")
-    methods: list[str] = Field(min_length=1, description="which of the table's methods")
+    methods: list[str] = Field(min_length=1, description="methods of the table")
 
 
 def files(layout: Layout, figure: str) -> dict[str, Any]:
@@ -64,7 +64,7 @@ def draw(
     labels: Mapping[str, str],
     run: Run,
 ) -> None:
-    """Draw a line a method, and the exact shadow above them: a picture for each sequence.
+    """Draw flicker by method, exact shadows first, and sequence.
 
     Args:
         parts: sequences of a frame set; answers: of each method, by file name.
@@ -85,7 +85,12 @@ def draw(
 def flicker_figure(
     maps: Mapping[str, Sequence[np.ndarray]], moving: Sequence[str], title: str
 ) -> "Figure":
-    """Mean change of each pixel from frame to frame, (H, W) in [0, 1], by method and sequence."""
+    """Draw maps of flicker by method and sequence.
+
+    Args:
+        maps: (H, W) in [0, 1], mean change from frame to frame.
+        moving: the moving part of each sequence.
+    """
     from matplotlib.colors import LinearSegmentedColormap
 
     colours = LinearSegmentedColormap.from_list("flicker", COLOURS)
@@ -95,15 +100,15 @@ def flicker_figure(
     figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
     grid = figure.subplots(len(maps), len(moving), squeeze=False)
     for line, (label, images) in enumerate(maps.items()):
-        for axes, image, what in zip(grid[line], images, moving):
+        for axes, image, mover in zip(grid[line], images, moving):
             axes.set_axis_off()
             shown = axes.imshow(image, cmap=colours, vmin=0, vmax=FULL, interpolation="none")
-            axes.set_title(f"{label}, {what} moves: {image.mean():.4f}", loc="left", fontsize=8)
+            axes.set_title(f"{label}, {mover} moves: {image.mean():.4f}", loc="left", fontsize=8)
     figure.colorbar(shown, ax=grid, location="bottom", shrink=0.4, aspect=40, extend="max")
     note_below(
         figure,
-        "Mean change of visibility from frame to frame along each point's way, drawn where the "
-        "point is\nin the later frame. Purple is calm, gold flickers; the number is the mean.",
+        "Mean change of visibility from frame to frame along each point's motion, drawn at the "
+        "point's pixel\nin the later frame. Purple is stable, gold flickers; numbers are means.",
     )
     return figure
 

@@ -1,17 +1,17 @@
-"""The time of a network of whole frames by level, stacked by part, beside the printed one."""
+"""Time of a screen-space network by level and part."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.look import COLOURS
-from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.published_nsm import PAPER
+from neural_shadows.reports.data.phrases import TEXTS
 from neural_shadows.reports.data.table import read_table
-from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing import figure_inputs
+from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
 from neural_shadows.reports.drawing.style import GRID, legend_below, new_figure
 from neural_shadows.reports.tables import screen_parts
 from neural_shadows.reports.tables.screen_parts import NAMES, PRINTED
@@ -37,12 +37,8 @@ class Settings(TableFigure):
     kind: Literal["screen_level_time"] = Field(description="`screen_level_time`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"run": layout.run()}
+files = figure_inputs.table_csv
+params = figure_inputs.run
 
 
 def draw(table: Path, png: Path, svg: Path, *, title: str, run: Run) -> None:
@@ -51,15 +47,15 @@ def draw(table: Path, png: Path, svg: Path, *, title: str, run: Run) -> None:
     Raises:
         InputError: it is missing or not whole.
     """
-    found = read_table(table, ("part", "run"), NUMBERS)
-    write_chart(level_figure(found, title=f"{title} ({run['scale']} scale)"), png, svg)
+    parts = read_table(table, ("part", "run"), NUMBERS)
+    write_chart(level_figure(parts, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
 def level_figure(table: pd.DataFrame, *, title: str) -> "Figure":
-    """Shares of the whole time by level: ours at the left, the paper's at the right if printed."""
+    """Draw shares of time by level, ours and the paper's."""
     panels = {f"ours, {table['run'].iloc[0]}": ("share", "ms")}
     if table["printed_ms"].notna().any():
-        panels[f"{PAPER}, RTX 2080 Ti"] = ("printed_share", "printed_ms")
+        panels[f"{TEXTS['nsm']}, RTX 2080 Ti"] = ("printed_share", "printed_ms")
     figure = new_figure(title, 5 * len(panels), 4.6)
     for axes, (name, columns) in zip(
         figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels.items()
@@ -82,7 +78,7 @@ def _draw_levels(axes: "Axes", table: pd.DataFrame, share: str, ms: str) -> None
             bars = axes.bar(levels, heights, bottom=bottom, color=colour, label=label, width=0.7)
             for level, bar in zip(levels, bars):
                 if heights[level]:
-                    say(bar, f"level {level:g}, {label}: {short(rows[ms][level])} ms")
+                    add_tooltip(bar, f"level {level:g}, {label}: {short(rows[ms][level])} ms")
             bottom += heights
     sums = table.groupby("level")[ms].sum()
     for level in levels:

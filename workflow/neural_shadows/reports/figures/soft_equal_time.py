@@ -1,4 +1,4 @@
-"""Error over milliseconds of every method for soft shadows, on one thread of one device."""
+"""Error over time of methods for soft shadows, one thread."""
 
 from collections.abc import Sequence
 from math import isnan
@@ -13,8 +13,8 @@ from neural_shadows.evaluation.soft_registry import look_of
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data.lights import light_name
 from neural_shadows.reports.data.table import read_table
-from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing import figure_inputs, style
+from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
 from neural_shadows.reports.drawing.shown_errors import COLUMNS, with_shown_errors
 from neural_shadows.reports.tables import soft_methods
 from neural_shadows.running.stage import run_stage
@@ -36,12 +36,13 @@ class Settings(RadiiFigure):
 
     kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
     radii: list[int] | None = Field(
-        None, min_length=1, description="which radii, counted from 0; by default all but a point"
+        None,
+        min_length=1,
+        description="numbers of radii, counted from 0; by default all but a point light",
     )
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+files = figure_inputs.table_csv
 
 
 def params(layout: Layout, figure: str) -> dict[str, Any]:
@@ -49,32 +50,26 @@ def params(layout: Layout, figure: str) -> dict[str, Any]:
 
 
 def draw(
-    table: Path,
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    radii: Sequence[int] | None,
-    run: Run,
+    table: Path, png: Path, svg: Path, *, title: str, radii: Sequence[int] | None, run: Run
 ) -> None:
     """Draw a panel for each radius.
 
     Args:
         table: the CSV of a table of soft methods.
-        radii: which of its radii, counted from 0; None for all but a point light.
+        radii: numbers of its radii, counted from 0; None for all but a point light.
 
     Raises:
         InputError: the table is missing or not whole.
     """
-    found = read_table(table, ("method", "label", "unit"), NUMBERS)
+    rows = read_table(table, ("method", "label", "unit"), NUMBERS)
     if radii is None:
-        radii = found["number"][found["radius"] > 0].unique() if found["radius"].any() else [0]
-    figure = equal_time_figure(found, radii, title=f"{title} ({run['scale']} scale)")
+        radii = rows["number"][rows["radius"] > 0].unique() if rows["radius"].any() else [0]
+    figure = equal_time_figure(rows, radii, title=f"{title} ({run['scale']} scale)")
     write_chart(figure, png, svg)
 
 
 def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str) -> "Figure":
-    """A panel for each radius: mean squared error over milliseconds of a frame, both logarithmic.
+    """Draw squared error over a frame's milliseconds by radius.
 
     Args:
         table: `method`, `label`, `number` (of the radius), `radius`, `unit`, `ms` and `COLUMNS`.
@@ -93,7 +88,7 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
         for look in looks
     ]
     style.legend_below(figure, entries, len(radii))  # a name is half a panel wide
-    named = []
+    panel_rows = []
     for axes, number in zip(panels, radii):
         rows = table[(table["number"] == number) & (table["method"] != "all_dark")]
         methods = rows.dropna(subset="ms")
@@ -105,25 +100,23 @@ def equal_time_figure(table: pd.DataFrame, radii: Sequence[float], *, title: str
             ends = f" [{1e4 * row.error_low:.1f}, {1e4 * row.error_high:.1f}]"
             ends = "" if isnan(row.error_low) else ends  # of a single frame
             error = f"{1e4 * row.error:.1f}{ends}"
-            say(bar.lines[0], f"{row.label}: {name} {error} × 10⁻⁴; {row.ms:.1f} ms")
+            add_tooltip(bar.lines[0], f"{row.label}: {name} {error} × 10⁻⁴; {row.ms:.1f} ms")
         for look in (look for look in looks if look.joined):
-            some = methods[methods["method"].map(look_of) == look].sort_values("ms")
-            axes.plot(some["ms"], some["error"], color=look.colour, linewidth=0.8, zorder=0)
+            joined = methods[methods["method"].map(look_of) == look].sort_values("ms")
+            axes.plot(joined["ms"], joined["error"], color=look.colour, linewidth=0.8, zorder=0)
         for row in rows[rows["method"] == "no_shadow"].itertuples():
             axes.axhline(row.error, color="#777777", linewidth=0.7, linestyle=":", zorder=0)
-            place = axes.get_yaxis_transform()
-            axes.text(
-                0.99, row.error, row.label, transform=place, ha="right", va="bottom", fontsize=7
-            )
+            look = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
+            axes.text(0.99, row.error, row.label, fontsize=7, **look)
         axes.set(xscale="log", yscale="log", xlabel="ms a frame, one thread")
         radius, unit = rows["radius"].iloc[0], rows["unit"].iloc[0]
         axes.set_title(light_name(radius, unit), fontsize=11)
         axes.grid(**style.GRID)
         style.plain_numbers(axes.xaxis)
-        named.append((axes, methods))
+        panel_rows.append((axes, methods))
     panels[0].set_ylabel(f"{name} of visibility, lower is better\n(bars: 95 % intervals)")
     figure.draw_without_rendering()  # names are placed when the layout is done
-    for axes, methods in named:
+    for axes, methods in panel_rows:
         label_points(axes, methods[["ms", "error"]].to_numpy(), [*methods["label"]], fontsize=7)
     return figure
 

@@ -1,4 +1,4 @@
-"""One frame by methods for soft shadows, with their errors, at several radii."""
+"""A frame by methods for soft shadows, with their errors."""
 
 import sys
 from collections.abc import Iterable, Mapping, Sequence
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-NUMBER = 0  # of the part's frames, the one that is shown
+NUMBER = 0  # of the shown frame in its part
 WIDTH = 12.0  # inches
 WIDEST = 4.0  # of a picture
 
@@ -41,20 +41,20 @@ WIDEST = 4.0  # of a picture
 class Settings(RadiiFigure):
     """A frame by methods for soft shadows, with their errors.
 
-    At several radii; the page lets any two of them be compared.
+    At several radii; the page compares any two of them.
     """
 
     tables = (soft_methods.Settings, soft_summary.Settings)
     chapter: ClassVar[Chapter] = "soft"
 
     kind: Literal["soft_pictures"] = Field(description="`soft_pictures`")
-    soft_scene: name_in("soft_scenes") = Field(description="whose first test frame is shown")
-    methods: list[str] = Field(min_length=1, description="which of the table's methods")
+    soft_scene: name_in("soft_scenes") = Field(description="its first test frame is shown")
+    methods: list[str] = Field(min_length=1, description="methods of the table")
     radii: list[int] | None = Field(
         None,
         min_length=1,
-        description="which radii, counted from 0; by default the least but a point, the middle "
-        "and the largest",
+        description="numbers of radii, counted from 0; by default the least but a point light, the "
+        "middle and the largest",
     )
 
     def check(self, config: Sections, key: str) -> None:
@@ -93,7 +93,7 @@ def params(layout: Layout, figure: str) -> dict[str, Any]:
 
 
 def shown(layout: Layout) -> list[dict[str, Any]]:
-    """All frames of this kind's figures, for `soft_comparisons`."""
+    """The frames of this kind's figures, for `soft_comparisons`."""
     frames = []
     for name in _of_this_kind(layout, layout.settings["figures"]):
         settings = layout.entry("figures", name)
@@ -112,11 +112,11 @@ def shown(layout: Layout) -> list[dict[str, Any]]:
 
 
 def shown_files(layout: Layout, figures: Iterable[str]) -> dict[str, list[str]]:
-    """Files of this kind's figures among some, each once."""
-    made_of = [files(layout, name) for name in _of_this_kind(layout, figures)]
+    """The files of this kind's figures, each once."""
+    inputs = [files(layout, name) for name in _of_this_kind(layout, figures)]
     return {
-        "soft_parts": unique(one["part"] for one in made_of),
-        "soft_answers": unique(path for one in made_of for path in one["answers"]),
+        "soft_parts": unique(paths["part"] for paths in inputs),
+        "soft_answers": unique(path for paths in inputs for path in paths["answers"]),
     }
 
 
@@ -136,11 +136,11 @@ def draw(
     radii: Sequence[int],
     run: Run,
 ) -> None:
-    """Draw the first frame of a part: a line a method, two pictures for each radius.
+    """Draw a part's first frame by each method and radius.
 
     Args:
         part: of a frame set, see `FrameSetPart`; answers: of each method, by file name.
-        labels: of the methods, in the order to draw them; radii: which, counted from 0.
+        labels: of the methods, in the order to draw them; radii: their numbers, counted from 0.
 
     Raises:
         InputError: a file is missing or not whole.
@@ -168,11 +168,12 @@ def strips(
     lights: Sequence[str],
     title: str,
 ) -> "Figure":
-    """The exact soft shadow of each light, and below it each method's with its error.
+    """Draw exact soft shadows, and below each method's, with errors.
 
     Args:
-        pictures: (H, W) in [0, 1] of each method, by light; valid: (H, W) bool, what counts.
-        lights: how large each is, in words.
+        pictures: (H, W) in [0, 1] of each method, by light; valid: (H, W) bool, the evaluated
+            pixels.
+        lights: their sizes in words.
     """
     rows, columns = 1 + len(pictures), 2 * len(targets)
     height, width = valid.shape
@@ -180,15 +181,15 @@ def strips(
     for k, (target, light) in enumerate(zip(targets, lights)):
         _show(grid[0, 2 * k], target, f"exact, {light}")
         _show(grid[0, 2 * k + 1], None, "")
-        for line, (label, found) in enumerate(pictures.items(), 1):
-            error = np.where(valid, found[k] - target, 0)
+        for row, (label, images) in enumerate(pictures.items(), 1):
+            error = np.where(valid, images[k] - target, 0)
             square = np.square(error[valid]).mean()
-            _show(grid[line, 2 * k], found[k], label)
-            _show(grid[line, 2 * k + 1], coloured(error), f"MSE {1e4 * square:.1f} × 10⁻⁴")
+            _show(grid[row, 2 * k], images[k], label)
+            _show(grid[row, 2 * k + 1], coloured(error), f"MSE {1e4 * square:.1f} × 10⁻⁴")
     note_below(
         figure,
-        "Errors: orange is too dark (false shadow), blue too bright (light leak), white none; half "
-        "of the light and more has the whole colour.",
+        "Errors: orange is too dark (false shadow), blue too bright (light leak), white none; errors "
+        "from half of the light on have the full colour.",
     )
     return figure
 
@@ -196,23 +197,23 @@ def strips(
 def answers_alone(
     pictures: Mapping[str, Sequence[np.ndarray]], lights: Sequence[str], title: str
 ) -> "Figure":
-    """What each method answered for each radius, where nothing is known to compare with.
+    """Draw each method's visibility by radius, without a reference.
 
     Args:
-        pictures, lights: as of `strips`.
+        pictures, lights: see `strips`.
     """
     height, width = next(iter(pictures.values()))[0].shape
     figure, grid = _grid(title, len(pictures), len(lights), height / width)
-    for number, (label, found) in enumerate(pictures.items()):
-        for axes, picture, light in zip(grid[number], found, lights):
-            _show(axes, picture, label if number else f"{light}: {label}")
+    for row, (label, images) in enumerate(pictures.items()):
+        for axes, picture, light in zip(grid[row], images, lights):
+            _show(axes, picture, label if row else f"{light}: {label}")
     return figure
 
 
 def _grid(
     title: str, rows: int, columns: int, shape: float, note: float = 0.0
 ) -> "tuple[Figure, np.ndarray]":
-    """A figure of so many pictures, and its axes.
+    """A figure with a grid of pictures, and its axes.
 
     Args:
         shape: a picture's height over its width. note: inches for a note below.
@@ -226,14 +227,14 @@ def _grid(
 
 
 def coloured(error: np.ndarray) -> np.ndarray:
-    """Errors (H, W) as colours (H, W, 3): orange below 0, blue above, white at 0."""
+    """Colours (H, W, 3) of errors (H, W)."""
     from matplotlib.colors import to_rgb
 
     from neural_shadows.reports.data.frame_errors import FULL
 
     share = np.clip(np.abs(error) / FULL, 0, 1)[..., None]
     colour = np.where(error[..., None] < 0, to_rgb(FALSE_SHADOW), to_rgb(LIGHT_LEAK))
-    return 1 - share * (1 - colour)
+    return 1 - share * (1 - colour)  # orange below 0, blue above, white at 0
 
 
 def _show(axes: "Axes", image: np.ndarray | None, text: str) -> None:

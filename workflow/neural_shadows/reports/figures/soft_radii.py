@@ -1,18 +1,17 @@
-"""Error over the light's radius, a line a method (Hu et al. 2025, figure 9)."""
+"""Error over light radius [Hu et al. 2025, figure 9]."""
 
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.evaluation.soft_registry import look_of
-from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data.table import read_table
-from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing import figure_inputs, style
+from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
 from neural_shadows.reports.drawing.shown_errors import COLUMNS, with_shown_errors
 from neural_shadows.reports.tables import soft_summary
 from neural_shadows.running.stage import run_stage
@@ -26,11 +25,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 NUMBERS = ("radius", *COLUMNS)
-LINES = ("-", "--", ":")  # when all colours are taken once, twice
+LINES = ("-", "--", ":")  # after all colours once, twice
 
 
 class Settings(TableFigure):
-    """Error over the light's radius, of methods for soft shadows."""
+    """Error over the light's radius of soft-shadow methods."""
 
     tables = (soft_summary.Settings,)
     chapter: ClassVar[Chapter] = "soft"
@@ -41,29 +40,25 @@ class Settings(TableFigure):
     def check(self, config: Sections, key: str) -> None:
         super().check(config, key)
         if config.tables[self.table].by != "radius":
-            raise ValueError(f"{key}.table: {self.table!r} is not `by: radius`")
+            raise ValueError(f"{key}.table: {self.table!r} is not by radius. Set its `by: radius`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"run": layout.run()}
+files = figure_inputs.table_csv
+params = figure_inputs.run
 
 
 def draw(table: Path, png: Path, svg: Path, *, title: str, run: Run) -> None:
-    """Draw the CSV of a table of `soft_summary` that is by radius.
+    """Draw the CSV of a table of `soft_summary`, by radius.
 
     Raises:
         InputError: it is missing or not whole.
     """
-    found = read_table(table, ("method", "label", "unit"), NUMBERS)
-    write_chart(radii_figure(found, title=f"{title} ({run['scale']} scale)"), png, svg)
+    rows = read_table(table, ("method", "label", "unit"), NUMBERS)
+    write_chart(radii_figure(rows, title=f"{title} ({run['scale']} scale)"), png, svg)
 
 
 def radii_figure(table: pd.DataFrame, *, title: str) -> "Figure":
-    """Mean squared error (logarithmic) over the radius, with its 95 % intervals.
+    """Draw mean squared errors over radius, with 95 % intervals.
 
     Args:
         table: `method`, `label`, `radius`, `unit` and `COLUMNS`.
@@ -71,20 +66,20 @@ def radii_figure(table: pd.DataFrame, *, title: str) -> "Figure":
     table, name = with_shown_errors(table)
     figure = style.new_figure(title, 8, 5.4)
     axes = figure.subplots()
-    known = table.dropna(subset="error")
+    measured = table.dropna(subset="error")
     looks = product(LINES, COLOURS)
-    for (method, rows), (line, colour) in zip(known.groupby("method", sort=False), looks):
+    for (method, rows), (line, colour) in zip(measured.groupby("method", sort=False), looks):
         marker, label = look_of(method).marker, rows["label"].iloc[0]
         drawn = {"color": colour, "linestyle": line, "marker": marker, "markersize": 5}
         drawn["label"] = label
         spread = [rows["error"] - rows["error_low"], rows["error_high"] - rows["error"]]
         bars = axes.errorbar(rows["radius"], rows["error"], spread, capsize=2, **drawn)
-        values = ", ".join(f"{1e4 * one:.1f}" for one in rows["error"])
-        say(bars.lines[0], f"{label}: {name} {values} × 10⁻⁴ by radius")
-    axes.set(yscale="log", xlabel=f"radius of the light, {known['unit'].iloc[0]}")
+        values = ", ".join(f"{1e4 * error:.1f}" for error in rows["error"])
+        add_tooltip(bars.lines[0], f"{label}: {name} {values} × 10⁻⁴ by radius")
+    axes.set(yscale="log", xlabel=f"radius of the light, {measured['unit'].iloc[0]}")
     axes.set_ylabel(f"{name} of visibility, lower is better\n(bars: 95 % intervals)")
     axes.grid(**style.GRID)
-    style.legend_below(figure, most=3)
+    style.legend_below(figure, columns=3)
     return figure
 
 

@@ -32,7 +32,7 @@ def params(layout: Layout, figure: str) -> dict[str, Any]:
 
 
 def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
-    """Draw a hemisphere of directions of each sampler, and below them their spectra."""
+    """Draw each sampler's directions, and below their spectra."""
     from neural_shadows.rays.poisson_disk import sphere_directions
     from neural_shadows.reports.drawing.drawing import SHOWN_DIRECTIONS, draw_hemisphere
 
@@ -61,10 +61,11 @@ def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
 
 
 def angular_power_spectrum(directions: np.ndarray, degrees: int) -> np.ndarray:
-    """Power of a point set by spherical-harmonic degree; 1 is expected of independent directions.
+    """Power of directions by spherical-harmonic degree.
 
-    S_l = 4π / (N (2l + 1)) Σ_m |Σ_i Y_lm(x_i)|², which by the addition theorem is
-    1/N Σ_ij P_l(x_i · x_j). A Poisson-disk pattern has little power at low degrees: blue noise.
+    1 is expected of independent directions. S_l = 4π / (N (2l + 1)) Σ_m |Σ_i Y_lm(x_i)|², by the
+    addition theorem 1/N Σ_ij P_l(x_i · x_j). A Poisson-disk pattern has little power at low degrees:
+    blue noise.
 
     Args:
         directions: (N, 3) unit vectors.

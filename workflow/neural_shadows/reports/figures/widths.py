@@ -1,4 +1,4 @@
-"""Quality and time of networks over their layer width [figure 4.8]."""
+"""Quality and time of networks over width [figure 4.8]."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -8,13 +8,12 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.look import COLOURS
-from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.quality import with_ends
 from neural_shadows.reports.data.table import read_table
 from neural_shadows.reports.data.timing import FRAME_MS, OWN_MS
-from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import say, write_chart
+from neural_shadows.reports.drawing import figure_inputs, style
+from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
 from neural_shadows.reports.tables import frame_times
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.sections import Sections
@@ -37,7 +36,7 @@ class Settings(TableFigure):
     kind: Literal["widths"] = Field(description="`widths`")
 
     def resolved(self, config: Sections) -> dict[str, Any]:
-        """With `rows`: the table's networks with a `width`."""
+        """The settings with `rows`, networks with a `width`."""
         rows = []
         for row in config.tables[self.table].resolved_rows(config):
             network = row["experiment"] and config.network_of(row["experiment"])
@@ -46,23 +45,11 @@ class Settings(TableFigure):
         return self.model_dump() | {"rows": rows}
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"table": layout.paths.report(f"{layout.entry('figures', figure)['table']}.csv")}
+files = figure_inputs.table_csv
+params = figure_inputs.rows_and_run
 
 
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"rows": layout.entry("figures", figure)["rows"], "run": layout.run()}
-
-
-def draw(
-    table: Path,
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    rows: Sequence[Row],
-    run: Run,
-) -> None:
+def draw(table: Path, png: Path, svg: Path, *, title: str, rows: Sequence[Row], run: Run) -> None:
     """Draw the networks of a table of frame times.
 
     Args:
@@ -82,10 +69,10 @@ def draw(
 def width_figure(
     table: pd.DataFrame, widths: Mapping[tuple[str, str], int], *, title: str
 ) -> "Figure":
-    """Draw LPIPS and times over width, a line per scene, the thesis's numbers dashed and grey.
+    """Draw LPIPS and times over width, a line per scene.
 
-    Its LPIPS has axes of its own: it is of another network, and the two do not compare. Networks
-    that have not learned are hollow. Without LPIPS there are no axes for it.
+    The thesis's numbers are dashed and grey. Its LPIPS is of another network, with axes
+    of its own. Unlearned networks are hollow. Without LPIPS there are no axes for it.
 
     Args:
         table: of frame times, a row for each method and scene.
@@ -131,13 +118,13 @@ def width_figure(
 
 
 def _draw_line(axes: "Axes", rows: pd.DataFrame, columns: Sequence[str], **look: str) -> None:
-    """A value and the ends of its interval over width, hollow where nothing was learned."""
+    """Draw a value's interval over width, hollow if not learned."""
     value, low, high = (rows[column] for column in columns)
     axes.errorbar(rows["width"], value, [value - low, high - value], capsize=3, **look)
     for row in rows.assign(value=value).itertuples():
         face = "none" if row.learned == "False" else look["color"]
         (point,) = axes.plot(row.width, row.value, "o", color=look["color"], markerfacecolor=face)
-        say(
+        add_tooltip(
             point, f"{row.scene}, {row.method}: {short(row.value)} ({columns[0].replace('_', ' ')})"
         )
 

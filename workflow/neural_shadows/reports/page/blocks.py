@@ -1,4 +1,4 @@
-"""What the page is made of: tables and figures with an anchor, and files within the page."""
+"""Blocks of the page: tables and figures with anchors and embedded files."""
 
 import base64
 import io
@@ -20,7 +20,7 @@ class Block:
         html: a figure; caption: below it.
         parts: of a table, one for each scene (`page_tables.Part`).
         notes: below a table; the first says how to read it.
-        files: what can be saved of it: addresses within the page, by file name.
+        files: its downloads: addresses within the page, by file name.
     """
 
     kind: str
@@ -34,12 +34,12 @@ class Block:
 
     @property
     def anchor(self) -> str:
-        """Unlike those of other kinds and of the page's sections, whatever the name."""
+        """Unique anchor on the page."""
         return f"{self.kind}-{self.name}"
 
 
 def csv_file(path: Path) -> dict[str, str]:
-    """A CSV as a file of a block; none where there is none."""
+    """A CSV as a file of a block; nothing without the file."""
     return {path.name: data_uri("text/csv", path.read_bytes())} if path.exists() else {}
 
 

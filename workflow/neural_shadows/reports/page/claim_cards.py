@@ -1,4 +1,4 @@
-"""The thesis's claims as cards: statement, verdict, one number, and the evidence to unfold."""
+"""Claims as cards: statement, verdict, number and evidence."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,7 +26,7 @@ COLUMNS = [
 class Verdict:
     """A verdict as cards and filters show it.
 
-    `count`: how many claims have it; `printed`: how many of them by the thesis's own tables.
+    `count`: of its claims; `printed`: of those judged by the thesis's own tables.
     """
 
     name: str
@@ -40,18 +40,18 @@ class Verdict:
 
     @property
     def symbol(self) -> str:
-        """Its sign, which says the same as the colour."""
+        """Its sign, equivalent to the colour."""
         return SYMBOLS[self.name]
 
     @property
     def meaning(self) -> str:
-        """What it says of a claim."""
+        """Its meaning for a claim."""
         return MEANINGS[self.name]
 
 
 @dataclass(frozen=True)
 class Card:
-    """A claim; `number` is of the comparison that speaks most against it, or empty."""
+    """A claim; `number` is of the least favourable comparison, or empty."""
 
     name: str
     statement: str
@@ -64,7 +64,7 @@ class Card:
 
 
 def read_cards(csv: Path) -> list[Card]:
-    """The claims of claims.csv, in its order; one of an older version may have no numbers."""
+    """Read the claims of claims.csv, in its order."""
     claims = pd.read_csv(csv, dtype=str, keep_default_na=False)
     claims = claims.reindex(columns=COLUMNS, fill_value="")
     cards = []
@@ -73,8 +73,8 @@ def read_cards(csv: Path) -> list[Card]:
         number = number_text(claim.number_of, claim.number, len(evidence))
         section = section_of({"text": claim.text, "section": claim.section})
         texts = claim.claim, claim.statement, section
-        told = Verdict(claim.verdict), claim.reason, number, evidence, claim.kind == "printed"
-        cards.append(Card(*texts, *told))
+        judgement = Verdict(claim.verdict), claim.reason, number, evidence, claim.kind == "printed"
+        cards.append(Card(*texts, *judgement))
     return cards
 
 
@@ -88,17 +88,17 @@ def number_text(metric: str, number: str, comparisons: int) -> str:
 
 
 def counted(cards: list[Card]) -> list[Verdict]:
-    """The verdicts that claims have, as the verdicts are ordered, and how often each."""
-    found = []
+    """Count claims by verdict, in the order of verdicts."""
+    verdicts = []
     for name in reversed(MEANINGS):
-        having = [card for card in cards if card.verdict.name == name]
-        if having:
-            found.append(Verdict(name, len(having), sum(card.printed for card in having)))
-    return found
+        judged = [card for card in cards if card.verdict.name == name]
+        if judged:
+            verdicts.append(Verdict(name, len(judged), sum(card.printed for card in judged)))
+    return verdicts
 
 
 def budget(csv: Path) -> str:
-    """How the run's training samples compare with the thesis's; empty if nothing was trained."""
+    """Compare training samples with the thesis's; empty without training."""
     claims = pd.read_csv(csv)
     claims = claims[claims["text"] == "thesis"] if "text" in claims else claims
     theirs = claims.get("text_samples", claims.get("thesis_samples")).max()

@@ -1,4 +1,4 @@
-"""Figures as the page shows them: drawings within it, whose colours follow light and dark."""
+"""Figures of the page, in its light and dark colours."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -62,10 +62,10 @@ def _block(svg: Path, drawn: bool, title: str, table: Path | None) -> Block:
 
 
 def inline_svg(content: bytes, name: str, title: str) -> Markup:
-    """An SVG of matplotlib's for use within a page: no identifier is there twice, no style leaks.
+    """Inline a matplotlib SVG with unique identifiers and no styles.
 
     Args:
-        name: what its identifiers begin with.
+        name: prefix of its identifiers.
     """
     root = ElementTree.fromstring(content)
     for parent in [*root.iter()]:
@@ -99,9 +99,9 @@ def _renamed(key: str, value: str, name: str) -> str:
     if key.endswith("href"):
         return value.replace("#", f"#{name}-")
     value = " ".join(value.replace("url(#", f"url(#{name}-").split())
-    return re.sub(r"#[0-9a-f]{6}\b", lambda found: themed(found[0]), value)
+    return re.sub(r"#[0-9a-f]{6}\b", lambda match: themed(match[0]), value)
 
 
 def themed(colour: str) -> str:
-    """A figure's colour as the page's: black, white and greys change with light and dark."""
+    """Replace black, white and greys by the page's colours."""
     return THEMED.get(colour, colour)

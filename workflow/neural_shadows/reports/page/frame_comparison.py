@@ -1,4 +1,4 @@
-"""The page's frames to compare: a view of each view set by every method, for each scene."""
+"""Frames side by side: a view of each view set by every method."""
 
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -36,7 +36,7 @@ def frame_comparisons(
     rows: Sequence[Row],
     meshes: Mapping[str, str],
 ) -> list[dict[str, Any]]:
-    """The frames, errors and FLIP maps of each scene that has some, as data for the page's script.
+    """Data for the page's script: frames, errors and FLIP maps by scene.
 
     Args:
         references, visibilities, metrics: of all batches, in folders of scenes.
@@ -52,9 +52,11 @@ def frame_comparisons(
         frames = read_frames(paths, answered.get(scene, []), values, views)
         if not frames:
             continue
-        here = {row["method"]: row for row in rows if row["scene"] == scene}
+        methods = {row["method"]: row for row in rows if row["scene"] == scene}
         title = f"{scene}: {meshes.get(scene, '')}"
-        shown = comparison(scene, title, frames, _names(here), _shown_first(here, frames), _layers)
+        shown = comparison(
+            scene, title, frames, _names(methods), _shown_first(methods, frames), _layers
+        )
         comparisons.append(shown | {"rule": RULE, "flip": True})
     return comparisons
 
@@ -67,12 +69,12 @@ def comparison(
     left: str,
     layers: Callable[[np.ndarray, np.ndarray], dict[str, Image.Image]],
 ) -> dict[str, Any]:
-    """Frames and methods to choose among, as data for the page's script.
+    """Data for the page's script: frames and methods to choose among.
 
     Args:
-        names: of methods, with their symbols; left: the method that is shown first.
-        layers: of a method's image and the reference (H, W) in [0, 1], what the script lays over
-            the reference (`errors`), or shows in its place (`map`), by name.
+        names: of methods, with their symbols; left: the method shown first.
+        layers: from a method's image and the reference (H, W) in [0, 1], the script's layers over
+            the reference (`errors`) or in its place (`map`), by name.
     """
     methods = shared_methods(frames)
     return {
@@ -86,8 +88,8 @@ def comparison(
 
 
 def shared_methods(frames: Sequence[Frame]) -> list[str]:
-    """The methods that all frames have, or of a page that is made half-way those that it can show."""
-    return [key for key in frames[0].images if all(key in one.images for one in frames)]
+    """Methods of all frames."""
+    return [key for key in frames[0].images if all(key in frame.images for frame in frames)]
 
 
 def _names(rows: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
@@ -102,17 +104,17 @@ def _names(rows: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
 
 
 def _shown_first(rows: Mapping[str, Mapping[str, Any]], frames: Sequence[Frame]) -> str:
-    """The trained network that errs least in the frames, or the method that does."""
+    """The trained network of least error, or else the method."""
     return errs_least(frames, "flip", [key for key, row in rows.items() if row["trained"]])
 
 
 def errs_least(frames: Sequence[Frame], metric: str, networks: Collection[str]) -> str:
-    """The one of some networks that errs least in frames that have it, or the method that does."""
+    """The network of least error in the frames, or else the method."""
 
     def rank(method: str) -> tuple[bool, float]:
-        return method not in networks, sum(one.scores[method][metric] for one in frames)
+        return method not in networks, sum(frame.scores[method][metric] for frame in frames)
 
-    methods = [one for one in shared_methods(frames) if one != REFERENCE]
+    methods = [method for method in shared_methods(frames) if method != REFERENCE]
     return min(methods, key=rank, default=REFERENCE)
 
 
@@ -151,9 +153,9 @@ def grey_levels(image: np.ndarray) -> np.ndarray:
 
 
 def change_layer(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """What makes a grey image of the reference when laid over it: grey and opacity, (H, W, 2) uint8.
+    """Difference layer from the reference: grey and opacity, (H, W, 2) uint8.
 
-    A frame of 600 × 400 takes 1 to 5 KB so, and 38 whole.
+    Over the reference it gives the image. A frame of 600 × 400 takes 1 to 5 KB, and 38 whole.
     """
     levels = grey_levels(image)
     opacity = np.where(levels == grey_levels(reference), np.uint8(0), np.uint8(255))

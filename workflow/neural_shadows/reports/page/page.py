@@ -1,4 +1,4 @@
-"""The one page that shows a run: what it found, claims, frames, tables, figures, and its facts."""
+"""The page of a run: claims, frames, tables, figures and facts."""
 
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
@@ -57,7 +57,9 @@ def write_page(
     scenes: Mapping[str, SceneInfo],
     benchmarks: Path,
 ) -> None:
-    """Write the page of what is there, any of the lists may be empty, as one self-contained file.
+    """Write the page as one self-contained file.
+
+    Any of the lists may be empty.
 
     Args:
         template: `template.html`, `style.css` and `SCRIPTS`, of one folder.
@@ -67,13 +69,13 @@ def write_page(
             first is within the page and the others are named.
         references, visibilities, metrics: of all batches of each scene, and of each method.
         soft_parts, soft_answers, soft_pictures: see `soft_comparisons`.
-        front: the figure of quality over bytes that is shown first, if there is one.
+        front: the figure of quality over bytes shown first, or None.
         data: the tables that figures show, by the figures' names.
         chapters: of the tables and figures, by name: `thesis`, `extensions` or `soft`.
-        networks: what those of frames are called.
-        folded: names of the figures that are shown when asked for: contact sheets.
-        missing: what is asked for and not there, by the section where it would stand.
-        rows: `method`, `scene` and `label` of the methods that have pictures.
+        networks: labels of screen-space networks.
+        folded: names of collapsed figures: contact sheets.
+        missing: missing reports, by their section.
+        rows: `method`, `scene` and `label` of the methods with pictures.
         kinds: of methods (`method_look.kind_of`), by label.
         benchmarks: Snakemake's, a folder for each rule.
 
@@ -93,10 +95,10 @@ def write_page(
     drawings = figure_blocks(figures, titles, shown)
     figures = [block for block in drawings if block.name != front]
 
-    def of_chapter(some: Sequence[Block], chapter: str) -> list[Block]:
-        return [block for block in some if chapters[block.name] == chapter]
+    def of_chapter(candidates: Sequence[Block], chapter: str) -> list[Block]:
+        return [block for block in candidates if chapters[block.name] == chapter]
 
-    # Notes that several tables have are shown once, before all tables.
+    # Notes of several tables are shown once.
     notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
     facts = run_facts(run, described, trainings, lpips_json, benchmarks)
     folder = template[0].parent
@@ -140,7 +142,7 @@ def write_page(
 
 
 def _shown(blocks: Sequence[Block], looks: Collection[Look]) -> list[Look]:
-    """Those of some looks that tables have, each once, in the tables' order."""
+    """Looks used by tables, each once, in the tables' order."""
     used = [look for block in blocks for part in block.parts for look in part.looks]
     return [look for look in dict.fromkeys(used) if look in looks]
 

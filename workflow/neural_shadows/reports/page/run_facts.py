@@ -1,4 +1,4 @@
-"""What a reader must know of a run: scale, meshes, hardware, versions, commits, durations."""
+"""Facts of a run: scale, meshes, hardware, versions, commits, durations."""
 
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
@@ -31,9 +31,9 @@ def run_facts(
     if records:
         facts["networks"] = _networks(records)
         facts["networks made on"] = "; ".join(
-            dict.fromkeys(_machine(one["machine"]) for one in records)
+            dict.fromkeys(_machine(record["machine"]) for record in records)
         )
-        facts["networks made at"] = "; ".join(dict.fromkeys(one["commit"] for one in records))
+        facts["networks made at"] = "; ".join(dict.fromkeys(record["commit"] for record in records))
     if lpips_json:
         lpips = read_json(lpips_json)
         facts["LPIPS"] = f"network {lpips['net']}" if lpips["available"] else "not available"
@@ -47,7 +47,7 @@ def run_facts(
 
 
 def run_sentence(run: Run, scenes: Mapping[str, SceneInfo], facts: Mapping[str, str]) -> str:
-    """What was run and on what, in one sentence; `facts` as `run_facts` gives them."""
+    """Describe a run in one sentence; `facts`: of `run_facts`."""
     *first, last = dict.fromkeys(scene["mesh_name"] for scene in scenes.values())
     meshes = f"meshes {', '.join(first)} and {last}" if first else f"mesh {last}"
     networks = facts.get("networks", "No network yet").split(",")[0]
@@ -59,19 +59,19 @@ def run_sentence(run: Run, scenes: Mapping[str, SceneInfo], facts: Mapping[str, 
 
 
 def _networks(records: Sequence[TrainingRecord]) -> str:
-    """How many networks were trained and on how many samples, and how many only built."""
+    """Count trained networks, their samples, and networks built without training."""
     trained = [record for record in records if record["training"]]
     built = len(records) - len(trained)
     if not trained:
         return f"{_counted(built, 'network')}, built without training"
     samples = sorted({record["samples"] for record in trained})
     counts = " or ".join(f"{count:,}" for count in samples)
-    said = f"{_counted(len(trained), 'network')}, {counts} samples each"
-    return f"{said}; {built} more built without training" if built else said
+    text = f"{_counted(len(trained), 'network')}, {counts} samples each"
+    return f"{text}; {built} more built without training" if built else text
 
 
 def _duration(rule: str, jobs: Sequence[Path]) -> str:
-    """How long a rule's jobs took in all, and how many they were, from its benchmark files."""
+    """Total time and number of a rule's jobs, from its benchmarks."""
     seconds = sum(pd.read_csv(path, sep="\t")["s"].sum() for path in jobs)
     time = f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
     time = f"{seconds:.0f} s" if seconds < 120 else time
@@ -83,5 +83,5 @@ def _machine(machine: Mapping[str, Any]) -> str:
     return f"{machine['cpu']}, {_counted(machine['cores'], 'core')}{gpu}"
 
 
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}{'s' if count != 1 else ''}"
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}{'s' if count != 1 else ''}"

@@ -1,4 +1,4 @@
-"""The page's soft shadows to compare: frames under lights of several radii by methods of a table."""
+"""Soft shadows side by side: frames by light radius and method."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -18,9 +18,9 @@ from neural_shadows.reports.data.method_look import REFERENCE
 from neural_shadows.reports.page.frame_comparison import REFERENCE_NAME, comparison, errs_least
 
 RULE = (
-    "Of soft shadows the first test frame of a scene is shown, whatever the errors in it: how much of "
-    "the light each pixel sees. MSE is the mean squared error of that share in this frame; tables "
-    "have that of all test frames."
+    "Of soft shadows the first test frame of a scene is shown, whatever its errors: the visibility of "
+    "each pixel. MSE is the mean squared error of visibility in this frame; tables have that of all "
+    "test frames."
 )
 NUMBER = 0  # of a part's frames, the one whose answers are kept
 
@@ -28,13 +28,13 @@ NUMBER = 0  # of a part's frames, the one whose answers are kept
 def soft_comparisons(
     parts: Sequence[Path], answers: Sequence[Path], pictures: Sequence[Mapping[str, Any]]
 ) -> list[dict[str, Any]]:
-    """The frames and errors of each table that has some, as data for the page's script.
+    """Data for the page's script: frames and errors by table.
 
     A method's picture under one light takes 40 to 65 KB of the page at 512 × 256.
 
     Args:
         parts: of frame sets, see `FrameSetPart`; answers: of methods, in folders of frame sets.
-        pictures: what to show of a scene, if it is there: `table` and its `title`, `frame_set`,
+        pictures: of scenes: `table` and its `title`, `frame_set`,
             `scene`, `labels` of methods, and `radii`, counted from 0.
 
     Raises:
@@ -55,13 +55,13 @@ def soft_comparisons(
     names[REFERENCE] = REFERENCE_NAME
     titles = {one["table"]: one["title"] for one in pictures}
     networks = list(filter(is_network, labels))
-    found = []
+    comparisons = []
     for table, shown in frames.items():
         left = errs_least(shown, "mse", networks)
-        # A table may be called as a scene is.
-        one = comparison(f"soft-{table}", titles[table], shown, names, left, _layers)
-        found.append(one | {"rule": RULE, "flip": False})
-    return found
+        # The prefix tells a table from a scene of the same name.
+        data = comparison(f"soft-{table}", titles[table], shown, names, left, _layers)
+        comparisons.append(data | {"rule": RULE, "flip": False})
+    return comparisons
 
 
 def _frames(part: Path, answers: Mapping[str, Path], radii: Sequence[int]) -> list[Frame]:
@@ -69,7 +69,7 @@ def _frames(part: Path, answers: Mapping[str, Path], radii: Sequence[int]) -> li
     opened = FrameSetPart(part)
     scene, lights = part.parent.name, light_names(opened.about)
     valid = np.asarray(opened.valid[NUMBER, 0])
-    found = []
+    frames = []
     for k in radii:
         target = opened.targets[NUMBER, k].astype(np.float32)
         frame = Frame((scene, k), f"{scene}, {lights[k]}", {REFERENCE: target})
@@ -78,8 +78,8 @@ def _frames(part: Path, answers: Mapping[str, Path], radii: Sequence[int]) -> li
             frame.images[method] = image
             square = np.square(image - target)[valid].mean()
             frame.scores[method] = {"mse": 1e4 * float(square)}
-        found.append(frame)
-    return found
+        frames.append(frame)
+    return frames
 
 
 def _layers(image: np.ndarray, reference: np.ndarray) -> dict[str, Image.Image]:

@@ -1,4 +1,4 @@
-"""A table's JSON as the page shows it: printed numbers in our cells, the best of a column, and dots."""
+"""Tables of the page: cells with printed numbers, best values and dots."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -18,7 +18,7 @@ from neural_shadows.reports.page.blocks import Block, csv_file
 
 LOGARITHMIC = 20  # times the smallest: values so far apart are drawn so
 DRAWN = 82  # width of a cell's drawing, px
-UNRIVALLED = (*NETWORKS.values(), *NULL.values())  # cannot be a column's best
+NEVER_BEST = (*NETWORKS.values(), *NULL.values())
 MARKDOWN = MarkdownIt("commonmark", {"html": False})
 NAN = float("nan")
 
@@ -28,8 +28,8 @@ class Cell:
     """A cell of ours, and the printed number beside it.
 
     Args:
-        numbers: the value, the ends of its interval, and the printed number; NaN of what is not there.
-        places: of `numbers` in the cell's drawing, px from the left; None in a column without.
+        numbers: the value, the ends of its interval, and the printed number; NaN if missing.
+        places: of `numbers` in the cell's drawing, px from the left; None without a drawing.
     """
 
     text: str
@@ -50,9 +50,9 @@ class Part:
     """A table of one scene or light.
 
     Args:
-        scene: empty in a table that is not in parts.
-        rows: of which the first cell is a method; looks: of the methods, None of an unknown one.
-        logarithmic: the headings of columns that are drawn so.
+        scene: empty in a table without parts.
+        rows: the first cell is a method; looks: of the methods, None of an unknown one.
+        logarithmic: headings of columns drawn with a logarithmic scale.
     """
 
     scene: str
@@ -95,7 +95,7 @@ def _part(
     rows: Sequence[int],
     looks: Mapping[str, Look],
 ) -> Part:
-    """A printed column goes into the column of ours that it belongs to; an empty one is left out."""
+    """Build a part, with printed columns merged into ours and without empty ones."""
     shown: dict[str, tuple[Mapping[str, Any], list[Cell]]] = {}
     for column in columns:
         cells = [_cell(column, row) for row in rows]
@@ -110,19 +110,19 @@ def _part(
     printed = [name in NETWORKS.values() for name in names]
     logarithmic = []
     for column, cells in others:
-        rivals = [cell for name, cell in zip(names, cells) if name not in UNRIVALLED]
-        _mark_best(column["better"], rivals)
+        candidates = [cell for name, cell in zip(names, cells) if name not in NEVER_BEST]
+        _mark_best(column["better"], candidates)
         if _place(cells, printed, column.get("comparable", True)):
             logarithmic.append(column["heading"])
-    known = looks | dict.fromkeys(NETWORKS.values(), LOOKS["frequency"])
+    looks = looks | dict.fromkeys(NETWORKS.values(), LOOKS["frequency"])
     cells = zip(*(cells for _, cells in shown.values()))
-    return Part(scene, [*shown], [*cells], [known.get(name) for name in names], logarithmic)
+    return Part(scene, [*shown], [*cells], [looks.get(name) for name in names], logarithmic)
 
 
 def _cell(column: Mapping[str, Any], row: int) -> Cell:
     numbers = [NAN] * 4
     if "values" in column:
-        numbers = [NAN if one is None else one for one in column["values"][row]] + [NAN]
+        numbers = [NAN if number is None else number for number in column["values"][row]] + [NAN]
     interval = column["intervals"][row] if "intervals" in column else ""
     return Cell(column["texts"][row], interval, numbers=numbers)
 
@@ -136,13 +136,13 @@ def _mark_best(better: str | None, cells: Sequence[Cell]) -> None:
 
 
 def _place(cells: Sequence[Cell], printed: Sequence[bool], comparable: bool) -> bool:
-    """Place the numbers of a column, if one has an interval or a printed number.
+    """Place the numbers of a column with intervals or printed numbers.
 
     Args:
         printed: the rows of the thesis's own values, which are drawn as its numbers are.
-        comparable: whether printed numbers can stand on the scale of ours.
+        comparable: true if printed numbers can share our scale.
 
-    Returns: whether the scale is logarithmic.
+    Returns: true for a logarithmic scale.
     """
     drawn = np.array([cell.numbers for cell in cells])
     if not comparable:

@@ -1,4 +1,4 @@
-"""What a run makes unless it is asked for less, and what its page shows."""
+"""Default targets of a run, and the files of its page."""
 
 import shutil
 from collections.abc import Iterable
@@ -15,7 +15,7 @@ from neural_shadows.reports.figures import soft_pictures
 
 
 def all_reports(layout: Layout) -> list[str]:
-    """Everything that `rule all` makes."""
+    """All files of `rule all`."""
     names = [
         *(
             f"{name}{ending}"
@@ -36,13 +36,13 @@ def all_reports(layout: Layout) -> list[str]:
 
 
 def default_tables(layout: Layout) -> list[str]:
-    """Names of the tables that are made without being asked for."""
+    """Names of the tables not on request."""
     entries = layout.settings["tables"].items()
     return [name for name, table in entries if not table["on_request"]]
 
 
 def default_figures(layout: Layout) -> list[str]:
-    """Names of the figures that are: those of no table, or of such a table, that can be drawn."""
+    """Names of drawable figures of default tables or of no table."""
     shown = [None, *default_tables(layout)]
     drawn = opengl.available()
     return [
@@ -53,7 +53,7 @@ def default_figures(layout: Layout) -> list[str]:
 
 
 def page_files(layout: Layout) -> dict[str, Any]:
-    """All that the page shows of a whole run."""
+    """Files of a whole run's page."""
     settings, paths = layout.settings, layout.paths
     rows = pictured(layout)
     scenes = tables.unique(row["scene"] for row in rows)
@@ -74,7 +74,7 @@ def page_files(layout: Layout) -> dict[str, Any]:
 
 
 def _reports(layout: Layout, tables: Iterable[str], figures: Iterable[str]) -> dict[str, Any]:
-    """The files of some tables and figures that a page shows."""
+    """The page's files of tables and figures."""
     report, endings = layout.paths.report, ("svg", "png")
     return {
         "tables": [report(f"{name}.json") for name in tables],
@@ -83,7 +83,7 @@ def _reports(layout: Layout, tables: Iterable[str], figures: Iterable[str]) -> d
 
 
 def pictured(layout: Layout) -> list[tables.Row]:
-    """The methods that default tables and claims show, each once by scene."""
+    """Methods of default tables and claims, each once by scene."""
     rows = [
         *(row for claim in layout.settings["claims"].values() for row in claims.methods(claim)),
         *(
@@ -95,12 +95,12 @@ def pictured(layout: Layout) -> list[tables.Row]:
     # Of a method that is in several tables, the label of the last.
     # Ray tracing is the reference itself, and all dark shows nothing.
     unseen = (RAY_TRACED, "all_dark")
-    found = {(row["scene"], row["method"]): row for row in rows if row["method"] not in unseen}
-    return list(found.values())
+    shown = {(row["scene"], row["method"]): row for row in rows if row["method"] not in unseen}
+    return list(shown.values())
 
 
 def page_arguments(layout: Layout) -> dict[str, Any]:
-    """What `write_page` is told beside its files."""
+    """Arguments of `write_page` beside its files."""
     figures = layout.settings["figures"]
     return {
         "titles": {name: one["title"] for name, one in figures.items()},
@@ -134,18 +134,18 @@ def method_modules(layout: Layout) -> set[Path]:
 
 
 def available(layout: Layout) -> dict[str, Any]:
-    """Of `page_files` those that are there now, reports on request among them."""
-    found = page_files(layout) | _reports(layout, *map(layout.settings.get, ("tables", "figures")))
-    return {name: [path for path in paths if Path(path).exists()] for name, paths in found.items()}
+    """Existing files of `page_files`, with reports on request."""
+    files = page_files(layout) | _reports(layout, *map(layout.settings.get, ("tables", "figures")))
+    return {name: [path for path in paths if Path(path).exists()] for name, paths in files.items()}
 
 
 def available_arguments(layout: Layout) -> dict[str, Any]:
-    """What `write_page` is told for a page of these."""
+    """Arguments of `write_page` for the available files."""
     return page_arguments(layout) | available(layout) | {"missing": missing(layout)}
 
 
 def missing(layout: Layout) -> dict[str, list[str]]:
-    """What a whole run's page shows and is not there now, by the section where it would stand."""
+    """Missing reports of a whole run's page, by section."""
     first, chapter = front(layout), chapters(layout)
     tables = default_tables(layout)
     figures = [name for name in default_figures(layout) if name != first]
@@ -166,20 +166,20 @@ def missing(layout: Layout) -> dict[str, list[str]]:
 
 
 def _missing_frames(layout: Layout) -> list[str]:
-    """Of how many methods of each scene the frames are not whole."""
-    rows, said = pictured(layout), []
+    """Count methods with missing frames by scene."""
+    rows, texts = pictured(layout), []
     for scene in tables.unique(row["scene"] for row in rows):
         shared = tables.references(layout, [scene])
-        here = [row for row in rows if row["scene"] == scene]
-        paths = [[*shared, *tables.visibilities(layout, [row])] for row in here]
-        count = sum(not all(Path(path).exists() for path in some) for some in paths)
+        methods = [row for row in rows if row["scene"] == scene]
+        paths = [[*shared, *tables.visibilities(layout, [row])] for row in methods]
+        count = sum(not all(Path(path).exists() for path in files) for files in paths)
         if count:
-            said.append(f"frames of {count} of {len(here)} methods on {scene}")
-    return said
+            texts.append(f"frames of {count} of {len(methods)} methods on {scene}")
+    return texts
 
 
 def newest(layout: Layout) -> float:
-    """When the last of these was written, in seconds: with a newer one their page is old."""
+    """Time of the newest available file, in seconds."""
     paths = [Path(path) for paths in available(layout).values() for path in paths]
     return max((path.stat().st_mtime for path in paths), default=0.0)
 
@@ -191,7 +191,7 @@ def chapters(layout: Layout) -> dict[str, str]:
 
 
 def front(layout: Layout) -> str | None:
-    """The first figure of quality over stored bytes alone: what a page shows before all others."""
+    """The first figure of quality over stored bytes alone, the page's first."""
     for name in default_figures(layout):
         if layout.settings["figures"][name].get("costs") == ["stored_bytes"]:
             return name
@@ -199,7 +199,7 @@ def front(layout: Layout) -> str | None:
 
 
 def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
-    """What a run that made `outputs` says: a table or two, cut to the terminal, and what to open."""
+    """Closing text of a run: up to two tables and the files to open."""
     reports = [path for path in outputs if path.startswith(f"{layout.paths.reports}/")]
     written = [path for path in reports if path.endswith(".md")]
     width, lines = shutil.get_terminal_size().columns, []
@@ -208,7 +208,6 @@ def closing_words(layout: Layout, outputs: Iterable[str]) -> str:
             if line.startswith(("#", "|")):  # not the notes
                 lines.append(line if len(line) <= width else f"{line[: width - 1]}…")
     pages = [path for path in reports if path.endswith(".html")]
-    # The page of the run holds the viewer.
     whole = [path for path in pages if path.endswith("/index.html")]
     if opened := whole or pages or [path for path in reports if path.endswith((".png", ".md"))]:
         lines.append(f"Open {', '.join(opened)}")

@@ -1,4 +1,4 @@
-"""Methods on the same views, beside the numbers that the thesis prints [4.2, 4.3]."""
+"""Quality of methods on the same views, beside printed numbers [4.2, 4.3]."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -25,7 +25,7 @@ from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableOfOneScene
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
-PRINTED = ("lpips", "psnr", "ssim")  # what the thesis's tables give, in its order
+PRINTED = ("lpips", "psnr", "ssim")  # columns of the thesis's tables, in its order
 
 
 class Settings(TableOfOneScene):
@@ -52,7 +52,7 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
         "depth_biases": depth_biases_of(layout, rows),
         "lpips_json": layout.paths.lpips,
         "published_csv": layout.source("config/published.csv"),
-        # Not read: the preview of its scene is made with a table.
+        # Not read: a table makes the preview of its scene, too.
         "beside": [layout.paths.report(f"scenes/{scene}.png")],
     }
 
@@ -84,13 +84,13 @@ def table(
     run: Run,
     scenes: Mapping[str, SceneInfo],
 ) -> Table:
-    """A comparison on one scene, sorted by LPIPS as in the thesis, without it by FLIP.
+    """Compare methods on a scene, sorted by LPIPS or else FLIP.
 
     The null predictors come last. CSV: the columns of `scene_quality`, `unfit`, those of `add_printed` and
     `add_printed_maps`, and the context.
 
     Args:
-        against: the method that the others' paired differences are to; None for no differences.
+        against: the reference method of paired differences; None for no differences.
     """
     name = rows[0]["scene"]
     scene, mesh, lpips = scenes[name], read_json(mesh_json), read_json(lpips_json)
@@ -109,9 +109,9 @@ def table(
     labels = {row["method"]: row["label"] for row in rows}
     notes = [f"Mean over {table['views'].iloc[0]} views [95 % bootstrap interval]."]
     if published and mesh["thesis_mesh"]:
-        notes.append("*thesis*: the number that it prints.")
+        notes.append("*thesis*: its printed number.")
     elif published:
-        notes.append(f"*thesis*: empty, since it did not measure the mesh {mesh['name']}.")
+        notes.append(f"*thesis*: empty, because it did not measure the mesh {mesh['name']}.")
     notes += [
         *quality_cells.describe_quality(table, labels.get(against)),
         phrases.describe_shadows(name, quality.null_leaks(read_metrics(metrics))),
@@ -132,24 +132,24 @@ def add_printed_maps(
     published: pd.Series,
     number: str | None,
 ) -> pd.DataFrame:
-    """The frame with `thesis_map_lpips` and `thesis_map_psnr`: `equivalent_maps` of a printed table.
+    """Add `equivalent_maps` of a printed table: `thesis_map_lpips`, `thesis_map_psnr`.
 
-    Empty without a table (`number` is None) and for methods that it does not print.
+    Empty without a table (`number` is None) and for methods not in it.
     """
-    known: dict[str, pd.Series] = {}
+    texts: dict[str, pd.Series] = {}
     if number is not None:
         printed = printed_table(published, number)
         maps = equivalent_maps(printed, printed.index, "psnr")
-        known = {name: pd.Series(texts, printed.index) for name, texts in maps.items()}
+        texts = {name: pd.Series(sizes, printed.index) for name, sizes in maps.items()}
     columns = {
-        f"thesis_{name}": [known.get(name, {}).get(row["published"], "") for row in rows]
+        f"thesis_{name}": [texts.get(name, {}).get(row["published"], "") for row in rows]
         for name in ("map_lpips", "map_psnr")
     }
     return frame.assign(**columns)
 
 
 def cells(table: pd.DataFrame, published: str | None) -> dict[str, Column | Iterable[str]]:
-    """The Markdown's columns: those that the thesis prints, and what judges them."""
+    """Format the thesis's columns, and measures of their reliability."""
     columns: dict[str, Column | Iterable[str]] = {"method": quality_cells.method_column(table)}
     measured = [metric for metric in PRINTED if table[metric].notna().any()]
     for metric in ["flip"] * ("lpips" not in measured) + measured:
@@ -162,11 +162,11 @@ def cells(table: pd.DataFrame, published: str | None) -> dict[str, Column | Iter
     columns["pooled PSNR ↑"] = numbers(table["psnr_pooled"], "{:.2f}")
     if table["psnr_difference"].notna().any():
         columns["difference, dB"] = quality_cells.difference_column(table)
-    for by in ("", "thesis "):  # empty without maps, and where the thesis says nothing
-        names = [f"{by.replace(' ', '_')}map_{metric}" for metric in ("lpips", "psnr")]
+    for source in ("", "thesis "):
+        names = [f"{source.replace(' ', '_')}map_{metric}" for metric in ("lpips", "psnr")]
         maps = quality_cells.map_cells(*(table[name] for name in names))
         if any(maps):
-            columns[f"{by}equal map"] = Column(maps, printed_of="equal map" if by else "")
+            columns[f"{source}equal map"] = Column(maps, printed_of="equal map" if source else "")
     columns["shadow error % ↓"] = numbers(table["shadow_error"], "{:.2f}", 100)
     return columns
 

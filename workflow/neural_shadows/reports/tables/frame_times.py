@@ -21,7 +21,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.settings.records import Row, Run
 
-PRINTED = ("frame_ms", "lpips", "size_kib")  # what the thesis prints, in its order
+PRINTED = ("frame_ms", "lpips", "size_kib")  # columns of the thesis's table, in its order
 
 
 class Settings(TableByScene):
@@ -68,13 +68,13 @@ def table(
     rows: Sequence[Row],
     run: Run,
 ) -> Table:
-    """A table of frame times, in the order of `rows`.
+    """Tabulate frame times, in the order of `rows`.
 
     CSV: `method, scene`, `FRAME_MS`, `OWN_MS`, `repeats, device, lpips, lpips_low, lpips_high,
-    learned, size_kib, resident_kib`, the columns of `add_printed` of the three that the thesis
-    prints, and the context.
+    learned, size_kib, resident_kib`, the columns of `add_printed` of `PRINTED`,
+    and the context.
     """
-    timed = {one["scene"]: one for one in map(read_json, times)}
+    timed = {record["scene"]: record for record in map(read_json, times)}
     chance = margins(read_published(published_csv))
     scored = scenes_quality(metrics, rows, chance, {}, run["seed"])
     table = timing.timing_table(timed, rows, weights).merge(
@@ -107,11 +107,11 @@ def table(
         title = f"{title}: not comparable, on {' and '.join(ran)}"
     notes = [
         *phrases.describe_devices(ran),
-        "Median [quartiles]; own: the method's answer alone; frame: whole frames, primary "
+        "Median [quartiles]. own: the method's evaluation alone. frame: whole frames, primary "
         "visibility and shading included. LPIPS: mean over views [95 % bootstrap interval].",
     ]
     if published:
-        notes.append("*thesis*: the number that it prints, its times from another machine.")
+        notes.append("*thesis*: its printed number; its times are of another machine.")
         notes += [
             f"*thesis*: sizes only for {scene}; it did not measure the mesh {mesh['name']}."
             for scene, mesh in described.items()
@@ -122,8 +122,8 @@ def table(
     notes += [
         *quality_cells.describe_learned(table),
         *map(phrases.describe_times, timed.values()),
-        "A shadow map is rendered whole in each frame and its size is 4 N² bytes; ray tracing "
-        "sends a shadow ray from each pixel that faces the light.",
+        "A shadow map is rendered whole in each frame; its size is 4 N² bytes. Ray tracing "
+        "traces a shadow ray from each pixel facing the light.",
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]

@@ -1,4 +1,4 @@
-"""What each budget of training reaches, and how far that can be carried on [4.2, 4.3]."""
+"""Errors by training budget, and their extrapolation [4.2, 4.3]."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -49,7 +49,7 @@ MEASURED, EXTRAPOLATED = "measured", "extrapolated"  # kinds of rows
 
 
 class Settings(TableByScene):
-    """What each budget of `learning_curves` reaches."""
+    """Errors at each budget of `learning_curves`."""
 
     kind: Literal["learning_curves"] = Field(description="`learning_curves`")
 
@@ -106,7 +106,7 @@ def table(
     run: Run,
     scenes: Mapping[str, SceneInfo],
 ) -> Table:
-    """The table of `curve_table` as CSV; as Markdown a row for each method and metric.
+    """Tabulate `curve_table`; its Markdown has a row for each method and metric.
 
     Args:
         metrics: also of `no_shadow`, and of all points of the learning curves.
@@ -114,10 +114,10 @@ def table(
         curves: `experiment`, `seed` and `samples` of each point, by the rows' experiments.
     """
     lpips = read_json(lpips_json)
-    read = {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()}
+    values = {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()}
     data = Trained(
         metrics={
-            name: values_by_view(part, part["method"].unique()) for name, part in read.items()
+            name: values_by_view(part, part["method"].unique()) for name, part in values.items()
         },
         losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
         trainings={name: read_json(path) for name, [path] in by_folder(trainings).items()},
@@ -129,19 +129,20 @@ def table(
     printed = printed_numbers.loc[[published]].droplevel("table").to_dict() if published else {}
     table = curve_table(rows, data, printed)
     notes = [
-        "Mean ± standard deviation over seeds; each budget is trained from the start, with its own "
-        "whole schedule. Loss: of the last tenth of the steps. PSNR: of the mean squared error of "
-        "all views and seeds.",
+        "Mean ± standard deviation over seeds. Each budget is trained from the start, with its own "
+        "whole schedule. Loss: mean of the last tenth of the steps. PSNR: of the mean squared error "
+        "of all views and seeds.",
         "exponent: −d log error / d log samples, between the first two budgets and between the "
-        "last two; of PSNR's squared error and of 1 − SSIM. A power law without offset has one "
-        "exponent.",
-        "largest, as predicted: by the power law m∞ + a N^−b of all budgets but the largest [90 % "
-        "interval over seeds and over having m∞ or not, for a mean of as many seeds]. In "
-        "simulations of such laws, with three seeds that differ by 1 to 3 %, it holds what is "
-        "measured in 89 to 91 % of cases. missed by: prediction over measurement, of the error.",
-        f"at the thesis's samples: extrapolated to {THESIS_SAMPLES:,} [90 %], on these views, "
-        "where the largest budget lies within its predicted interval and 10 % of it, and is at "
-        "least a thirtieth of that; otherwise why not. *thesis*: what it prints, on its own views.",
+        "last two, of PSNR's squared error and of 1 − SSIM. A power law without offset has a "
+        "constant exponent.",
+        "largest, as predicted: by the power law m∞ + a N^−b fitted to all budgets but the largest "
+        "[90 % interval over seeds, with and without m∞, for a mean of as many seeds]. In "
+        "simulations of such laws, with three seeds that differ by 1 to 3 %, it covers the "
+        "measurement in 89 to 91 % of cases. missed by: relative error of the prediction.",
+        f"at the thesis's samples: extrapolated to {THESIS_SAMPLES:,} [90 %], on these views. This "
+        "needs a largest budget within its predicted interval, within 10 % of the prediction, and of "
+        "at least a thirtieth of these samples; otherwise the cell has the reason. *thesis*: printed, "
+        "on its own views.",
         *_describe_steps(table),
         *(phrases.describe_scene(name, mesh, scenes[name]) for name, mesh in data.meshes.items()),
         phrases.describe_frames(run),
@@ -162,7 +163,7 @@ def table(
 def curve_table(
     rows: Sequence[Row], data: Trained, printed: Mapping[tuple[str, str], float]
 ) -> pd.DataFrame:
-    """A row for each method, metric and budget, and for the thesis's budget.
+    """Tabulate errors by method, metric and budget, the thesis's budget included.
 
     `printed` has the thesis's numbers by the row's `published` and the metric.
 
@@ -173,32 +174,35 @@ def curve_table(
     interval: at the largest budget from the others, with the relative `error` of the prediction,
     and at the thesis's budget from all, unless it is `unlicensed`, for the reason given; `step`,
     how many times the largest budget that it was predicted from; `no_shadow`, what drawing no
-    shadow gives; and `thesis`, what that prints.
+    shadow gives; and `thesis`, the printed value.
     """
-    found = []
+    records = []
     for row in rows:
         budgets = data.budgets([row])
         samples = np.array([budget.samples for budget in budgets])
-        of = {"scene": row["scene"], "method": row["label"]}
+        method = {"scene": row["scene"], "method": row["label"]}
         last = data.trainings[budgets[-1].runs[row["experiment"]][0]]
         losses = np.array([data.end_losses(row, budget) for budget in budgets])
-        of_metric = {"loss": (losses, last["no_shadow_loss"])}
+        errors_and_null = {"loss": (losses, last["no_shadow_loss"])}
         for metric in (data.metric(row, "lpips"), "psnr", "ssim"):
             means = [data.errors(row, metric, budget).mean() for budget in budgets]
             null = data.metrics[row["scene"]][NO_SHADOW, metric]
-            of_metric[metric] = np.array(means), error_of(metric, null).mean()
-        for metric, (errors, null) in of_metric.items():
+            errors_and_null[metric] = np.array(means), error_of(metric, null).mean()
+        for metric, (errors, null) in errors_and_null.items():
             curve = Curve(samples, errors)
-            lines = _of_metric(metric, curve, data.seed, data.died(row, budgets))
+            lines = _metric_lines(metric, curve, data.seed, data.died(row, budgets))
             if data.meshes[row["scene"]]["thesis_mesh"]:
                 lines[-1]["thesis"] = printed.get((row["published"], metric), np.nan)
-            given = of | {"metric": metric, "no_shadow": value_of(metric, null)}
-            found += [given | line for line in lines]
-    return pd.DataFrame(found, columns=COLUMNS)
+            key = method | {"metric": metric, "no_shadow": value_of(metric, null)}
+            records += [key | line for line in lines]
+    return pd.DataFrame(records, columns=COLUMNS)
 
 
-def _of_metric(metric: str, curve: Curve, seed: int, died: bool) -> list[dict[str, Any]]:
-    """A line for each budget of a curve of errors, and for the thesis's; `died`: a training did."""
+def _metric_lines(metric: str, curve: Curve, seed: int, diverged: bool) -> list[dict[str, Any]]:
+    """Tabulate a curve of errors by budget, and its extrapolation.
+
+    `diverged`: one of its trainings did.
+    """
     lines = []
     for count, errors in zip(curve.samples, curve.values):
         each = value_of(metric, errors)
@@ -213,13 +217,18 @@ def _of_metric(metric: str, curve: Curve, seed: int, died: bool) -> list[dict[st
         )
     for line, exponent in zip(lines[1:], power_law.local_exponents(curve)):
         line["exponent"] = exponent
-    if held := power_law.hold_out(curve, seed) if power_law.can_hold_out(curve) else None:
-        lines[-1] |= _prediction(metric, held.predicted, held.low, held.high)
-        lines[-1] |= {"step": held.step, "error": held.error}
-    allowed, why = power_law.licensed([curve], THESIS_SAMPLES, seed, died)
+    if power_law.can_hold_out(curve) and (held_out := power_law.hold_out(curve, seed)):
+        lines[-1] |= _prediction(metric, held_out.predicted, held_out.low, held_out.high)
+        lines[-1] |= {"step": held_out.step, "error": held_out.error}
+    allowed, reason = power_law.licensed([curve], THESIS_SAMPLES, seed, diverged)
     step = THESIS_SAMPLES / curve.samples[-1]
-    beyond = {"kind": EXTRAPOLATED, "samples": THESIS_SAMPLES, "step": step, "unlicensed": why}
-    lines.append(beyond)
+    extrapolated = {
+        "kind": EXTRAPOLATED,
+        "samples": THESIS_SAMPLES,
+        "step": step,
+        "unlicensed": reason,
+    }
+    lines.append(extrapolated)
     if allowed:
         lines[-1] |= _prediction(metric, *power_law.extrapolate(curve, THESIS_SAMPLES, seed))
     return lines
@@ -232,25 +241,25 @@ def _prediction(metric: str, *errors: float) -> dict[str, float]:
 
 
 def _describe_steps(table: pd.DataFrame) -> list[str]:
-    """One sentence on how far is predicted, and how far that was tried; none of two budgets."""
+    """Describe the steps of the hold-out and of the extrapolation; nothing without both."""
     steps = [table.loc[table["kind"] == kind, "step"].dropna() for kind in (MEASURED, EXTRAPOLATED)]
-    if any(some.empty for some in steps):
+    if any(column.empty for column in steps):
         return []
-    tried, asked = steps[0].min(), steps[1].max()
+    held_out, extrapolated = steps[0].min(), steps[1].max()
     return [
-        f"The hold-out tries a step of {short(tried)} times the samples, and that to the thesis's is "
-        f"{asked:,.0f} times: no hold-out sees what bends in between."
+        f"The hold-out predicts {short(held_out)} times the samples, the extrapolation to the thesis's "
+        f"{extrapolated:,.0f} times: no hold-out tests whether the curve bends in between."
     ]
 
 
 def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
-    """The Markdown's cells by heading: a row for each method and metric."""
+    """Format the cells by heading: a row for each method and metric."""
     budgets = sorted(table.loc[table["kind"] == MEASURED, "samples"].unique())
     lines = []
     for (scene, method, metric), part in table.groupby(["scene", "method", "metric"], sort=False):
         heading, decimals = READING[metric]
         form = f"{{:.{decimals}f}}"
-        measured, beyond = by_kind(part)
+        measured, extrapolated = by_kind(part)
         last = measured.iloc[-1]
         exponents = measured["exponent"].dropna()
         ends = exponents.iloc[[0, -1]] if len(exponents) else exponents
@@ -262,11 +271,14 @@ def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
             {"scene": scene, "method": method, "metric": heading}
             | {f"{short(n / 1e6)} M samples": a + b for n, a, b in zip(budgets, means, spreads)}
             | {
-                "exponent": " → ".join(f"{one:.2f}" for one in ends),
+                "exponent": " → ".join(f"{exponent:.2f}" for exponent in ends),
                 "largest, as predicted": _interval(last, form),
                 "missed by": error,
-                "at the thesis's samples": beyond["unlicensed"] or _interval(beyond, form),
-                "thesis": "" if np.isnan(beyond["thesis"]) else form.format(beyond["thesis"]),
+                "at the thesis's samples": extrapolated["unlicensed"]
+                or _interval(extrapolated, form),
+                "thesis": ""
+                if np.isnan(extrapolated["thesis"])
+                else form.format(extrapolated["thesis"]),
                 "no shadow": form.format(part["no_shadow"].iloc[0]),
             }
         )
@@ -274,7 +286,7 @@ def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
 
 
 def by_kind(part: pd.DataFrame) -> tuple[pd.DataFrame, pd.Series]:
-    """The rows of a method and metric that are measured, and the one at the thesis's samples."""
+    """Split a method's rows of a metric into measured and extrapolated."""
     measured = part["kind"] == MEASURED
     return part[measured], part[~measured].iloc[0]
 

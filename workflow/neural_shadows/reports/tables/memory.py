@@ -50,7 +50,7 @@ def table(
     rows: Sequence[Row],
     run: Run,
 ) -> Table:
-    """The bytes of each method beside the thesis's numbers, which stand beside any mesh."""
+    """Tabulate the bytes of each method beside the thesis's numbers."""
     sizes = read_sizes(rows, weights)
     table = pd.DataFrame({"method": row["label"], "bytes": sizes[row["method"]]} for row in rows)
     table.insert(1, "memory_mib", table["bytes"] / 2**20)
@@ -61,11 +61,11 @@ def table(
         "method": table["method"],
         "memory MiB": numbers(table["memory_mib"], "{:.4g}"),
         "thesis MiB": numbers(table["thesis_memory_mib"], "{:.4g}", printed_of="memory MiB"),
-        "bytes": numbers(table["bytes"], "{:,}"),
+        "bytes": numbers(table["bytes"], "{:,.0f}"),
     }
     notes = [
-        "A network: what its weight file stores, 4 bytes for each weight of the thesis's. A shadow "
-        "map of N² texels: 4 N² bytes, of 16 bit 2 N².",
+        "A network: bytes of its weight file, 4 for each weight of the thesis's network. A shadow "
+        "map of N² texels: 4 N² bytes, 2 N² with 16 bits.",
         phrases.describe_run(run),
     ]
     return Table(phrases.titled(title, published), table, columns, notes)

@@ -1,4 +1,4 @@
-"""Networks and their rivals beside shadow maps: quality, bytes, building and speed [5.4.1]."""
+"""Quality, bytes, building and speed of networks and baselines [5.4.1]."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -36,14 +36,14 @@ from neural_shadows.sections.rows import TableByScene
 from neural_shadows.settings.base import name_in
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
-# What a method is, beside its quality; empty where it does not apply.
+# Facts of a method beside its quality; empty where they do not apply.
 FACTS = ("encoding", "parameters", "stored_bytes", "coded", "resident_bytes", "build_seconds")
 FACTS += ("training_seconds", "samples", "depth_bias", "push", "bias_at_end", "unfit")
 SPEEDS = ("rays_per_second", *timing.OWN_MS, *timing.FRAME_MS, "device")
 
 
 class Settings(TableByScene):
-    """All that networks and their rivals cost, by scene [5.4.1]."""
+    """Quality and costs of networks and baselines, by scene [5.4.1]."""
 
     null_rows = tuple(NULL)
     timed = True
@@ -103,7 +103,7 @@ def table(
     run: Run,
     scenes: Mapping[str, SceneInfo],
 ) -> Table:
-    """The table in the order of `rows`, scenes kept together.
+    """Tabulate methods in the order of `rows`, scenes kept together.
 
     Below the methods of a scene that the thesis prints, on a mesh as it describes it, stand its
     own values; the null predictors come last.
@@ -111,11 +111,11 @@ def table(
     CSV: `scene`, `method`, the columns of `scene_quality`, `FACTS`, `SPEEDS`, and the context.
 
     Args:
-        against: by scene, the method that the others' paired differences are to.
+        against: by scene, the reference method of paired differences.
         durations: of each experiment, the benchmarks of the jobs between its mesh's file and its
-            training. They need not be there.
+            training; files may be missing.
     """
-    timed = {one["scene"]: one for one in map(read_json, times)}
+    timed = {record["scene"]: record for record in map(read_json, times)}
     records = {record["name"]: record for record in map(read_json, trainings)}
     biases = read_biases(rows, depth_biases)
     reports, lpips = read_meshes(meshes), read_json(lpips_json)
@@ -141,17 +141,16 @@ def table(
     others = [f"{labels[pair]} ({pair[0]})" for pair in against.items()]
     leaks = {s: quality.null_leaks(read_metrics(files)) for s, files in by_folder(metrics).items()}
     notes = [
-        "Over a scene's views [95 % bootstrap interval]; stored: what the weight file holds, 4 N² "
-        "bytes for a shadow map, of 16 bit 2 N²; coded: by entropy, a mesh by Draco, a field's "
-        "differences by LZMA, where all others are packed bits; resident: what is in memory while it "
-        "answers; "
-        "build: from the mesh's file to a network that can answer, the jobs of its mesh, rays and "
-        "labels one after another and its training; own: median of the method's answer alone; "
+        "Over a scene's views [95 % bootstrap interval]. stored: bytes of the weight file, 4 N² "
+        "for a shadow map, 2 N² with 16 bits. coded: entropy-coded, a mesh by Draco, a field's "
+        "differences by LZMA; all others are packed bits. resident: memory during evaluation. "
+        "build: from the mesh file to the finished network, as the sum of the jobs for its mesh, rays, "
+        "labels and training. own: median of the method's evaluation alone. "
         "frame: of whole frames, primary visibility and shading included.",
         *quality_cells.describe_quality(table, ", ".join(others)),
         *phrases.describe_devices(timing.devices(timed)),
-        "bias: of the depth test, in sphere radii: each one's best on held-out views, unless it is "
-        "0; of shadow maps on top of their slope-scaled one, where it was looked for."
+        "bias: of the depth test, in sphere radii: each method's best on held-out views, unless it is "
+        "0; of shadow maps in addition to the slope-scaled bias, where it was searched."
         + (f" †: {phrases.AT_END}." if table["bias_at_end"].eq(True).any() else ""),
         *phrases.describe_printed(same),
         *phrases.describe_budgets([*records.values()]),
@@ -174,7 +173,7 @@ def facts_of(
     durations: Mapping[str, Sequence[str]],
     context: Mapping[str, Row],
 ) -> dict[str, Any]:
-    """What is known of a row's method beside its quality, its bytes and its times."""
+    """Facts of a row's method beside quality, bytes and times."""
     scene, method = row["scene"], row["method"]
     facts: dict[str, Any] = {} if method == RAY_TRACED else dict(context[scene])
     if bias := biases.get((scene, method)):
@@ -200,7 +199,7 @@ def facts_of(
 def with_printed(
     table: pd.DataFrame, null: Sequence[bool], scenes: Sequence[str], published: pd.Series
 ) -> pd.DataFrame:
-    """The table with the thesis's printed networks below those of each of `scenes`; `null` last."""
+    """Add the thesis's printed networks to `scenes`, and put `null` last."""
     parts = []
     for scene, part in table.assign(null=null).groupby("scene", sort=False):
         printed = printed_networks(published, scene) if scene in scenes else pd.DataFrame()
@@ -210,8 +209,8 @@ def with_printed(
 
 
 def cells(table: pd.DataFrame) -> dict[str, Column | Iterable[str]]:
-    """The Markdown's columns; a scene is named in its first row."""
-    measured = table["lpips_low"].notna().any()  # what is printed has no interval
+    """Format the columns; the first row of a scene names it."""
+    measured = table["lpips_low"].notna().any()  # printed values have no interval
     perceived = "lpips" if measured else "flip"
     # Of the thesis's networks the mean is printed, and no views to pool.
     means = number_cells(table["psnr"], "{:.2f} (mean)")

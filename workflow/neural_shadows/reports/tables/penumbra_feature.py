@@ -1,6 +1,4 @@
-"""Where networks of kernels are told of a penumbra: in it, in the umbra, and where all is lit (Hu et al.
-2025, 4.1).
-"""
+"""Pixels with a penumbra feature, by visibility (Hu et al. 2025, 4.1)."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -14,7 +12,6 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.visibility_error import LIT, UMBRA
 from neural_shadows.reports.data import phrases
 from neural_shadows.reports.data.lights import UNITS, light_name
-from neural_shadows.reports.data.published_kpnsm import PAPER
 from neural_shadows.reports.data.table import Table, numbers, write_table
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
@@ -24,7 +21,7 @@ if TYPE_CHECKING:
     from neural_shadows.frames.frame_set import FrameSetPart
 
 FEATURE = "penumbra"
-TOLD = 0.5  # pixels: what is narrower is no more than the edge of a hard shadow
+TOLD = 0.5  # pixels: narrower penumbrae are edges of hard shadows
 WHERE = ("lit", "penumbra", "umbra")
 
 
@@ -48,7 +45,7 @@ def table(
     title: str,
     run: Run,
 ) -> Table:
-    """A row for each light but points, and one for all of them.
+    """Tabulate shares of pixels by area light, and over all lights.
 
     CSV: those of `feature_table`, `radius`, its unit, and the scale.
 
@@ -56,7 +53,7 @@ def table(
         parts: of test frames.
 
     Raises:
-        InputError: a part is missing, not whole, or has no channel that the feature is made of.
+        InputError: a part is missing, not whole, or lacks a channel of the feature.
     """
     from neural_shadows.frames.frame_set import FrameSetPart
 
@@ -64,7 +61,7 @@ def table(
     about = opened[0].about
     unit = UNITS[about.get("radius_unit", "metres")]
     radii = about.get("given_radii", about["radii"])
-    table = feature_table(sum(map(told_pixels, opened)))
+    table = feature_table(sum(map(feature_pixels, opened)))
     table["radius"] = [radii[row] if row != "all" else np.nan for row in table["light"]]
     table = table.assign(unit=unit, scale=run["scale"])
     columns = {
@@ -78,49 +75,50 @@ def table(
         f"Shares of pixels whose feature p, the width of the penumbra in the frame, exceeds {TOLD:g} "
         f"pixels, in {sum(map(len, opened))} test frames; lit, penumbra and umbra by the exact "
         f"shadow (above {LIT:.0%}, between, below {UMBRA:.0%}).",
-        f"{PAPER} (4.1): z_b is the distance to what hides the light's centre, and the point's own "
-        "where nothing does, so that p is 0 there: also in the outer half of each penumbra. Of what "
-        "is wholly lit it is told where a texel of the light's map says otherwise.",
+        f"{phrases.TEXTS['kpnsm']} (4.1): z_b is the distance of the occluder of the light's centre. Without one it is the "
+        "point's own and p is 0, also in the outer half of each penumbra. Fully lit pixels have p > 0 "
+        "at wrong texels of the light map.",
         phrases.describe_run(run),
     ]
     return Table(title, table, columns, notes)
 
 
-def told_pixels(part: "FrameSetPart") -> np.ndarray:
-    """How many pixels of a part's frames there are, and of how many p exceeds `TOLD`: (radii, 3, 2) by
-    light and `WHERE`.
+def feature_pixels(part: "FrameSetPart") -> np.ndarray:
+    """Count the pixels of a part's frames, and those with p above `TOLD`.
+
+    Returns: (radii, 3, 2) by light and `WHERE`.
     """
     from neural_shadows.frames.kernel_features import MADE_OF, PENUMBRA_PIXELS, kernel_feature
     from neural_shadows.frames.light_size import light_size
 
-    found = np.zeros((len(part.radii), len(WHERE), 2), np.int64)
+    counts = np.zeros((len(part.radii), len(WHERE), 2), np.int64)
     for number in range(len(part)):
         buffers = {name: part.image(number, name) for name in MADE_OF[FEATURE]}
         valid, lens = part.valid[number, 0], part.lens(number)
         for k, radius in enumerate(part.radii):
             light = light_size(radius, max(part.radii), part.about["size"])
-            told = PENUMBRA_PIXELS * kernel_feature(FEATURE, buffers, lens, light) > TOLD
+            wide = PENUMBRA_PIXELS * kernel_feature(FEATURE, buffers, lens, light) > TOLD
             exact = part.targets[number, k]
             lit, umbra = exact > LIT, exact < UMBRA
-            for place, pixels in zip(found[k], (lit, ~(lit | umbra), umbra)):
-                place += (pixels & valid).sum(), (pixels & valid & told).sum()
-    return np.where(np.array(part.radii)[:, None, None] > 0, found, 0)
+            for count, pixels in zip(counts[k], (lit, ~(lit | umbra), umbra)):
+                count += (pixels & valid).sum(), (pixels & valid & wide).sum()
+    return np.where(np.array(part.radii)[:, None, None] > 0, counts, 0)
 
 
 def feature_table(counts: np.ndarray) -> pd.DataFrame:
-    """A row for each light with pixels, and one for all.
+    """Tabulate shares by light with pixels, and over all lights.
 
-    Columns: `light`, its number or `all`; by `WHERE` the pixels there, and of what share of them p
+    Columns: `light`, its number or `all`; by `WHERE` the pixels there, and the share in which p
     exceeds `TOLD` (`lit_share` …), NaN of none.
 
     Args:
-        counts: see `told_pixels`.
+        counts: see `feature_pixels`.
     """
-    rows = {k: one for k, one in enumerate(counts) if one.any()} | {"all": counts.sum(axis=0)}
+    rows = {k: count for k, count in enumerate(counts) if count.any()} | {"all": counts.sum(axis=0)}
     records = []
-    for light, one in rows.items():
-        pixels, told = one.T
-        shares = told / np.where(pixels, pixels, np.nan)
+    for light, count in rows.items():
+        pixels, wide = count.T
+        shares = wide / np.where(pixels, pixels, np.nan)
         named = {f"{where}_share": share for where, share in zip(WHERE, shares)}
         records.append({"light": light, **dict(zip(WHERE, pixels)), **named})
     return pd.DataFrame(records)

@@ -1,4 +1,4 @@
-"""Widths of penumbrae, and what Neural Shadow Mapping's model makes of them (Datta et al. 2022, 3.6)."""
+"""Measured widths of penumbrae beside a model's (Datta et al. 2022, 3.6)."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -17,7 +17,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.records import Run
 
-WIDE = 95  # percentile of the widths by which the paper chooses the network's levels
+WIDE = 95  # percentile of widths: the paper chooses the network's levels by it
 
 
 class Settings(FramesTable):
@@ -49,7 +49,7 @@ def table(
     title: str,
     run: Run,
 ) -> Table:
-    """A row for each scene and light: widths as measured and as modelled.
+    """Tabulate measured and modelled widths by scene and light.
 
     CSV: those of `widths_table`, and the scale.
 
@@ -62,13 +62,13 @@ def table(
     from neural_shadows.evaluation.measured_frames import measured_frames
     from neural_shadows.evaluation.measured_penumbrae import NARROWEST, widths
 
-    found = {}
-    for one in measured_frames(parts, meshes):
-        for light, radius in enumerate(one.part.radii):
+    pairs = {}
+    for frame in measured_frames(parts, meshes):
+        for light, radius in enumerate(frame.part.radii):
             if radius > 0:
-                key = one.scene_name, light, radius
-                found.setdefault(key, []).append(widths(one, light))
-    table = widths_table(found)
+                key = frame.scene_name, light, radius
+                pairs.setdefault(key, []).append(widths(frame, light))
+    table = widths_table(pairs)
     table = table.assign(scale=run["scale"])
     columns = {
         "scene": table["scene"],
@@ -82,14 +82,14 @@ def table(
         "measured within, %": numbers(table["within"], "{:.1f}", 100),
     }
     notes = [
-        "Measured: the way from 10 to 90 % of the light, times 1.25, through pixels in the middle of a "
-        f"penumbra that has both ends on one surface and by the model {NARROWEST:g} pixels and more; "
-        "medians. Others, "
-        "among them the widest of a light that nothing hides wholly, have no such width. By the model: "
-        "seen head-on at the same pixels. Whole steps to both ends may add 2.5 pixels to what is measured.",
-        f"Their ratio: of the widths that {WIDE} % of a frame's pixels do not exceed, geometric mean "
+        "Measured: the distance from 10 to 90 % visibility, times 1.25, through pixels in the middle of a "
+        f"penumbra with both ends on one surface and, by the model, {NARROWEST:g} pixels or more; "
+        "medians. Other penumbrae have no such width, among them the widest of a light never fully "
+        "hidden. By the model: seen head-on at the same pixels. Whole steps to both ends may add 2.5 "
+        "pixels to the measured width.",
+        f"Their ratio: of the {WIDE} % quantiles of a frame's widths, geometric mean "
         "[95 % over a scene's frames, Student's t].",
-        f"Within: what is not wider than the width that {WIDE} % of the model's do not exceed, by which "
+        f"Within: share of pixels not wider than the {WIDE} % quantile of the model, by which "
         "the paper chooses the network's levels.",
         phrases.describe_run(run),
     ]
@@ -97,7 +97,7 @@ def table(
 
 
 def widths_table(pairs: Mapping[tuple[str, int, float], Sequence[np.ndarray]]) -> pd.DataFrame:
-    """A row for each scene and light.
+    """Tabulate widths by scene and light.
 
     Columns: `scene`, `light`, the radius's number from 0, `radius`, `pixels`; of these `measured` and
     `modelled`, medians in pixels, `measured_wide` and `modelled_wide`, which `WIDE` percent do not
@@ -110,17 +110,17 @@ def widths_table(pairs: Mapping[tuple[str, int, float], Sequence[np.ndarray]]) -
     for (scene, light, radius), frames in pairs.items():
         both = np.hstack(frames)
         row = {"scene": scene, "light": light, "radius": radius, "pixels": both.shape[1]}
-        for name, one in zip(("measured", "modelled"), both):
-            ends = np.percentile(one, [50, WIDE]) if one.size else [np.nan] * 2
+        for name, pixels in zip(("measured", "modelled"), both):
+            ends = np.percentile(pixels, [50, WIDE]) if pixels.size else [np.nan] * 2
             row |= dict(zip((name, f"{name}_wide"), ends))
-        row |= _wide_ratio([one for one in frames if one.size])
+        row |= _wide_ratio([frame for frame in frames if frame.size])
         within = both[0] <= row["modelled_wide"]
         rows.append(row | {"within": within.mean() if within.size else np.nan})
     return pd.DataFrame(rows)
 
 
 def _wide_ratio(frames: Sequence[np.ndarray]) -> dict[str, float]:
-    """Measured over modelled, of the widths that `WIDE` percent of a frame's pixels do not exceed.
+    """Ratio of the `WIDE` percentiles of measured and modelled widths.
 
     The geometric mean over frames, with its interval by Student's t, NaN of fewer than two. (The ratio
     of all frames' percentiles has none that covers: simulated over eight frames 89 %.)
@@ -129,8 +129,8 @@ def _wide_ratio(frames: Sequence[np.ndarray]) -> dict[str, float]:
     if not frames:
         return dict.fromkeys(names, np.nan)
     ratios = [np.divide(*np.percentile(frame, WIDE, axis=1)) for frame in frames]
-    found = np.exp(t_interval(np.log(ratios))[:3])
-    return dict(zip(names, found if len(frames) > 1 else (found[0], np.nan, np.nan)))
+    interval = np.exp(t_interval(np.log(ratios))[:3])
+    return dict(zip(names, interval if len(frames) > 1 else (interval[0], np.nan, np.nan)))
 
 
 if "snakemake" in globals():

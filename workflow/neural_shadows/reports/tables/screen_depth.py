@@ -1,4 +1,4 @@
-"""Networks of several depths against the width of penumbrae (Datta et al. 2022, table 1)."""
+"""Networks of several depths by width of penumbrae (NSM, table 1)."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,7 +15,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data import phrases
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.frame_means import OFF_EDGES, mean_with_interval
-from neural_shadows.reports.data.published_nsm import read_published_nsm, titled
+from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
@@ -30,7 +30,7 @@ from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.base import Name, name_in
 from neural_shadows.settings.records import Run, TrainingRecord
 
-SUFFICES = 2.0  # times a row's least error: what is worse has too few levels (claim 3.6)
+SUFFICES = 2.0  # times a row's least error: a worse network has too few levels (claim 3.6)
 
 
 class Settings(FramesTable):
@@ -41,7 +41,7 @@ class Settings(FramesTable):
     )
     kind: Literal["screen_depth"] = Field(description="`screen_depth`")
     columns: dict[Name, name_in("screen_experiments")] = Field(
-        min_length=1, description="a name in `screen_experiments` for each name that the paper has"
+        min_length=1, description="a name in `screen_experiments` for each of the paper's names"
     )
 
     def methods_shown(self) -> list[str]:
@@ -79,46 +79,46 @@ def table(
     labels: Mapping[str, str],
     run: Run,
 ) -> Table:
-    """A row for each scene and network: squared error of the largest light's shadow.
+    """Tabulate squared errors by scene and network, for the largest light.
 
     CSV: those of `depth_table`, printed numbers and differences, and the scale.
 
     Args:
-        widths_json: what `measure_widths` wrote of its test frames, for a note.
+        widths_json: of `measure_widths`, for a note.
         soft_metrics: of each network on the frame set; trainings: training.json of each.
         frames_json: a part of its test frames.
-        published: the paper's number of the table; None for one that it only draws.
+        published: the paper's number of the table; None without printed numbers.
         columns: the experiment of each printed column; labels: by experiment.
     """
     about = read_json(frames_json)
     records = {path.parent.name: read_json(path) for path in trainings}
-    found = read_soft_metrics(soft_metrics)
-    table = depth_table(found, len(about["radii"]) - 1, columns, labels, records)
-    printed_numbers = read_published_nsm(published_nsm_csv)
+    errors = read_soft_metrics(soft_metrics)
+    table = depth_table(errors, len(about["radii"]) - 1, columns, labels, records)
+    printed_numbers = read_published(published_nsm_csv)
     table = with_printed(table, published, "mse", None, printed_numbers)
     whole = table.assign(scale=run["scale"])
     table = learned_rows(whole)
     parts = {
-        "penumbra": [one.replace("penumbra_", "") + " px" for one in table["row"].unique()],
+        "penumbra": [row.replace("penumbra_", "") + " px" for row in table["row"].unique()],
     }
     for column, label in zip(columns, (labels[name] for name in columns.values())):
-        here = table[table["column"] == column]
-        parts[label] = numbers(here["mse"], "{:.4f}")
-        parts[f"{label}, printed"] = numbers(here["printed_mse"], "{:.3f}")
+        part = table[table["column"] == column]
+        parts[label] = numbers(part["mse"], "{:.4f}")
+        parts[f"{label}, printed"] = numbers(part["printed_mse"], "{:.3f}")
     parts["of the widest"] = [
-        " / ".join(number_cells(here["mse_widest"], "{:.4f}"))
-        for _, here in table.groupby("row", sort=False)
+        " / ".join(number_cells(part["mse_widest"], "{:.4f}"))
+        for _, part in table.groupby("row", sort=False)
     ]
     parts["× best"] = [
-        " / ".join(number_cells(here["ratio"], "{:.1f}"))
-        for _, here in table.groupby("row", sort=False)
+        " / ".join(number_cells(part["ratio"], "{:.1f}"))
+        for _, part in table.groupby("row", sort=False)
     ]
     notes = [
         f"Squared error of visibility for a light of {about['radii'][-1]:g} m, mean over the test "
-        f"frames of {about['width']} × {about['height']}. × best: of each network, times the least "
-        f"of its row; a network whose receptive field (3 · 2^levels pixels) is narrower than the "
+        f"frames of {about['width']} × {about['height']}. × best: the error over the least of its "
+        "row; a network with a receptive field (3 · 2^levels pixels) narrower than the "
         f"penumbra should have {SUFFICES:g} or more. Of the widest: of the tenth of each frame's penumbra "
-        "pixels whose penumbra is widest by the paper's model (3.6).",
+        "pixels with the widest penumbrae by the paper's model (3.6).",
         ABOUT_NULLS,
         _describe_learning(records, labels),
         *describe_trainings(records, labels),
@@ -126,59 +126,59 @@ def table(
         phrases.describe_run(run),
     ]
     parts = filled(parts)
-    return Table(titled(title, published), whole, parts, notes)
+    return Table(phrases.titled(title, published), whole, parts, notes)
 
 
 def depth_table(
-    found: pd.DataFrame,
+    errors: pd.DataFrame,
     radius: int,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     records: Mapping[str, TrainingRecord],
 ) -> pd.DataFrame:
-    """A row for each scene and network, and for what learns nothing.
+    """Tabulate errors by scene and network or null predictor.
 
     Columns: `row` (`penumbra_21` of the scene `plate_21`), `column`, `experiment`, `label`, `null` (see
     `nulls_in`), `receptive_field` in pixels, `mse` and `mse_off_edges` with the ends of their intervals over
     a scene's frames, `mse_widest` of
-    the tenth of a frame's penumbra pixels whose penumbra is widest, `ratio` of `mse` to the least of
+    the tenth of a frame's penumbra pixels with the widest penumbrae, `ratio` of `mse` to the least of
     its row.
     """
-    rows, nulls = [], nulls_in(found)
-    for scene, frames in found[found["radius"] == radius].groupby("scene", sort=False):
+    rows, nulls = [], nulls_in(errors)
+    for scene, frames in errors[errors["radius"] == radius].groupby("scene", sort=False):
         for column, experiment in [*columns.items(), *zip(nulls, nulls)]:
             null = experiment if experiment in nulls else None
-            mine = frames[frames["method"] == experiment].set_index(["scene", "metric"])["value"]
+            own = frames[frames["method"] == experiment].set_index(["scene", "metric"])["value"]
             levels = 0 if null else len(records[experiment]["network"]["widths"])
             row = {"row": scene.replace("plate_", "penumbra_"), "column": column, "null": null}
             row |= {"experiment": experiment, "label": (nulls | dict(labels))[experiment]}
             row |= {"receptive_field": 3 * 2**levels if levels else np.nan}
             for metric in ("mse", OFF_EDGES):
-                row |= mean_with_interval(_of(mine, metric), metric)
-            rows.append(row | {"mse_widest": _of(mine, "mse_widest").mean()})
+                row |= mean_with_interval(_of_metric(own, metric), metric)
+            rows.append(row | {"mse_widest": _of_metric(own, "mse_widest").mean()})
     table = pd.DataFrame(rows)
     least = table[table["null"].isna()].groupby("row")["mse"].min()
     return table.assign(ratio=table["mse"] / table["row"].map(least))
 
 
-def _of(mine: pd.Series, metric: str) -> pd.Series:
-    return mine[mine.index.get_level_values("metric") == metric]
+def _of_metric(values: pd.Series, metric: str) -> pd.Series:
+    return values[values.index.get_level_values("metric") == metric]
 
 
 def _describe_learning(records: Mapping[str, TrainingRecord], labels: Mapping[str, str]) -> str:
-    """Errors over the steps: a deeper network may be behind only because it has learned too little."""
-    told = []
+    """Describe errors over steps: a deeper network may only lack training."""
+    texts = []
     for name, record in records.items():
         end = {"step": record["training"]["steps"], "mse": record["validation_mse"]}
-        found = [*record["validations"], end]
-        quarters = np.linspace(0, len(found) - 1, 4).round().astype(int)
-        shown = [found[number] for number in dict.fromkeys(quarters)]
-        errors = number_cells([np.mean(one["mse"], dtype=float) for one in shown], short, 1e4)
-        after = [f"{error} after {one['step']:,}" for error, one in zip(errors, shown)]
-        told.append(f"{labels.get(name, name)} {', '.join(after)}")
+        validations = [*record["validations"], end]
+        quarters = np.linspace(0, len(validations) - 1, 4).round().astype(int)
+        shown = [validations[number] for number in dict.fromkeys(quarters)]
+        errors = number_cells([np.mean(point["mse"], dtype=float) for point in shown], short, 1e4)
+        after = [f"{error} after {point['step']:,}" for error, point in zip(errors, shown)]
+        texts.append(f"{labels.get(name, name)} {', '.join(after)}")
     return (
-        "What falls until the end has not learned all that it can; squared error × 10⁻⁴ on validation "
-        f"frames, mean over all lights, by steps: {'; '.join(told)}."
+        "An error that falls until the end is of a network short of training. Squared error × 10⁻⁴ on "
+        f"validation frames, mean over all lights, by steps: {'; '.join(texts)}."
     )
 
 

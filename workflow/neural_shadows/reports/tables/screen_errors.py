@@ -1,5 +1,6 @@
-"""How far networks on frames carry: errors on what they learned from, and on what they never saw
-(Datta et al. 2022, 4, figure 11, supplement 6 to 8).
+"""Errors of screen-space networks on training and on unseen scenes.
+
+Datta et al. 2022, 4, figure 11, supplement 6 to 8.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -37,7 +38,7 @@ SHOWN |= {name: (text, 1) for name, text in WIDTHS.items()}
 
 
 class Settings(FramesTable):
-    """Networks' errors by scene and light, beside those on what they learned from."""
+    """Networks' errors by scene and light, beside those of training frames."""
 
     kind: Literal["screen_errors"] = Field(description="`screen_errors`")
     networks: list[name_in("screen_experiments")] = Field(
@@ -68,28 +69,28 @@ def table(
     labels: Mapping[str, str],
     run: Run,
 ) -> Table:
-    """A row for each network, kind of frames and light.
+    """Tabulate errors by network, kind of frames and light.
 
     CSV: those of `errors_table`, and the scale.
 
     Args:
-        widths_json: what `measure_widths` wrote of its test frames, for a note.
+        widths_json: of `measure_widths`, for a note.
         soft_metrics: of each network on the frame set; trainings: training.json of each.
         frames_json: a part of its test frames.
         labels: by experiment, in the table's order.
     """
     about = read_json(frames_json)
     records = {path.parent.name: read_json(path) for path in trainings}
-    found = read_soft_metrics(soft_metrics)
+    errors = read_soft_metrics(soft_metrics)
     radii = about.get("given_radii", about["radii"])
-    table = errors_table(found, records, labels, radii).assign(scale=run["scale"])
+    table = errors_table(errors, records, labels, radii).assign(scale=run["scale"])
     columns = _cells(learned_rows(table), radii)
     notes = [
         f"By the light's radius, in {about.get('radius_unit', 'metres').replace('_', ' ')}. Width: the "
-        "area of penumbrae (visibility 10 to 90 %, × 1.25) over the length of the edges of the hard "
-        "shadow, which is the same for all lights. "
-        "A scene's row is of its test frames; sequences are paths through the first scene, of cameras, "
-        "lights and an object.",
+        "area of penumbrae (visibility 10 to 90 %, × 1.25) over the length of the hard shadow's "
+        "edges, which is the same for all lights. "
+        "A scene's row is of its test frames; sequences move the camera, the light or an object in the "
+        "first scene.",
         *_describe_training("× training" in columns),
         ABOUT_NULLS,
         *describe_trainings(records, labels),
@@ -100,44 +101,44 @@ def table(
 
 
 def errors_table(
-    found: pd.DataFrame,
+    errors: pd.DataFrame,
     records: Mapping[str, TrainingRecord],
     labels: Mapping[str, str],
     radii: Sequence[float],
 ) -> pd.DataFrame:
-    """A row for each network, kind of frames and light, and for what learns nothing.
+    """Tabulate errors by network or null predictor, kind of frames and light.
 
-    Columns: `experiment`, `label`; `null`, the method that learns nothing, None of networks; `frames`: `training`, `validation`, a scene's name for its test
-    frames, `sequences`; `learned`, whether the network learned from the scene; `light`, the radius's
+    Columns: `experiment`, `label`; `null`, the null predictor, None of networks; `frames`: `training`,
+    `validation`, a scene's name for its test frames, `sequences`; `learned`: true on training scenes; `light`, the radius's
     number from 0, or `all`; `radius`; `mse` and `mse_off_edges` with the ends of their intervals over a
-    scene's frames, NaN where only the mean is known; `width` and `width_reference` of the answered and of the exact penumbrae of test
-    frames; `ratio` to that of training frames at the same light, NaN for lights that the
-    network did not learn.
+    scene's frames, NaN where only the mean is known; `width` and `width_reference` of the predicted and of the exact
+    penumbrae of test frames; `ratio` to the error of training frames at the same light, NaN for lights
+    without training.
     """
     rows = []
     for experiment, label in labels.items():
-        mine, record = found[found["method"] == experiment], records[experiment]
+        own, record = errors[errors["method"] == experiment], records[experiment]
         same = list(record["radii"]) == list(radii)
         rows += [
             {"experiment": experiment, "label": label, "null": None, **row}
-            for row in (*_learned(record, same), *_tested(mine, record))
+            for row in (*_training_errors(record, same), *_tested(own, record))
         ]
     record = next(iter(records.values()))
-    for null, label in nulls_in(found).items():
-        mine = found[found["method"] == null]
+    for null, label in nulls_in(errors).items():
+        own = errors[errors["method"] == null]
         rows += [
             {"experiment": null, "label": label, "null": null, **row}
-            for row in (*_unlearned(null, record, radii), *_tested(mine, record))
+            for row in (*_null_errors(null, record, radii), *_tested(own, record))
         ]
     table = pd.DataFrame(rows)
-    table["radius"] = [np.nan if one == ALL else radii[int(one)] for one in table["light"]]
+    table["radius"] = [np.nan if light == ALL else radii[int(light)] for light in table["light"]]
     base = table[table["frames"] == TRAINING].set_index(["experiment", "light"])["mse"]
     keys = pd.MultiIndex.from_frame(table[["experiment", "light"]])
     return table.assign(ratio=table["mse"].to_numpy() / base.reindex(keys).to_numpy())
 
 
-def _learned(record: TrainingRecord, same: bool) -> Iterator[dict[str, Any]]:
-    """What the training measured itself; nothing if that was of other lights."""
+def _training_errors(record: TrainingRecord, same: bool) -> Iterator[dict[str, Any]]:
+    """Errors from the training itself; nothing if its lights differ."""
     for frames, name in ((TRAINING, "train_mse"), (VALIDATION, "validation_mse")):
         values = np.array(record[name], float) if same else np.array([])  # of None NaN
         lights = [*map(str, range(len(values))), ALL]
@@ -146,69 +147,68 @@ def _learned(record: TrainingRecord, same: bool) -> Iterator[dict[str, Any]]:
             yield {"frames": frames, "learned": frames == TRAINING, "light": light, **ends}
 
 
-def _unlearned(
+def _null_errors(
     null: str, record: TrainingRecord, radii: Sequence[float]
 ) -> Iterator[dict[str, Any]]:
-    """What learns nothing, on validation frames; in place of training frames, which are like them."""
+    """Errors of a null predictor on validation frames, also as training frames."""
     name = {"hard": "hard_map"}.get(null, null)
     values = record.get("null_mse", {}).get(name)
     if values and list(record["radii"]) == list(radii):
-        own = {"train_mse": values, "validation_mse": values}
-        yield from _learned(own, True)
+        values_by_kind = {"train_mse": values, "validation_mse": values}
+        yield from _training_errors(values_by_kind, True)
 
 
-def _tested(mine: pd.DataFrame, record: TrainingRecord) -> Iterator[dict[str, Any]]:
-    """Of each scene's test frames, and of sequences."""
-    for scene, frames in mine.groupby("scene", sort=False):
+def _tested(own: pd.DataFrame, record: TrainingRecord) -> Iterator[dict[str, Any]]:
+    """Errors on each scene's test frames, and on sequences."""
+    for scene, frames in own.groupby("scene", sort=False):
         learned = scene in record["scenes"]
         errors = frames[frames["metric"].isin(("mse", OFF_EDGES))]
-        for light, some in [*errors.groupby("radius"), (ALL, errors)] if len(errors) else []:
+        for light, of_light in [*errors.groupby("radius"), (ALL, errors)] if len(errors) else []:
             row = {"frames": scene, "learned": learned, "light": str(light)}
             for metric in ("mse", OFF_EDGES):
-                row |= mean_with_interval(by_frame(some, metric), metric)
-            yield row | _widths(mine, scene, light)
-    paths = mine[mine["metric"] == "mse_sequence"]
+                row |= mean_with_interval(by_frame(of_light, metric), metric)
+            yield row | _widths(own, scene, light)
+    paths = own[own["metric"] == "mse_sequence"]
     if len(paths):
         row = {"frames": SEQUENCES, "learned": paths["scene"].iloc[0] in record["scenes"]}
         row |= {"light": str(paths["radius"].iloc[0])}
         yield row | mean_with_interval(paths.set_index("scene")["value"], "mse")
 
 
-def _widths(mine: pd.DataFrame, scene: str, light: Any) -> dict[str, float]:
-    here = mine[(mine["scene"] == scene) & (mine["radius"] == light)]
-    return {name: here[here["metric"] == name]["value"].mean() for name in WIDTHS}
+def _widths(own: pd.DataFrame, scene: str, light: Any) -> dict[str, float]:
+    shown = own[(own["scene"] == scene) & (own["radius"] == light)]
+    return {name: shown[shown["metric"] == name]["value"].mean() for name in WIDTHS}
 
 
 def _cells(table: pd.DataFrame, radii: Sequence[float]) -> dict[str, list[str]]:
-    """The Markdown's: a row for each network, kind of frames and number of `SHOWN`."""
+    """Format a row for each network, kind of frames and number of `SHOWN`."""
     keys = ["label", "frames", "learned"]
     rows = []
-    for (label, frames, learned), here in table.groupby(keys, sort=False):
-        times = number_cells([here["ratio"].mean()], "{:.2f}")
+    for (label, frames, learned), part in table.groupby(keys, sort=False):
+        times = number_cells([part["ratio"].mean()], "{:.2f}")
         for name, (text, factor) in SHOWN.items():
-            cells = dict(zip(here["light"], number_cells(here[name], "{:.1f}", factor)))
-            found = [cells.get(light, "") for light in (*map(str, range(len(radii))), ALL)]
-            if any(found):
+            cells = dict(zip(part["light"], number_cells(part[name], "{:.1f}", factor)))
+            texts = [cells.get(light, "") for light in (*map(str, range(len(radii))), ALL)]
+            if any(texts):
                 names = [label, _frames_name(frames, learned), text]
-                rows.append([*names, *found, *(times if name == "mse" else [""])])
+                rows.append([*names, *texts, *(times if name == "mse" else [""])])
     headings = ["network", "frames", "", *(f"{radius:g}" for radius in radii), "all lights"]
     columns = dict(zip([*headings, "× training"], map(list, zip(*rows))))
     return {heading: cells for heading, cells in columns.items() if any(cells)}
 
 
-def _describe_training(known: bool) -> list[str]:
-    if not known:
+def _describe_training(has_ratio: bool) -> list[str]:
+    if not has_ratio:
         return []
     return [
-        "Training: of some of the frames that a network learned from, as many as are held out for "
-        "validation. × training: the error over theirs, mean over the lights that a row has. Frames "
-        "are drawn by chance, and some are harder than others."
+        "Training: a sample of the training frames, as large as the validation set. × training: the "
+        "error over theirs, mean over the row's lights. Frames are drawn at random, and some are harder "
+        "than others."
     ]
 
 
 def _frames_name(frames: str, learned: bool) -> str:
-    known = learned or frames == VALIDATION
-    return frames if known else f"{frames} (never seen)"
+    return frames if learned or frames == VALIDATION else f"{frames} (unseen)"
 
 
 if "snakemake" in globals():

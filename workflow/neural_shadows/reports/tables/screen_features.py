@@ -1,4 +1,4 @@
-"""What networks on frames are told of a pixel, and what each is worth (Datta et al. 2022, S1)."""
+"""Errors of screen-space networks by their features (NSM, table S1)."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -19,7 +19,7 @@ from neural_shadows.reports.data.frame_means import (
     describe_units,
     mean_with_interval,
 )
-from neural_shadows.reports.data.published_nsm import read_published_nsm, titled
+from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
     describe_trainings,
@@ -34,7 +34,7 @@ from neural_shadows.sections.frame_tables import FramesTable
 from neural_shadows.settings.base import Name, name_in
 from neural_shadows.settings.records import Run
 
-LEAST_SHARE = 0.015  # of a feature that is kept (3.2)
+LEAST_SHARE = 0.015  # of sensitivity, of the paper's features (3.2)
 
 
 class Settings(FramesTable):
@@ -45,7 +45,7 @@ class Settings(FramesTable):
     )
     kind: Literal["screen_features"] = Field(description="`screen_features`")
     columns: dict[Name, name_in("screen_experiments")] = Field(
-        min_length=1, description="a name in `screen_experiments` for each name that the paper has"
+        min_length=1, description="a name in `screen_experiments` for each of the paper's names"
     )
 
     def methods_shown(self) -> list[str]:
@@ -83,32 +83,32 @@ def table(
     labels: Mapping[str, str],
     run: Run,
 ) -> Table:
-    """A row for each set of features: error, and the share of each feature's sensitivity.
+    """Tabulate error and sensitivities by set of features.
 
     CSV: those of `features_table`, printed errors and differences, and the scale.
 
     Args:
-        widths_json: what `measure_widths` wrote of its test frames, for a note.
+        widths_json: of `measure_widths`, for a note.
         soft_metrics: of each network on the frame set; trainings: training.json of each.
-        sensitivities: what `measure_sensitivity` wrote of each.
+        sensitivities: of `measure_sensitivity`, of each.
         published: the paper's number of the table.
         columns: the experiment of each printed row; labels: by experiment.
     """
     records = {path.parent.name: read_json(path) for path in trainings}
     shares = {path.stem: read_json(path)["features"] for path in sensitivities}
-    found = read_soft_metrics(soft_metrics)
-    table = features_table(found, columns, labels, shares)
+    errors = read_soft_metrics(soft_metrics)
+    table = features_table(errors, columns, labels, shares)
     # The paper gives two of these in its text (3.2) and the others in table S1.
-    printed_numbers = read_published_nsm(published_nsm_csv).rename(
+    printed_numbers = read_published(published_nsm_csv).rename(
         index={"nsm.features": "nsm.s1"}, level=0
     )
     whole = with_printed(table, published, "error", "error", printed_numbers).assign(
         scale=run["scale"]
     )
     table = learned_rows(whole)
-    frames = by_frame(found[found["method"].isin(columns.values())], "mse")
-    told = [
-        ", ".join(f"{name} {100 * one['share']:.1f}" for name, one in _sorted(shares[experiment]))
+    frames = by_frame(errors[errors["method"].isin(columns.values())], "mse")
+    sensitivity = [
+        ", ".join(f"{name} {100 * part['share']:.1f}" for name, part in _sorted(shares[experiment]))
         for experiment in table["experiment"]
     ]
     cells = {
@@ -118,14 +118,14 @@ def table(
         "off edges × 10⁻³": numbers(table["error_off_edges"], "{:.2f}", 1e3),
         "printed × 10⁻³": numbers(table["printed_error"], "{:.2f}", 1e3),
         "difference": numbers(table["error_minus_printed"], "{:+.2f}", 1e3),
-        "sensitivity, %": told,
+        "sensitivity, %": sensitivity,
     }
     notes = [
         "Mean over test frames and all lights, a point among them "
         f"[{describe_units([*frames.index.unique('scene')], len(frames))}]; the paper does not name its "
-        "error, which fits a squared one.",
-        f"Sensitivity: how far the answer moves with noise of a tenth of a feature's standard "
-        f"deviation, absolute, in shares of all. The paper drops what has less than "
+        "error; its numbers fit a squared one.",
+        "Sensitivity: mean absolute change of the output with noise of a tenth of a feature's standard "
+        "deviation, as a share of all features'. The paper drops features with less than "
         f"{100 * LEAST_SHARE:g} %.",
         ABOUT_NULLS,
         *describe_trainings(records, labels),
@@ -133,16 +133,16 @@ def table(
         phrases.describe_run(run),
     ]
     cells = filled(cells)
-    return Table(titled(title, published), whole, cells, notes)
+    return Table(phrases.titled(title, published), whole, cells, notes)
 
 
 def features_table(
-    found: pd.DataFrame,
+    errors: pd.DataFrame,
     columns: Mapping[str, str],
     labels: Mapping[str, str],
     shares: Mapping[str, Mapping[str, Any]],
 ) -> pd.DataFrame:
-    """A row for each network, and for what learns nothing.
+    """Tabulate errors and sensitivities by network, with null predictors.
 
     Columns: `row`, the paper's; `null` (see `nulls_in`); `experiment`, `label`, `channels`, `error`
     and `error_off_edges` with the ends of their intervals, `share_NAME` of each feature, and `as_printed_NAME`.
@@ -153,20 +153,20 @@ def features_table(
         rows.append(
             {"row": row, "null": None, "experiment": experiment, "label": labels[experiment]}
             | {"channels": sum(FEATURES[name] for name in parts)}
-            | _errors(found, experiment)
-            | {f"share_{name}": one["share"] for name, one in parts.items()}
-            | {f"as_printed_{name}": one["as_printed"] for name, one in parts.items()}
+            | _errors(errors, experiment)
+            | {f"share_{name}": part["share"] for name, part in parts.items()}
+            | {f"as_printed_{name}": part["as_printed"] for name, part in parts.items()}
         )
-    for null, label in nulls_in(found).items():
+    for null, label in nulls_in(errors).items():
         named = {"row": null, "null": null, "experiment": null, "label": label}
-        rows.append(named | _errors(found, null))
+        rows.append(named | _errors(errors, null))
     return pd.DataFrame(rows)
 
 
-def _errors(found: pd.DataFrame, method: str) -> dict[str, float]:
-    mine = found[found["method"] == method]
-    errors = mean_with_interval(by_frame(mine, "mse"), "error")
-    return errors | mean_with_interval(by_frame(mine, OFF_EDGES), "error_off_edges")
+def _errors(errors: pd.DataFrame, method: str) -> dict[str, float]:
+    own = errors[errors["method"] == method]
+    means = mean_with_interval(by_frame(own, "mse"), "error")
+    return means | mean_with_interval(by_frame(own, OFF_EDGES), "error_off_edges")
 
 
 def _sorted(features: Mapping[str, Any]) -> list[tuple[str, Any]]:

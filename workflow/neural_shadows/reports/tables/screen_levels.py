@@ -1,4 +1,4 @@
-"""A network of whole frames by level: time, multiply-adds, weights, storage (NSM, table S2)."""
+"""Costs of a screen-space network by level (NSM, table S2)."""
 
 from functools import partial
 from pathlib import Path
@@ -12,12 +12,11 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data import phrases, screen_profiles
 from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.published_nsm import (
-    beside,
-    printed,
+from neural_shadows.reports.data.published import (
+    describe_printed_times,
+    printed_column,
     printed_size,
-    read_published_nsm,
-    titled,
+    read_published,
 )
 from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
@@ -36,7 +35,7 @@ OF_ANY_SIZE = ("parameters",)
 
 
 class Settings(NsmTable):
-    """What each level of a screen-space network counts and takes."""
+    """Time, multiply-adds, weights and storage of each level of a screen-space network."""
 
     kind: Literal["screen_levels"] = Field(description="`screen_levels`")
     network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
@@ -61,17 +60,17 @@ def table(
     published: str | None,
     run: Run,
 ) -> Table:
-    """Write `level_table`; `profile_json`: what `profile_screen_network` wrote.
+    """Tabulate `level_table`; `profile_json`: of `profile_screen_network`.
 
     Raises:
         InputError: a file is missing or damaged.
     """
-    profile, printed_numbers = read_json(profile_json), read_published_nsm(published_nsm_csv)
+    profile, printed_numbers = read_json(profile_json), read_published(published_nsm_csv)
     table = level_table(profile, printed_numbers, published).assign(scale=run["scale"])
     shown = {"level": [*map(str, table["level"])]}
-    for one in profile["runs"]:
-        key = screen_profiles.run_key(one)
-        shown[f"ms, {screen_profiles.run_name(one)}"] = numbers(
+    for run_record in profile["runs"]:
+        key = screen_profiles.run_key(run_record)
+        shown[f"ms, {screen_profiles.run_name(run_record)}"] = numbers(
             table[f"ms_{key}"], partial(short, digits=4)
         )
     shown["% of the product's rate"] = numbers(table["product_share"], "{:.0f}", 100)
@@ -83,23 +82,23 @@ def table(
     compared = screen_profiles.run_name(screen_profiles.compared(profile))
     notes = [
         f"Printed times and rates stand beside those of {compared}. A level's rate: the multiply-adds "
-        "of its convolutions over the time of all that it does.",
-        "Weights without biases, each multiply-add once; storage: the channels that each convolution "
-        "reads and writes, over all pixels.",
+        "of its convolutions over its whole time.",
+        "Weights without biases, each multiply-add once. Storage: channels read and written by each "
+        "convolution, over all pixels.",
         screen_profiles.describe(profile),
-        beside(profile, printed_numbers),
+        describe_printed_times(profile, printed_numbers),
         phrases.describe_run(run),
     ]
     shown = filled(shown)
-    return Table(titled(title, published), table, shown, notes)
+    return Table(phrases.titled(title, published), table, shown, notes)
 
 
 def level_table(
     profile: screen_profiles.Profile, printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
-    """A row for each level.
+    """Tabulate costs by level.
 
-    Columns `level`, `of_printed_size`, whether frames are of the paper's size, `ms_RUN` of each run, and of `COLUMNS` ours, `printed_`, `_minus_printed` (of
+    Columns `level`, `of_printed_size`, true for frames of the paper's size, `ms_RUN` of each run, and of `COLUMNS` ours, `printed_`, `_minus_printed` (of
     times, multiply-adds and storage in frames of the paper's size alone), `product_share`.
     """
     levels = pd.DataFrame(profile["levels"])
@@ -119,7 +118,7 @@ def level_table(
     table["of_printed_size"] = same
     rows = [f"level_{level}" for level in table["level"]]
     for name in COLUMNS:
-        table[f"printed_{name}"] = printed(printed_numbers, published, rows, name)
+        table[f"printed_{name}"] = printed_column(printed_numbers, published, rows, name)
         difference = table[name] - table[f"printed_{name}"]
         comparable = same or name in OF_ANY_SIZE
         table[f"{name}_minus_printed"] = difference if comparable else np.nan

@@ -1,4 +1,4 @@
-"""Networks of whole frames side by side: multiply-adds and weights (NSM, tables S4 and S5)."""
+"""Multiply-adds and weights of screen-space networks (NSM, tables S4, S5)."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,7 +11,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.widths import total
 from neural_shadows.reports.data import phrases
-from neural_shadows.reports.data.published_nsm import printed, read_published_nsm, titled
+from neural_shadows.reports.data.published import printed_column, read_published
 from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.frame_tables import NsmTable
@@ -20,7 +20,7 @@ from neural_shadows.settings.records import Run
 
 
 class NetworkRow(Model):
-    """A row that is more than a name."""
+    """A row with its own settings."""
 
     network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
     published: Name | None = Field(
@@ -67,8 +67,8 @@ def table(
     networks: Sequence[Mapping[str, Any]],
     run: Run,
 ) -> Table:
-    """Write `network_table`."""
-    printed_numbers = read_published_nsm(published_nsm_csv)
+    """Tabulate `network_table`."""
+    printed_numbers = read_published(published_nsm_csv)
     table = network_table(networks, printed_numbers, published).assign(scale=run["scale"])
     shown = {
         "network": table["network"],
@@ -83,12 +83,11 @@ def table(
         "MiB at 16 bits": numbers(table["mib"], "{:.2f}"),
     }
     notes = [
-        "Counted of each network's convolutions, without biases. Widths: channels of each level, from "
-        "the finest; where its two convolutions differ, of both. Levels: with the frame's own size "
-        "and the deepest.",
+        "Of each network's convolutions, without biases. Widths: channels of each level from the "
+        "finest, of both convolutions if they differ. Levels: from the frame's own size to the deepest.",
         phrases.describe_run(run),
     ]
-    heading = titled(title, published)
+    heading = phrases.titled(title, published)
     shown = filled(shown)
     return Table(heading, table, shown, notes, text_columns=2)
 
@@ -96,18 +95,20 @@ def table(
 def network_table(
     networks: Sequence[Mapping[str, Any]], printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
-    """A row for each network, of `name`, its row in the paper (`published`) and its `settings`.
+    """Tabulate multiply-adds and weights by network.
+
+    `networks`: `name`, the row in the paper (`published`) and `settings` of each.
 
     Columns `network`, `widths`, `levels`, `mac_per_pixel`, `parameters` (thousands), both `printed_`
     and `_minus_printed`, `mib` of weights at 16 bits.
     """
     records = []
-    for one in networks:
-        settings = one["settings"]
+    for network in networks:
+        settings = network["settings"]
         widths, layers = settings["widths"], layers_of(settings)
         records.append(
             {
-                "network": one["name"],
+                "network": network["name"],
                 "widths": " ".join(str(width).replace(", ", "-").strip("[]") for width in widths),
                 "levels": max(layer.level for layer in layers) + 1,
                 "mac_per_pixel": total(layers, "macs"),
@@ -115,9 +116,9 @@ def network_table(
                 "mib": 2 * total(layers, "weights") / 2**20,
             }
         )
-    table, rows = pd.DataFrame(records), [one["published"] for one in networks]
+    table, rows = pd.DataFrame(records), [network["published"] for network in networks]
     for name in ("mac_per_pixel", "parameters"):
-        table[f"printed_{name}"] = printed(printed_numbers, published, rows, name)
+        table[f"printed_{name}"] = printed_column(printed_numbers, published, rows, name)
         table[f"{name}_minus_printed"] = table[name] - table[f"printed_{name}"]
     return table
 

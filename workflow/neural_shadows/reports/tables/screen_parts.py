@@ -1,4 +1,4 @@
-"""The time of a network of whole frames by level and part (NSM, table S3)."""
+"""Time of a screen-space network by level and part (NSM, table S3)."""
 
 from functools import partial
 from pathlib import Path
@@ -12,12 +12,11 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data import phrases, screen_profiles
 from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.published_nsm import (
-    beside,
-    printed,
+from neural_shadows.reports.data.published import (
+    describe_printed_times,
+    printed_column,
     printed_size,
-    read_published_nsm,
-    titled,
+    read_published,
 )
 from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
@@ -25,7 +24,7 @@ from neural_shadows.sections.frame_tables import NsmTable
 from neural_shadows.settings.base import name_in
 from neural_shadows.settings.records import Run
 
-# What the paper calls the parts of `ShadowUnet.parts`.
+# The paper's names of `ShadowUnet.parts`.
 PRINTED = {
     "encoder": "encoder_convolution",
     "downsample": "downsample",
@@ -62,20 +61,20 @@ def table(
     published: str | None,
     run: Run,
 ) -> Table:
-    """Write `part_table`; `profile_json`: what `profile_screen_network` wrote.
+    """Tabulate `part_table`; `profile_json`: of `profile_screen_network`.
 
     Raises:
         InputError: a file is missing or damaged.
     """
-    profile, printed_numbers = read_json(profile_json), read_published_nsm(published_nsm_csv)
+    profile, printed_numbers = read_json(profile_json), read_published(published_nsm_csv)
     table = part_table(profile, printed_numbers, published).assign(scale=run["scale"])
     shown = {
         "level": [*map(str, table["level"])],
         "part": [NAMES.get(part, part) for part in table["part"]],
     }
-    for one in profile["runs"]:
-        key = screen_profiles.run_key(one)
-        shown[f"ms, {screen_profiles.run_name(one)}"] = numbers(
+    for run_record in profile["runs"]:
+        key = screen_profiles.run_key(run_record)
+        shown[f"ms, {screen_profiles.run_name(run_record)}"] = numbers(
             table[f"ms_{key}"], partial(short, digits=4)
         )
     shown["%"] = numbers(table["share"], "{:.1f}", 100)
@@ -84,23 +83,23 @@ def table(
     shown["difference, ms"] = numbers(table["ms_minus_printed"], "{:+.3g}")
     compared = screen_profiles.run_name(screen_profiles.compared(profile))
     notes = [
-        f"%: of all parts, {compared}, which printed times stand beside. Convolutions with their "
-        "padding and activations. The paper's text has no skip at level 0, which its table times.",
+        f"%: of all parts, {compared}; printed times stand beside these. Convolutions include their "
+        "padding and activations. The paper's text has no skip at level 0, but its table times one.",
         screen_profiles.describe(profile),
-        beside(profile, printed_numbers),
+        describe_printed_times(profile, printed_numbers),
         phrases.describe_run(run),
     ]
     shown = filled(shown)
-    heading = titled(title, published)
+    heading = phrases.titled(title, published)
     return Table(heading, table, shown, notes, text_columns=2)
 
 
 def part_table(
     profile: screen_profiles.Profile, printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
-    """A row for each level and part that is ours or printed.
+    """Tabulate times by level and part, measured or printed.
 
-    Columns `level`, `part`, `ms_RUN` of each run, `run`, what the one that is compared is called, its
+    Columns `level`, `part`, `ms_RUN` of each run, `run`, the name of the compared one, its
     `ms` and their `share` of all parts, `printed_ms`, `printed_share`, `ms_minus_printed` (in frames of the paper's size).
     """
     times = screen_profiles.part_times(profile)
@@ -109,20 +108,22 @@ def part_table(
         for level in profile["levels"]
         for part in PRINTED
     }
-    places = [
+    printed_parts = [
         (level, part)
         for (row, part), level in names.items()
         if (level, part) in times.index or (published, row, PRINTED[part]) in printed_numbers.index
     ]
-    ends = [place for place in times.index if place not in places]
-    times = times.reindex(pd.MultiIndex.from_tuples([*ends, *places], names=["level", "part"]))
+    ends = [key for key in times.index if key not in printed_parts]
+    times = times.reindex(
+        pd.MultiIndex.from_tuples([*ends, *printed_parts], names=["level", "part"])
+    )
     table = times.add_prefix("ms_").reset_index()
     run = screen_profiles.compared(profile)
     table["run"] = screen_profiles.run_name(run)
     table["ms"] = table[f"ms_{screen_profiles.run_key(run)}"]
     table["share"] = table["ms"] / table["ms"].sum()
     table["printed_ms"] = [
-        printed(printed_numbers, published, [f"level_{level}"], PRINTED.get(part, ""))[0]
+        printed_column(printed_numbers, published, [f"level_{level}"], PRINTED.get(part, ""))[0]
         for level, part in zip(table["level"], table["part"])
     ]
     table["printed_share"] = table["printed_ms"] / table["printed_ms"].sum()

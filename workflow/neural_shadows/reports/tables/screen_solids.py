@@ -1,4 +1,4 @@
-"""Errors of networks on frames by how many solids lie before the light (Datta et al. 2022, 5, fig. 12)."""
+"""Errors of screen-space networks by number of occluders (NSM, figure 12)."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -29,7 +29,7 @@ from neural_shadows.settings.records import Run
 
 
 class Settings(FramesTable):
-    """Networks' errors by how many solids lie before the light."""
+    """Networks' errors by number of solids before the light."""
 
     kind: Literal["screen_solids"] = Field(description="`screen_solids`")
     networks: list[name_in("screen_experiments")] = Field(
@@ -60,21 +60,21 @@ def table(
     labels: Mapping[str, str],
     run: Run,
 ) -> Table:
-    """A row for each network and number of solids.
+    """Tabulate errors by network and number of solids.
 
     CSV: those of `solids_table`, and the scale.
 
     Args:
-        widths_json: what `measure_widths` wrote of its test frames, for a note.
+        widths_json: of `measure_widths`, for a note.
         soft_metrics: of each network on a frame set; trainings: training.json of each.
         frames_json: a part of its test frames.
         labels: by experiment, in the table's order.
     """
     records = {path.parent.name: read_json(path) for path in trainings}
-    found = read_soft_metrics(soft_metrics)
+    errors = read_soft_metrics(soft_metrics)
     soft = [number for number, radius in enumerate(read_json(frames_json)["radii"]) if radius > 0]
-    found = found[found["radius"].isin(soft)]
-    whole = solids_table(found, labels).assign(scale=run["scale"])
+    errors = errors[errors["radius"].isin(soft)]
+    whole = solids_table(errors, labels).assign(scale=run["scale"])
     table = learned_rows(whole)
     more = [" and more" * (number == MOST) for number in table["solids"]]
     columns = {
@@ -86,11 +86,11 @@ def table(
     }
     notes = [
         "Of pixels of test frames with so many solids between them and the light's centre, mean over "
-        "all lights but a point, of which one solid hides as much as several "
-        f"[{describe_units(*_frames(found))}]. A solid: two surfaces that the way to the light "
-        "crosses, or one of a sheet.",
-        "What each solid adds: the slope of a straight line through the squared errors of a frame's "
-        "pixels over their numbers of solids, mean over frames; the line: that through their means.",
+        "all lights but a point light, which one solid hides as much as several "
+        f"[{describe_units(*_frames(errors))}]. A solid: two surfaces on the ray to the light, "
+        "or one of a sheet.",
+        "Each solid adds: the slope of a line fitted to the squared errors of a frame's pixels over "
+        "their numbers of solids, mean over frames. The line: with this slope through their means.",
         ABOUT_NULLS,
         *describe_trainings(records, labels),
         *describe_widths(widths_json),
@@ -99,42 +99,42 @@ def table(
     return Table(title, whole, columns, notes, text_columns=2)
 
 
-def _frames(found: pd.DataFrame) -> tuple[list[str], int]:
-    """The scenes of test frames, and how many frames there are."""
-    frames = found[["scene", "part", "frame"]].drop_duplicates()
+def _frames(errors: pd.DataFrame) -> tuple[list[str], int]:
+    """The scenes of test frames, and the number of frames."""
+    frames = errors[["scene", "part", "frame"]].drop_duplicates()
     return [*frames["scene"].unique()], len(frames)
 
 
-def solids_table(found: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
-    """A row for each network and number of solids before the light, and for what learns nothing.
+def solids_table(errors: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
+    """Tabulate errors by network or null predictor and number of solids.
 
     Columns: `experiment`, `label`, `null` (see `nulls_in`), `solids`, `mse` and `slope` (what each solid adds, the same in all
     rows of a network) with the ends of their intervals over frames, `line`, the error at this number on
     a line of this slope.
     """
-    # Frames are what is drawn: all lights of one together.
+    # The sample is of frames: all lights of one together.
     keys = ["method", "metric", "scene", "part", "frame"]
-    frames = found.groupby(keys)["value"].mean().dropna()
+    frames = errors.groupby(keys)["value"].mean().dropna()
     rows = []
-    for experiment, label in (dict(labels) | nulls_in(found)).items():
-        mine = frames[experiment]
-        slope = _of_frames(mine, "mse_per_solid", "slope")
-        behind, middle = (_values(mine, name).mean() for name in ("mse_behind", "solids_behind"))
+    for experiment, label in (dict(labels) | nulls_in(errors)).items():
+        own = frames[experiment]
+        slope = _of_frames(own, "mse_per_solid", "slope")
+        behind, middle = (_values(own, name).mean() for name in ("mse_behind", "solids_behind"))
         for number in range(1, MOST + 1):
             row = {"experiment": experiment, "label": label, "solids": number}
             row["null"] = None if experiment in labels else experiment
-            row |= _of_frames(mine, f"mse_solids_{number}", "mse")
+            row |= _of_frames(own, f"mse_solids_{number}", "mse")
             rows.append(row | {"line": behind + slope["slope"] * (number - middle)} | slope)
     return pd.DataFrame(rows)
 
 
-def _of_frames(mine: pd.Series, metric: str, name: str) -> dict[str, float]:
-    """The mean of a metric over frames with its interval; NaN where no frame has one."""
-    return mean_with_interval(_values(mine, metric), name)
+def _of_frames(own: pd.Series, metric: str, name: str) -> dict[str, float]:
+    """Mean of a metric over frames with its interval; NaN without frames."""
+    return mean_with_interval(_values(own, metric), name)
 
 
-def _values(mine: pd.Series, metric: str) -> pd.Series:
-    return mine[mine.index.get_level_values("metric") == metric]
+def _values(own: pd.Series, metric: str) -> pd.Series:
+    return own[own.index.get_level_values("metric") == metric]
 
 
 if "snakemake" in globals():

@@ -1,5 +1,6 @@
-"""From a large network of whole frames to a fast one, step by step (Datta et al. 2022, 3.5, figure 8;
-Hu et al. 2025, 4.2.1).
+"""Steps from a large screen-space network to a fast one.
+
+Datta et al. 2022, 3.5, figure 8; Hu et al. 2025, 4.2.1.
 """
 
 from collections.abc import Mapping
@@ -23,7 +24,7 @@ from neural_shadows.reports.data.frame_means import (
     describe_units,
     mean_with_interval,
 )
-from neural_shadows.reports.data.published_nsm import PAPER, printed_size, read_published_nsm
+from neural_shadows.reports.data.published import printed_size, read_published
 from neural_shadows.reports.data.screen_profiles import describe, product_share, run_name
 from neural_shadows.reports.data.screen_rows import (
     ABOUT_NULLS,
@@ -70,7 +71,7 @@ class Settings(FramesTable):
     """From a large screen-space network to a fast one (Datta et al. 2022, 3.5)."""
 
     published: Literal["nsm.steps"] | None = Field(
-        None, description="`nsm.steps`, the numbers that this paper prints of its steps"
+        None, description="`nsm.steps`, the paper's printed numbers"
     )
     kind: Literal["screen_steps"] = Field(description="`screen_steps`")
     steps: dict[Name, Step] = Field(min_length=1, description="by the paper's names, in order")
@@ -93,7 +94,7 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
 
 def params(layout: Layout, table: str) -> dict[str, Any]:
     settings = layout.entry("tables", table)
-    experiments = [one["experiment"] for one in settings["steps"].values() if one["experiment"]]
+    experiments = [step["experiment"] for step in settings["steps"].values() if step["experiment"]]
     return {
         **{key: settings[key] for key in ("published", "steps")},
         "labels": screen_tables.labels(layout, experiments),
@@ -114,14 +115,14 @@ def table(
     labels: Mapping[str, str],
     run: Run,
 ) -> Table:
-    """A row for each step: time, size and error, each beside the printed.
+    """Tabulate time, size and error by step, beside printed numbers.
 
     CSV: those of `steps_table`, printed numbers and differences, `of_printed_size`, whether frames are
     timed that have the paper's, and the scale.
 
     Args:
-        widths_json: what `measure_widths` wrote of its test frames, for a note.
-        profiles: what `profile_screen_network` wrote of the steps' networks.
+        widths_json: of `measure_widths`, for a note.
+        profiles: of `profile_screen_network`, of the steps' networks.
         soft_metrics: of the steps' experiments in their number formats; trainings: theirs.
         published: `nsm.steps`; None for steps that the paper does not print.
         steps: of each, by its name in the paper, `network`, `precision` and `experiment`, which may
@@ -130,11 +131,10 @@ def table(
     """
     profiled = {path.stem: read_json(path) for path in profiles}
     records = {path.parent.name: read_json(path) for path in trainings}
-    found = read_soft_metrics(soft_metrics) if soft_metrics else None
-    table = steps_table(steps, profiled, found)
-    printed_numbers = read_published_nsm(published_nsm_csv)
-    sizes = [(one["width"], one["height"]) for one in profiled.values()]
-    # The other paper's frames have this size, too.
+    errors = read_soft_metrics(soft_metrics) if soft_metrics else None
+    table = steps_table(steps, profiled, errors)
+    printed_numbers = read_published(published_nsm_csv)
+    sizes = [(profile["width"], profile["height"]) for profile in profiled.values()]
     table["of_printed_size"] = all(size == printed_size(printed_numbers) for size in sizes)
     for name in ("runtime", "size", "error"):
         table = with_printed(table, published, name, name, printed_numbers)
@@ -158,28 +158,28 @@ def table(
     }
     cells = filled(cells)
     printed = (
-        f"Printed: {PAPER}, on an RTX 2080 Ti; another machine's milliseconds. `original`: its width "
-        "is not printed and taken such that its size is as said, above 25 MB."
+        f"Printed: {phrases.TEXTS['nsm']}, on an RTX 2080 Ti: milliseconds are of another "
+        "machine. `original`: its width is not printed; ours gives the printed size, above 25 MB."
     )
     notes = [
         *([printed] if published else []),
-        *_describe_errors(found),
+        *_describe_errors(errors),
         *(describe(profile) for profile in list(profiled.values())[:1]),
         *_without_errors(table, steps),
         *describe_trainings(records, labels),
         *describe_widths(widths_json),
         phrases.describe_run(run),
     ]
-    heading = f"{title} ({PAPER}, 3.5)" if published else title
+    heading = f"{title} ({phrases.TEXTS['nsm']}, 3.5)" if published else title
     return Table(heading, whole, cells, notes, text_columns=2)
 
 
 def steps_table(
     steps: Mapping[str, Mapping[str, Any]],
     profiles: Mapping[str, Profile],
-    found: pd.DataFrame | None,
+    errors: pd.DataFrame | None,
 ) -> pd.DataFrame:
-    """A row for each step, and for the errors of what learns nothing.
+    """Tabulate time, size and error by step, and errors of null predictors.
 
     Columns: `row`, `null` (see `nulls_in`), `network`, `precision`, `runtime` (ms of a frame on all of the machine's threads, or
     its GPU, see `run` and `device`), `share` of a matrix product's rate, `size` (MiB of weights and biases not
@@ -189,7 +189,7 @@ def steps_table(
     rows = []
     for name, step in steps.items():
         profile = profiles[step["network"]]
-        timed = [one for one in profile["runs"] if one["precision"] == step["precision"]]
+        timed = [run for run in profile["runs"] if run["precision"] == step["precision"]]
         weights = sum(level["weights"] for level in profile["levels"])
         row = {"row": name, "network": step["network"], "precision": step["precision"]}
         row |= {"run": "", "device": "", "runtime": np.nan, "share": np.nan}
@@ -200,32 +200,32 @@ def steps_table(
         row |= {"size": weights * BYTES[step["precision"]] / 2**20}
         row |= dict.fromkeys(("error", "error_low", "error_high"), np.nan)
         if step["experiment"]:
-            row |= _errors(found, in_format(step["experiment"], step["precision"]))
+            row |= _errors(errors, in_format(step["experiment"], step["precision"]))
         rows.append(row | {"null": None})
-    for null in nulls_in(found) if found is not None else ():
-        rows.append({"row": null, "null": null} | _errors(found, null))
+    for null in nulls_in(errors) if errors is not None else ():
+        rows.append({"row": null, "null": null} | _errors(errors, null))
     return pd.DataFrame(rows).reindex(columns=COLUMNS)
 
 
-def _errors(found: pd.DataFrame, method: str) -> dict[str, float]:
-    mine = found[found["method"] == method]
-    errors = mean_with_interval(by_frame(mine, "mse"), "error")
-    return errors | mean_with_interval(by_frame(mine, OFF_EDGES), "error_off_edges")
+def _errors(errors: pd.DataFrame, method: str) -> dict[str, float]:
+    own = errors[errors["method"] == method]
+    means = mean_with_interval(by_frame(own, "mse"), "error")
+    return means | mean_with_interval(by_frame(own, OFF_EDGES), "error_off_edges")
 
 
-def _describe_errors(found: pd.DataFrame | None) -> list[str]:
-    if found is None:
+def _describe_errors(errors: pd.DataFrame | None) -> list[str]:
+    if errors is None:
         return []
-    frames = by_frame(found, "mse")
+    frames = by_frame(errors, "mse")
     units = describe_units([*frames.index.unique("scene")], len(frames))
     return [
-        f"Errors: mean over test frames and all lights, in the step's format [{units}].",
+        f"Errors: mean over test frames and all lights, in the step's number format [{units}].",
         ABOUT_NULLS,
     ]
 
 
 def _without_errors(table: pd.DataFrame, steps: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """A note on the steps that are trained and yet have no error; none if all have one."""
+    """Describe trained steps without an error; nothing without such steps."""
     trained = table["row"].map(lambda name: bool(steps.get(name, {}).get("experiment")))
     lacking = table[table["error"].isna() & trained]
     if lacking.empty:
@@ -238,7 +238,7 @@ def _without_errors(table: pd.DataFrame, steps: Mapping[str, Mapping[str, Any]])
 
 
 def _printed(table: pd.DataFrame, name: str, form: str) -> list[str]:
-    """What is printed: a number, or that it is above one."""
+    """Format printed numbers and lower bounds."""
     printed_numbers = number_cells(table[f"printed_{name}"], form)
     bounds = number_cells(table[f"printed_{name}_above"], f"> {form}")
     return [number or bound for number, bound in zip(printed_numbers, bounds)]

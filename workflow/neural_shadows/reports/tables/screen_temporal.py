@@ -1,4 +1,4 @@
-"""How much networks on frames flicker, and what calms them (Datta et al. 2022, figures 5 and 6)."""
+"""Flicker of screen-space networks, with and without TAA (NSM, figures 5, 6)."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -27,7 +27,7 @@ from neural_shadows.settings.records import Run
 
 
 class Settings(MethodsTable):
-    """How much methods flicker on a frame set's sequences, with and without TAA."""
+    """Flicker of methods on a frame set's sequences, with and without TAA."""
 
     kind: Literal["screen_temporal"] = Field(description="`screen_temporal`")
     methods: list[Name] = Field(
@@ -61,15 +61,15 @@ def table(
     labels: Mapping[str, str],
     run: Run,
 ) -> Table:
-    """Two rows for each method: as it is, and each frame averaged with the one before.
+    """Tabulate flicker by method, with and without averaging two frames.
 
     CSV: those of `temporal_table`, and the scale.
 
     Args:
-        widths_json: what `measure_widths` wrote of its test frames, for a note.
+        widths_json: of `measure_widths`, for a note.
         soft_metrics: of each method on the frame set; trainings: training.json of the networks.
         frames_json: a part of its test frames.
-        labels: what each method is called, in the table's order.
+        labels: by method, in the table's order.
     """
     about = read_json(frames_json)
     records = {path.parent.name: read_json(path) for path in trainings}
@@ -85,11 +85,11 @@ def table(
     }
     radius = about["radii"][len(about["radii"]) // 2]
     notes = [
-        "E: mean of exp(3 |change|) − 1 along a point's way over a sequence (3.4), with what moves "
-        "in it; exact: that of the exact shadow, which a moving light changes truly. Blur lowers E: "
+        "E: mean of exp(3 |change|) − 1 along a point's motion over a sequence (3.4), by what moves "
+        "in it. Exact: E of the exact shadow, which truly changes with a moving light. Blur lowers E, "
         "so the squared error stands beside it.",
-        f"Sequences have a light of {radius:g} m. TAA: each frame averaged with the one before, where "
-        "that shows the same point. Edges: within 3 pixels of those of a point light's shadow, in "
+        f"Sequences have a light of {radius:g} m. TAA: each frame averaged with the one before, at "
+        "points seen in both. Edges: within 3 pixels of a point light's shadow edges, in "
         "test frames, of all lights.",
         ABOUT_NULLS,
         *describe_trainings(records, labels),
@@ -99,36 +99,36 @@ def table(
     return Table(title, whole, columns, notes)
 
 
-def temporal_table(found: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
-    """A row for each method as it is and one with TAA, and for what learns nothing.
+def temporal_table(errors: pd.DataFrame, labels: Mapping[str, str]) -> pd.DataFrame:
+    """Tabulate flicker by method or null predictor, without and with TAA.
 
     Columns: `method`, `label`, `null` (see `nulls_in`), `taa`; by what moves in a sequence `e_camera`, …, and
-    `reference_camera`, …, of the exact shadow; `mse_sequence`, and `mse_edge` of test frames, which
-    a filter over time has none of.
+    `reference_camera`, …, of the exact shadow; `mse_sequence`, and `mse_edge` of test frames, NaN
+    with TAA.
     """
     rows = []
-    for method, label in (dict(labels) | nulls_in(found)).items():
-        mine = found[found["method"] == method]
+    for method, label in (dict(labels) | nulls_in(errors)).items():
+        own = errors[errors["method"] == method]
         for taa in (False, True):
             end = "_taa" if taa else ""
             row = {"method": method, "label": f"{label} + TAA" if taa else label, "taa": taa}
             row["null"] = None if method in labels else method
-            row |= _by_kind(mine, f"instability{end}", "e")
-            row |= _by_kind(mine, "instability_reference", "reference")
-            row["mse_sequence"] = _mean(mine, "mse_taa" if taa else "mse_sequence")
-            row["mse_edge"] = float("nan") if taa else _mean(mine, "mse_edge")
+            row |= _by_kind(own, f"instability{end}", "e")
+            row |= _by_kind(own, "instability_reference", "reference")
+            row["mse_sequence"] = _mean(own, "mse_taa" if taa else "mse_sequence")
+            row["mse_edge"] = float("nan") if taa else _mean(own, "mse_edge")
             rows.append(row)
     return pd.DataFrame(rows)
 
 
-def _by_kind(found: pd.DataFrame, metric: str, prefix: str) -> dict[str, float]:
-    rows = found[found["metric"] == metric]
+def _by_kind(errors: pd.DataFrame, metric: str, prefix: str) -> dict[str, float]:
+    rows = errors[errors["metric"] == metric]
     kinds: Sequence[str] = rows["part"].str.rsplit("_", n=1).str[0]
     return {f"{prefix}_{kind}": value for kind, value in zip(kinds, rows["value"])}
 
 
-def _mean(found: pd.DataFrame, metric: str) -> float:
-    return float(found[found["metric"] == metric]["value"].mean())
+def _mean(errors: pd.DataFrame, metric: str) -> float:
+    return float(errors[errors["metric"] == metric]["value"].mean())
 
 
 if "snakemake" in globals():

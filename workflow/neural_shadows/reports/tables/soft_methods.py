@@ -53,7 +53,7 @@ class Settings(MethodsTable):
     methods: list[Name] = Field(
         min_length=1,
         description="keys of `METHODS` in evaluation/soft_methods/, or networks, in the table's "
-        "order; `no_shadow` and `all_dark` are there without being named",
+        "order; `no_shadow` and `all_dark` are always added",
     )
 
     def methods_shown(self) -> list[str]:
@@ -100,24 +100,24 @@ def table(
     unseen: Sequence[str],
     run: Run,
 ) -> Table:
-    """A row for each radius and method, in the order of `labels`.
+    """Tabulate errors and costs by radius and method, in the order of `labels`.
 
     CSV: all columns of `soft_table`, and the scale.
 
     Args:
         frames_json: a part of the frame set's test frames.
-        soft_metrics: of each method; soft_times: what `time_soft_methods` wrote, None for frames
-            without a scene to ask; soft_constants: what `tune_soft_method` wrote.
-        widths_json: what `measure_widths` wrote; None for frames without targets.
-        labels: what each method is called; left_out: methods that this machine does not have.
+        soft_metrics: of each method; soft_times: of `time_soft_methods`, None for frames
+            without a scene; soft_constants: of `tune_soft_method`.
+        widths_json: of `measure_widths`; None for frames without targets.
+        labels: of methods; left_out: labels of methods not available on this machine.
         unseen: scenes that no network trains on.
     """
     about, lpips = read_json(frames_json), read_json(lpips_json)
     times = read_json(soft_times) if soft_times else {"methods": {}}
-    found = read_soft_metrics(soft_metrics)
+    errors = read_soft_metrics(soft_metrics)
     unit = UNITS[about.get("radius_unit", "metres")]
     radii = about.get("given_radii", about["radii"])
-    table = soft_table(found, radii, times, labels, unseen)
+    table = soft_table(errors, radii, times, labels, unseen)
     table = table.assign(unit=unit, scale=run["scale"])
     columns = {
         "light": [light_name(radius, unit) for radius in table["radius"]],
@@ -141,28 +141,28 @@ def table(
         "KiB": numbers(table["bytes"] / 1024, "{:,.0f}"),
     }
     columns = filled(columns)
-    records = {one["method"]: one for one in map(read_json, soft_constants)}
+    records = {record["method"]: record for record in map(read_json, soft_constants)}
     chosen = {name: records[tuned_as(name)] for name in labels if tuned_as(name) in records}
-    scenes, frames = [*found["scene"].unique()], table["frames"].iloc[0]
+    scenes, frames = [*errors["scene"].unique()], table["frames"].iloc[0]
     parts = (
         f"Mean over {frames} frames of {about['width']} × {about['height']} in {len(scenes)} scenes "
         f"[{describe_units(scenes, frames)}]; "
     )
     notes = [
-        f"{parts}unseen scenes: {', '.join(unseen) or 'none'}. The exact soft shadow is by rays from "
-        "eight places a pixel.",
+        f"{parts}unseen scenes: {', '.join(unseen) or 'none'}. The reference is traced with rays from "
+        "eight points of each pixel.",
         *describe_widths(widths_json, scenes),
-        "Squared errors: umbra, penumbra and lit by the exact shadow (below 2 %, between, above 98 "
-        "%), edge within 3 pixels of the edges of a point light's. A pixel counts if it shows a "
-        "surface inside the light's map. What faces away from the light's centre is dark for all "
-        "methods but rays. FLIP and LPIPS are of the first frame of each part by the middle light.",
+        "Squared errors: umbra, penumbra and lit by the reference's visibility (below 2 %, between, "
+        "above 98 %); edge: within 3 pixels of a point light's shadow edges. A pixel counts if it shows "
+        "a surface inside the light map. Surfaces facing away from the light's centre are dark for all "
+        "methods but rays. FLIP and LPIPS are of the first frame of each part and the middle light.",
         *([ABOUT_EDGES] if table[OFF_EDGES].notna().any() else []),
         *_describe_orders(table, radii, unit),
         *_describe_constants(chosen, labels),
         *describe_times(times),
         *describe_bytes(times),
-        *_describe_flicker(table, found, radii, unit),
-        *([f"Not to be had on this machine: {', '.join(left_out)}."] if left_out else []),
+        *_describe_flicker(table, errors, radii, unit),
+        *([f"Not available on this machine: {', '.join(left_out)}."] if left_out else []),
         phrases.describe_lpips(lpips),
         phrases.describe_run(run),
     ]
@@ -170,51 +170,50 @@ def table(
 
 
 def soft_table(
-    found: pd.DataFrame,
+    errors: pd.DataFrame,
     radii: Sequence[float],
     times: SoftTimes,
     labels: Mapping[str, str],
     unseen: Sequence[str],
 ) -> pd.DataFrame:
-    """A row for each radius and method.
+    """Tabulate errors and costs by radius and method.
 
     Columns: `method, label, number` (of the radius, from 0), `radius, frames`, of `mse`, `mse_off_edges`
     and `l1` also the ends of their intervals, the other means, `psnr_pooled`, `mse_unseen`,
     `off_edges_unseen`, `own_ms`, `map_ms`, `ms`, `bytes`, those of `_flicker`.
     """
-    frames = found[~found["metric"].isin(FLICKER)]
+    frames = errors[~errors["metric"].isin(FLICKER)]
     rows = []
     for number, radius in enumerate(radii):
-        lit = frames[frames["radius"] == number]
+        of_light = frames[frames["radius"] == number]
         for method, label in labels.items():
-            here = lit[lit["method"] == method].set_index("scene")
+            own = of_light[of_light["method"] == method].set_index("scene")
             row = {"method": method, "label": label, "number": number, "radius": radius}
-            row["frames"] = int((here["metric"] == "mse").sum())
+            row["frames"] = int((own["metric"] == "mse").sum())
             for name in WITH_INTERVALS:
-                row |= mean_with_interval(here[here["metric"] == name]["value"], name)
-            # Of a part that no frame has, there is no mean.
-            row |= {n: mean_over_scenes(here[here["metric"] == n]["value"]) for n in MEANS}
+                row |= mean_with_interval(own[own["metric"] == name]["value"], name)
+            row |= {n: mean_over_scenes(own[own["metric"] == n]["value"]) for n in MEANS}
             row["psnr_pooled"] = float(psnr_of(max(row["mse"], 1e-10)))
-            some = here[here.index.isin(unseen)]
-            row["mse_unseen"] = mean_over_scenes(some[some["metric"] == "mse"]["value"])
-            row["off_edges_unseen"] = mean_over_scenes(some[some["metric"] == OFF_EDGES]["value"])
+            new = own[own.index.isin(unseen)]
+            row["mse_unseen"] = mean_over_scenes(new[new["metric"] == "mse"]["value"])
+            row["off_edges_unseen"] = mean_over_scenes(new[new["metric"] == OFF_EDGES]["value"])
             rows.append(row | cost(times, method, number))
     table = pd.DataFrame(rows)
-    return table.merge(_flicker(found), on=["method", "number"], how="left")
+    return table.merge(_flicker(errors), on=["method", "number"], how="left")
 
 
-def _flicker(found: pd.DataFrame) -> pd.DataFrame:
-    """By method and radius the means over sequences, and of each kind: `instability_camera`, …"""
-    flicker = found[found["metric"].isin(FLICKER)].rename(columns={"radius": "number"})
-    what = flicker["part"].str.rsplit("_", n=1).str[0]
+def _flicker(errors: pd.DataFrame) -> pd.DataFrame:
+    """Mean flicker by method and radius, and by kind of sequence (`instability_camera`, …)."""
+    flicker = errors[errors["metric"].isin(FLICKER)].rename(columns={"radius": "number"})
+    kind = flicker["part"].str.rsplit("_", n=1).str[0]
     index = ["method", "number"]
     means = flicker.pivot_table("value", index, "metric").reindex(columns=FLICKER)
-    each = flicker.assign(column=flicker["metric"] + "_" + what)
-    return means.join(each.pivot_table("value", index, "column")).reset_index()
+    by_kind = flicker.assign(column=flicker["metric"] + "_" + kind)
+    return means.join(by_kind.pivot_table("value", index, "column")).reset_index()
 
 
 def _describe_orders(table: pd.DataFrame, radii: Sequence[float], unit: str) -> list[str]:
-    """How often the two errors order two methods differently, by light; none where one is missing."""
+    """Count pairs of methods in contrary order by the two errors, by light."""
     parts = []
     for number, rows in table.dropna(subset=["mse", OFF_EDGES]).groupby("number"):
         ahead = [np.less.outer(rows[name].to_numpy(), rows[name].to_numpy()) for name in ERRORS]
@@ -230,34 +229,34 @@ def _describe_orders(table: pd.DataFrame, radii: Sequence[float], unit: str) -> 
 
 
 def _describe_flicker(
-    table: pd.DataFrame, found: pd.DataFrame, radii: Sequence[float], unit: str
+    table: pd.DataFrame, errors: pd.DataFrame, radii: Sequence[float], unit: str
 ) -> list[str]:
     shown = table.dropna(subset="instability")
     if shown.empty:
         return []
-    parts = found[found["metric"] == "instability"]
+    parts = errors[errors["metric"] == "instability"]
     kinds = ", ".join(parts["part"].str.rsplit("_", n=1).str[0].unique())
     return [
-        f"E: mean of exp(3 |change|) − 1 along a point's way (Datta et al. 2022), over sequences of "
-        f"{', '.join(parts['scene'].unique())} in which moves: {kinds} (the CSV has each); at a "
-        f"radius of {radii[int(shown['number'].iloc[0])]:.3g} {unit}. Of the exact shadow itself "
+        f"E: mean of exp(3 |change|) − 1 along a point's motion (Datta et al. 2022), over sequences of "
+        f"{', '.join(parts['scene'].unique())} with a moving: {kinds} (the CSV has each), at a "
+        f"radius of {radii[int(shown['number'].iloc[0])]:.3g} {unit}. E of the reference: "
         f"{shown['instability_reference'].iloc[0]:.3f}. In sequences the SVGF-, FFX- and "
-        "SIGMA-like filters have their history; all else in this table is of single frames."
+        "SIGMA-like filters have their history; all other columns are of single frames."
     ]
 
 
 def _describe_constants(
     chosen: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]
 ) -> list[str]:
-    """One sentence on each method's constants, and whether one is at an end of what was tried."""
+    """Describe each method's constants, and those at an end of their range."""
     sentences = []
     for method, record in chosen.items():
         parts = [
-            f"{name} " + ", ".join(f"{one['constants'][name]:g}" for one in record["radii"])
+            f"{name} " + ", ".join(f"{choice['constants'][name]:g}" for choice in record["radii"])
             for name in record["tried"]
         ]
-        ends = sorted({name for one in record["radii"] for name in one["at_end"]})
-        end = f" ({' and '.join(ends)} at an end of what was tried)" if ends else ""
+        ends = sorted({name for choice in record["radii"] for name in choice["at_end"]})
+        end = f" ({' and '.join(ends)} at an end of the range tried)" if ends else ""
         sentences.append(f"{labels[method]}, by radius: {'; '.join(parts)}{end}.")
     if not sentences:
         return []

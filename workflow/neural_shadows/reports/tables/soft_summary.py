@@ -1,5 +1,6 @@
-"""Methods for soft shadows over all lights together, beside what is printed of them (Hu et al. 2025,
-tables 1 to 4, figures 7 and 9).
+"""Methods for soft shadows over all lights, beside printed numbers.
+
+Hu et al. 2025, tables 1 to 4, figures 7 and 9.
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,7 +17,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.data import phrases
 from neural_shadows.reports.data.frame_means import ABOUT_EDGES, OFF_EDGES, describe_units
 from neural_shadows.reports.data.lights import UNITS, light_name
-from neural_shadows.reports.data.published_kpnsm import PAPER, read_published_kpnsm, titled
+from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.screen_rows import describe_trainings
 from neural_shadows.reports.data.soft_costs import describe_times
 from neural_shadows.reports.data.soft_summary_rows import MOVES, Row, summary_table, with_printed
@@ -37,14 +38,14 @@ HEADS = {
 
 
 class SummaryRow(Model):
-    """A row of a summary that is more than a name."""
+    """A row of a summary with its own settings."""
 
     method: Name = Field(description="as those of `soft_methods`")
     label: Text | None = Field(None, description="without it the method's own label")
     published: Name | None = Field(None, description="its row in published_kpnsm.csv")
     column: Name | None = Field(
         None,
-        description="its column there, of the first metric; without it they are called as the metrics",
+        description="its column there, of the first metric; without it columns have the metrics' names",
     )
 
 
@@ -132,51 +133,51 @@ def table(
     measured: Sequence[str],
     run: Run,
 ) -> Table:
-    """A row for each method, or for each scene or radius and method.
+    """Tabulate methods, for each scene or radius if `by` names one.
 
     CSV: those of `summary_table` and `with_printed`, the radii's unit, and the scale.
 
     Args:
         frames_json: a part of the frame set's test frames.
         soft_metrics: of each method; trainings: training.json of the networks.
-        soft_times: what `time_soft_methods` wrote; None where `metrics` has no time.
-        widths_json: what `measure_widths` wrote; None for frames without targets.
-        published: `kpnsm.` and the paper's number of the table; None for one that it only draws.
+        soft_times: of `time_soft_methods`; None where `metrics` has no time.
+        widths_json: of `measure_widths`; None for frames without targets.
+        published: `kpnsm.` and the paper's number of the table; None without printed numbers.
         methods: `method`, `label` and, None if nothing is printed, `published` and `column`.
         by: `scene`, `radius`, or None; metrics: of `HEADS`.
         measured: the scenes whose frames count.
     """
     about = read_json(frames_json)
-    found = read_soft_metrics(soft_metrics)
+    errors = read_soft_metrics(soft_metrics)
     times = read_json(soft_times) if soft_times else {"methods": {}}
     unit = UNITS[about.get("radius_unit", "metres")]
     radii = about.get("given_radii", about["radii"])
-    printed_numbers = read_published_kpnsm(published_kpnsm_csv)
-    chosen = {"methods": methods, "by": by, "metrics": metrics, "measured": measured}
-    table = summary_table(found, times, radii, **chosen)
+    printed_numbers = read_published(published_kpnsm_csv)
+    rows = {"methods": methods, "by": by, "metrics": metrics, "measured": measured}
+    table = summary_table(errors, times, radii, **rows)
     for metric in metrics:
-        first = metric == metrics[0]  # a column of the paper's own is of this one
+        first = metric == metrics[0]  # the metric of `column`
         table = with_printed(table, metric, first, published, methods, printed_numbers)
     table = table.assign(unit=unit, scale=run["scale"])
     notes = [
         *_describe_frames(
-            found[found["scene"].isin(measured)], metrics, about, radii, unit, by == "scene"
+            errors[errors["scene"].isin(measured)], metrics, about, radii, unit, by == "scene"
         ),
         *describe_widths(widths_json, measured),
-        *([_describe_sequences(found)] if "temporal_error" in metrics else []),
+        *([_describe_sequences(errors)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
         *describe_trainings(_records(trainings), {row["method"]: row["label"] for row in methods}),
         phrases.describe_run(run),
     ]
-    heading, cells = titled(title, published), _cells(table, by, metrics, unit)
+    heading, cells = phrases.titled(title, published), _cells(table, by, metrics, unit)
     return Table(heading, table, cells, notes, text_columns=1 + bool(by))
 
 
 def _cells(
     table: pd.DataFrame, by: str | None, metrics: Sequence[str], unit: str
 ) -> dict[str, Column | Iterable[str]]:
-    """What the Markdown shows, by heading; columns without anything are left out."""
+    """Format the cells by heading, without empty columns."""
     cells: dict[str, Column | Iterable[str]] = {}
     if by == "scene":
         cells["scene"] = table["scene"]
@@ -193,8 +194,8 @@ def _cells(
         printed = table[f"printed_{metric}"]
         cells[f"{head.split(' ×')[0].strip(' ↓↑')}, printed"] = numbers(printed, form, factor)
         if metric == "temporal_error":
-            for what in MOVES[1:]:
-                cells[f"{what} alone"] = numbers(table[f"{metric}_{what}"], form, factor)
+            for mover in MOVES[1:]:
+                cells[f"{mover} alone"] = numbers(table[f"{metric}_{mover}"], form, factor)
             cells["exact shadow's"] = numbers(table[f"{metric}_reference"], form, factor)
             cells["MSE × 10⁻⁴ in sequence"] = numbers(table["mse_sequence"], "{:.1f}", 1e4)
     return filled(cells)
@@ -214,29 +215,29 @@ def _describe_frames(
 ) -> list[str]:
     if not {"mse", "ssim"} & set(metrics):
         return []
-    one = frames[(frames["metric"] == "mse") & (frames["radius"] == 0)]
-    count, scenes = one.groupby("method").size().max(), [*one["scene"].unique()]
+    first = frames[(frames["metric"] == "mse") & (frames["radius"] == 0)]
+    count, scenes = first.groupby("method").size().max(), [*first["scene"].unique()]
     units = "95 % over the frames of each scene" if by_scene else describe_units(scenes, count)
     return [
         f"Mean over {count} frames of {about['width']} × {about['height']} of "
         f"{', '.join(scenes)}, and {len(radii)} radii of the light from {radii[0]:g} to "
-        f"{radii[-1]:g} {unit}, all with the same weight [{units}].",
+        f"{radii[-1]:g} {unit}, all of equal weight [{units}].",
         *([ABOUT_EDGES] if (frames["metric"] == OFF_EDGES).any() else []),
     ]
 
 
 def _describe_printed(metrics: Sequence[str]) -> str:
     timed = ", milliseconds of an RTX 4090" * ("time" in metrics)
-    return f"Printed: {PAPER}, of other scenes and whole frames of 2048 × 1024{timed}."
+    return f"Printed: {phrases.TEXTS['kpnsm']}, of other scenes and whole frames of 2048 × 1024{timed}."
 
 
-def _describe_sequences(found: pd.DataFrame) -> str:
-    where = found[found["metric"] == "temporal_error"]["scene"].unique()
+def _describe_sequences(errors: pd.DataFrame) -> str:
+    scenes = errors[errors["metric"] == "temporal_error"]["scene"].unique()
     return (
-        "Temporal error: root of the mean squared change along a point's way from frame to frame, "
-        f"over all pixels (eq. 7), in a sequence of {', '.join(where)} in which light and camera move, "
-        "or one of them alone; the exact shadow's own is what truly changes. Blur lowers it: so the "
-        "squared error stands beside it."
+        "Temporal error: root of the mean squared change of a point from frame to frame, over all "
+        f"pixels (eq. 7), in a sequence of {', '.join(scenes)}: light and camera move, or one of them "
+        "alone. The exact shadow's is the true change. Blur lowers this error, so the squared error "
+        "stands beside it."
     )
 
 

@@ -1,1 +1,1 @@
-"""Signed distances in a sparse grid of bricks, 4³ cells each."""
+"""Signed distances in a sparse grid of 4³-cell bricks."""

@@ -1,4 +1,4 @@
-"""Signed distances of bricks' vertices to a mesh, near its surface."""
+"""Signed distances of brick vertices near a mesh's surface."""
 
 import numpy as np
 from numba import njit
@@ -8,18 +8,17 @@ from neural_shadows.representations.distance_bricks.brick_layout import BrickLay
 from neural_shadows.representations.distance_bricks.field_marching import BRICK
 from neural_shadows.scenes.tracing import Tracer
 
-# Signed distances end this many cells from the surface. No farther, so that int8 has small steps,
-# but past the vertices of a cell that the surface crosses, 1.7. Ending at 4 cells gave the same
-# (37.6 dB).
+# Largest signed distance in cells: small for int8's steps, but beyond the vertices of a crossed
+# cell, 1.7. 4 cells gave the same (37.6 dB).
 REACH = 2.0
-# A scan has holes, through which a ray gets the wrong side: one ray did of 5 in 10,000 vertices of
-# the Stanford dragon at 256³. The first five agree of 99 in 100; that five agreed and twenty would
-# not was 4 in a million.
+# Through a scan's holes a ray gets the wrong side: one ray did for 5 in 10,000 vertices of the
+# Stanford dragon at 256³. The first five agree for 99 in 100; against twenty they were wrong for 4
+# in a million.
 SIGN_RAYS, ENOUGH = 20, 5
 
 
 def signed_distances(mesh: PreparedMesh, layout: BrickLayout, reach: float) -> np.ndarray:
-    """Distance of each vertex of the bricks to the nearest triangle, positive inside.
+    """Distance of each brick vertex to the mesh, positive inside.
 
     (count,) float32 in cells, within [−reach, reach].
     """
@@ -27,15 +26,15 @@ def signed_distances(mesh: PreparedMesh, layout: BrickLayout, reach: float) -> n
     corners = ((mesh.vertices.astype(np.float64) + 1) * half)[mesh.faces]
     squared = np.full(layout.count, reach**2, np.float32)
     _scatter(corners, layout.grid, layout.table, float(reach), squared)
-    points = (layout.places / half - 1).astype(np.float32)
+    points = (layout.vertices / half - 1).astype(np.float32)
     return np.where(inside(mesh, points), np.sqrt(squared), -np.sqrt(squared))
 
 
 def inside(mesh: PreparedMesh, points: np.ndarray) -> np.ndarray:
-    """Whether points (n, 3) float32 are inside a mesh, (n,) bool.
+    """Mask (n,) bool of points (n, 3) float32 inside a mesh.
 
-    A ray's vote is for it if the first face that it meets turns its back; the majority of 20 rays
-    counts, or the first five where they agree.
+    A ray votes for it if its first hit is a back face; the majority of 20 rays decides, or the
+    first five if they agree.
     """
     tracer = Tracer(mesh.vertices, mesh.faces)
     votes, rays = np.zeros(len(points), np.int8), np.full(len(points), ENOUGH)
@@ -51,9 +50,9 @@ def inside(mesh: PreparedMesh, points: np.ndarray) -> np.ndarray:
 
 
 def _even_directions(count: int, first: int) -> np.ndarray:
-    """Unit vectors (count, 3) float32, evenly spread over the sphere, and the `first` ones too.
+    """Unit vectors (count, 3) float32, evenly spread over the sphere.
 
-    A Fibonacci spiral from pole to pole, in leaps.
+    The `first` ones are even too. A Fibonacci spiral from pole to pole, in leaps.
     """
     k = np.arange(count).reshape(first, -1).T.ravel() + 0.5
     z, angle = 1 - 2 * k / count, np.pi * (1 + np.sqrt(5)) * k
@@ -64,7 +63,7 @@ def _even_directions(count: int, first: int) -> np.ndarray:
 
 @njit(cache=True, nogil=True)
 def _scatter(corners, grid, table, reach, squared):
-    """Lower `squared` (count,) to the squared distances to the triangles (F, 3, 3), in cells."""
+    """Lower `squared` (count,) to squared distances of triangles (F, 3, 3), in cells."""
     size = len(grid)
     first = np.empty(3, np.int64)
     last = np.empty(3, np.int64)
@@ -88,14 +87,14 @@ def _scatter(corners, grid, table, reach, squared):
                             ):
                                 at = ((x - BRICK * bx) * 5 + y - BRICK * by) * 5 + z - BRICK * bz
                                 vertex = table[brick, at]
-                                found = _squared_distance(corners[f], x, y, z)
-                                if found < squared[vertex]:
-                                    squared[vertex] = found
+                                distance = _squared_distance(corners[f], x, y, z)
+                                if distance < squared[vertex]:
+                                    squared[vertex] = distance
 
 
 @njit(cache=True, nogil=True, inline="always")
 def _squared_distance(corners, x, y, z):
-    """From a point to a triangle (3, 3) (Ericson 2005, section 5.1.5)."""
+    """Squared distance of a point to a triangle (3, 3) (Ericson 2005, 5.1.5)."""
     a = corners[0]
     ax, ay, az = a[0] - x, a[1] - y, a[2] - z
     ux, uy, uz = corners[1, 0] - a[0], corners[1, 1] - a[1], corners[1, 2] - a[2]

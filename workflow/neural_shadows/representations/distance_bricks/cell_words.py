@@ -1,11 +1,11 @@
 """Eight corners of a crossed cell in one word.
 
-Of 64 bits or 32. Whether a place in the cell is inside is all that matters, so that a cell's values
-have a scale of their own. In four bits each they are rounded together: where the surface is, what
-lies between the rounded corners is closest to what lies between the given ones. A plane through a
-cell is moved by 0.009 cells then, root mean square; each rounded for itself by 0.017, in eight bits
-by 0.001. Of the Stanford dragon at 256³, pooled PSNR: eight bits 42.3 dB, four 41.7; trying 40
-scales for the eight of `_LARGEST`, and pairs of corners, 41.8 in about ten times as long.
+Of 32 or 64 bits. Only the sign matters, so that each cell has a scale of its own. With four bits
+corners are rounded together, for the least error of the interpolated values near the surface. A
+plane through a cell then moves by 0.009 cells, root mean square; with corners rounded one by one by
+0.017, in eight bits by 0.001. Pooled PSNR of the Stanford dragon at 256³: eight bits 42.3 dB, four
+41.7; with 40 scales instead of the eight of `_LARGEST`, and pairs of corners, 41.8 in about ten
+times as long.
 """
 
 import numpy as np
@@ -13,24 +13,24 @@ from numba import njit
 
 from neural_shadows.representations.distance_bricks.field_marching import BRICK
 
-# By bits of a corner. Corner (i, j, k) has those from b (4 i + 2 j + k) on of a word of 8 b, which
-# are its value and 2^(b − 1) − 0.5.
+# By bits b of a corner. Corner (i, j, k) has the bits from b (4 i + 2 j + k) on of a word of 8 b:
+# its value plus 2^(b − 1) − 0.5.
 WORDS = {4: np.uint32, 8: np.uint64}
 CORNERS = np.stack(np.unravel_index(np.arange(8), (2, 2, 2)), axis=1)
-# Places are integers of 2^20 steps a cell: 1024 samples of a ray lose 0.0005 cells by rounding.
+# Positions are integers of 2^20 steps a cell: 1024 samples of a ray lose 0.0005 cells by rounding.
 CELL = 20
-PART = 12  # bits of a place in a cell: with the four of a value no more than a lane of 16
-# In four bits a cell's largest value is put on one of these levels: beyond 7.5 it is cut off.
+PART = 12  # bits of a position in a cell: with the four of a value a lane of 16
+# Levels of a cell's largest value in four bits: clamped beyond 7.5.
 _LARGEST = np.array([4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 11.5, 13.5], np.float32)
-_ROUNDS = 12  # corners that are rounded the other way, at most
-# Squared cells from the surface, within which a place has its whole weight.
+_ROUNDS = 12  # most corners rounded the other way
+# Squared distance to the surface, in cells, of half the full weight.
 _NEAR = np.float32(0.01)
 
 
 def _shares() -> np.ndarray:
-    """Of 27 places in a cell, which share of it each corner's value has: (27, 8) float32."""
-    places = np.stack(np.unravel_index(np.arange(27), (3, 3, 3)), axis=1)[:, None] / 3 + 1 / 6
-    return np.abs(1 - CORNERS - places).prod(axis=2).astype(np.float32)
+    """Trilinear corner weights at 27 points of a cell: (27, 8) float32."""
+    points = np.stack(np.unravel_index(np.arange(27), (3, 3, 3)), axis=1)[:, None] / 3 + 1 / 6
+    return np.abs(1 - CORNERS - points).prod(axis=2).astype(np.float32)
 
 
 _SHARES = _shares()
@@ -38,10 +38,10 @@ _SHARES = _shares()
 
 @njit(cache=True, nogil=True, inline="always")
 def positive_at(word, wide, x, y, z):
-    """Whether what lies between a word's corners is positive at x, y, z in [0, 2^PART).
+    """Test the sign between a word's corners: x, y, z in [0, 2^PART).
 
-    Eight, four and two values are interpolated at once, in parts of one 64-bit integer. `wide` is
-    for eight bits each; the first axis then has as many, to stay in its lanes.
+    Eight, four and two values are interpolated at once, in lanes of one 64-bit integer. `wide`:
+    eight bits each; the first axis then has eight too, to stay in its lanes.
     """
     whole, word = np.uint64(1 << PART), np.uint64(word)
     x, y, z = np.uint64(x), np.uint64(y), np.uint64(z)
@@ -62,21 +62,21 @@ def positive_at(word, wide, x, y, z):
 
 
 @njit(cache=True, nogil=True, inline="always")
-def positive_in_brick(some, every, first, words, x, y, z):
-    """Whether a brick's field is positive at a place, in 2^−CELL cells from any brick's corner.
+def positive_in_brick(any_mask, all_mask, first, words, x, y, z):
+    """Test a brick field's sign: position in 2^−CELL cells from any brick's corner.
 
     Args:
-        some, every: of which cells any, and every corner is positive, see `FieldBricks.masks`.
+        any_mask, all_mask: cells with any, and with all corners positive, see `FieldBricks.masks`.
         first: the number of the brick's first word.
     """
     one = np.uint64(1)
     i, j, k = x >> CELL & BRICK - 1, y >> CELL & BRICK - 1, z >> CELL & BRICK - 1
     bit = one << np.uint64(BRICK**2 * i + BRICK * j + k)
-    if some & bit == 0:
+    if any_mask & bit == 0:
         return False
-    if every & bit:
+    if all_mask & bit:
         return True
-    word = words[first + _count(some & ~every & bit - one)]
+    word = words[first + _count(any_mask & ~all_mask & bit - one)]
     part, whole = CELL - PART, (1 << PART) - 1
     wide = words.itemsize == 8
     return positive_at(word, wide, x >> part & whole, y >> part & whole, z >> part & whole)
@@ -84,7 +84,7 @@ def positive_in_brick(some, every, first, words, x, y, z):
 
 @njit(cache=True, nogil=True, inline="always")
 def _count(bits):
-    """How many of 64 bits are set; compiled, this is one instruction."""
+    """Count set bits of 64; compiled to one instruction."""
     one = np.uint64(1)
     bits -= bits >> one & np.uint64(0x5555555555555555)
     pairs = np.uint64(0x3333333333333333)
@@ -95,7 +95,7 @@ def _count(bits):
 
 @njit(cache=True, nogil=True)
 def fill_words(bricks, level, crossed, words):
-    """Write the words of all crossed cells, brick by brick and bit by bit.
+    """Write the words of crossed cells, brick by brick and in bit order.
 
     Args:
         bricks: (n, 125), values of each brick's vertices; those above the level are inside.
@@ -120,7 +120,7 @@ def fill_words(bricks, level, crossed, words):
 
 @njit(cache=True, nogil=True)
 def _eight_bits(corners):
-    """The word of eight values in [−1, 1], each rounded for itself."""
+    """Word of eight values in [−1, 1], rounded one by one."""
     word = np.uint64(0)
     for c in range(8):
         level = min(int(np.floor(corners[c] * 128)) + 128, 255)
@@ -130,21 +130,19 @@ def _eight_bits(corners):
 
 @njit(cache=True, nogil=True)
 def _four_bits(corners, moments):
-    """The word of eight values in [−1, 1], rounded together; `moments` (8, 8) float32 is changed."""
-    _weigh(corners, moments)
+    """Word of eight values in [−1, 1], rounded together."""
+    _fill_moments(corners, moments)
     best, word = np.float32(np.inf), np.uint64(0)
     for top in _LARGEST:
-        error, found = _rounded(corners, moments, top)
+        error, candidate = _rounded(corners, moments, top)
         if error < best:
-            best, word = error, found
+            best, word = error, candidate
     return word
 
 
 @njit(cache=True, nogil=True)
-def _weigh(corners, moments):
-    """Fill in `moments`, whose quadratic form of corners' errors is the sum of squared errors of what
-    lies between them, each weighed by how close the surface is there.
-    """
+def _fill_moments(corners, moments):
+    """Fill in the quadratic form of interpolation errors, weighted by nearness to the surface."""
     slope = np.float32(0)
     for axis in (1, 2, 4):
         rise = np.float32(0)
@@ -167,33 +165,33 @@ def _weigh(corners, moments):
 
 @njit(cache=True, nogil=True)
 def _rounded(corners, moments, top):
-    """The error and the word of values in [−1, 1], with 1 on the level `top`.
+    """Error and word of values in [−1, 1]: 1 is on level `top`.
 
-    Corner by corner goes the other way as long as that helps.
+    Corners are rounded the other way, one by one, while the error falls.
     """
-    one = np.float32(1) / top  # a level
+    unit = np.float32(1) / top  # a level
     levels, pulls = np.empty(8, np.int64), np.zeros(8, np.float32)
     error = np.float32(0)
     for c in range(8):
         levels[c] = min(max(int(np.floor(corners[c] * top)), -8), 7)
     for c in range(8):
         for e in range(8):
-            pulls[c] += moments[c, e] * ((levels[e] + np.float32(0.5)) * one - corners[e])
-        error += pulls[c] * ((levels[c] + np.float32(0.5)) * one - corners[c])
+            pulls[c] += moments[c, e] * ((levels[e] + np.float32(0.5)) * unit - corners[e])
+        error += pulls[c] * ((levels[c] + np.float32(0.5)) * unit - corners[c])
     for _ in range(_ROUNDS):
-        gain, which, way = np.float32(-1e-7), -1, 0
+        gain, which, step = np.float32(-1e-7), -1, 0
         for c in range(8):
             up = -1 if pulls[c] > 0 else 1
             if -8 <= levels[c] + up <= 7:
-                change = one * (one * moments[c, c] + 2 * up * pulls[c])
+                change = unit * (unit * moments[c, c] + 2 * up * pulls[c])
                 if change < gain:
-                    gain, which, way = change, c, up
+                    gain, which, step = change, c, up
         if which < 0:
             break
-        levels[which] += way
+        levels[which] += step
         error += gain
         for c in range(8):
-            pulls[c] += moments[c, which] * (way * one)
+            pulls[c] += moments[c, which] * (step * unit)
     word = np.uint64(0)
     for c in range(8):
         word |= np.uint64(levels[c] + 8) << np.uint64(4 * c)

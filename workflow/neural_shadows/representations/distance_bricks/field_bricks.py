@@ -1,4 +1,4 @@
-"""A solid's field as a CPU holds it for shadow tests."""
+"""A solid's field in CPU memory for shadow tests."""
 
 from typing import NamedTuple
 
@@ -7,41 +7,41 @@ import numpy as np
 from neural_shadows.representations.distance_bricks.cell_words import WORDS, fill_words
 from neural_shadows.representations.distance_bricks.field_marching import BRICK, SOLID
 
-# Rows of `FieldBricks.masks` before those of bricks that the surface crosses.
+# Rows of `FieldBricks.masks` before those of crossed bricks.
 EMPTY, ENCLOSED, FIRST = 0, 1, 2
-# Empty bricks around the box. A ray's tile is half a brick wide and its four bricks two: a ray that
-# looks at a brick may look at those up to two beside it.
+# Empty bricks around the box. A ray's tile is half a brick wide and its four bricks two: a ray
+# reading a brick may read those up to two beside it.
 PAD = 2
 NODE = 4  # bricks along a node
 
 
 class FieldBricks(NamedTuple):
-    """The bricks of a box around all that is not empty, and which of their cells are inside.
+    """Bricks of a box around everything nonempty, with cell masks.
 
-    Brick (x, y, z) of the box has row `rows[nodes[x // 4, y // 4, z // 4] + 16 (x % 4) + 4 (y % 4) +
-    z % 4]`. A cell that is crossed has the word `words[first[row] + …]`, after those of the crossed
-    cells with lower bits.
+    Brick (x, y, z) of the box has row `rows[nodes[x // 4, y // 4, z // 4] + 16 (x % 4) + 4 (y % 4)
+    + z % 4]`. A cell that is crossed has the word `words[first[row] + …]`, after those of the
+    crossed cells with lower bits.
     """
 
     size: int  # bricks along an axis of the whole cube [−1, 1]³
-    corner: np.ndarray  # (3,) int64, the whole cube's brick at the box's corner, may be below 0
+    corner: np.ndarray  # (3,) int64, the cube's brick at the box's corner, may be negative
     shape: tuple[int, int, int]  # of the box, in bricks
-    nodes: np.ndarray  # (X, Y, Z) uint32, where each node's rows begin; all empty ones share theirs
-    rows: np.ndarray  # (64 nodes that are not empty and one,) uint16 or uint32
+    nodes: np.ndarray  # (X, Y, Z) uint32, each node's first row; empty nodes share theirs
+    rows: np.ndarray  # (64 a nonempty node, and 64,) uint16 or uint32
     masks: np.ndarray  # (rows, 2) uint64, bit 16 x + 4 y + z: any, and every corner is positive
     first: np.ndarray  # (rows,) uint32
     words: np.ndarray  # (crossed cells,) uint32 or uint64, see `cell_words`
 
     @property
     def bytes(self) -> int:
-        """In memory."""
+        """Size in memory."""
         return sum(part.nbytes for part in self if isinstance(part, np.ndarray))
 
 
 def field_bricks(
     grid: np.ndarray, values: np.ndarray, level: float, corner_bits: int
 ) -> FieldBricks:
-    """Those of a field.
+    """Build the bricks of a field.
 
     Args:
         grid: (B, B, B) int32, see `BrickLayout`.
@@ -51,32 +51,32 @@ def field_bricks(
     """
     level = np.float32(level)
     positive = (values > level).reshape(-1, *[BRICK + 1] * 3)
-    some, every = (_cells(positive, combined) for combined in (np.logical_or, np.logical_and))
-    crossed = some & ~every
+    any_in, all_in = (_cells(positive, combined) for combined in (np.logical_or, np.logical_and))
+    crossed = any_in & ~all_in
     held = crossed != 0
-    # Bricks of the mesh's surface that the field's does not cross; the last is for all others.
-    row = np.append(np.where(every != 0, ENCLOSED, EMPTY), EMPTY)
+    # Surface bricks not crossed by the field; the last row is for all others.
+    row = np.append(np.where(all_in != 0, ENCLOSED, EMPTY), EMPTY)
     row[:-1][held] = FIRST + np.arange(held.sum())
     rows = np.where(grid == SOLID, ENCLOSED, row[np.maximum(grid, -1)])
-    there = np.argwhere(rows != EMPTY)
-    low, high = (there.min(0), there.max(0) + 1) if len(there) else (np.zeros(3, int),) * 2
+    occupied = np.argwhere(rows != EMPTY)
+    low, high = (occupied.min(0), occupied.max(0) + 1) if len(occupied) else (np.zeros(3, int),) * 2
     rows = np.pad(rows[tuple(slice(*ends) for ends in zip(low, high))], PAD)
 
     masks = np.zeros((FIRST + held.sum(), 2), np.uint64)
     masks[ENCLOSED] = ~np.uint64(0)
-    masks[FIRST:] = np.stack([some, every], axis=1)[held]
+    masks[FIRST:] = np.stack([any_in, all_in], axis=1)[held]
     first = np.zeros(len(masks) + 1, np.uint32)
     first[1:] = np.cumsum(np.bitwise_count(masks[:, 0] & ~masks[:, 1]))
     words = np.empty(first[-1], WORDS[corner_bits])
     fill_words(values[held], level, crossed[held], words)
-    kind = np.uint16 if len(masks) <= 1 << 16 else np.uint32
-    nodes, rows_of_nodes = _in_nodes(rows.astype(kind))
+    dtype = np.uint16 if len(masks) <= 1 << 16 else np.uint32
+    nodes, rows_of_nodes = _in_nodes(rows.astype(dtype))
     bricks = nodes, rows_of_nodes, masks, first[:-1].copy(), words
     return FieldBricks(len(grid), low - PAD, rows.shape, *bricks)
 
 
 def _in_nodes(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """See `FieldBricks.nodes` and `.rows`, of rows in a box."""
+    """Group rows of a box into nodes: `FieldBricks.nodes` and `.rows`."""
     rows = np.pad(rows, [(0, -side % NODE) for side in rows.shape])
     shape = [side // NODE for side in rows.shape]
     parts = rows.reshape(shape[0], NODE, shape[1], NODE, shape[2], NODE)
@@ -87,7 +87,7 @@ def _in_nodes(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _cells(positive: np.ndarray, combined: np.ufunc) -> np.ndarray:
-    """The corners (n, 5, 5, 5) bool of each cell, combined, as (n,) uint64."""
+    """Combine corners (n, 5, 5, 5) bool of each cell: (n,) uint64."""
     for axis in (1, 2, 3):
         lower, upper = (np.take(positive, range(k, k + BRICK), axis) for k in (0, 1))
         positive = combined(lower, upper)

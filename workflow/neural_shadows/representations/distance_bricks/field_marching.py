@@ -1,4 +1,4 @@
-"""The first crossing of rays with an occupancy field, on a CPU."""
+"""First crossing of rays with an occupancy field, by CPU."""
 
 import numpy as np
 from numba import njit
@@ -8,16 +8,16 @@ from neural_shadows.representations.depths import LIT
 
 BRICK = 4  # cells along a brick's axis
 BRICK_VERTICES = (BRICK + 1) ** 3
-SOLID = -(1 << 20)  # in the grid: the brick is enclosed by the surface
-# Samples of a ray along an axis. With four, the Stanford dragon at 256³ came out no better (40.2 and
-# 40.3 dB), and each sample is a look-up.
+SOLID = -(1 << 20)  # in the grid: a brick enclosed by the surface
+# Samples of a ray along an axis. Four were no better on the Stanford dragon at 256³ (40.2 and 40.3
+# dB), and each sample is a look-up.
 SAMPLES_PER_CELL = 2
 
 
 def skips(surface: np.ndarray) -> np.ndarray:
-    """How many bricks (B, B, B) int32 a ray may go on before it can meet one that holds values.
+    """Free bricks (B, B, B) int32 ahead of a ray.
 
-    The chessboard distance to the nearest, at least 1.
+    The chessboard distance to the nearest surface brick, at least 1.
     """
     if not surface.any():
         return np.full(surface.shape, len(surface), np.int32)
@@ -27,7 +27,7 @@ def skips(surface: np.ndarray) -> np.ndarray:
 
 @njit(cache=True, nogil=True, inline="always")
 def trilinear(values, at, u, v, w):
-    """What bricks' flat values are in the cell whose first corner is `at`; u, v, w in [0, 1]."""
+    """Interpolate flat brick values from corner `at` of a cell; u, v, w in [0, 1]."""
     a = np.float32(values[at])
     a += (values[at + 1] - a) * w
     b = np.float32(values[at + 5])
@@ -43,29 +43,30 @@ def trilinear(values, at, u, v, w):
 
 @njit(cache=True, nogil=True, inline="always")
 def _value(values, x, y, z):
-    """A brick's value at x, y, z in [0, 4]."""
+    """Value of a brick at x, y, z in [0, 4]."""
     i, j, k = min(int(x), BRICK - 1), min(int(y), BRICK - 1), min(int(z), BRICK - 1)
     return trilinear(values, (i * (BRICK + 1) + j) * (BRICK + 1) + k, x - i, y - j, z - k)
 
 
-_FAR = np.float32(1e9)  # beyond any way
+_FAR = np.float32(1e9)  # beyond any distance
 
 
 @njit(cache=True, nogil=True, inline="always")
 def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, level):
-    """Where a ray o + t d, in bricks from the corner −1, first crosses the surface; `end` if nowhere.
+    """First crossing of a ray with the surface; `end` for none.
 
-    Sample i lies at t = (i + 0.5) step; the first that is looked at is `first`.
+    The ray is o + t d, in bricks from the corner −1; sample i, from `first` on, is at t = (i + 0.5)
+    step.
     """
     size = len(grid)
-    # Inverses: 0 for an axis that the ray does not move on, which never ends a brick.
+    # Inverses: 0 for an axis the ray does not move along, which never ends a brick.
     ix = 1 / dx if abs(dx) > 1e-9 else np.float32(0)
     iy = 1 / dy if abs(dy) > 1e-9 else np.float32(0)
     iz = 1 / dz if abs(dz) > 1e-9 else np.float32(0)
     ahead_x, ahead_y, ahead_z = dx > 0, dy > 0, dz > 0
     zero, half, brick_cells = np.float32(0), np.float32(0.5), np.float32(BRICK)
     i = first
-    known = first - 2  # the sample whose value is `before`
+    last_sample = first - 2  # of the value `before`
     before = zero
     t = (i + half) * step
     while t < end:
@@ -76,7 +77,7 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, lev
         brick = grid[bx, by, bz]
         if brick == SOLID:
             return t
-        # Where the ray leaves the brick, or the empty cube of bricks around it.
+        # Exit of the ray from the brick, or from the empty cube of bricks around it.
         free = -brick if brick < 0 else 1
         ex = (bx + free if ahead_x else bx + 1 - free) - x
         ey = (by + free if ahead_y else by + 1 - free) - y
@@ -99,12 +100,12 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, lev
             )
             crossed = value > level
             if sheet:
-                crossed = known == i - 1 and crossed != (before > level)
+                crossed = last_sample == i - 1 and crossed != (before > level)
             if crossed:
-                if known == i - 1:
+                if last_sample == i - 1:
                     return t - step * (value - level) / (value - before)
                 return t
-            before, known = value, i
+            before, last_sample = value, i
             i += 1
             t = (i + half) * step
             if t >= leave or t >= end:
@@ -115,15 +116,15 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, lev
 
 @njit(cache=True, nogil=True)
 def first_crossings(origins, d, grid, bricks, steps, sheet, level):
-    """t_pred (k,) float32 of parallel rays; `LIT` where there is no crossing.
+    """t_pred (k,) float32 of parallel rays; `LIT` for misses.
 
     Args:
         origins: (k, 3) float32, on the unit sphere.
         d: (3,) float32 unit vector, pointing inward.
-        grid: (B, B, B) int32, see `occupancy_field_network.BrickLayout`.
+        grid: (B, B, B) int32, see `BrickLayout`.
         bricks: (bricks, 125), values of each brick's vertices on any one scale.
         steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
-        sheet: whether any change of sign counts, or a value above the level.
+        sheet: cross at any change of sign, else above the level.
         level: float32, the value at the surface, on the scale of `bricks`.
     """
     t_pred = np.empty(len(origins), np.float32)
@@ -134,19 +135,19 @@ def first_crossings(origins, d, grid, bricks, steps, sheet, level):
         o = origins[ray]
         chord = -2 * (o[0] * d[0] + o[1] * d[1] + o[2] * d[2])
         ox, oy, oz = (o[0] + 1) * scale, (o[1] + 1) * scale, (o[2] + 1) * scale
-        found = _crossing(ox, oy, oz, dx, dy, dz, 0, chord, step, grid, bricks, sheet, level)
-        t_pred[ray] = found if found < chord else np.float32(LIT)
+        t = _crossing(ox, oy, oz, dx, dy, dz, 0, chord, step, grid, bricks, sheet, level)
+        t_pred[ray] = t if t < chord else np.float32(LIT)
     return t_pred
 
 
 @njit(cache=True, nogil=True)
-def blocked_ways(points, ways, centre, radius, grid, bricks, steps, level, blocked):
-    """Mark in `blocked` (n,) bool the ways that meet the surface of a solid's field.
+def blocked_ways(points, to_light, centre, radius, grid, bricks, steps, level, blocked):
+    """Mark in `blocked` (n,) bool occluded segments of a solid's field.
 
     Args:
-        points, ways: (n, 3) float32, in the unit of `centre` and `radius`, which are of the sphere
-            that the field's [−1, 1]³ is about; a way leads from its point to its goal.
-        grid, bricks, steps, level: see `first_crossings`. What is marked already is left alone.
+        points, to_light: (n, 3) float32, in the unit of `centre` and `radius`, of the sphere in the
+            field's [−1, 1]³; `to_light` from each point to its light.
+        grid, bricks, steps, level: see `first_crossings`. Already blocked ones are skipped.
     """
     scale, half = np.float32(len(grid) / 2), np.float32(0.5)
     for ray in range(len(points)):
@@ -155,10 +156,10 @@ def blocked_ways(points, ways, centre, radius, grid, bricks, steps, level, block
         x = (points[ray, 0] - centre[0]) / radius
         y = (points[ray, 1] - centre[1]) / radius
         z = (points[ray, 2] - centre[2]) / radius
-        u, v, w = ways[ray, 0] / radius, ways[ray, 1] / radius, ways[ray, 2] / radius
+        u, v, w = to_light[ray, 0] / radius, to_light[ray, 1] / radius, to_light[ray, 2] / radius
         length = np.sqrt(u * u + v * v + w * w)
         u, v, w = u / length, v / length, w / length
-        # Where it is inside the sphere.
+        # The part inside the sphere.
         along = x * u + y * v + z * w
         inside = along * along - (x * x + y * y + z * z - 1)
         if inside <= 0:
@@ -170,7 +171,7 @@ def blocked_ways(points, ways, centre, radius, grid, bricks, steps, level, block
         step = np.float32(2 / steps)
         end = np.float32(end)
         first = max(int(np.ceil(begin / step - half)), 0)
-        found = _crossing(
+        t = _crossing(
             np.float32((x + 1) * scale),
             np.float32((y + 1) * scale),
             np.float32((z + 1) * scale),
@@ -185,4 +186,4 @@ def blocked_ways(points, ways, centre, radius, grid, bricks, steps, level, block
             False,
             level,
         )
-        blocked[ray] = found < end
+        blocked[ray] = t < end

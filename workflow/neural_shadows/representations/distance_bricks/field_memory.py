@@ -1,27 +1,27 @@
-"""The memory that a field's bricks need, before any is made."""
+"""Memory check before a field's layout."""
 
 from neural_shadows.errors import InputError
 from neural_shadows.representations.distance_bricks.field_marching import BRICK
 from neural_shadows.running.process_memory import available_bytes
 
-# While a field is laid out: of the Stanford dragon at 512³, of 38,444 bricks, 8,834, and where its
-# distances are found and fitted too 8,988.
+# During layout: 8,834 for the Stanford dragon at 512³ with 38,444 bricks, 8,988 with its distances
+# computed and fitted.
 BYTES_PER_BRICK = 9000
 _GIB = 2**30
 
 
 def check_memory(resolution: int, bricks: int) -> None:
-    """Refuse a field of so many bricks if laying it out takes more memory than there is.
+    """Refuse a field of more bricks than fit into memory.
 
     Raises:
-        InputError: it does.
+        InputError: too many.
     """
-    needed, there = bricks * BYTES_PER_BRICK, available_bytes()
-    if needed > there:
-        # A surface touches as many bricks as it has square cells.
-        most = int(resolution * (there / needed) ** 0.5) // BRICK * BRICK
+    needed, available = bricks * BYTES_PER_BRICK, available_bytes()
+    if needed > available:
+        # The number of touched bricks grows with the square of the resolution.
+        maximum = int(resolution * (available / needed) ** 0.5) // BRICK * BRICK
         raise InputError(
             f"network: resolution: {resolution} makes {bricks:,} bricks, which need "
-            f"{needed / _GIB:,.1f} GiB of memory; {there / _GIB:,.1f} GiB are free: set a resolution "
-            f"of at most {most}"
+            f"{needed / _GIB:,.1f} GiB of memory; {available / _GIB:,.1f} GiB are free. Set a "
+            f"resolution of at most {maximum}."
         )

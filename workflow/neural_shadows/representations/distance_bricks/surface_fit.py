@@ -1,4 +1,4 @@
-"""Signed distances fitted to where shadows begin and end.
+"""Signed distances fitted to shadow boundaries.
 
 Where a shadow ends, a ray touches the mesh, and of a mesh of triangles it touches a convex edge.
 Interpolated distances cut these edges off: of the Stanford dragon at 256³ by 0.05 of a cell. So the
@@ -16,25 +16,25 @@ from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.representations.distance_bricks.brick_layout import BrickLayout
 from neural_shadows.representations.distance_bricks.field_marching import BRICK
 
-# Pooled PSNR of the Stanford dragon at 256³, not quantised, where distances have 39.2 dB: 42.6 as
-# here; 42.5 with a third of FACES and a fifth of HELD; 42.4 where concave edges weigh 0.3 of convex
-# ones; 42.5 for absolute values in place of squares; 42.6 after 20 steps.
+# Pooled PSNR of the Stanford dragon at 256³, not quantised, with distances 39.2 dB: 42.6 as here;
+# 42.5 with a third of FACES and a fifth of HELD; 42.4 where concave edges weigh 0.3 of convex ones;
+# 42.5 for absolute values in place of squares; 42.6 after 20 steps.
 SAMPLES_PER_CELL = 2  # along an edge
 FACES = 0.1  # weight of a face, by its area in cells: a lit surface must not shadow itself
-HELD = 0.1  # weight of a vertex's own distance, in mean weights of a sample
-OUT = 0.05  # cells, by which the distances are moved out first: few steps change what is smooth
+HELD = 0.1  # weight of a vertex's own distance, in mean sample weights
+OUT = 0.05  # initial offset outwards in cells: few steps change smooth parts
 STEPS = 10  # of conjugate gradients
 
 
 def fitted_distances(mesh: PreparedMesh, layout: BrickLayout, distances: np.ndarray) -> np.ndarray:
-    """Values of a field whose surface is closest to the mesh's convex edges, (count,) float32.
+    """Field values (count,) float32 with the surface closest to convex edges.
 
     Args:
         mesh: a solid.
         distances: of `signed_distances`, (count,) float32 in cells, positive inside.
     """
     half = len(layout.grid) * BRICK / 2  # cells in a radius
-    points, weights = (np.concatenate(both) for both in zip(_edges(mesh, half), _faces(mesh, half)))
+    points, weights = (np.concatenate(pair) for pair in zip(_edges(mesh, half), _faces(mesh, half)))
     field = _interpolation(layout, points, half)
     start = distances + np.float32(OUT)
     held = np.float32(HELD * weights.mean())
@@ -44,12 +44,12 @@ def fitted_distances(mesh: PreparedMesh, layout: BrickLayout, distances: np.ndar
         shape, lambda x: field.T @ (weights * (field @ x)) + held * x, dtype=np.float32
     )
     scaled = LinearOperator(shape, lambda x: x / diagonal, dtype=np.float32)
-    moved, _ = cg(squares, field.T @ (weights * -(field @ start)), maxiter=STEPS, M=scaled)
-    return (start + moved).astype(np.float32)
+    change, _ = cg(squares, field.T @ (weights * -(field @ start)), maxiter=STEPS, M=scaled)
+    return (start + change).astype(np.float32)
 
 
 def _edges(mesh: PreparedMesh, half: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 3) float32 on the convex edges, and the rays that touch there (n,) float32."""
+    """Points (n, 3) float32 on convex edges, and their weights (n,) float32."""
     ends, angles = convex_edges(mesh)
     a, b = mesh.vertices[ends[:, 0]], mesh.vertices[ends[:, 1]]
     length = np.linalg.norm(a - b, axis=1) * half
@@ -62,9 +62,9 @@ def _edges(mesh: PreparedMesh, half: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def convex_edges(mesh: PreparedMesh) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 2) of each convex edge, and its outer angle (n,) in radians.
+    """Vertices (n, 2) and outer angles (n,) in radians of convex edges.
 
-    An edge of one face has π: rays of all directions that pass it touch it.
+    An edge of one face has π: rays of all directions touch it.
     """
     a, b, c = mesh.faces.T.astype(np.int64)
     sides = np.stack([np.concatenate([a, b, c]), np.concatenate([b, c, a])], axis=1)
@@ -73,18 +73,18 @@ def convex_edges(mesh: PreparedMesh) -> tuple[np.ndarray, np.ndarray]:
     order = np.lexsort(sides.T)
     sides, face, opposite = sides[order], face[order], opposite[order]
     same = (sides[1:] == sides[:-1]).all(axis=1)
-    one, other = np.flatnonzero(same), np.flatnonzero(same) + 1
+    first, second = np.flatnonzero(same), np.flatnonzero(same) + 1
     normals = mesh.face_normals[face]
-    angle = np.arccos(np.einsum("ij,ij->i", normals[one], normals[other]).clip(-1, 1))
-    towards = mesh.vertices[opposite[other]] - mesh.vertices[sides[one, 0]]
-    convex = np.einsum("ij,ij->i", towards, normals[one]) < 0
+    angle = np.arccos(np.einsum("ij,ij->i", normals[first], normals[second]).clip(-1, 1))
+    towards = mesh.vertices[opposite[second]] - mesh.vertices[sides[first, 0]]
+    convex = np.einsum("ij,ij->i", towards, normals[first]) < 0
     alone = ~(np.append(same, False) | np.insert(same, 0, False))
-    ends = np.concatenate([sides[one[convex]], sides[alone]])
+    ends = np.concatenate([sides[first[convex]], sides[alone]])
     return ends, np.concatenate([angle[convex], np.full(alone.sum(), np.pi)])
 
 
 def _faces(mesh: PreparedMesh, half: float) -> tuple[np.ndarray, np.ndarray]:
-    """The middle (F, 3) float32 and the weight (F,) float32 of each face."""
+    """Middle (F, 3) float32 and weight (F,) float32 of each face."""
     corners = mesh.vertices[mesh.faces]
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(across, axis=1) / 2 * half**2
@@ -92,7 +92,7 @@ def _faces(mesh: PreparedMesh, half: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _interpolation(layout: BrickLayout, points: np.ndarray, half: float) -> sparse.csr_array:
-    """The matrix (n, count) that gives a field's values at points (n, 3) of its surface bricks."""
+    """Interpolation matrix (n, count) of points (n, 3) in surface bricks."""
     columns = np.empty((len(points), 8), np.int32)
     shares = np.empty((len(points), 8), np.float32)
     _interpolate(points, np.float32(half), layout.grid, layout.table, columns, shares)
@@ -103,17 +103,17 @@ def _interpolation(layout: BrickLayout, points: np.ndarray, half: float) -> spar
 
 @njit(cache=True, nogil=True)
 def _interpolate(points, half, grid, table, columns, shares):
-    """Of each point, the values (n, 8) that it lies between, and their shares (n, 8).
+    """Fill in each point's value indices (n, 8) and weights (n, 8).
 
-    Rounding may take a point on a border out of its brick: it then has no share in any value.
+    A point on a border that rounding moves out of its brick has no weights.
     """
     one, most = np.float32(1), np.float32(len(grid) * BRICK - 1e-3)
     cell, part = np.empty(3, np.int64), np.empty(3, np.float32)
     for n in range(len(points)):
         for axis in range(3):
-            place = min(max((points[n, axis] + one) * half, np.float32(0)), most)
-            cell[axis] = int(place)
-            part[axis] = place - np.float32(cell[axis])
+            position = min(max((points[n, axis] + one) * half, np.float32(0)), most)
+            cell[axis] = int(position)
+            part[axis] = position - np.float32(cell[axis])
         brick = grid[cell[0] // BRICK, cell[1] // BRICK, cell[2] // BRICK]
         x, y, z = cell[0] % BRICK, cell[1] % BRICK, cell[2] % BRICK
         for c in range(8):

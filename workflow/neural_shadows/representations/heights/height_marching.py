@@ -1,4 +1,4 @@
-"""The first crossing of rays with a height map, cell by cell."""
+"""First crossing of rays with a height map."""
 
 import numpy as np
 from numba import njit
@@ -8,27 +8,27 @@ from neural_shadows.representations.depths import LIT
 
 @njit(cache=True, nogil=True)
 def first_crossings(origins, directions, ends, heights):
-    """t (n,) float32 where rays cross the surface, from either side; `LIT` where they do not.
+    """First crossings t (n,) float32 with the surface; `LIT` for misses.
 
-    A cell is two triangles, parted by the line between its (1, 0) and its (0, 1).
+    From either side. A cell is two triangles, parted by the line from its (1, 0) to its (0, 1).
 
     Args:
         origins, directions: (n, 3) float64 in units of the map: cells along its two axes, and
             steps of the heights.
-        ends: (n,) float64, where the rays end.
+        ends: (n,) float64, t at the rays' ends.
         heights: (r, r) of any unsigned type.
     """
-    found = np.full(len(origins), LIT, np.float32)
+    t_hit = np.full(len(origins), LIT, np.float32)
     cells = len(heights) - 1
-    most = np.array([cells, cells, np.iinfo(heights.dtype).max], np.float64)
+    upper = np.array([cells, cells, np.iinfo(heights.dtype).max], np.float64)
     for ray in range(len(origins)):
         t, end = 0.0, ends[ray]
         for k in range(3):  # of the box around the map
             o, d = origins[ray, k], directions[ray, k]
             if d != 0:
-                a, b = -o / d, (most[k] - o) / d
+                a, b = -o / d, (upper[k] - o) / d
                 t, end = max(t, min(a, b)), min(end, max(a, b))
-            elif not 0 <= o <= most[k]:
+            elif not 0 <= o <= upper[k]:
                 end = -1.0
         if t > end:
             continue
@@ -50,20 +50,20 @@ def first_crossings(origins, directions, ends, heights):
                 # On each triangle the height above the surface is linear in t.
                 before = _above(ox + t * dx - i, oy + t * dy - j, oz + t * dz, corners)
                 if not first and (before > 0) != above:  # by a rounding
-                    found[ray] = t
+                    t_hit[ray] = t
                     break
                 first = False
                 parting = (i + 1 + j - ox - oy) * across
                 for after in (min(max(parting, t), leave), leave):
-                    there = _above(
+                    height = _above(
                         ox + after * dx - i, oy + after * dy - j, oz + after * dz, corners
                     )
-                    if (there > 0) != (before > 0):
-                        found[ray] = t + (after - t) * before / (before - there)
+                    if (height > 0) != (before > 0):
+                        t_hit[ray] = t + (after - t) * before / (before - height)
                         break
-                    t, before = after, there
+                    t, before = after, height
                 above = before > 0
-                if found[ray] < LIT:
+                if t_hit[ray] < LIT:
                     break
             if leave >= end:
                 break
@@ -72,12 +72,12 @@ def first_crossings(origins, directions, ends, heights):
                 i += 1 if dx > 0 else -1
             else:
                 j += 1 if dy > 0 else -1
-    return found
+    return t_hit
 
 
 @njit(cache=True, nogil=True, inline="always")
 def _above(u, v, height, corners):
-    """How far a point at u, v of a cell, of this height, is above the surface."""
+    """Height above the surface at u, v of a cell."""
     low, high = np.float64(corners[1]), np.float64(corners[2])
     if u + v <= 1:
         corner = np.float64(corners[0])

@@ -1,26 +1,26 @@
 """A quantised mesh in few bytes, by Draco.
 
-Triangles are in the order in which they touch each other. Draco (edgebreaker, entropy coding of
-predicted places) is the common coding of meshes; glTF has it. Its Python package DracoPy has binary
-wheels for each supported Python; that of meshoptimizer has none, and has only had alpha versions.
-Places are quantised before and kept as they are; the order of vertices and triangles is not.
+Draco (edgebreaker, entropy coding of predicted positions) is the common coding of meshes, part of
+glTF. Its Python package DracoPy has binary wheels for each supported Python; that of meshoptimizer
+has none, and only alpha versions. Quantised positions are preserved exactly, the order of vertices
+and triangles is not.
 """
 
 import numpy as np
 
-MOST_BITS = 23  # Draco reads and gives places as float32: of 24 bits half came back one off
-LEVEL = 10  # the most; of the Stanford dragon 14 % fewer bytes than its default's, 1
+MOST_BITS = 23  # Draco's positions are float32: with 24 bits half came back one off
+LEVEL = 10  # the maximum; 14 % fewer bytes than its default, 1, for the Stanford dragon
 
 
 def coded(steps: np.ndarray, faces: np.ndarray, bits: int) -> np.ndarray:
-    """Bytes (n,) uint8 that `decoded` reads.
+    """Encode a mesh: bytes (n,) uint8.
 
     Args:
         steps: (V, 3) vertices, whole numbers below 2^bits.
         faces: (F, 3) indices into them.
         bits: at most `MOST_BITS`.
     """
-    import DracoPy  # here, so that no other network needs it
+    import DracoPy  # lazily: no other network needs it
 
     data = DracoPy.encode(
         steps.astype(np.float32),
@@ -34,10 +34,10 @@ def coded(steps: np.ndarray, faces: np.ndarray, bits: int) -> np.ndarray:
 
 
 def decoded(data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The vertices (V, 3) and faces (F, 3) that were coded, int64.
+    """Decode vertices (V, 3) and faces (F, 3), int64.
 
     Raises:
-        ValueError: this is no coded mesh.
+        ValueError: not a coded mesh.
     """
     import DracoPy
 
@@ -47,6 +47,6 @@ def decoded(data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         raise ValueError(f"no mesh that Draco reads: {error}") from error
     if not hasattr(mesh, "faces") or mesh.faces is None:
         raise ValueError("points without faces")
-    # Where surfaces touch in a vertex it gives one for each.
-    steps, number = np.unique(np.rint(mesh.points).astype(np.int64), axis=0, return_inverse=True)
-    return steps, number.reshape(-1)[np.asarray(mesh.faces, np.int64).reshape(-1, 3)]
+    # Draco duplicates vertices where surfaces touch.
+    steps, index = np.unique(np.rint(mesh.points).astype(np.int64), axis=0, return_inverse=True)
+    return steps, index.reshape(-1)[np.asarray(mesh.faces, np.int64).reshape(-1, 3)]

@@ -1,15 +1,15 @@
-"""Cells of a cubic grid touched or enclosed by a surface."""
+"""Cells of a grid, touched or enclosed by a surface."""
 
 import numpy as np
 from numba import njit
 from scipy import ndimage
 
-# Cells are tested as if this much larger, so that rounding leaves none out that is touched.
+# Enlargement of tested cells, so that rounding misses none.
 SLACK = 1.001
 
 
 def surface_cells(vertices: np.ndarray, faces: np.ndarray, resolution: int) -> np.ndarray:
-    """Cells that a triangle touches, by separating axes (Akenine-Möller 2001).
+    """Cells touched by a triangle, by separating axes (Akenine-Möller 2001).
 
     Args:
         vertices: (V, 3) positions in normalised space, inside [−1, 1]³.
@@ -20,20 +20,21 @@ def surface_cells(vertices: np.ndarray, faces: np.ndarray, resolution: int) -> n
         (n, n, n) bool, indexed by x, y, z.
     """
     touched = np.zeros((resolution,) * 3, bool)
-    _mark(np.asarray(vertices, np.float64), np.asarray(faces, np.int64), touched)
+    _mark_touched(np.asarray(vertices, np.float64), np.asarray(faces, np.int64), touched)
     return touched
 
 
 def enclosed_cells(surface: np.ndarray) -> np.ndarray:
-    """Cells of (n, n, n) bool that no path of free cells, side by side, joins to the outside.
+    """Cells (n, n, n) bool enclosed by surface cells.
 
-    Holes of a mesh that are smaller than a cell do not open its inside.
+    No path of free cells, side by side, joins them to the outside. Holes of a mesh that are smaller
+    than a cell do not open its inside.
     """
     return ndimage.binary_fill_holes(surface) & ~surface
 
 
 @njit(cache=True, nogil=True)
-def _mark(vertices, faces, touched):
+def _mark_touched(vertices, faces, touched):
     n = len(touched)
     size = 2.0 / n
     half = size / 2 * SLACK
@@ -58,9 +59,9 @@ def _mark(vertices, faces, touched):
 
 @njit(cache=True, nogil=True)
 def touches(corners, half):
-    """Whether a triangle (3, 3) meets the cube of this half side around the origin.
+    """Test a triangle (3, 3) against a centred cube.
 
-    The cube's own axes are settled by the triangle's bounding box.
+    The cube has this half side. The triangle's bounding box must already overlap it.
     """
     edges = corners[np.array([1, 2, 0])] - corners
     if _separates(np.cross(edges[0], edges[1]), corners, half):

@@ -12,17 +12,17 @@ MOST_LEVELS = 12  # 4096 voxels an axis
 
 
 class Bricks(NamedTuple):
-    """The bricks that hold any voxel, in Morton order (three bits a level, x the lowest)."""
+    """Bricks with voxels, in Morton order (three bits a level, x lowest)."""
 
     codes: np.ndarray  # (n,) int64, growing
     masks: np.ndarray  # (n,) uint64, bit m for the voxel of Morton code m in the brick
 
 
 def surface_bricks(vertices: np.ndarray, faces: np.ndarray, levels: int) -> Bricks:
-    """Bricks of the 2^levels voxels an axis that a triangle touches, see `surface_cells`.
+    """Bricks of voxels touched by a triangle, see `surface_cells`.
 
-    Each triangle goes down the octree from the smallest node around it, so that time and memory
-    are those of what it touches, however large it is.
+    Of 2^levels voxels an axis. Each triangle descends the octree from the root, so that time and
+    memory grow with the touched bricks only.
 
     Args:
         vertices: (V, 3) positions in normalised space, inside [−1, 1]³.
@@ -34,28 +34,28 @@ def surface_bricks(vertices: np.ndarray, faces: np.ndarray, levels: int) -> Bric
     codes, masks = codes[order], masks[order]
     first = np.flatnonzero(np.diff(codes, prepend=-1))
     masks = np.bitwise_or.reduceat(masks, first)
-    held = masks != 0  # the slack of a brick is larger than that of its voxels
-    return Bricks(codes[first][held], masks[held])
+    nonempty = masks != 0  # the slack of a brick is larger than that of its voxels
+    return Bricks(codes[first][nonempty], masks[nonempty])
 
 
 @njit(cache=True, nogil=True)
 def _descend(vertices, faces, levels):
-    """A code and a mask for each triangle and brick that it touches."""
+    """Codes and masks of touched bricks, for each triangle."""
     codes = np.empty(1 << 16, np.int64)
     masks = np.empty(1 << 16, np.uint64)
     count = 0
-    # Nodes that are left: level, Morton code, and place in cells of that level.
-    todo = np.empty((8 * MOST_LEVELS, 5), np.int64)
+    # Stack of nodes: level, Morton code, and position in cells of that level.
+    stack = np.empty((8 * MOST_LEVELS, 5), np.int64)
     centre = np.empty(3)
     for f in range(len(faces)):
         corners = vertices[faces[f]]
         low = np.array([corners[:, k].min() for k in range(3)])
         high = np.array([corners[:, k].max() for k in range(3)])
-        todo[0] = 0
-        left = 1
-        while left:
-            left -= 1
-            level, code, x, y, z = todo[left]
+        stack[0] = 0
+        height = 1
+        while height:
+            height -= 1
+            level, code, x, y, z = stack[height]
             if level == levels - BRICK_LEVELS:
                 if count == len(codes):
                     codes = np.concatenate((codes, np.empty_like(codes)))
@@ -80,8 +80,8 @@ def _descend(vertices, faces, levels):
                     bit = np.uint64(code * 8 + child & 63)
                     masks[count - 1] |= np.uint64(1) << bit
                 else:
-                    todo[left, 0] = level + 1
-                    todo[left, 1] = code * 8 + child
-                    todo[left, 2], todo[left, 3], todo[left, 4] = cx, cy, cz
-                    left += 1
+                    stack[height, 0] = level + 1
+                    stack[height, 1] = code * 8 + child
+                    stack[height, 2], stack[height, 3], stack[height, 4] = cx, cy, cz
+                    height += 1
     return codes[:count], masks[:count]

@@ -1,9 +1,9 @@
 """Sparse voxel octrees with equal subtrees stored once.
 
 After Kämpe, Sintorn and Assarsson, "High resolution sparse voxel DAGs" (2013), whose nodes these
-are: a word of 32 bits with the mask of the children, and a word for the place of each child that
-there is. The lowest two levels are a brick of 4³ voxels in 64 bits, as in Careil, Billeter and
-Eisemann, "Interactively modifying compressed sparse voxel representations" (2020).
+are: a word of 32 bits with the mask of the children, and a word with the offset of each child. The
+lowest two levels are a brick of 4³ voxels in 64 bits, as in Careil, Billeter and Eisemann,
+"Interactively modifying compressed sparse voxel representations" (2020).
 """
 
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from numba import njit
 from neural_shadows.representations.depths import LIT
 from neural_shadows.representations.voxels.voxel_bricks import BRICK_LEVELS, MOST_LEVELS, Bricks
 
-# Instead of a child: all its voxels are empty, or all are occupied.
+# Instead of a child: all its voxels are empty, or all occupied.
 EMPTY, FULL = -1, -2
 
 # Set bits of a child mask.
@@ -22,14 +22,14 @@ COUNTS = np.bitwise_count(np.arange(256, dtype=np.uint8)).astype(np.uint32)
 
 
 class Octree(NamedTuple):
-    """Nodes by level, from the root down; in a DAG several have the same child."""
+    """Nodes by level, from the root down; a DAG shares children."""
 
     levels: list[np.ndarray]  # each (n, 8) int64, by octant (x the lowest bit) a node of the next
     bricks: np.ndarray  # (n,) uint64, the nodes of the last: see `Bricks.masks`
 
 
 def octree(bricks: Bricks, levels: int) -> Octree:
-    """The octree of at least one brick.
+    """Build the octree of at least one brick.
 
     Args:
         levels: log2 of the voxels an axis.
@@ -47,107 +47,107 @@ def octree(bricks: Bricks, levels: int) -> Octree:
 
 
 def merged(tree: Octree) -> Octree:
-    """The DAG of an octree: without empty nodes, and with equal ones once."""
-    held = tree.bricks != 0
-    nodes = np.full(len(held), EMPTY)
-    bricks, nodes[held] = np.unique(tree.bricks[held], return_inverse=True)
+    """Merge an octree's equal nodes, without empty ones: a DAG."""
+    nonempty = tree.bricks != 0
+    nodes = np.full(len(nonempty), EMPTY)
+    bricks, nodes[nonempty] = np.unique(tree.bricks[nonempty], return_inverse=True)
     above = []
     for level in tree.levels[::-1]:
         children = np.where(level >= 0, nodes[level], level)
-        held = (children != EMPTY).any(1)
+        nonempty = (children != EMPTY).any(1)
         nodes = np.full(len(level), EMPTY)
-        children, nodes[held] = np.unique(children[held], axis=0, return_inverse=True)
+        children, nodes[nonempty] = np.unique(children[nonempty], axis=0, return_inverse=True)
         above.append(children)
     return Octree(above[::-1], bricks)
 
 
-def places_of(tree: Octree) -> list[np.ndarray]:
-    """At which of its words each node of each level begins, the bricks last."""
+def node_offsets(tree: Octree) -> list[np.ndarray]:
+    """Word offsets of each level's nodes, the bricks last."""
     sizes = [1 + (level != EMPTY).sum(1) for level in tree.levels]
     sizes.append(np.full(len(tree.bricks), 2))
-    every = np.concatenate(sizes)
-    return np.split(np.cumsum(every) - every, np.cumsum([len(size) for size in sizes])[:-1])
+    flat = np.concatenate(sizes)
+    return np.split(np.cumsum(flat) - flat, np.cumsum([len(size) for size in sizes])[:-1])
 
 
 def words_of(tree: Octree) -> np.ndarray:
-    """An octree or DAG as (w,) uint32, its root at 0; the place of a full child is 0 too.
+    """Encode an octree or DAG: (w,) uint32, its root at 0.
 
-    A tree without any voxel is one word, 0.
+    A full child has offset 0. A tree without any voxel is one word, 0.
     """
     words = [np.zeros(0, np.uint32)]
-    for level, below in zip(tree.levels, places_of(tree)[1:]):
+    for level, below in zip(tree.levels, node_offsets(tree)[1:]):
         node, child = np.nonzero(level != EMPTY)
         masks = ((level != EMPTY) << np.arange(8)).sum(1)
         target = level[node, child]
-        places = np.where(target == FULL, 0, below[target] if len(below) else 0)
-        # Each node's mask goes before the places of its children.
+        offsets = np.where(target == FULL, 0, below[target] if len(below) else 0)
+        # Each node's mask precedes the offsets of its children.
         first = np.searchsorted(node, np.arange(len(level)))
-        words.append(np.insert(places, first, masks).astype(np.uint32))
+        words.append(np.insert(offsets, first, masks).astype(np.uint32))
     words.append(tree.bricks.view(np.uint32))
     return np.concatenate(words) if len(tree.levels[0]) else np.zeros(1, np.uint32)
 
 
-def check_places(words: np.ndarray, levels: int) -> None:
-    """ValueError if a node, or the place of one, lies beyond the words: the kernels look there."""
+def check_offsets(words: np.ndarray, levels: int) -> None:
+    """Raise ValueError for nodes or offsets beyond the words."""
     nodes = np.zeros(1, np.int64)
     for _ in range(levels - BRICK_LEVELS):
         _check_within(nodes, words)
         masks = words[nodes]
         _check_within(nodes + COUNTS[masks & np.uint32(255)], words)
-        found = []
+        children = []
         for child in range(8):
             held = masks >> np.uint32(child) & np.uint32(1) == 1
             before = COUNTS[masks[held] & np.uint32((1 << child) - 1)]
-            found.append(words[nodes[held] + 1 + before])
-        nodes = np.unique(np.concatenate(found)).astype(np.int64)
-        nodes = nodes[nodes > 0]  # not the place of a full child
+            children.append(words[nodes[held] + 1 + before])
+        nodes = np.unique(np.concatenate(children)).astype(np.int64)
+        nodes = nodes[nodes > 0]  # without full children
     _check_within(nodes + 1, words)
 
 
-def _check_within(places: np.ndarray, words: np.ndarray) -> None:
-    if (places >= len(words)).any():
+def _check_within(offsets: np.ndarray, words: np.ndarray) -> None:
+    if (offsets >= len(words)).any():
         raise ValueError(f"a node beyond its {len(words)} words")
 
 
 @njit(cache=True, nogil=True)
 def first_voxels(origins, directions, words, levels):
-    """t (n,) float32 at which rays enter their first voxel; `LIT` where there is none.
+    """Entry t (n,) float32 into the first voxel; `LIT` for misses.
 
-    The largest empty node around a ray's place is left in one step; the way down to the next
-    begins at the lowest node that both have in common.
+    The largest empty node around a ray's position is left in one step; the descent to the next
+    begins at their lowest common node.
 
     Args:
         origins, directions: (n, 3) float32, from the unit sphere inward.
         words: see `words_of`; levels: log2 of the voxels an axis.
     """
-    found = np.empty(len(origins), np.float32)
+    t_hit = np.empty(len(origins), np.float32)
     scale = 0.5 * (1 << levels)
     last = (1 << levels) - 1
     path = np.zeros(MOST_LEVELS, np.int64)
-    place, step, inverse = np.empty(3), np.empty(3), np.empty(3)
+    position, step, inverse = np.empty(3), np.empty(3), np.empty(3)
     cell, low = np.empty(3, np.int64), np.empty(3, np.int64)
     for ray in range(len(origins)):
         chord = 0.0
         for k in range(3):
             chord -= 2 * origins[ray, k] * directions[ray, k]
-            place[k] = (origins[ray, k] + 1) * scale
+            position[k] = (origins[ray, k] + 1) * scale
             step[k] = directions[ray, k] * scale
             inverse[k] = 1 / step[k] if step[k] != 0 else 0.0
-            cell[k] = min(max(int(np.floor(place[k])), 0), last)
-        found[ray] = LIT
+            cell[k] = min(max(int(np.floor(position[k])), 0), last)
+        t_hit[ray] = LIT
         t, depth = 0.0, 0
         while t < chord:
             depth, free = descend(words, path, depth, levels, cell[0], cell[1], cell[2])
             if free < 0:
-                found[ray] = t
+                t_hit[ray] = t
                 break
-            # Out of the empty node of 2^free voxels an axis.
+            # Leave the empty node of 2^free voxels an axis.
             side = 1 << free
             t, axis = np.inf, 0
             for k in range(3):
                 low[k] = cell[k] >> free << free
                 if step[k] != 0:
-                    leave = (low[k] + (side if step[k] > 0 else 0) - place[k]) * inverse[k]
+                    leave = (low[k] + (side if step[k] > 0 else 0) - position[k]) * inverse[k]
                     if leave < t:
                         t, axis = leave, k
             changed = 0
@@ -155,7 +155,7 @@ def first_voxels(origins, directions, words, levels):
                 if k == axis:
                     entered = low[k] + side if step[k] > 0 else low[k] - 1
                 else:
-                    entered = int(np.floor(place[k] + t * step[k]))
+                    entered = int(np.floor(position[k] + t * step[k]))
                     entered = min(max(entered, low[k]), low[k] + side - 1)
                 changed |= cell[k] ^ entered
                 cell[k] = entered
@@ -163,15 +163,15 @@ def first_voxels(origins, directions, words, levels):
                 break
             while changed >> (levels - depth):
                 depth -= 1
-    return found
+    return t_hit
 
 
 @njit(cache=True, nogil=True, inline="always")
 def descend(words, path, depth, levels, x, y, z):
-    """Down from the node path[depth] to voxel x, y, z: the last node's depth, and how empty.
+    """Descend from node path[depth] to voxel x, y, z.
 
-    That is −1 if the voxel is occupied, or else log2 of the side of the empty node around it.
-    `path` takes the place of the node of each depth on the way.
+    Returns the last node's depth, and −1 if the voxel is occupied, else log2 of the side of the
+    empty node around it. `path` gets the offset of each depth's node.
     """
     while True:
         shift = levels - 1 - depth
@@ -185,14 +185,14 @@ def descend(words, path, depth, levels, x, y, z):
         mask = words[node]
         if not mask >> np.uint32(child) & np.uint32(1):
             return depth, shift
-        place = words[node + 1 + COUNTS[mask & np.uint32((1 << child) - 1)]]
-        if place == 0:
+        offset = words[node + 1 + COUNTS[mask & np.uint32((1 << child) - 1)]]
+        if offset == 0:
             return depth, -1
-        path[depth + 1] = place
+        path[depth + 1] = offset
         depth += 1
 
 
 @njit(cache=True, nogil=True, inline="always")
 def octant(x, y, z):
-    """Which child of its parent a node at x, y, z is."""
+    """Octant of a node in its parent."""
     return (x & 1) | (y & 1) << 1 | (z & 1) << 2

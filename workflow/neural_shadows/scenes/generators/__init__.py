@@ -1,1 +1,1 @@
-"""Seeded scenes in metres, one module each: `arrange(rng)` draws its arrangement."""
+"""Seeded scenes in metres, one module each with `arrange(rng)`."""

@@ -1,18 +1,12 @@
-"""A court of 14 m × 7 m, 6 m high: arcades, galleries over them, hanging cloths (Datta et al. 2022).
+"""Court of 14 m × 7 m with arcades and hanging cloths.
 
-It stands for Sponza: shadows at contact and very wide penumbrae in one frame.
+6 m high, a substitute for Sponza (Datta et al. 2022): shadows at contact and very wide penumbrae in one frame.
 """
 
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import (
-    arcade,
-    balustrade,
-    column,
-    floor,
-    walls,
-)
+from neural_shadows.scenes.generators.building import arcade, balustrade, column, floor, walls
 from neural_shadows.scenes.generators.furniture import plant, vase
 from neural_shadows.scenes.generators.shapes import Shape, at, bars, box, joined, placed, smooth
 
@@ -23,7 +17,7 @@ SPAN = 2.4
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """Two rows of six columns, a gallery over each, two cloths across the court, urns, plants."""
+    """Two rows of columns with galleries, two cloths, urns, plants."""
     columns = [
         (f"columns {side}", [at(column(SPRING), ((k - 2.5) * SPAN, 0, z)) for k in range(6)])
         for side, z in (("left", -ROW), ("right", ROW))
@@ -42,9 +36,9 @@ def arrange(rng: np.random.Generator) -> Arrangement:
         *(placed(f"urn {k + 1}", at(vase(rng.uniform(0.6, 0.9)), p)) for k, p in enumerate(urns)),
         placed("plant", at(plant(rng, 1.6), (5.9, 0, 1.1))),
     )
-    places = [(0.0, 1.2), (2.4, 0.9), (-2.4, 0.9)]
+    positions = [(0.0, 1.2), (2.4, 0.9), (-2.4, 0.9)]
     spots = tuple(
-        Spot(np.array([x, 0.0, 0.0]), high, rng.uniform(0, 2 * np.pi)) for x, high in places
+        Spot(np.array([x, 0.0, 0.0]), high, rng.uniform(0, 2 * np.pi)) for x, high in positions
     )
     return Arrangement(
         "atrium",
@@ -58,7 +52,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _gallery() -> Shape:
-    """Arches over a row of columns along x, the floor behind them to −z, balusters before it."""
+    """Arches along x, gallery floor towards −z, balusters in front."""
     half = 2.5 * SPAN + 0.2
     ends = [-half - 0.8, half + 0.8]
     return joined(
@@ -69,7 +63,7 @@ def _gallery() -> Shape:
 
 
 def _cloth(rng: np.random.Generator) -> Shape:
-    """A cloth across the court that hangs from a pole between the galleries."""
+    """A cloth across the court, from a pole between the galleries."""
     height, half = GALLERY + 0.03, ROW - 0.55
     u, v = np.meshgrid(np.linspace(-1, 1, 49), np.linspace(0, 1, 33), indexing="ij")
     phase, sway = rng.uniform(0, 2 * np.pi), rng.uniform(0.08, 0.16)

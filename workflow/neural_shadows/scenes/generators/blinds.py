@@ -1,4 +1,4 @@
-"""A room of 6 m × 5 m lit from outside, through a window's slats."""
+"""Room of 6 m × 5 m, lit through slats of windows."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ SILL, TOP, OPENING = 0.5, 2.4, 1.7
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """Three windows in the wall at −z, a blind behind each, open by its own angle."""
+    """Three windows at −z with blinds of different angles."""
     window = window_wall(6, 2.8, 3, sill=SILL, top=TOP, opening=OPENING)
     blinds = [at(_blind(rng.uniform(0.1, 0.7)), (x, 0, -2.4)) for x in (-2, 0, 2)]
     middle = np.array([rng.uniform(-0.5, 0.5), 0, rng.uniform(-0.3, 0.2)])
@@ -55,7 +55,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _blind(tilt: float) -> Shape:
-    """Bent slats of 12 cm across a window, open by `tilt` radians, under a rail, on cords."""
+    """Bent slats of 12 cm, open by `tilt` radians, on cords."""
     x, ys = OPENING / 2 + 0.04, np.arange(SILL + 0.14, TOP - 0.04, 0.115)
     share = np.linspace(-1, 1, 11)
     across = np.stack([0.06 * share, 0.01 * (1 - share**2)], axis=1)

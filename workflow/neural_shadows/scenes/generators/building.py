@@ -1,4 +1,4 @@
-"""Parts of buildings in metres that several scenes share; y is up."""
+"""Shared parts of buildings in metres; y is up."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ def floor(width: float, depth: float) -> Shape:
 
 
 def walls(width: float, depth: float, height: float, thickness: float = 0.1) -> Shape:
-    """Four walls round a floor of that size, outside of it."""
+    """Four walls around a floor of width × depth."""
     w, d, t = width / 2, depth / 2, thickness
     lows = [[-w - t, 0, -d - t], [-w - t, 0, d], [-w - t, 0, -d], [w, 0, -d]]
     highs = [[w + t, height, -d], [w + t, height, d + t], [-w, height, d], [w + t, height, d]]
@@ -43,7 +43,7 @@ def column(height: float, radius: float = 0.2) -> Shape:
 
 
 def arcade(bays: int, span: float, spring: float, top: float, thickness: float = 0.4) -> Shape:
-    """Round arches along x from the middle of a column to that of the next, up to a level top.
+    """Round arches along x between column centres, with level top.
 
     Args:
         span: of a bay, between columns' middles. spring: height where the arches begin.
@@ -58,7 +58,7 @@ def arcade(bays: int, span: float, spring: float, top: float, thickness: float =
 
 
 def balustrade(start, end, height: float = 0.95, apart: float = 0.16) -> Shape:
-    """Turned balusters between a foot and a hand rail from point to point, level or rising."""
+    """Turned balusters between two rails, from point to point."""
     start, end = np.asarray(start, float), np.asarray(end, float)
     level = np.linalg.norm((end - start)[[0, 2]])
     count = max(2, round(level / apart))
@@ -73,7 +73,7 @@ def balustrade(start, end, height: float = 0.95, apart: float = 0.16) -> Shape:
 
 
 def window_wall(width: float, height: float, windows: int, *, sill=0.9, top=2.3, opening=1.2):
-    """A wall along x, its face at z = 0 and 0.1 deep behind, with framed windows in it."""
+    """A wall along x with framed windows, z from −0.1 to 0."""
     middles = (np.arange(windows) + 0.5) / windows * width - width / 2
     edges = np.r_[-width / 2, np.ravel([middles - opening / 2, middles + opening / 2], "F")]
     edges = np.r_[edges, width / 2]
@@ -88,7 +88,7 @@ def window_wall(width: float, height: float, windows: int, *, sill=0.9, top=2.3,
 
 
 def window_frame(width: float, height: float, bar: float = 0.04) -> Shape:
-    """An upright frame across z with a cross bar at two thirds and two mullions."""
+    """An upright window frame with a cross bar and two mullions."""
     x, b = width / 2, bar / 2
     xs, ys = [-x + b, -x / 3, x / 3, x - b], [b, 2 * height / 3, height - b]
     upright = boxes([[c - b, 0, -b] for c in xs], [[c + b, height, b] for c in xs])
@@ -97,7 +97,7 @@ def window_frame(width: float, height: float, bar: float = 0.04) -> Shape:
 
 
 def flight(steps: int, width: float, rise: float = 0.17, going: float = 0.28) -> Shape:
-    """A flight of steps that rises along +x from the origin, `width` along z, closed below."""
+    """Closed steps along +x from the origin, `width` along z."""
     k = np.arange(steps)[:, None]
     lows = k * [going, 0, 0] + [0, 0, -width / 2]
     highs = k * [going, rise, 0] + [going, rise - 0.03, width / 2]

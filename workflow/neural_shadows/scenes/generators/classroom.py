@@ -1,4 +1,4 @@
-"""A classroom of 9 m × 7 m: rows of desks and chairs, a lectern and a board."""
+"""Classroom of 9 m × 7 m: desks, chairs, board."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ DESK = 0.72
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """Four rows of four desks that face the board, some with books; the teacher's desk, a globe."""
+    """Four rows of four desks, teacher's desk, globe, shelf."""
     objects = [
         placed("floor", floor(9, 7)),
         placed("windows", at(window_wall(9, 2.8, 4), (0, 0, -3.5))),
@@ -37,10 +37,10 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     for k, (x, z) in enumerate(
         (x, z) for x in (-1.2, 0.2, 1.6, 3.0) for z in (-2.4, -0.8, 0.8, 2.4)
     ):
-        place = np.array([x, 0, z]) + rng.uniform(-0.06, 0.06, 3) * [1, 0, 1]
+        position = np.array([x, 0, z]) + rng.uniform(-0.06, 0.06, 3) * [1, 0, 1]
         turn = -np.pi / 2 + rng.uniform(-0.06, 0.06)
-        objects.append(placed(f"desk {k + 1}", at(_desk(rng), place, turn)))
-        back = place + [rng.uniform(0.4, 0.6), 0, rng.uniform(-0.1, 0.1)]
+        objects.append(placed(f"desk {k + 1}", at(_desk(rng), position, turn)))
+        back = position + [rng.uniform(0.4, 0.6), 0, rng.uniform(-0.1, 0.1)]
         objects.append(placed(f"chair {k + 1}", at(chair(5), back, turn + rng.uniform(-0.3, 0.3))))
     spots = (
         Spot(np.array([-3.1, 0.75, -1.1]), 0.5, rng.uniform(0, 2 * np.pi)),
@@ -58,7 +58,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _desk(rng: np.random.Generator) -> Shape:
-    """A desk with a shelf under its top; on it books that stand or lie, or nothing."""
+    """A desk with a shelf, with upright, lying or no books."""
     desk = joined(table(1.1, 0.5, DESK, 0.018), box((-0.48, 0.55, -0.18), (0.48, 0.565, 0.18)))
     kind = rng.integers(3)
     if kind == 0:
@@ -72,7 +72,7 @@ def _desk(rng: np.random.Generator) -> Shape:
 
 
 def _board() -> Shape:
-    """A board with a frame and a ledge that faces +z, 3 cm before the wall."""
+    """A framed board with a ledge, facing +z, 3 cm thick."""
     return joined(
         box((-1.6, 0.9, -0.03), (1.6, 2.1, 0)),
         boxes([[-1.65, 0.86, -0.03], [-1.65, 2.1, -0.03]], [[1.65, 0.9, 0.12], [1.65, 2.14, 0.02]]),

@@ -1,6 +1,6 @@
-"""Courts and gardens of 6 m to 10 m, wholly drawn: paving, walls, pergolas, trees, stalls, fences.
+"""Random courts and gardens of 6 m to 10 m.
 
-Another seed is another layout: of another size, with other objects, lit and seen from elsewhere.
+The seed determines size, objects, lights and cameras.
 """
 
 from collections.abc import Callable
@@ -14,26 +14,20 @@ from neural_shadows.scenes.generators.fittings import crates, stool
 from neural_shadows.scenes.generators.furniture import bench, grille, plant, table, vase
 from neural_shadows.scenes.generators.plan import Drawn, Kind, Plan, furnish
 from neural_shadows.scenes.generators.roofs import Site, draw_roofs
-from neural_shadows.scenes.generators.shapes import (
-    Shape,
-    at,
-    balls,
-    box,
-    boxes,
-    joined,
-    placed,
-)
+from neural_shadows.scenes.generators.shapes import Shape, at, balls, box, boxes, joined, placed
 
-BESIDE = 0.85  # metres from the light's region to all objects: a light of half a metre has room
+BESIDE = 0.85  # least distance of lights to objects, metres: room for a light of 0.5 m
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """A court seen from its side at +z: roofs over its middle, a bench, and five kinds of pieces."""
+    """A court with roofs, a bench and five kinds of pieces."""
     width, depth = rng.uniform([6.0, 5.2], [9.6, 7.6])
     plan = Plan(width - 0.7, depth - 0.7)
     middle = np.array([rng.uniform(-0.1, 0.1) * width, 0, rng.uniform(-0.14, -0.02) * depth])
     cameras = _cameras(rng, width, depth, middle)
-    plan.take(cameras.low[[0, 2]] - [0.2, 0.8], cameras.high[[0, 2]] + 0.2)  # nothing close before
+    plan.take(
+        cameras.low[[0, 2]] - [0.2, 0.8], cameras.high[[0, 2]] + 0.2
+    )  # free space in front of cameras
 
     objects = [placed("ground", floor(width, depth)), *_edges(rng, width, depth)]
     seat = plan.place(rng, 1.7, 0.7, *_about(middle, 1.0))
@@ -57,12 +51,12 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _about(middle: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
-    """Corners (x, z) of a square about a place."""
+    """Corners (x, z) of a square about a point."""
     return middle[[0, 2]] - reach, middle[[0, 2]] + reach
 
 
 def _cameras(rng: np.random.Generator, width: float, depth: float, middle: np.ndarray) -> Region:
-    """Eyes in a strip along x on the side of +z, of drawn height."""
+    """Eyes in a strip along x at +z, of random height."""
     half = rng.uniform(1.0, 1.7)
     x = rng.uniform(-1, 1) * max(0.0, width / 2 - 0.7 - half)
     near = min(middle[2] + rng.uniform(1.7, 2.5), depth / 2 - 1.0)
@@ -71,7 +65,7 @@ def _cameras(rng: np.random.Generator, width: float, depth: float, middle: np.nd
 
 
 def _lights(rng: np.random.Generator, middle: np.ndarray, top: float) -> Region:
-    """Over the roofs, now nearer and now farther, to a side of what is looked at."""
+    """Lights above the roofs, beside the targets."""
     half = rng.uniform([0.5, 0.1, 0.4], [1.2, 0.4, 1.0])
     centre = middle + rng.uniform([-0.9, 0, -0.6], [0.9, 0, 0.9])
     centre[1] = top + BESIDE + rng.uniform(0.05, 0.9) + half[1]
@@ -79,7 +73,7 @@ def _lights(rng: np.random.Generator, middle: np.ndarray, top: float) -> Region:
 
 
 def _edges(rng: np.random.Generator, width: float, depth: float) -> list[Placed]:
-    """What stands along the back and the two sides, each of its own kind, or nothing."""
+    """Edges at the back and two sides, of different kinds."""
     kinds = rng.permutation(len(EDGES))
     rows = [(width, (0, 0, -depth / 2 + 0.1), 0.0)]
     rows += [
@@ -87,8 +81,8 @@ def _edges(rng: np.random.Generator, width: float, depth: float) -> list[Placed]
         (depth, (width / 2 - 0.1, 0, 0), -np.pi / 2),
     ]
     return [
-        placed(f"edge {k + 1}", at(EDGES[kind](rng, long - 0.3), place, turn))
-        for k, (kind, (long, place, turn)) in enumerate(zip(kinds, rows))
+        placed(f"edge {k + 1}", at(EDGES[kind](rng, long - 0.3), position, turn))
+        for k, (kind, (long, position, turn)) in enumerate(zip(kinds, rows))
         if k == 0 or rng.random() < 0.7
     ]
 
@@ -136,23 +130,23 @@ EDGES: tuple[Callable[[np.random.Generator, float], Shape], ...] = (
 
 
 def _spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray, side: float) -> Spot:
-    """A free place on the ground near the middle, as high as it is wide."""
+    """A free spot near the middle, as high as wide."""
     for own in (side, 0.75 * side, 0.5 * side):
-        place = plan.place(rng, own, own, *_about(middle, 2.0))
-        if place is not None:
+        position = plan.place(rng, own, own, *_about(middle, 2.0))
+        if position is not None:
             break
-    return Spot(place, own, rng.uniform(0, 2 * np.pi))
+    return Spot(position, own, rng.uniform(0, 2 * np.pi))
 
 
 def _ground(rng: np.random.Generator, plan: Plan, width: float, depth: float) -> list[Placed]:
     """Paving, grass, or stones, clear of the spots."""
-    way = rng.random()
-    if way < 0.35:
+    choice = rng.random()
+    if choice < 0.35:
         shape = outdoors.stones(rng, _path(rng, width, depth))
         return [placed("stones", shape)]
-    place = plan.place(rng, 1.4, 1.4) if way < 0.7 else None
-    if place is not None:
-        return [placed("grass", at(outdoors.grass(rng, 1.2, 1.2, 300), place))]
+    position = plan.place(rng, 1.4, 1.4) if choice < 0.7 else None
+    if position is not None:
+        return [placed("grass", at(outdoors.grass(rng, 1.2, 1.2, 300), position))]
     strip = plan.place(rng, 1.6, 0.9)
     return (
         [] if strip is None else [placed("paving", at(outdoors.paving(rng, 1.6, 0.9, 0.3), strip))]
@@ -160,7 +154,7 @@ def _ground(rng: np.random.Generator, plan: Plan, width: float, depth: float) ->
 
 
 def _path(rng: np.random.Generator, width: float, depth: float) -> np.ndarray:
-    """A row of places along the front."""
+    """A row of points along the front."""
     x = np.linspace(-width / 2 + 0.4, width / 2 - 0.4, 11)
     z = depth / 2 - 0.5 + 0.15 * np.sin(x + rng.uniform(0, 6))
     return np.stack([x, 0 * x, z], axis=1)

@@ -1,4 +1,4 @@
-"""More furniture in metres, of drawn sizes: it stands on y = 0 about the y axis."""
+"""Furniture of random sizes in metres, standing on y = 0."""
 
 import numpy as np
 
@@ -37,7 +37,7 @@ def stool(height: float = 0.62) -> Shape:
 
 
 def crates(rng: np.random.Generator, levels: int) -> Shape:
-    """Open crates of slats on each other, each turned a little, 0.55 wide."""
+    """A stack of slatted crates, 0.55 wide, slightly rotated."""
     parts = []
     x, z, high = 0.27, 0.19, 0.26
     corners = np.array([[a, 0, b] for a in (-x, x) for b in (-z, z)])
@@ -57,7 +57,7 @@ def crates(rng: np.random.Generator, levels: int) -> Shape:
 
 
 def cloth_rail(rng: np.random.Generator, width: float, height: float = 1.6) -> Shape:
-    """A rail on two stands, `width` along x, with cloths that hang across it."""
+    """A rail on two stands with hanging cloths, `width` along x."""
     x = width / 2
     feet = np.array([[-x, 0.02, 0], [x, 0.02, 0]])
     parts = [
@@ -66,17 +66,17 @@ def cloth_rail(rng: np.random.Generator, width: float, height: float = 1.6) -> S
         bars([[-x, height, 0]], [[x, height, 0]], 0.014, 12),
     ]
     u, v = np.meshgrid(np.linspace(-1, 1, 15), np.linspace(0, 1, 13), indexing="ij")
-    for place in np.linspace(-x + 0.15, x - 0.15, max(2, round(width / 0.28))):
+    for position in np.linspace(-x + 0.15, x - 0.15, max(2, round(width / 0.28))):
         long, phase = rng.uniform(0.6, 1.05), rng.uniform(0, 6)
         bend = 0.05 * np.sin(4 * u + phase + 2 * v) * np.minimum(1, 4 * v)
         z = (0.1 + 0.12 * np.sqrt(v)) * u
-        cloth = np.stack([place + bend, height + 0.014 - long * v - 0.06 * u**2, z], axis=-1)
+        cloth = np.stack([position + bend, height + 0.014 - long * v - 0.06 * u**2, z], axis=-1)
         parts.append(smooth(cloth))
     return joined(*parts)
 
 
 def floor_lamp(height: float) -> Shape:
-    """A foot, a stem and a cage of rings and bars as its shade."""
+    """A floor lamp with a cage as its shade."""
     foot = [(0, 0), (0.16, 0), (0.16, 0.025), (0.02, 0.05), (0.015, height - 0.3)]
     angle = 2 * np.pi * np.arange(20) / 20
     out = np.stack([np.cos(angle), np.zeros(20), np.sin(angle)], axis=1)
@@ -91,7 +91,7 @@ def floor_lamp(height: float) -> Shape:
 
 
 def rack(rng: np.random.Generator, width: float, height: float) -> Shape:
-    """Thin posts and shelves of wire, `width` along x and 0.44 deep, with tins on them."""
+    """Wire shelves with tins, `width` along x, 0.44 deep."""
     x, z = width / 2, 0.22
     posts = np.array([[a, 0, b] for a in (-x, x) for b in (-z, z)])
     parts = [bars(posts, posts + [0, height, 0], 0.014, 12)]
@@ -113,7 +113,7 @@ def rack(rng: np.random.Generator, width: float, height: float) -> Shape:
 
 
 def podium(steps: int, width: float, length: float) -> Shape:
-    """Steps that rise along +x to a platform `length` long, with balusters along its far sides."""
+    """Steps along +x to a platform with balusters."""
     run, high = steps * GOING, steps * RISE
     start = -(run + length) / 2
     corner = np.array([start + run, high, -width / 2 + 0.06])
@@ -127,7 +127,7 @@ def podium(steps: int, width: float, length: float) -> Shape:
 
 
 def easel(height: float, width: float) -> Shape:
-    """A board that leans back on three legs, facing +z."""
+    """An easel: a leaning board on three legs, facing +z."""
     lean = 0.22 * height
     feet = np.array([[-0.32, 0.015, 0.22], [0.32, 0.015, 0.22], [0, 0.015, 0.22 - 2 * lean]])
     top = np.array(

@@ -1,4 +1,4 @@
-"""Furniture in metres that several scenes share: it stands on y = 0 about the y axis."""
+"""Shared furniture in metres, standing on y = 0."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ SEAT = 0.45  # height of a chair's seat
 
 
 def table(width: float, depth: float, height: float = 0.75, leg: float = 0.025) -> Shape:
-    """A table, `width` along x, with four thin round legs of radius `leg` and a frame under it."""
+    """A table, `width` along x, with legs of radius `leg`."""
     x, z = width / 2 - 0.07, depth / 2 - 0.07
     feet = np.array([[-x, 0, -z], [x, 0, -z], [x, 0, z], [-x, 0, z]])
     under = height - 0.04
@@ -31,7 +31,7 @@ def table(width: float, depth: float, height: float = 0.75, leg: float = 0.025) 
 
 
 def chair(slats: int = 7) -> Shape:
-    """A chair that faces +z, 0.42 wide: seat and back of slats, round legs, bars of 2 cm."""
+    """A slatted chair facing +z, 0.42 wide."""
     x = 0.19
     feet = np.array([[-x, 0, x], [x, 0, x], [x, 0, -x], [-x, 0, -x]])
     knees = feet + [0, SEAT - 0.02, 0]
@@ -55,7 +55,7 @@ def chair(slats: int = 7) -> Shape:
 
 
 def shelf(rng: np.random.Generator, width: float, height: float, boards: int = 5) -> Shape:
-    """A shelf 0.3 deep that faces +z, `width` along x, with books on each board but the top."""
+    """A bookshelf facing +z, `width` along x, 0.3 deep."""
     x, z, t = width / 2, 0.15, 0.02
     ys = np.linspace(0.06, height - t, boards)
     sides = boxes([[-x, 0, -z], [x - t, 0, -z]], [[-x + t, height, z], [x, height, z]])
@@ -67,7 +67,7 @@ def shelf(rng: np.random.Generator, width: float, height: float, boards: int = 5
 
 
 def books(rng: np.random.Generator, width: float, height: float) -> Shape:
-    """A row of upright books along x, with gaps, none higher than `height`."""
+    """A row of upright books along x, up to `height`."""
     lows, highs, x = [], [], -width / 2
     while x < width / 2 - 0.06:
         thick, tall = rng.uniform(0.015, 0.05), height * rng.uniform(0.55, 0.93)
@@ -79,7 +79,7 @@ def books(rng: np.random.Generator, width: float, height: float) -> Shape:
 
 
 def plant(rng: np.random.Generator, height: float, quads: int = 150) -> Shape:
-    """A plant of `quads` folded leaves on curved stems, in a pot."""
+    """A potted plant of `quads` folded leaves on curved stems."""
     pot = lathe(
         [(0, 0), (0.11, 0), (0.15, 0.26), (0.17, 0.28), (0.15, 0.28), (0.14, 0.25), (0, 0.25)]
     )
@@ -95,11 +95,11 @@ def plant(rng: np.random.Generator, height: float, quads: int = 150) -> Shape:
     part = (step - before)[:, None]
     feet = (1 - part) * paths[before, stem] + part * paths[before + 1, stem]
     angle, length = rng.uniform(0, 2 * np.pi, quads), rng.uniform(0.1, 0.22, quads)
-    ways = np.stack([np.cos(angle), rng.uniform(-0.4, 0.7, quads), np.sin(angle)], axis=1)
+    directions = np.stack([np.cos(angle), rng.uniform(-0.4, 0.7, quads), np.sin(angle)], axis=1)
     return joined(
         pot,
         bars(paths[:-1].reshape(-1, 3), paths[1:].reshape(-1, 3), 0.006, sections=6),
-        leaves(feet, feet + length[:, None] * ways, 0.07),
+        leaves(feet, feet + length[:, None] * directions, 0.07),
     )
 
 
@@ -110,7 +110,7 @@ def vase(height: float) -> Shape:
 
 
 def grille(width: float, height: float, apart: float = 0.06, bar: float = 0.005) -> Shape:
-    """An upright grille across z: two layers of round bars of radius `bar` in a frame on feet."""
+    """An upright grille of round bars, radius `bar`, on feet."""
     x, base = width / 2, 0.1
     xs = np.arange(-x + apart, x - apart / 2, apart)[:, None] * [1, 0, 0]
     ys = np.arange(base + apart, height - apart / 2, apart)[:, None] * [0, 1, 0]

@@ -1,4 +1,4 @@
-"""A gallery of 12 m × 8 m: pieces on plinths, and walls in thin relief."""
+"""Gallery of 12 m × 8 m: plinths, and walls with reliefs."""
 
 import numpy as np
 import trimesh
@@ -24,9 +24,13 @@ PLINTH = 0.9
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """Eight plinths, five with a piece on top and three free; reliefs on the walls; a rope."""
+    """Eight plinths, five with pieces; reliefs, a rope, a bench."""
     grid = [(x, z) for z in (-1.7, 1.7) for x in (-4.2, -1.4, 1.4, 4.2)]
-    places = np.array([[x, 0, z] for x, z in grid]) + rng.uniform(-0.25, 0.25, (8, 3)) * [1, 0, 1]
+    positions = np.array([[x, 0, z] for x, z in grid]) + rng.uniform(-0.25, 0.25, (8, 3)) * [
+        1,
+        0,
+        1,
+    ]
     order = rng.permutation(8)
     pieces = [vase(0.7), _rings(), _stack(rng), _cage(), _stack(rng)]
     reliefs = [
@@ -39,15 +43,18 @@ def arrange(rng: np.random.Generator) -> Arrangement:
         placed("floor", floor(12, 8)),
         placed("walls", walls(12, 8, 2.8)),
         *reliefs,
-        *(placed(f"plinth {k + 1}", at(_plinth(), place)) for k, place in enumerate(places)),
         *(
-            placed(f"piece {k + 1}", at(piece, places[own] + [0, PLINTH, 0], rng.uniform(0, 6)))
+            placed(f"plinth {k + 1}", at(_plinth(), position))
+            for k, position in enumerate(positions)
+        ),
+        *(
+            placed(f"piece {k + 1}", at(piece, positions[own] + [0, PLINTH, 0], rng.uniform(0, 6)))
             for k, (piece, own) in enumerate(zip(pieces, order))
         ),
         placed("rope", at(_rope(), (4.9, 0, 0), np.pi / 2)),
         placed("bench", bench(1.8)),
     )
-    spots = [Spot(places[k] + [0, PLINTH, 0], 0.6, rng.uniform(0, 2 * np.pi)) for k in order[5:]]
+    spots = [Spot(positions[k] + [0, PLINTH, 0], 0.6, rng.uniform(0, 2 * np.pi)) for k in order[5:]]
     return Arrangement(
         "gallery",
         objects,
@@ -69,7 +76,7 @@ def _plinth() -> Shape:
 
 
 def _relief(rng: np.random.Generator, width: float, height: float) -> Shape:
-    """A wall's relief that faces +z: tiles, bars and rosettes, 0.5 to 4 cm proud."""
+    """A relief facing +z: tiles and rosettes, 0.5 to 4 cm high."""
     columns, rows = 16, 9
     a, b = width / columns, height / rows
     x, y = np.meshgrid(np.arange(columns) * a - width / 2, np.arange(rows) * b, indexing="ij")
@@ -92,7 +99,7 @@ def _relief(rng: np.random.Generator, width: float, height: float) -> Shape:
 
 
 def _rings() -> Shape:
-    """Three upright rings within each other, each turned, on a stem."""
+    """Three nested upright rings on a stem, rotated."""
     stem = bars([[0, 0, 0]], [[0, 0.22, 0]], 0.03, 16)
     upright = trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0])
     rings = [ring(0.2 - 0.035 * k, 0.015).apply_transform(upright) for k in range(3)]
@@ -100,7 +107,7 @@ def _rings() -> Shape:
 
 
 def _stack(rng: np.random.Generator) -> Shape:
-    """Balls on each other, ever smaller."""
+    """A stack of balls of decreasing size."""
     radii = rng.uniform(0.7, 1, 3) * [0.17, 0.13, 0.09]
     heights = np.cumsum(np.r_[radii[0], (radii[:-1] + radii[1:]) * 0.95])
     middles = heights[:, None] * [0, 1, 0] + rng.uniform(-0.02, 0.02, (3, 3)) * [1, 0, 1]
@@ -116,7 +123,7 @@ def _cage() -> Shape:
 
 
 def _rope() -> Shape:
-    """Four posts along x with a rope that sags between them."""
+    """Four posts along x with a sagging rope."""
     post = lathe([(0, 0), (0.14, 0), (0.14, 0.02), (0.02, 0.04), (0.02, 0.9), (0.04, 0.95), (0, 1)])
     x = np.linspace(-1.8, 1.8, 4)
     t = np.linspace(x[0], x[-1], 49)

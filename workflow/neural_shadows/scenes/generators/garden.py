@@ -1,4 +1,4 @@
-"""A garden of 8 m × 7 m: beds of plants, a mesh fence, a pergola of slats, a bench, grass."""
+"""Garden of 8 m × 7 m: plants, fence, pergola, grass."""
 
 import numpy as np
 
@@ -7,12 +7,7 @@ from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
 from neural_shadows.scenes.generators.building import floor
 from neural_shadows.scenes.generators.furniture import bench, grille, plant
 from neural_shadows.scenes.generators.outdoors import pergola, stones
-from neural_shadows.scenes.generators.shapes import (
-    Shape,
-    at,
-    leaves,
-    placed,
-)
+from neural_shadows.scenes.generators.shapes import Shape, at, leaves, placed
 
 PANEL = 2.0  # width of a panel of the fence
 PERGOLA = 2.2  # height of its slats
@@ -20,18 +15,22 @@ LAWN = np.array([1.2, 0.0, -0.4])
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """Plants along the fence and about a lawn, half of it under a pergola."""
+    """Plants along a fence and a lawn, a pergola."""
     beds = [(-3.2, -2.4), (-2.0, -2.6), (-0.6, -2.5), (0.9, -2.6), (2.2, -2.4), (3.3, -2.5)]
     beds += [(3.2, 0.4), (-3.3, 0.6), (2.6, 1.5), (-2.8, 2.0)]
-    places = np.array([[x, 0, z] for x, z in beds]) + rng.uniform(-0.15, 0.15, (10, 3)) * [1, 0, 1]
+    positions = np.array([[x, 0, z] for x, z in beds]) + rng.uniform(-0.15, 0.15, (10, 3)) * [
+        1,
+        0,
+        1,
+    ]
     panels = [at(_panel(), (x, 0, -3.2)) for x in (-PANEL, 0)]
     panels += [at(grille(PANEL - 0.06, 1.5, 0.1), (x * PANEL, 0, -3.2)) for x in (-1.5, 1.5)]
     objects = (
         placed("ground", floor(8, 7)),
         placed("fence", *panels),
         *(
-            placed(f"plant {k + 1}", at(plant(rng, rng.uniform(0.9, 1.7), 110), place))
-            for k, place in enumerate(places)
+            placed(f"plant {k + 1}", at(plant(rng, rng.uniform(0.9, 1.7), 110), position))
+            for k, position in enumerate(positions)
         ),
         placed("pergola", at(pergola(2.6, 2.2, PERGOLA, 18), (-1.7, 0, 0))),
         placed("bench", at(bench(1.6), (-1.7, 0, -0.9))),

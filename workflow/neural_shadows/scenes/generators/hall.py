@@ -1,6 +1,6 @@
-"""A meeting hall of 10 m × 6 m, 3 m high, with windows in its long walls (Datta et al. 2022).
+"""Meeting hall of 10 m × 6 m, 3 m high.
 
-It stands for their conference room.
+A substitute for the conference room of Datta et al. (2022).
 """
 
 import numpy as np
@@ -23,7 +23,7 @@ TABLE = 0.75
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """A long table with fourteen chairs, what people leave on it, a screen and plants."""
+    """A long table with fourteen chairs, a screen and plants."""
     objects = (
         placed("floor", floor(10, 6)),
         placed("north wall", at(window_wall(10, 3, 5), (0, 0, -3))),
@@ -31,7 +31,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
         placed("end walls", boxes([[-5.1, 0, -3], [5, 0, -3]], [[-5, 3, 3], [5.1, 3, 3]])),
         placed("table", _long_table()),
         *(placed(f"chair {k + 1}", each) for k, each in enumerate(_chairs(rng))),
-        placed("on the table", *_left_things(rng)),
+        placed("on the table", *_table_objects(rng)),
         placed("screen", at(_screen(), (-4.5, 0, rng.uniform(-0.5, 0.5)), np.pi / 2)),
         placed("plant 1", at(plant(rng, 1.5), (4.5, 0, -2.4))),
         placed("plant 2", at(plant(rng, 1.2), (-4.4, 0, 2.4))),
@@ -59,37 +59,37 @@ def _long_table() -> Shape:
 
 
 def _chairs(rng: np.random.Generator) -> list[Shape]:
-    """Six along each side, one at each end, each pulled out and turned a little."""
+    """Six chairs along each side, one at each end."""
     sides = [(x, z, turn) for z, turn in ((0.85, np.pi), (-0.85, 0.0)) for x in _ALONG]
-    places = [*sides, (-3.1, 0, np.pi / 2), (3.1, 0, -np.pi / 2)]
+    positions = [*sides, (-3.1, 0, np.pi / 2), (3.1, 0, -np.pi / 2)]
     chairs = []
-    for x, z, turn in places:
+    for x, z, turn in positions:
         back = rng.uniform(0, 0.35) * np.array([np.sin(turn), 0, np.cos(turn)])
-        place = np.array([x, 0, z]) - back
-        chairs.append(at(chair(6), place, turn + rng.uniform(-0.15, 0.15)))
+        position = np.array([x, 0, z]) - back
+        chairs.append(at(chair(6), position, turn + rng.uniform(-0.15, 0.15)))
     return chairs
 
 
 _ALONG = np.array([-2.3, -1.45, -0.48, 0.48, 1.45, 2.3])
 
 
-def _left_things(rng: np.random.Generator) -> list[Shape]:
-    """Open notebooks, cups and pens before some of the chairs."""
+def _table_objects(rng: np.random.Generator) -> list[Shape]:
+    """Open notebooks, cups and pens at some chairs."""
     lid = beams([[0, 0.01, -0.115]], [[0, 0.22, -0.19]], 0.32, 0.008)
     notebook = joined(box((-0.16, 0, -0.115), (0.16, 0.016, 0.115)), lid)
     cup = bars([[0.24, 0, -0.02]], [[0.24, 0.1, -0.02]], 0.04, 24)
     pen = bars([[0.2, 0.006, 0.08]], [[0.32, 0.006, 0.12]], 0.006, 6)
-    things = []
+    objects = []
     for z, turn in ((0.42, 0.0), (-0.42, np.pi)):
         for x in _ALONG:
             if rng.random() < 0.6:
-                own = [notebook, cup, pen][: rng.integers(1, 4)]
-                things.append(at(joined(*own), (x, TABLE, z), turn + rng.uniform(-0.2, 0.2)))
-    return things or [at(notebook, (0.5, TABLE, 0.4))]
+                items = [notebook, cup, pen][: rng.integers(1, 4)]
+                objects.append(at(joined(*items), (x, TABLE, z), turn + rng.uniform(-0.2, 0.2)))
+    return objects or [at(notebook, (0.5, TABLE, 0.4))]
 
 
 def _screen() -> Shape:
-    """A screen on a stand with thin legs that faces +z."""
+    """A screen on a stand with thin legs, facing +z."""
     legs = np.array([[-0.5, 0, 0.25], [0.5, 0, 0.25], [0.5, 0, -0.25], [-0.5, 0, -0.25]])
     return joined(
         bars(legs + [0, 0.012, 0], legs * [1, 0, 0.1] + [0, 1.0, 0], 0.012, 12),

@@ -1,4 +1,4 @@
-"""What hangs over a floor, in metres; the origin is where it hangs from, and it reaches below."""
+"""Hanging objects in metres, suspended from the origin."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from neural_shadows.scenes.generators.shapes import (
 
 
 def ring_lamp(drop: float, radius: float, spokes: int = 16) -> Shape:
-    """A level ring with spokes and a smaller ring within on a rod of length `drop`."""
+    """Two level rings with spokes, on a rod of length `drop`."""
     angle = 2 * np.pi * np.arange(spokes) / spokes
     out = radius * np.stack([np.cos(angle), np.zeros(spokes), np.sin(angle)], axis=1)
     hub = np.array([0, -drop, 0])
@@ -37,7 +37,7 @@ def shade_lamp(drop: float, radius: float) -> Shape:
 
 
 def basket(drop: float, radius: float, ribs: int = 12) -> Shape:
-    """A round cage of thin bars about a ball, on a rod of length `drop`."""
+    """A ball in a round cage, on a rod of length `drop`."""
     angle = 2 * np.pi * np.arange(ribs) / ribs
     out = np.stack([np.cos(angle), np.zeros(ribs), np.sin(angle)], axis=1)
     bend = np.linspace(-np.pi / 2, np.pi / 2, 9)[:, None, None]
@@ -50,7 +50,7 @@ def basket(drop: float, radius: float, ribs: int = 12) -> Shape:
 
 
 def banner(rng: np.random.Generator, width: float, drop: float) -> Shape:
-    """A cloth with folds, `width` along x, that reaches `drop` down."""
+    """A folded cloth, `width` along x and `drop` long."""
     u, v = np.meshgrid(np.linspace(-1, 1, 33), np.linspace(0, 1, 25), indexing="ij")
     phase, folds = rng.uniform(0, 2 * np.pi), rng.uniform(3, 7)
     z = 0.05 * np.minimum(1, 4 * v) * np.sin(folds * u + phase + v)
@@ -59,7 +59,7 @@ def banner(rng: np.random.Generator, width: float, drop: float) -> Shape:
 
 
 def mobile(rng: np.random.Generator, drop: float, arms: int = 5) -> Shape:
-    """Arms on each other, each with a disc at its ends, on a thread of length `drop`."""
+    """A mobile of arms with discs, on a thread `drop` long."""
     parts, hub = [bars([[0, 0, 0]], [[0, -drop, 0]], 0.004, 6)], np.array([0, -drop, 0])
     disc = lathe([(0, 0), (0.09, 0), (0.09, 0.012), (0, 0.012)], 24)
     for k in range(arms):
@@ -79,7 +79,7 @@ def mobile(rng: np.random.Generator, drop: float, arms: int = 5) -> Shape:
 def wires(
     rng: np.random.Generator, starts, ends, *, bulbs: bool = True, pennants: bool = False
 ) -> Shape:
-    """Wires that sag between points (n, 3), with bulbs or pennants along them."""
+    """Sagging wires between points (n, 3), with bulbs or pennants."""
     parts, t = [], np.linspace(0, 1, 33)[:, None]
     for start, end in zip(np.asarray(starts, float), np.asarray(ends, float)):
         line = (1 - t) * start + t * end - 4 * t * (1 - t) * [0, rng.uniform(0.1, 0.35), 0]
@@ -94,7 +94,7 @@ def wires(
 
 
 def frame_over(ends, height: float, post: float = 0.1) -> Shape:
-    """A beam on a post at each end: pairs of points (n, 2, 3) on y = 0, its top at `height`."""
+    """Beams on posts between points (n, 2, 3), tops at `height`."""
     ends = np.asarray(ends, float)
     feet = ends.reshape(-1, 3)
     under = height - 1.4 * post

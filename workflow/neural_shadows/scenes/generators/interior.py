@@ -1,6 +1,6 @@
-"""Rooms of 5 m to 9 m, wholly drawn: walls, furniture, what hangs, where light and camera are.
+"""Random rooms of 5 m to 9 m.
 
-Another seed is another layout: of another size, with other objects, lit and seen from elsewhere.
+The seed determines size, walls, furniture, hanging objects, lights and cameras.
 """
 
 import numpy as np
@@ -31,12 +31,12 @@ from neural_shadows.scenes.generators.plan import Drawn, Kind, Plan, furnish
 from neural_shadows.scenes.generators.shapes import Shape, at, beams, box, boxes, joined, placed
 
 TABLE = 0.75
-BESIDE = 0.85  # metres from the light's region to all objects: a light of half a metre has room
+BESIDE = 0.85  # least distance of lights to objects, metres: room for a light of 0.5 m
 WALL = 0.1
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """A room seen from its side at +z: a laid table, six kinds of furniture, things that hang."""
+    """A room with a table, furniture and hanging objects."""
     width, depth = rng.uniform([5.0, 4.6], [8.6, 6.4])
     plan = Plan(width - 0.2, depth - 0.2)
     hung = rng.uniform(1.95, 2.45)  # height of the beams' tops
@@ -44,7 +44,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
     cameras = _cameras(rng, width, depth, middle)
     plan.take(
         cameras.low[[0, 2]] - [0.15, 0.5], cameras.high[[0, 2]] + 0.15
-    )  # nothing close before
+    )  # free space in front of cameras
     lights = _lights(rng, middle, hung)
 
     objects = [placed("floor", floor(width, depth)), *_walls(rng, width, depth)]
@@ -68,7 +68,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _cameras(rng: np.random.Generator, width: float, depth: float, middle: np.ndarray) -> Region:
-    """Eyes in a strip along x on the side of +z, of drawn height."""
+    """Eyes in a strip along x at +z, of random height."""
     half = rng.uniform(0.9, 1.5)
     x = rng.uniform(-1, 1) * max(0.0, width / 2 - 0.5 - half)
     near = min(middle[2] + rng.uniform(1.5, 2.2), depth / 2 - 0.9)
@@ -77,7 +77,7 @@ def _cameras(rng: np.random.Generator, width: float, depth: float, middle: np.nd
 
 
 def _lights(rng: np.random.Generator, middle: np.ndarray, hung: float) -> Region:
-    """Over the beams, now nearer and now farther, to a side of what is looked at."""
+    """Lights above the beams, beside the targets."""
     half = rng.uniform([0.5, 0.1, 0.4], [1.1, 0.35, 0.9])
     centre = middle + rng.uniform([-0.8, 0, -0.5], [0.8, 0, 0.8])
     centre[1] = hung + BESIDE + rng.uniform(0.05, 0.8) + half[1]
@@ -85,7 +85,7 @@ def _lights(rng: np.random.Generator, middle: np.ndarray, hung: float) -> Region
 
 
 def _walls(rng: np.random.Generator, width: float, depth: float) -> list[Placed]:
-    """A wall at the back and one or two at the sides, each of its own kind and height."""
+    """Walls at the back and the sides, of different kinds."""
     kinds = rng.permutation(len(WALLS))
     back = WALLS[kinds[0]](rng, width)
     walls = [placed("back wall", at(back, (0, 0, -depth / 2)))]
@@ -143,7 +143,7 @@ WALLS = (_windows, _plain, _arches, _slats)
 
 
 def _beams(rng: np.random.Generator, plan: Plan, width: float, front: float) -> np.ndarray:
-    """Two to four beams across the room along x, at drawn depths behind `front`: (n, 2, 3)."""
+    """Ends (n, 2, 3) of two to four beams along x, behind `front`."""
     count = rng.integers(2, 5)
     back = -plan.depth / 2 + 0.3
     zs = np.linspace(back, front, count + 1)[:-1] + rng.uniform(0.1, 0.9) * (front - back) / count
@@ -157,7 +157,7 @@ def _beams(rng: np.random.Generator, plan: Plan, width: float, front: float) -> 
 def _laid_table(
     rng: np.random.Generator, plan: Plan, middle: np.ndarray
 ) -> tuple[list[Placed], Spot]:
-    """A table with chairs round it, and what stands on it; an object may stand in its middle."""
+    """A table with chairs and an object, and a spot on it."""
     if rng.random() < 0.35:
         radius = rng.uniform(0.55, 0.8)
         top, half = fittings.round_table(radius, TABLE), np.array([radius, radius])
@@ -173,29 +173,29 @@ def _laid_table(
         seats += [(half[0] + 0.15, 0, -np.pi / 2)] * (rng.random() < 0.6)
     reach = half + 0.62
     low, high = middle[[0, 2]] + [-1.0, -1.1], middle[[0, 2]] + [1.0, 0.5]
-    place = plan.place(rng, *(2 * reach), low, high, top=1.05)
-    if place is None:
-        place = middle
+    position = plan.place(rng, *(2 * reach), low, high, top=1.05)
+    if position is None:
+        position = middle
         plan.take(middle[[0, 2]] - reach, middle[[0, 2]] + reach, top=1.05)
-    parts = [placed("table", at(top, place))]
+    parts = [placed("table", at(top, position))]
     for k, (x, z, turn) in enumerate(seats):
         back = rng.uniform(0, 0.22) * np.array([np.sin(turn), 0, np.cos(turn)])
-        seat = at(chair(), place + [x, 0, z] - back, turn + rng.uniform(-0.25, 0.25))
+        seat = at(chair(), position + [x, 0, z] - back, turn + rng.uniform(-0.25, 0.25))
         parts.append(placed(f"chair {k + 1}", seat))
-    beside = place + [rng.choice([-1, 1]) * (half[0] - 0.16), TABLE, rng.uniform(-0.1, 0.1)]
+    beside = position + [rng.choice([-1, 1]) * (half[0] - 0.16), TABLE, rng.uniform(-0.1, 0.1)]
     on_it = vase(rng.uniform(0.2, 0.34)) if rng.random() < 0.5 else books(rng, 0.26, 0.27)
     parts.append(placed("on the table", at(on_it, beside)))
-    return parts, Spot(place + [0, TABLE, 0], 0.5, rng.uniform(0, 2 * np.pi))
+    return parts, Spot(position + [0, TABLE, 0], 0.5, rng.uniform(0, 2 * np.pi))
 
 
 def _floor_spot(rng: np.random.Generator, plan: Plan, middle: np.ndarray) -> Spot:
-    """A free place on the floor near the middle, as high as it is wide."""
+    """A free spot near the middle, as high as wide."""
     for side in (1.0, 0.8, 0.6, 0.45):
         low, high = middle[[0, 2]] + [-1.9, -1.4], middle[[0, 2]] + [1.9, 1.2]
-        place = plan.place(rng, side, side, low, high)
-        if place is not None:
+        position = plan.place(rng, side, side, low, high)
+        if position is not None:
             break
-    return Spot(place, side, rng.uniform(0, 2 * np.pi))
+    return Spot(position, side, rng.uniform(0, 2 * np.pi))
 
 
 def _shelf(rng: np.random.Generator) -> Drawn:
@@ -281,7 +281,7 @@ KINDS: tuple[Kind, ...] = (
 
 
 def _hanging(rng: np.random.Generator, plan: Plan, ends: np.ndarray, hung: float) -> list[Placed]:
-    """Lamps, cloths and mobiles under the beams where there is room, or slats or wires over them."""
+    """Lamps, cloths and mobiles under beams, slats or wires above."""
     kinds = rng.permutation(len(HANGING))
     under, parts = hung - 0.14, []
     for number, (start, end) in enumerate(ends):
@@ -289,8 +289,8 @@ def _hanging(rng: np.random.Generator, plan: Plan, ends: np.ndarray, hung: float
         count = max(2, int((end[0] - start[0]) / apart))
         share = (np.arange(count) + rng.uniform(0.2, 0.8, count)) / count
         pieces = []
-        for place in start + share[:, None] * (end - start) + [0, under, 0]:
-            piece = at(draw(rng), place)
+        for position in start + share[:, None] * (end - start) + [0, under, 0]:
+            piece = at(draw(rng), position)
             low, high = piece.bounds
             if plan.is_under(low[[0, 2]], high[[0, 2]], low[1] - 0.05):
                 pieces.append(piece)

@@ -1,4 +1,4 @@
-"""What stands under an open sky, in metres, of drawn sizes: about the y axis on y = 0."""
+"""Outdoor objects of random sizes in metres, standing on y = 0."""
 
 import numpy as np
 
@@ -21,22 +21,24 @@ from neural_shadows.scenes.generators.shapes import (
 def tree(
     rng: np.random.Generator, trunk: float, orders: int = 6, leaf: float = 0.09
 ) -> list[Shape]:
-    """Limbs as bars with balls at their joints, each order shorter and thinner, then leaves.
+    """A tree of limbs with balls at joints, and leaves.
 
     Args:
         trunk: its length. orders: of branching, the trunk's the first. leaf: width of a leaf.
     """
-    starts, ways = np.zeros((1, 3)), np.array([[0.0, 1.0, 0.0]])
+    starts, directions = np.zeros((1, 3)), np.array([[0.0, 1.0, 0.0]])
     length, radius, parts = trunk, 0.13 / 1.5 * trunk, []
     for order in range(orders):
         sections = max(6, 20 - 3 * order)
-        ends = starts + length * rng.uniform(0.8, 1.1, (len(ways), 1)) * ways
+        ends = starts + length * rng.uniform(0.8, 1.1, (len(directions), 1)) * directions
         parts += [bars(starts, ends, radius, sections), balls(ends, radius, 2 if order < 3 else 1)]
         forks = 4 if order == 0 else 3 if order < 3 else 2
-        out = rng.normal(0, 1, (len(ways) * forks, 3)) * [1, 0.45, 1]
+        out = rng.normal(0, 1, (len(directions) * forks, 3)) * [1, 0.45, 1]
         starts = np.repeat(ends, forks, axis=0)
-        ways = np.repeat(ways, forks, axis=0) + 0.75 * out / np.linalg.norm(out, axis=1)[:, None]
-        ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+        directions = (
+            np.repeat(directions, forks, axis=0) + 0.75 * out / np.linalg.norm(out, axis=1)[:, None]
+        )
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         length, radius = 0.68 * length, 0.68 * radius
     feet = np.repeat(starts, 6, axis=0) + rng.normal(0, 0.09, (6 * len(starts), 3))
     hang = rng.normal(0, 0.5, feet.shape) - [0, 0.2, 0]
@@ -66,7 +68,7 @@ def pergola(
 
 
 def pickets(rng: np.random.Generator, width: float, apart: float = 0.16) -> Shape:
-    """A fence of pickets of uneven height, `width` along x, on two rails."""
+    """A picket fence of uneven height, `width` along x."""
     x = np.arange(-width / 2, width / 2 + 1e-6, apart)
     high = 1.0 + rng.uniform(-0.06, 0.06, len(x))
     feet = np.stack([x, np.zeros(len(x)), np.zeros(len(x))], axis=1)
@@ -78,7 +80,7 @@ def pickets(rng: np.random.Generator, width: float, apart: float = 0.16) -> Shap
 
 
 def paving(rng: np.random.Generator, width: float, depth: float, stone: float) -> Shape:
-    """Stones with gaps, 1 to 3 cm proud, over a rectangle about the origin."""
+    """Paving stones with gaps, 1 to 3 cm high."""
     n, m = max(2, round(width / stone)), max(2, round(depth / stone))
     a, b = width / n, depth / m
     x, z = np.meshgrid(np.arange(n) * a - width / 2, np.arange(m) * b - depth / 2, indexing="ij")
@@ -90,7 +92,7 @@ def paving(rng: np.random.Generator, width: float, depth: float, stone: float) -
 
 
 def stall(rng: np.random.Generator, width: float, height: float = 2.1) -> Shape:
-    """A market's table under an awning of striped cloth on four posts, open to +z."""
+    """A market table under a striped awning, open to +z."""
     x, z = width / 2, 0.55
     posts = np.array([[a, 0, b] for a in (-x, x) for b in (-z, z)])
     tops = np.where(posts[:, 2:] > 0, height - 0.35, height)
@@ -139,13 +141,13 @@ def fountain(radius: float) -> Shape:
 
 
 def pole(foot: np.ndarray, height: float) -> Shape:
-    """A round pole at a place (3,) with a knob."""
+    """A round pole at a position (3,) with a knob."""
     top = foot + [0, height, 0]
     return joined(bars([foot], [top], 0.03, 14), balls([top], 0.045, 2))
 
 
 def lantern(height: float, arm: float) -> Shape:
-    """A post with two arms, a cage of bars at the end of each."""
+    """A post with two arms, each with a lantern."""
     foot = [(0, 0), (0.13, 0), (0.13, 0.08), (0.05, 0.14), (0.04, height), (0.0, height + 0.03)]
     ends = np.array([[-arm, height - 0.1, 0], [arm, height - 0.1, 0]])
     angle = 2 * np.pi * np.arange(10) / 10

@@ -1,4 +1,4 @@
-"""A ground with one object over it, for the study of penumbrae by depth (Datta et al. 2022, 3.6)."""
+"""Ground below one object, for penumbrae (Datta et al. 2022, 3.6)."""
 
 import numpy as np
 
@@ -8,11 +8,11 @@ from neural_shadows.scenes.generators.shapes import placed
 
 LIGHT = 3.0  # metres above the ground
 OBJECT = 0.4  # height of the inserted object: a radius of 0.2 m
-HIGHEST = 2.1  # metres that a spot may be over the ground, to keep the object clear of the light
+HIGHEST = 2.1  # largest height of a spot in metres, clear of the light
 
 
 def arrange_plate(height: float) -> Arrangement:
-    """A ground of 4 m × 4 m and one spot over its middle, from which the object's shadow falls.
+    """A ground of 4 m × 4 m, one spot above its middle.
 
     Args:
         height: of the spot over the ground, metres, at most `HIGHEST`.
@@ -31,5 +31,5 @@ def arrange_plate(height: float) -> Arrangement:
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """With the spot between 0.4 m and 1.6 m over the ground."""
+    """Draw the spot's height from 0.4 m to 1.6 m."""
     return arrange_plate(rng.uniform(0.4, 1.6))

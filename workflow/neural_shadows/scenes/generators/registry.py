@@ -1,4 +1,4 @@
-"""Which scenes there are, and where the module of each lies."""
+"""Names and modules of scene generators."""
 
 from importlib import import_module
 from pathlib import Path
@@ -9,7 +9,7 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 
-if TYPE_CHECKING:  # the graph asks for names alone
+if TYPE_CHECKING:  # the graph uses names only
     from neural_shadows.scenes.arrangement import Arrangement
 
 TRAINED = ("room", "atrium", "hall", "classroom", "gallery", "plate")
@@ -17,21 +17,25 @@ UNTRAINED = ("garden", "workshop", "stairs", "blinds", "tree", "interior", "cour
 
 
 def generator_module(name: str) -> Path:
-    """The module of a scene: `room.py` for `room`."""
+    """Path of a generator's module: `room.py` for `room`."""
     return Path(__file__).with_name(f"{name}.py")
 
 
 def generator(name: str) -> ModuleType:
-    """That module, imported by its name: a result depends on its own scenes' alone."""
+    """Module of a generator.
+
+    Imported by name, so that a result depends on its own generators only."""
     return import_module(f"neural_shadows.scenes.generators.{name}")
 
 
 def arrange(name: str, seed: int) -> "Arrangement":
-    """A scene's arrangement, drawn from a seed.
+    """Draw a scene's arrangement from a seed.
 
     Raises:
-        InputError: there is no such scene.
+        InputError: the generator is unknown.
     """
     if name not in TRAINED + UNTRAINED:
-        raise InputError(f"{name!r} is no scene; use one of {', '.join(TRAINED + UNTRAINED)}")
+        raise InputError(
+            f"{name!r} is not a generator. Use one of {', '.join(TRAINED + UNTRAINED)}"
+        )
     return generator(name).arrange(np.random.default_rng(seed))

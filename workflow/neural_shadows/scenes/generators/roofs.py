@@ -1,4 +1,4 @@
-"""What is over a court between its ground and the light: pergolas, sails, crowns of trees, wires."""
+"""Roofs of a court: pergolas, sails, tree crowns, wires."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -17,10 +17,10 @@ _TRIES = 60
 
 @dataclass(eq=False)
 class Site:
-    """The ground that posts stand on, and what is taken of the space over it.
+    """Ground for posts, and occupied space above.
 
     Args:
-        middle: (3,) of what is looked at. front: z that roofs may reach to, towards the cameras.
+        middle: (3,) of the targets. front: largest z of roofs, towards the cameras.
     """
 
     ground: Plan
@@ -32,7 +32,7 @@ class Site:
         self.sky = Plan(self.ground.width, self.ground.depth)
 
     def stands(self, feet: np.ndarray, low, high) -> bool:
-        """Take places for posts (n, 3) and the space between corners (x, z), if all are free."""
+        """Occupy posts (n, 3) and the space between corners, if free."""
         low, high = np.asarray(low), np.asarray(high)
         squares = [(foot[[0, 2]] - 0.1, foot[[0, 2]] + 0.1) for foot in feet]
         free = all(self.ground.is_free(*square) for square in squares)
@@ -45,7 +45,7 @@ class Site:
 
 
 def draw_roofs(rng: np.random.Generator, site: Site) -> tuple[list[Placed], float]:
-    """Two or three kinds of roofs where there is room, and the height of the highest."""
+    """Two or three kinds of roofs, and their largest height."""
     objects, tops = [], [LOWEST]
     for kind in rng.permutation(len(_KINDS))[: rng.integers(2, 4)]:
         drawn = _KINDS[kind](rng, site)
@@ -63,14 +63,14 @@ def _pergola(rng: np.random.Generator, site: Site) -> Roof | None:
     for _ in range(_TRIES):
         size, turn = rng.uniform([1.6, 1.4], [3.0, 2.4]), rng.integers(2)
         half = (size if turn == 0 else size[::-1]) / 2
-        place = site.middle + rng.uniform([-1.4, 0, -1.2], [1.4, 0, 0.8])
+        position = site.middle + rng.uniform([-1.4, 0, -1.2], [1.4, 0, 0.8])
         signs = np.array([[-1, 0, -1], [-1, 0, 1], [1, 0, -1], [1, 0, 1]])
-        feet = place + signs * [half[0], 0, half[1]]
-        if site.stands(feet, place[[0, 2]] - half, place[[0, 2]] + half):
+        feet = position + signs * [half[0], 0, half[1]]
+        if site.stands(feet, position[[0, 2]] - half, position[[0, 2]] + half):
             height, apart = rng.uniform(1.9, 2.3), rng.uniform(0.13, 0.26)
             slat = (rng.uniform(0.03, 0.08), rng.uniform(0.04, 0.08))
             shape = outdoors.pergola(*size, height, round(size[0] / apart), slat)
-            return at(shape, place, turn * np.pi / 2), height + 0.1
+            return at(shape, position, turn * np.pi / 2), height + 0.1
     return None
 
 
@@ -78,10 +78,10 @@ def _sail(rng: np.random.Generator, site: Site) -> Roof | None:
     """Bands of cloth with gaps between four poles of uneven height."""
     for _ in range(_TRIES):
         half = rng.uniform([0.8, 0.7], [1.4, 1.1])
-        place = site.middle + rng.uniform([-1.4, 0, -1.2], [1.4, 0, 0.8])
+        position = site.middle + rng.uniform([-1.4, 0, -1.2], [1.4, 0, 0.8])
         signs = np.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]])
-        feet = place + signs * [half[0], 0, half[1]]
-        if site.stands(feet, place[[0, 2]] - half, place[[0, 2]] + half):
+        feet = position + signs * [half[0], 0, half[1]]
+        if site.stands(feet, position[[0, 2]] - half, position[[0, 2]] + half):
             heights = rng.uniform(1.75, 2.3, 4)
             corners = feet + heights[:, None] * [0, 1, 0]
             bands, share = rng.integers(3, 7), rng.uniform(0.45, 0.7)
@@ -100,18 +100,18 @@ def _band(corners: np.ndarray, start: float, end: float) -> Shape:
 
 
 def _crown(rng: np.random.Generator, site: Site) -> Roof | None:
-    """A tree whose crown is over the middle."""
+    """A tree with its crown above the middle."""
     for _ in range(_TRIES):
-        place = site.middle + rng.uniform([-1.6, 0, -1.3], [1.6, 0, 0.3])
-        if site.stands(place[None], place[[0, 2]] - 0.7, place[[0, 2]] + 0.7):
+        position = site.middle + rng.uniform([-1.6, 0, -1.3], [1.6, 0, 0.3])
+        if site.stands(position[None], position[[0, 2]] - 0.7, position[[0, 2]] + 0.7):
             limbs = outdoors.tree(rng, rng.uniform(0.75, 1.0), 5, rng.uniform(0.07, 0.12))
             shape = joined(*limbs)
-            return at(shape, place), float(shape.bounds[1, 1])
+            return at(shape, position), float(shape.bounds[1, 1])
     return None
 
 
 def _strung(rng: np.random.Generator, site: Site) -> Roof | None:
-    """Two frames with wires from one to the other, which pass among what else is there."""
+    """Two frames with wires between them."""
     back = -site.ground.depth / 2 + 0.4
     for _ in range(_TRIES):
         half = rng.uniform(1.4, 2.2)
@@ -133,7 +133,7 @@ def _strung(rng: np.random.Generator, site: Site) -> Roof | None:
         for beam in ends
         for own in rng.uniform([0.15, 0.55], [0.45, 0.85])
     ]
-    lamps = [at(ring_lamp(rng.uniform(0.2, 0.5), rng.uniform(0.2, 0.35)), one) for one in under]
+    lamps = [at(ring_lamp(rng.uniform(0.2, 0.5), rng.uniform(0.2, 0.35)), point) for point in under]
     bulbs = rng.random() < 0.5
     strings = wires(rng, starts, stops, bulbs=bulbs, pennants=not bulbs)
     return joined(frame_over(ends, height), strings, *lamps), height

@@ -1,4 +1,4 @@
-"""A furnished room of 6 m × 5 m, a stage set with low walls and no ceiling (Datta et al. 2022).
+"""Furnished room of 6 m × 5 m with low walls, no ceiling.
 
 It stands for their living room and bar: much before and behind each other, thin parts.
 """
@@ -7,14 +7,7 @@ import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
 from neural_shadows.scenes.generators.building import floor, walls
-from neural_shadows.scenes.generators.furniture import (
-    chair,
-    grille,
-    plant,
-    shelf,
-    table,
-    vase,
-)
+from neural_shadows.scenes.generators.furniture import chair, grille, plant, shelf, table, vase
 from neural_shadows.scenes.generators.shapes import Shape, at, bars, joined, lathe, placed, ring
 
 TABLE = 0.75
@@ -22,7 +15,7 @@ LAMP = 2.0  # height of the lamp's ring
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """Table with six chairs, shelf, arc lamp with spokes, grille and plant."""
+    """Table with six chairs, shelf, arc lamp, grille and plant."""
     middle = np.array([*rng.uniform(-0.25, 0.25, 2), 0.0])[[0, 2, 1]]
     beside = middle + [rng.choice([-0.6, 0.6]), TABLE, rng.uniform(-0.2, 0.2)]
     objects = (
@@ -53,18 +46,18 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _chairs(rng: np.random.Generator, middle: np.ndarray) -> list[Shape]:
-    """Two along each long side of the table and one at each end, pulled out here and there."""
-    places = [(-0.38, 0.58, np.pi), (0.38, 0.58, np.pi), (-0.38, -0.58, 0), (0.38, -0.58, 0)]
-    places += [(-0.98, 0, np.pi / 2), (0.98, 0, -np.pi / 2)]
+    """Two chairs along each long side, one at each end."""
+    positions = [(-0.38, 0.58, np.pi), (0.38, 0.58, np.pi), (-0.38, -0.58, 0), (0.38, -0.58, 0)]
+    positions += [(-0.98, 0, np.pi / 2), (0.98, 0, -np.pi / 2)]
     chairs = []
-    for x, z, turn in places:
+    for x, z, turn in positions:
         back = rng.uniform(0, 0.3) * np.array([np.sin(turn), 0, np.cos(turn)])
         chairs.append(at(chair(), middle + [x, 0, z] - back, turn + rng.uniform(-0.12, 0.12)))
     return chairs
 
 
 def _lamp(middle: np.ndarray) -> Shape:
-    """A lamp that hangs from the arm of a stand over the table: two rings with spokes."""
+    """A lamp of two rings, hanging from a stand's arm."""
     foot = np.array([-2.6, 0.0, middle[2] - 0.9])
     over, bend = middle + [0.0, LAMP + 0.35, 0.0], foot + [0, LAMP + 0.35, 0]
     angle = 2 * np.pi * np.arange(16) / 16

@@ -1,6 +1,6 @@
-"""Shapes that the scenes are made of, in metres; y is up.
+"""Basic shapes in metres; y is up.
 
-Faces that meet in an edge have vertices of their own, so that interpolated normals keep the edge.
+Faces at an edge have separate vertices, so that interpolated normals keep the edge.
 """
 
 from functools import cache
@@ -25,7 +25,7 @@ def joined(*shapes: Shape) -> Shape:
 
 
 def copies(shape: Shape, transforms: np.ndarray) -> Shape:
-    """The shape once for each of the transforms (n, 4, 4), which mirror nothing."""
+    """One copy per transform (n, 4, 4), without mirroring."""
     vertices = np.einsum("nij,vj->nvi", transforms[:, :3, :3], shape.vertices)
     vertices += transforms[:, None, :3, 3]
     firsts = len(shape.vertices) * np.arange(len(transforms))
@@ -33,10 +33,12 @@ def copies(shape: Shape, transforms: np.ndarray) -> Shape:
     return Shape(vertices.reshape(-1, 3), faces.reshape(-1, 3), process=False)
 
 
-def at(shape: Shape, place, turn: float = 0.0) -> Shape:
-    """The shape turned about y (radians; from z towards x), then moved to a place (3,)."""
+def at(shape: Shape, position, turn: float = 0.0) -> Shape:
+    """The shape rotated about y, then moved to (3,) `position`.
+
+    `turn` in radians, from z towards x."""
     motion = trimesh.transformations.rotation_matrix(turn, [0, 1, 0])
-    motion[:3, 3] = place
+    motion[:3, 3] = position
     return copies(shape, motion[None])
 
 
@@ -60,7 +62,9 @@ def bars(starts, ends, radii, sections: int = 8) -> Shape:
 
 
 def beams(starts, ends, width: float, depth: float) -> Shape:
-    """Square bars between points (n, 3); `width` is level, but for upright ones along z."""
+    """Square bars between points (n, 3).
+
+    `width` is level, along z for upright bars."""
     return copies(_unit_box(), _between(starts, ends, width, depth))
 
 
@@ -74,25 +78,25 @@ def balls(centres, radii, subdivisions: int = 1) -> Shape:
 
 
 def ring(radius: float, thickness: float, height: float = 0.0) -> Shape:
-    """A level ring of round wire about the y axis; `thickness` is the wire's radius."""
+    """A level ring about y; `thickness` is the wire's radius."""
     shape = trimesh.creation.torus(radius, thickness, major_sections=32, minor_sections=8)
     return _upright(shape, height)
 
 
 def lathe(profile, sections: int = 24) -> Shape:
-    """A solid of revolution about y: rows (radius, height) from the axis back to the axis."""
+    """A solid of revolution about y, from rows (radius, height)."""
     return _upright(trimesh.creation.revolve(np.asarray(profile, float), sections=sections))
 
 
 def sheet(low, high) -> Shape:
-    """A level rectangle that faces up, between corners (x, z) at y = 0: a floor."""
+    """A level rectangle facing up, between corners (x, z)."""
     (a, b), (c, d) = low, high
     corners = [[a, 0, b], [a, 0, d], [c, 0, d], [c, 0, b]]
     return Shape(corners, [[0, 1, 2], [0, 2, 3]], process=False)
 
 
 def prisms(outlines, depth: float) -> Shape:
-    """Blocks with flat sides over outlines (n, 4, 2) in x and y, counter-clockwise, across z."""
+    """Prisms along z over counter-clockwise outlines (n, 4, 2)."""
     outlines = np.asarray(outlines, float)
     near = np.concatenate([outlines, np.full((*outlines.shape[:2], 1), depth / 2)], axis=2)
     corners = np.concatenate([near * [1, 1, -1], near], axis=1)
@@ -113,7 +117,7 @@ def smooth(points) -> Shape:
 
 
 def leaves(feet, tips, width: float) -> Shape:
-    """Leaves from foot to tip (n, 3), folded along the midrib: two triangles each."""
+    """Folded leaves from foot to tip (n, 3), two triangles each."""
     points = [[0, 0, -0.5], [0.5, 0.15, 0], [0, 0, 0.5], [-0.5, 0.15, 0]]
     leaf = Shape(points, [[0, 2, 1], [0, 3, 2]], process=False)
     leaf = Shape(
@@ -132,7 +136,7 @@ def _unit_box() -> Shape:
 
 @cache
 def _unit_bar(sections: int) -> Shape:
-    """The cylinder of radius 1 and length 1 along z about the origin."""
+    """Unit cylinder along z about the origin, radius and length 1."""
     bar = trimesh.creation.cylinder(1.0, 1.0, sections=sections)
     ends = np.abs(bar.face_normals[:, 2]) > 0.5
     faces = bar.faces + len(bar.vertices) * ends[:, None]
@@ -149,7 +153,7 @@ def _upright(shape: Shape, height: float = 0.0) -> Shape:
 
 
 def _between(starts, ends, width, depth) -> np.ndarray:
-    """Transforms (n, 4, 4) that lay the unit length along z between points (n, 3)."""
+    """Transforms (n, 4, 4) from the unit z-axis to segments (n, 3)."""
     starts, ends = np.broadcast_arrays(np.asarray(starts, float), np.asarray(ends, float))
     along = ends - starts
     forward = along / np.linalg.norm(along, axis=1, keepdims=True)

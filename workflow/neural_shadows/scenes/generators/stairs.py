@@ -1,4 +1,4 @@
-"""A stairwell: two flights with turned balusters, a landing, and a chandelier on a beam."""
+"""Stairwell: two flights, a landing, a chandelier on a beam."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ WALL = 4.6
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """Flights from both sides up to a landing at the back; a chandelier before it."""
+    """Flights from both sides to a landing; a chandelier in front."""
     run = STEPS * GOING
     lamp = np.array([rng.uniform(-0.4, 0.4), 0, rng.uniform(0.3, 0.8)])
     objects = (
@@ -58,7 +58,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _landing(half: float) -> list[Shape]:
-    """A slab between the flights on columns, with balusters before it."""
+    """A slab on columns between the flights, with balusters."""
     front = -2.05
     return [
         box((-half, LANDING - 0.15, -3.5), (half, LANDING, front)),
@@ -68,7 +68,7 @@ def _landing(half: float) -> list[Shape]:
 
 
 def _rail(side: int) -> Shape:
-    """Balusters along the front of a flight, with a newel at its foot."""
+    """Balusters along a flight's front, with a newel."""
     first = np.array([side * (4 - GOING / 2), RISE, -2.1])
     last = np.array([side * (4 - (STEPS - 0.5) * GOING), LANDING, -2.1])
     newel = [
@@ -86,7 +86,7 @@ def _rail(side: int) -> Shape:
 
 
 def _chandelier(middle: np.ndarray) -> Shape:
-    """Two rings of candles that hang by chains from a beam, which a wall and a column carry."""
+    """Two rings of candles on chains from a beam."""
     parts, angle = [], 2 * np.pi * np.arange(12) / 12
     out = np.stack([np.cos(angle), np.zeros(12), np.sin(angle)], axis=1)
     for radius, height in ((0.6, 2.5), (0.35, 2.75)):

@@ -1,4 +1,4 @@
-"""A tree of branching limbs with sparse leaves, a table under it, a fence of pickets."""
+"""Tree with sparse leaves, table and picket fence."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""A workshop of 6 m × 5 m, full of thin parts: racks, tools on a wall, wires, a ladder, a wheel."""
+"""Workshop of 6 m × 5 m with many thin parts."""
 
 import numpy as np
 import trimesh
@@ -24,7 +24,7 @@ WALL = 2.4
 
 
 def arrange(rng: np.random.Generator) -> Arrangement:
-    """A workbench before a wall of tools, two racks, a ladder, a wheel on a stand, wires above."""
+    """A workbench, tools, racks, a ladder, a wheel and wires."""
     objects = (
         placed("floor", floor(6, 5)),
         placed("walls", walls(6, 5, WALL)),
@@ -55,7 +55,7 @@ def arrange(rng: np.random.Generator) -> Arrangement:
 
 
 def _tools(rng: np.random.Generator) -> Shape:
-    """A board with pegs that faces +z; on them hammers, saws' blades, rings and rods."""
+    """A pegboard facing +z with hammers, blades, rings, rods."""
     x, y = np.meshgrid(np.linspace(-1.1, 1.1, 23), np.linspace(0.1, 1.0, 10), indexing="ij")
     pegs = np.stack([x, y, np.full_like(x, 0.02)], axis=-1).reshape(-1, 3)
     parts = [box((-1.2, 0, 0), (1.2, 1.1, 0.02)), bars(pegs, pegs + [0, 0, 0.05], 0.004, 6)]
@@ -73,7 +73,7 @@ def _tools(rng: np.random.Generator) -> Shape:
 
 
 def _rack(rng: np.random.Generator) -> Shape:
-    """A rack of thin posts and wire shelves that faces +z, with tins and rods."""
+    """A rack of wire shelves facing +z, with tins and rods."""
     x, z, ys = 0.8, 0.22, np.array([0.15, 0.65, 1.15, 1.65])
     posts = np.array([[a, 0, b] for a in (-x, x) for b in (-z, z)])
     parts = [bars(posts, posts + [0, 1.8, 0], 0.012, 12)]
@@ -94,7 +94,7 @@ def _rack(rng: np.random.Generator) -> Shape:
 
 
 def _ladder() -> Shape:
-    """A ladder that stands on two pairs of legs and opens along z."""
+    """A stepladder, open along z."""
     parts, top = [], np.array([0, 1.7, 0])
     for z in (-0.5, 0.5):
         for x in (-0.22, 0.22):
@@ -141,7 +141,7 @@ def _sawhorses() -> Shape:
 
 
 def _wires(rng: np.random.Generator) -> Shape:
-    """Wires that sag from wall to wall, with bulbs on one."""
+    """Sagging wires from wall to wall, one with bulbs."""
     parts, t = [], np.linspace(0, 1, 33)[:, None]
     for k, x in enumerate(np.linspace(-1.9, 1.9, 6) + rng.uniform(-0.2, 0.2, 6)):
         start, end = np.array([x, 2.35, -2.5]), np.array([x + rng.uniform(-0.6, 0.6), 2.35, 2.5])

@@ -13,23 +13,23 @@ class Settings(NetworkModel):
 
     trained: ClassVar[bool] = False
     needs_mesh: ClassVar[bool] = True
-    encoding: Literal["mesh"] = Field(description="`mesh`: traced exactly, without a training")
+    encoding: Literal["mesh"] = Field(description="`mesh`: traced exactly, untrained")
     triangles: Annotated[int, Field(ge=4)] | None = Field(
-        None, description="the most it is decimated to; all of them by default"
+        None, description="upper bound after decimation; all by default"
     )
     bits: int = Field(16, ge=4, le=24, description="of a vertex's coordinate")
     stored: Literal["packed", "coded"] = Field(
         "packed",
-        description="how the weight file holds it: `packed`, bits and no more; `coded` by Draco, the "
-        "same mesh in a seventh to a quarter of the bytes",
+        description="format in the weight file: `packed` bits; `coded` by Draco, the same mesh in a "
+        "seventh to a quarter of the bytes",
     )
 
     @model_validator(mode="after")
     def _check_bits(self):
         if self.stored == "coded" and self.bits > MOST_BITS:
             raise ValueError(
-                f"bits = {self.bits}: a coded mesh has at most {MOST_BITS}; give fewer, or set "
-                "stored: packed"
+                f"bits: {self.bits}: more than the {MOST_BITS} of a coded mesh. Give fewer, or set "
+                "stored: packed."
             )
         return self
 

@@ -20,18 +20,18 @@ class Settings(NetworkModel):
     surface: Surface = Field("auto", description=SURFACE)
     start: Literal["undecided", "distances", "fitted"] = Field(
         "undecided",
-        description="the first logits: next to zero, or signed distances to the mesh, as they are or "
-        "`fitted` to where its shadows end; both are of use without a training too",
+        description="initial logits: near zero, or signed distances to the mesh, exact or "
+        "`fitted` to its shadow boundaries; both are usable without training",
     )
     stored: Stored | Literal["coded", "sign"] = Field(
         "int8",
-        description="how the weight file holds the logits; `coded`: of cells that the surface "
-        "crosses, compressed; `sign`: a bit each",
+        description="format of the logits in the weight file; `coded`: compressed, of crossed "
+        "cells only; `sign`: a bit each",
     )
     corner_bits: Literal[4, 8] = Field(
         8,
-        description="of a solid, what a CPU holds of each corner of a cell that the surface crosses; 4 "
-        "take three fifths of the memory and cost the dragon at 256³ 0.6 dB",
+        description="bits of each corner of a solid's crossed cells in a CPU's memory; 4 take three "
+        "fifths of the memory and cost the dragon at 256³ 0.6 dB",
     )
 
     @property
@@ -42,8 +42,8 @@ class Settings(NetworkModel):
     def _check_inside(self):
         if self.start != "undecided" and self.surface == "sheet":
             raise ValueError(
-                f"start: {self.start} needs an inside, which surface: sheet has not; "
-                "set start: undecided, or leave the surface out"
+                f"start: {self.start}: surface: sheet has no inside. Set start: undecided, or leave "
+                "out the surface."
             )
         return self
 

@@ -19,9 +19,9 @@ class Settings(NetworkModel):
     width: int = Field(64, ge=8, le=4096, description="neurons per layer")
     hidden_layers: int = Field(3, ge=1, le=64, description="layers before the output")
     head: Literal["depth", "depth_confidence"] = Field(
-        "depth_confidence", description="whether a second output is for hit or miss"
+        "depth_confidence", description="`depth_confidence`: a second output for hit or miss"
     )
-    stored: Stored = Field("float16", description="how the weight file holds the weights")
+    stored: Stored = Field("float16", description="format of the weights in the weight file")
 
     @property
     def hidden_matrices(self) -> int:

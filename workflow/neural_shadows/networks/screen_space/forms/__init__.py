@@ -1,1 +1,1 @@
-"""Forms of networks of whole frames, a file each."""
+"""Forms of screen-space networks, a file each."""

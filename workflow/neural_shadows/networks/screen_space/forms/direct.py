@@ -1,4 +1,4 @@
-"""Visibility itself by the network of kernels (Hu et al. 2025, their Neural Shadow Mapping)."""
+"""Visibility by the network of kernels (Hu et al. 2025)."""
 
 from collections.abc import Mapping
 from typing import Any, Literal

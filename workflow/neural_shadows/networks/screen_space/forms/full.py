@@ -1,4 +1,4 @@
-"""Neural Shadow Mapping's trimmed network at the frame's own size (Datta et al. 2022, 3.5)."""
+"""Neural Shadow Mapping's trimmed network, full size (Datta et al. 2022, 3.5)."""
 
 from collections.abc import Mapping
 from typing import Any, Literal

@@ -1,4 +1,4 @@
-"""The trimmed network of a frame of half the resolution (Datta et al. 2022, 3.5)."""
+"""The trimmed network at half the resolution (Datta et al. 2022, 3.5)."""
 
 from collections.abc import Mapping
 from typing import Any, Literal

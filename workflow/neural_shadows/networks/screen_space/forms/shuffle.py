@@ -1,4 +1,4 @@
-"""The trimmed network's fast form, 2 × 2 pixels as channels (Datta et al. 2022, 3.5)."""
+"""The trimmed network over pixel squares (Datta et al. 2022, 3.5)."""
 
 from collections.abc import Mapping
 from typing import Any, Literal

@@ -13,7 +13,7 @@ from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
 from neural_shadows.metrics.pooled_psnr import psnr_of
 from neural_shadows.reports.claims import row_claims, setting_types, unlearned
 from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
-from neural_shadows.reports.claims.learning import followed
+from neural_shadows.reports.claims.learning import follow
 from neural_shadows.reports.claims.measured import NO_SHADOW_ROW, Claim, Measured, labels
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.trained import Row
@@ -32,8 +32,8 @@ class Settings(row_claims.RowsClaim):
     )
     metrics: setting_types.metrics("lpips", "psnr", "ssim", "flip", "shadow_error") = Field(
         ["lpips"],
-        description="image metrics, in all of which it is to hold; FLIP takes LPIPS's place where "
-        "its trunk is missing",
+        description="image metrics; the claim must hold in all of them; FLIP replaces LPIPS "
+        "where its backbone is missing",
     )
 
 
@@ -45,9 +45,8 @@ not_learned = unlearned.by_frames
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each pair and metric.
 
-    It is at the largest budget that the pair has in common. Intervals are those of
-    `two_way_interval`, views within their view sets: the object is fixed, so that they say nothing
-    of other objects.
+    At the pair's largest common budget. Intervals are those of `two_way_interval`, views within
+    their view sets; the object is fixed, so that they do not cover other objects.
     """
     return [
         _comparison(pair, data.metric(pair[0], metric), data)
@@ -72,33 +71,33 @@ def network_wins(claim: Claim) -> bool:
 
 
 def _comparison(pair: Sequence[Row], metric: str, data: Measured) -> Comparison:
-    kept = {"metric": metric, "methods": " against ".join(labels(pair))}
-    if why := data.unshared(pair):
-        text = f"{NAMES[metric]} of {kept['methods']}"
-        return Comparison(**kept, text=text, **unjudged(incomparable=why))
+    fields = {"metric": metric, "methods": " against ".join(labels(pair))}
+    if reason := data.unshared(pair):
+        text = f"{NAMES[metric]} of {fields['methods']}"
+        return Comparison(**fields, text=text, **unjudged(incomparable=reason))
     budgets = data.budgets(pair)
     a, b = (data.errors(row, metric, budgets[-1]) for row in pair)
     fewest, seeds = min(len(a), len(b)), budgets[-1].seeds
-    kept |= {
+    fields |= {
         "text": _text(pair, metric, a, b),
         "seeds": seeds if budgets[-1].runs else None,
         "samples": budgets[-1].samples,
     }
     if fewest < FEWEST_VIEWS:
-        return Comparison(**kept, **unjudged(untested=f"{fewest} views are too few"))
+        return Comparison(**fields, **unjudged(untested=f"{fewest} views are too few"))
     values, advantage, groups = _arranged(pair, metric, a, b)
     value, low, high, _ = two_way_interval(values.mean(0, keepdims=True), advantage, groups)
     means = [[data.errors(row, metric, budget).mean() for budget in budgets] for row in pair]
     views = value - low, high - value
-    learning = followed(pair, budgets, means, data, metric == "psnr", views)
+    learning = follow(pair, budgets, means, data, metric == "psnr", views)
     interval = two_way_interval(values, advantage, groups)
-    return Comparison(**kept, **judged(*interval), learning=learning)
+    return Comparison(**fields, **judged(*interval), learning=learning)
 
 
 def _arranged(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame) -> Arranged:
     """Arrange the errors of a pair.
 
-    Of one scene (S, V, 2), compared view by view; of two scenes the views of one after the other's.
+    For one scene (S, V, 2), compared view by view; for two scenes the views concatenated.
     """
     sets = [frame.index.get_level_values("view_set") for frame in (a, b)]
     first, second = a.to_numpy().T, b.to_numpy().T
@@ -117,7 +116,7 @@ def _arranged(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame
 
 
 def _text(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame) -> str:
-    """The methods and their means; of PSNR the pooled ones."""
+    """The methods and their means; PSNR is pooled."""
     unit = " dB" if metric == "psnr" else ""
     means = [value_of(metric, frame.to_numpy().mean()) for frame in (a, b)]
     named = [f"{label} {short(mean)}{unit}" for label, mean in zip(labels(pair), means)]

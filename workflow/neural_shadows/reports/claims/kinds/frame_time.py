@@ -69,18 +69,17 @@ def not_comparable(claim: Claim, data: Measured) -> str:
     needed = needs(claim, "device")
     if len({*devices.values(), needed or min(devices.values())}) == 1:
         return ""
-    where = ", ".join(f"{label} on {device}" for label, device in devices.items())
-    return f"times of {needed or 'one device'} are needed: {where}"
+    device_texts = ", ".join(f"{label} on {device}" for label, device in devices.items())
+    return f"times of {needed or 'one device'} are needed: {device_texts}"
 
 
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each pair (slower, faster) of a scene.
 
-    It is by the median over frames of the ratio of own milliseconds. To both are added the claim's
-    `overhead_ms`, what a frame takes beside the method: the thesis speaks of whole frames, and ours
-    beside the method are not as fast as its. Each frame is answered by all methods in turn, so that
-    a disturbance of the machine meets both, and a median does not see it. Interval and p-values are
-    exact (sign test).
+    By the median over frames of the ratio of own milliseconds. The claim's `overhead_ms` is added to
+    both, the rest of a frame: the thesis compares whole frames, and its rest is faster than ours.
+    Methods take turns on each frame, so that disturbances of the machine affect both, and the
+    median ignores them. Interval and p-values are exact (sign test).
     """
     return [_comparison(claim, pair, data) for pair in claim["pairs"]]
 
@@ -94,8 +93,8 @@ def _comparison(claim: Claim, pair: Sequence[Row], data: Measured) -> Comparison
         for label, ms, each in zip(labels(pair), own, times)
     ]
     bounds = setting_types.bounds_of(claim)
-    least, most = bounds.get("at_least", 0.0), bounds.get("at_most", np.inf)
-    kept = {
+    lower, upper = bounds.get("at_least", 0.0), bounds.get("at_most", np.inf)
+    fields = {
         "metric": "own milliseconds",
         "methods": " against ".join(labels(pair)),
         "text": f"own time of {' against '.join(texts)}",
@@ -103,14 +102,14 @@ def _comparison(claim: Claim, pair: Sequence[Row], data: Measured) -> Comparison
     ratios = (own[0] + overhead) / (own[1] + overhead)
     low, high = scipy.stats.quantile_test(ratios).confidence_interval(0.95)
     if np.isnan([low, high]).any():  # of five frames or fewer
-        return Comparison(**kept, **unjudged(untested=f"{len(ratios)} frames are too few"))
+        return Comparison(**fields, **unjudged(untested=f"{len(ratios)} frames are too few"))
     with_rest = f", with {overhead:g} ms beside the method" if overhead else ""
-    below = scipy.stats.quantile_test(ratios, q=least, alternative="less").pvalue
-    above = scipy.stats.quantile_test(ratios, q=most, alternative="greater").pvalue
+    below = scipy.stats.quantile_test(ratios, q=lower, alternative="less").pvalue
+    above = scipy.stats.quantile_test(ratios, q=upper, alternative="greater").pvalue
     return Comparison(
-        **kept,
+        **fields,
         number=f"ratio {short(np.median(ratios))} [{short(low)}, {short(high)}]",
         remark=f"{with_rest} ({setting_types.in_words(bounds)})",
-        supports=bool(low > least and high < most),
+        supports=bool(low > lower and high < upper),
         against=min(1.0, 2 * min(below, above)),
     )

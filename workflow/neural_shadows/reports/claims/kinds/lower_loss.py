@@ -13,7 +13,7 @@ from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.reports.claims import row_claims, setting_types
 from neural_shadows.reports.claims.claim_kinds import methods
 from neural_shadows.reports.claims.comparison import Comparison, judged, unjudged
-from neural_shadows.reports.claims.learning import followed
+from neural_shadows.reports.claims.learning import follow
 from neural_shadows.reports.claims.measured import Claim, Measured, labels
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.trained import Budget, Row
@@ -21,7 +21,7 @@ from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import name_in
 
 NEEDS_SEEDS = True
-LOSS_MARGIN = 0.02  # of no shadow's loss: what chance does to the end of a curve
+LOSS_MARGIN = 0.02  # of no shadow's loss: random variation at the end of a curve
 
 
 class Settings(row_claims.RowsClaim):
@@ -35,12 +35,12 @@ class Settings(row_claims.RowsClaim):
     def check_method(self, config: Sections, key: str, method: str) -> None:
         super().check_method(config, key, method)
         if config.experiments[method].training is None:
-            raise ValueError(f"{key}: {method!r} is not trained, and has no loss")
+            raise ValueError(f"{key}: {method!r} is not trained and has no loss. Remove it")
         if not (network := config.network_of(method)).loss_of_depths:
-            # Theirs is cross-entropy, or has some in it: no number to compare with depths'.
+            # Losses with cross-entropy are not comparable to those of depths.
             raise ValueError(
                 f"{key}: {method!r} of encoding {network.encoding!r} has another loss than the thesis's "
-                "networks; compare it by image metrics (kind: better)"
+                "networks. Compare it by image metrics (kind: better)"
             )
 
 
@@ -56,7 +56,7 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each pair.
 
-    It has one value a seed, since a curve's points are no replicates.
+    It has one value a seed: a curve's points are no replicates.
     """
     return [_comparison(pair, data) for pair in claim["pairs"]]
 
@@ -69,10 +69,10 @@ def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]
 def not_learned(claim: Claim, row: Row, budget: Budget, data: Measured) -> str:
     """The failure of the first training without content, if any.
 
-    Its loss ends no lower than that of drawing no shadow, or it died. A training that died in a
-    claimed loser's place is what such a claim is about, a rate that is too high for instance.
+    Its loss ends no lower than no shadow's, or it diverged. A diverged claimed loser is the subject
+    of such a claim, for instance with too high a rate.
     """
-    first, second = ({pair[place]["method"] for pair in claim["pairs"]} for place in (0, 1))
+    first, second = ({pair[side]["method"] for pair in claim["pairs"]} for side in (0, 1))
     loser = row["method"] in second - first
     for run, loss in zip(budget.runs[row["experiment"]], data.end_losses(row, budget)):
         record = data.trainings[run]
@@ -87,19 +87,19 @@ def not_learned(claim: Claim, row: Row, budget: Budget, data: Measured) -> str:
 
 
 def _without_first(pair: Sequence[Row], data: Measured) -> Comparison:
-    kept = {"metric": "loss", "methods": " against ".join(labels(pair)), "text": NO_SHADOW}
-    if why := data.unshared(pair):
-        return Comparison(**kept, **unjudged(incomparable=why))
+    fields = {"metric": "loss", "methods": " against ".join(labels(pair)), "text": NO_SHADOW}
+    if reason := data.unshared(pair):
+        return Comparison(**fields, **unjudged(incomparable=reason))
     budget = data.budgets(pair)[-1]
     runs = budget.runs[pair[0]["experiment"]]
     null = np.array([data.trainings[run]["no_shadow_loss"] for run in runs])
-    return Comparison(**kept, **judged(*t_interval(data.end_losses(pair[1], budget) - null)))
+    return Comparison(**fields, **judged(*t_interval(data.end_losses(pair[1], budget) - null)))
 
 
 def _comparison(pair: Sequence[Row], data: Measured) -> Comparison:
     methods = " against ".join(labels(pair))
-    if why := data.unshared(pair):
-        return Comparison("loss", methods, f"loss of {methods}", **unjudged(incomparable=why))
+    if reason := data.unshared(pair):
+        return Comparison("loss", methods, f"loss of {methods}", **unjudged(incomparable=reason))
     budgets = data.budgets(pair)
     losses = [[data.end_losses(row, budget) for budget in budgets] for row in pair]
     (a, b), (first, second) = (arm[-1] for arm in losses), labels(pair)
@@ -110,5 +110,5 @@ def _comparison(pair: Sequence[Row], data: Measured) -> Comparison:
         **judged(*t_interval(b - a)),
         seeds=budgets[-1].seeds,
         samples=budgets[-1].samples,
-        learning=followed(pair, budgets, losses, data),
+        learning=follow(pair, budgets, losses, data),
     )

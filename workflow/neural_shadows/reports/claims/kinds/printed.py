@@ -34,10 +34,10 @@ class Settings(AnyClaim):
     )
     row: str | None = Field(None, description="a row of published.csv, for `equivalent_to`")
     equivalent_to: int | None = Field(
-        None, ge=2, le=32768, description="texels of a side of the map that it is as good as"
+        None, ge=2, le=32768, description="texels along a side of the equivalent map"
     )
     metrics: setting_types.metrics("lpips", "psnr", "ssim") = Field(
-        description="columns of published.csv, in all of which it is to hold"
+        description="columns of published.csv; the claim must hold in all of them"
     )
 
     @model_validator(mode="after")
@@ -66,8 +66,8 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each pair (better, worse) and metric.
 
-    With `equivalent_to` one of a row with a map's size for each metric. A difference counts from
-    twice the thesis's own from run to run, which is 0.0013 in LPIPS.
+    With `equivalent_to` a comparison of a row with a map's size for each metric. Differences count
+    from twice the thesis's own from run to run, 0.0013 in LPIPS.
     """
     table = data.published[data.published["table"] == claim["table"]]
     values = table.set_index(["row", "column"])["value"]
@@ -103,7 +103,7 @@ def _pair(values: Any, labels: Any, pair: list[str], metric: str, margin: float)
 def _equivalent(claim: Claim, values: Any, label: str, metric: str, margin: float) -> Comparison:
     """Compare a row with a map's size.
 
-    It must be nearer to that than to half and twice of it.
+    It must be nearer to that than to half and twice the size.
     """
     row, texels = claim["row"], claim["equivalent_to"]
     maps = {
@@ -117,23 +117,23 @@ def _equivalent(claim: Claim, values: Any, label: str, metric: str, margin: floa
         _map_size(sizes, errors, float(error_of(metric, values[row, metric] + change)))
         for change in (-better, 0.0, better)
     )
-    least, most = texels / np.sqrt(2), texels * np.sqrt(2)
+    lower, upper = texels / np.sqrt(2), texels * np.sqrt(2)
     return Comparison(
         metric=metric,
         methods=label,
         text=f"{NAMES[metric]} of {label} {values[row, metric]:.4g}",
         number=f"as a map of {at:.0f}² [{low:.0f}², {high:.0f}²]",
         remark=f", with {COUNTS_FROM} times the difference from run to run ({margin:.3g}) either "
-        f"way, where {texels}² is the nearest from {least:.0f}² to {most:.0f}²",
-        supports=bool(low > least and high < most),
-        against=float(not (high < least or low > most)),
+        f"way, where {texels}² is the nearest from {lower:.0f}² to {upper:.0f}²",
+        supports=bool(low > lower and high < upper),
+        against=float(not (high < lower or low > upper)),
     )
 
 
 def _map_size(sizes: list[int], errors: list[float], error: float) -> float:
-    """Texels of a side of the map with an error.
+    """Texels along a side of the map with an error.
 
-    0 or infinite beyond the printed ones.
+    0 or infinite beyond the printed errors.
     """
     size = equivalent_resolution(sizes, errors, error)
     if size is None:

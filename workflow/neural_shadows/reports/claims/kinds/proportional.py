@@ -20,8 +20,8 @@ class Settings(AnyClaim):
     kind: Literal["proportional"] = Field(description="`proportional`")
     table: Name = Field(description="a name in `tables`")
     column: str = Field(min_length=1, description="of the table's CSV")
-    to: str = Field(min_length=1, description="the column that it is claimed to follow")
-    rather_than: str = Field(min_length=1, description="the column that it follows less")
+    to: str = Field(min_length=1, description="the claimed proportional column")
+    rather_than: str = Field(min_length=1, description="the column with a worse fit")
 
     def check(self, config: Sections, key: str) -> None:
         check_among(f"{key}.table", self.table, config.tables)
@@ -34,21 +34,21 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """The comparison of two lines through the origin.
 
-    That over the column `to` explains more of `column` than that over `rather_than`, all of
-    `table`. Rows are of one run, so that chance is not judged.
+    The claim holds if `to` explains more of `column` than `rather_than`, all columns of `table`.
+    Rows are of one run and have no interval.
     """
     name, column, over = claim["table"], claim["column"], (claim["to"], claim["rather_than"])
     table = data.tables[name]
-    kept = {"metric": column, "methods": f"{over[0]} rather than {over[1]}"}
-    kept["text"] = f"{column} as a line through the origin ({name})"
-    if why := of_another_size(table, column, needs(claim, "device")):
-        return [Comparison(**kept, **unjudged(incomparable=why))]
+    fields = {"metric": column, "methods": f"{over[0]} rather than {over[1]}"}
+    fields["text"] = f"{column} as a line through the origin ({name})"
+    if reason := of_another_size(table, column, needs(claim, "device")):
+        return [Comparison(**fields, **unjudged(incomparable=reason))]
     if missing := [each for each in (column, *over) if each not in table]:
-        return [Comparison(**kept, **unjudged(untested=f"no {', '.join(missing)} in {name}"))]
+        return [Comparison(**fields, **unjudged(untested=f"no {', '.join(missing)} in {name}"))]
     shares = [explained(table[column].to_numpy(), table[each].to_numpy()) for each in over]
     number = ", ".join(f"R² {share:.3f} over {each}" for share, each in zip(shares, over))
     holds = shares[0] > shares[1]
-    return [Comparison(**kept, number=number, supports=holds, against=float(holds))]
+    return [Comparison(**fields, number=number, supports=holds, against=float(holds))]
 
 
 def explained(y: np.ndarray, x: np.ndarray) -> float:

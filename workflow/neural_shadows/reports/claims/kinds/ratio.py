@@ -34,18 +34,18 @@ class Ratio(setting_types.Bounded):
 
     table: Name = Field(description="a name in `tables`")
     column: str = Field(min_length=1, description="of the table's CSV")
-    of: Row = Field(description="what finds its row: value by column")
+    of: Row = Field(description="its row: value by column")
     to: Row | Annotated[list[Row], Field(min_length=2)] | Size | None = Field(
         None,
-        description="likewise, of what it is divided by, of several rows their mean; or a number; "
-        "without it the sum of all others",
+        description="the denominator's row, or several for their mean, or a number; "
+        "without it the sum of all other rows",
     )
     per: str | None = Field(
-        None, min_length=1, description="a column of the table by which each is divided first"
+        None, min_length=1, description="a column that divides both numbers first"
     )
     unlearned: Size | None = Field(
         None,
-        description="what `of` is of a null predictor, where the table has no row of it",
+        description="the number of a null predictor, where the table has no row of it",
     )
 
     @model_validator(mode="after")
@@ -59,13 +59,13 @@ class Settings(NetworksClaim):
     """Numbers of tables over each other, within bounds."""
 
     kind: Literal["ratio"] = Field(description="`ratio`")
-    ratios: list[Ratio] = Field(min_length=1, description="all of which are to hold")
+    ratios: list[Ratio] = Field(min_length=1, description="all must hold")
     networks: list[name_in("screen_experiments")] = Field(
-        [], description="the trained networks that it is about"
+        [], description="the trained networks of the claim"
     )
     again: setting_types.again(Name) = Field(
         {},
-        description="by table, those with the same rows of networks from other seeds",
+        description="by table, its counterparts of networks from other seeds",
     )
 
     def named_networks(self) -> list[str]:
@@ -104,8 +104,8 @@ def _same_in(config: Sections, network: str, table: str) -> list[str]:
 
 
 def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
-    again = [table for others in claim["again"].values() for table in others]
-    tables = [*(ratio["table"] for ratio in claim["ratios"]), *again]
+    other_seeds = [table for others in claim["again"].values() for table in others]
+    tables = [*(ratio["table"] for ratio in claim["ratios"]), *other_seeds]
     paths = [layout.paths.report(f"{table}.csv") for table in tables]
     return {"tables": paths, **training_files(layout, claim)}
 
@@ -113,9 +113,8 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each ratio.
 
-    Numbers of trained networks are not judged by fewer trainings than the claim needs: a seed is
-    one of the table, and one each of those in `again`. Of more than one the ratios' logarithms
-    decide, by Student's t.
+    Numbers of trained networks are not judged with fewer seeds than the claim needs: one of the
+    table, and one of each in `again`. Several are tested by Student's t of the ratios' logarithms.
     """
     return [_comparison(claim, ratio, data) for ratio in claim["ratios"]]
 
@@ -123,8 +122,8 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
 def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
     """The ratios of null predictors, by null.
 
-    One takes the place of a network that stands on both sides, else of the one that is to have the
-    smaller number; without networks there is none, and a table without its rows decides nothing.
+    The null replaces a network on both sides, else the one with the claimed smaller number. Empty
+    without networks; a table without rows of nulls decides nothing.
     """
     if not claim["networks"]:
         return {}
@@ -150,11 +149,11 @@ def of_another_size(table: pd.DataFrame, column: str, device: str | None = None)
 
 
 def _of_null(ratio: Mapping[str, Any], data: Measured, null: str) -> Comparison:
-    """A null's ratio; only within bounds strictly it supports."""
+    """A null's ratio; supports only strictly within bounds."""
     value = _null_ratio(data.tables[ratio["table"]], ratio, null)
     inside = [SIDES[key] * (value - x) > 0 for key, x in setting_types.bounds_of(ratio).items()]
-    kept = {"metric": ratio["column"], "methods": null, "text": null}
-    return Comparison(**kept, number=f"ratio {value:.3g}", supports=all(inside), against=1.0)
+    fields = {"metric": ratio["column"], "methods": null, "text": null}
+    return Comparison(**fields, number=f"ratio {value:.3g}", supports=all(inside), against=1.0)
 
 
 def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> float:
@@ -165,7 +164,7 @@ def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> flo
     if "null" not in table or to is None:
         return float("nan")
     unlearned, rows = table[table["null"] == null], to if isinstance(to, list) else [to]
-    # A null's rows have all but what names a network.
+    # A null's rows have all columns but those that name a network.
     networks = [
         {
             key: value
@@ -196,30 +195,30 @@ def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Compa
     sides = [_name(ratio[key]) for key in ("of", "to")]
     means = [f" {value:.4g}" for value in values.mean(axis=0)]
     if isinstance(ratio["to"], float):
-        means[1] = ""  # is its own name
+        means[1] = ""  # its name is the number
     named = " over ".join(f"{side}{mean}" for side, mean in zip(sides, means))
-    kept = {"metric": column, "methods": " over ".join(sides)}
-    kept["text"] = f"{column} of {named} ({ratio['table']})"
-    if why := of_another_size(tables[0], ratio["column"], needs(claim, "device")):
-        return Comparison(**kept, **unjudged(incomparable=why))
+    fields = {"metric": column, "methods": " over ".join(sides)}
+    fields["text"] = f"{column} of {named} ({ratio['table']})"
+    if reason := of_another_size(tables[0], ratio["column"], needs(claim, "device")):
+        return Comparison(**fields, **unjudged(incomparable=reason))
     if not np.isfinite(values).all():
-        return Comparison(**kept, **unjudged(untested=f"no {column} of one of them"))
+        return Comparison(**fields, **unjudged(untested=f"no {column} of one of them"))
     networks = claim["networks"]
     if needs(claim, "trunk") and all(
         data.screen_trainings[name]["perceptual"] == "none" for name in networks
     ):
-        return Comparison(**kept, **unjudged(untested=WITHOUT_TRUNK))
+        return Comparison(**fields, **unjudged(untested=WITHOUT_TRUNK))
     ratios, needed = values[:, 0] / values[:, 1], needs(claim, "seeds") or 1
     bounds, ends = setting_types.bounds_of(ratio), _ends(tables, ratio)
-    limits = f" ({setting_types.in_words(bounds)})"
+    bounds_text = f" ({setting_types.in_words(bounds)})"
     if networks and len(tables) < needed:
-        kept |= {"number": _number(ratios), "remark": limits}
+        fields |= {"number": _number(ratios), "remark": bounds_text}
         untested = seeds_of(len(tables), needed)
-        return Comparison(**kept, supports=False, against=1.0, untested=untested)
+        return Comparison(**fields, supports=False, against=1.0, untested=untested)
     if ends is not None and not np.isfinite(ends).all():
-        why = f"ratio {ratios[0]:.3g}{limits} without an interval"
-        return Comparison(**kept, **unjudged(untested=why))
-    return Comparison(**kept, remark=limits, **_judged(ratios, ends, bounds))
+        reason = f"ratio {ratios[0]:.3g}{bounds_text} without an interval"
+        return Comparison(**fields, **unjudged(untested=reason))
+    return Comparison(**fields, remark=bounds_text, **_judged(ratios, ends, bounds))
 
 
 def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
@@ -259,7 +258,7 @@ def _ends(tables: Sequence[pd.DataFrame], ratio: Mapping[str, Any]) -> np.ndarra
 
 
 def _number(ratios: np.ndarray) -> str:
-    """The ratio in words, of several their geometric mean."""
+    """The ratio as text; the geometric mean of several."""
     mean, low, high, _ = np.exp(t_interval(_log(ratios)))
     interval = f" [{short(low)}, {short(high)}] over {len(ratios)} seeds" if len(ratios) > 1 else ""
     return f"ratio {short(mean)}{interval}"
@@ -270,15 +269,17 @@ def _judged(
 ) -> dict[str, Any]:
     """Judge ratios by bounds.
 
-    Several by Student's t, one with an interval of its own by that, another as it is.
+    Several by Student's t, one by its own interval if any, else as it is.
     """
     number = _number(ratios)
     inside = [SIDES[key] * _log(ratios / bound) for key, bound in bounds.items()]
     if ends is not None:
         number = f"ratio {ratios[0]:.3g} [{ends[0]:.3g}, {ends[1]:.3g}]"
-        # As of a normal distribution whose interval this is.
-        half, wide = np.log(ends[1] / ends[0]) / 2, scipy.stats.norm.ppf((1 + LEVEL) / 2)
-        tests = [(d, d - half, 2 * scipy.stats.norm.sf(wide * -d / half)) for (d,) in inside]
+        # As a normal distribution with this interval.
+        half_width, z_95 = np.log(ends[1] / ends[0]) / 2, scipy.stats.norm.ppf((1 + LEVEL) / 2)
+        tests = [
+            (d, d - half_width, 2 * scipy.stats.norm.sf(z_95 * -d / half_width)) for (d,) in inside
+        ]
     elif len(ratios) == 1:
         tests = [(1, 1, 1.0) if d >= 0 else (-1, -1, 0.0) for (d,) in inside]
     else:

@@ -23,7 +23,7 @@ class Settings(soft_claims.SoftClaim):
     radii: list[setting_types.Radius] | None = Field(
         None,
         min_length=1,
-        description="as of `soft_equal_time`; without it the mean over all is compared",
+        description="see `soft_equal_time`; without it the mean over all is compared",
     )
     pairs: setting_types.pairs() = Field(
         description="methods of the table, the claimed winner first"
@@ -32,9 +32,10 @@ class Settings(soft_claims.SoftClaim):
         *("mse_off_edges", "mse", "ssim", "l1", "light_leak", "false_shadow", "flip", "lpips")
     ) = Field(
         ["mse_off_edges"],
-        description="in all of which it is to hold; where `mse`, of all pixels, would have another "
-        "verdict than `mse_off_edges`, of those without an edge of a surface, the evidence says so; "
-        "`flip` and `lpips` are measured by the middle light alone",
+        description="the claim must hold in all of them; the evidence names the verdict by `mse`, "
+        "of all pixels, if it differs from that by `mse_off_edges`, of pixels without edges of "
+        "surfaces; "
+        "`flip` and `lpips` are measured for the middle light alone",
     )
 
     def named_methods(self) -> list[str]:

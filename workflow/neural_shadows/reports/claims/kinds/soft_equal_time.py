@@ -18,16 +18,14 @@ OF_SOFT_METHODS = True
 class Settings(soft_claims.SoftClaim):
     """Rays of equal time and smaller squared error off edges."""
 
-    of_tables = (soft_methods.Settings,)  # only they have times by radius
+    of_tables = (soft_methods.Settings,)  # have times by radius
 
     kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
     radii: list[setting_types.Radius] = Field(
         min_length=1,
-        description="of the table's frame set, counted from 0, at all of which it is to hold",
+        description="numbers of the frame set's radii, from 0; the claim must hold at all of them",
     )
-    methods: list[str] = Field(
-        min_length=1, description="methods of the table that rays are to beat"
-    )
+    methods: list[str] = Field(min_length=1, description="claimed losers, methods of the table")
 
     def named_methods(self) -> list[str]:
         return self.methods
@@ -40,7 +38,7 @@ without_networks = soft_claims.without_networks
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each method and radius.
 
-    It is with the most rays that take no longer, of a network than its first seed.
+    Rays are the most that take no longer than the method, or a network's first seed.
     """
     table, metric = data.soft[claim["table"]], claim.get("metric", OFF_EDGES)
     outcomes = []

@@ -14,7 +14,7 @@ from neural_shadows.reports.data.trained import Row
 from neural_shadows.sections.sections import Sections
 
 COUNTS_VIOLATIONS = True
-# The number of violations, of those where such an error can be seen, and of those where it is.
+# Counts of violations, of those at points where the error can occur, and of those where it does.
 LOWER = ("lower_violations", "lit_of_lower", "false_shadow_of_lower")
 UPPER = ("upper_violations", "shadowed_of_upper", "light_leak_of_upper")
 
@@ -22,7 +22,7 @@ UPPER = ("upper_violations", "shadowed_of_upper", "light_leak_of_upper")
 class Settings(row_claims.RowsClaim):
     """Violations of the lower bound against those of the upper.
 
-    Of each network one of the former is to show more often.
+    For each network the former must show more often.
     """
 
     rows_key = "methods"
@@ -48,9 +48,9 @@ def compared(claim: Claim) -> list[list[Row]]:
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     """A comparison for each network, of its largest budget.
 
-    What is compared is P(false shadow | t < t_lb, point lit) − P(light leak | t > t_ub, point in
-    shadow): the thesis speaks of what a violation costs, however often each bound is violated and
-    however much of the frame is lit. Counts of all views are added.
+    Compares P(false shadow | t < t_lb, point lit) − P(light leak | t > t_ub, point in
+    shadow): the cost of a violation, independent of how often each bound is violated and of
+    the lit share of the frame. Counts of all views are added.
     """
     rows = claim["methods"]
     return [_comparison(label, row, data) for label, row in zip(labels(rows), rows)]
@@ -58,7 +58,7 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
 
 def _comparison(label: str, row: Row, data: Measured) -> Comparison:
     budget = data.budgets([row])[-1]
-    kept = {
+    fields = {
         "metric": "seen violations",
         "methods": label,
         "text": label,
@@ -71,23 +71,23 @@ def _comparison(label: str, row: Row, data: Measured) -> Comparison:
     counts = np.stack([frame.to_numpy() for frame in frames])  # (S, V, 6)
     lower, lit, false, upper, shadowed, leak = counts.sum((0, 1))
     if not lit or not shadowed:
-        nowhere = "lower bound is violated at no lit" if not lit else "upper bound at no shadowed"
-        return Comparison(**kept, **unjudged(untested=f"the {nowhere} point"))
-    kept["text"] = (
+        missing = "lower bound is violated at no lit" if not lit else "upper bound at no shadowed"
+        return Comparison(**fields, **unjudged(untested=f"the {missing} point"))
+    fields["text"] = (
         f"{label}: false shadow at {100 * false / lit:.3g} % of the {lit:,.0f} points that are "
         f"lit, of {lower:,.0f} with a violated lower bound, and light leak at "
         f"{100 * leak / shadowed:.3g} % of the {shadowed:,.0f} in shadow, of {upper:,.0f} with a "
         "violated upper one"
     )
     if len(frames[0]) < FEWEST_VIEWS:
-        return Comparison(**kept, **unjudged(untested=f"{len(frames[0])} views are too few"))
+        return Comparison(**fields, **unjudged(untested=f"{len(frames[0])} views are too few"))
     groups = frames[0].index.get_level_values("view_set")
-    return Comparison(**kept, **judged(*two_way_interval(counts, _excess, groups)))
+    return Comparison(**fields, **judged(*two_way_interval(counts, _excess, groups)))
 
 
 def _excess(counts: np.ndarray) -> float:
     _, lit, false, _, shadowed, leak = counts.sum((0, 1))
-    # Without one view there may be no violation of a bound: it then cost nothing.
+    # With a view left out a bound may be without violations, which then cost nothing.
     return float(false / max(lit, 1) - leak / max(shadowed, 1))
 
 
