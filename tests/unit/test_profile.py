@@ -25,7 +25,7 @@ def test_what_is_not_grouped_is_long_or_local():
     long |= {"find_depth_bias", "export_network"}
     long |= {"render_frames", "tune_soft_method", "evaluate_soft", "train_screen"}
     long |= {"measure_sensitivity", "answer_frames", "fit_fields"}
-    timed = {"measure_frame_times", "measure_cost", "time_soft_methods"}
+    timed = {"measure_frame_times", "time_soft_methods"}
     timed |= {"profile_screen_network"}
     local = {name for name, rule in RULES.items() if "localrule: True" in rule}
     assert local == {"find_lpips", "download_mesh"}

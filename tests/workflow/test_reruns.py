@@ -16,10 +16,11 @@ SOFT = SHOWN | {"tune_soft_method", "evaluate_soft", "time_soft_methods"}
 @pytest.mark.parametrize(
     ("module", "rules"),
     [
-        ("reports/tables/comparison.py", {"table", "page"}),
+        # Figures of a table import its settings.
+        ("reports/tables/comparison.py", {"table", "figure", "page"}),
         ("reports/claims/write_claims.py", {"claims", "page"}),
         # The table asks for the preview, so that one target makes all that belongs to it.
-        ("reports/figures/preview.py", {"preview_scene", "table", "page"}),
+        ("reports/drawing/preview.py", {"preview_scene", "table", "page"}),
         ("evaluation/evaluate.py", SHOWN | {"evaluate"}),
         ("evaluation/query_network.py", ANSWERED),
         ("shadow_maps/shadow_map.py", MAPPED),

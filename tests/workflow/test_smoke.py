@@ -125,11 +125,11 @@ def test_a_page_of_all_and_one_of_what_is_there(finished):
     page = (finished.reports / "index.html").read_text(encoding="utf-8")
     assert 'id="table-table_4_1"' in page and 'id="figure-figure_beyond_slice"' in page
     assert "<script src" not in page and "<link" not in page
-    (finished.reports / "table_4_1.md").unlink()
+    (finished.reports / "table_4_1.json").unlink()
     finished.run("reports/smoke/available.html")
     page = (finished.reports / "available.html").read_text(encoding="utf-8")
     assert 'id="table-table_4_3"' in page and 'id="table-table_4_1"' not in page
-    assert not (finished.reports / "table_4_1.md").exists()
+    assert not (finished.reports / "table_4_1.json").exists()
 
 
 def test_a_network_is_exported(smoke):
@@ -148,7 +148,7 @@ def test_the_workflow_is_a_module_of_another(fresh, tmp_path):
     """As `snakedeploy` sets it up: the configuration is the user's, in a folder of their own."""
     shutil.copytree(fresh.folder / "config", tmp_path / "config")
     (tmp_path / "Snakefile").write_text(
-        +"".join(f'configfile: "config/{name}.yaml"\n' for name in DEFAULT) + "module shadows:\n"
+        "".join(f'configfile: "config/{name}.yaml"\n' for name in DEFAULT) + "module shadows:\n"
         f'    snakefile: "{fresh.folder}/workflow/Snakefile"\n'
         "    config: config\n"
         "use rule * from shadows\n"

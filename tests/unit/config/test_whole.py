@@ -9,14 +9,17 @@ import pytest
 import yaml
 from checkout import ROOT
 from shipped import shipped
+from snakemake.utils import update_config
 
 from neural_shadows.config.__main__ import json_schema
 from neural_shadows.config.reading import check_duplicates, read_config
+from neural_shadows.config.reference import markdown
 from neural_shadows.config.resolved import resolved
 from neural_shadows.sections.own_frames import EngineFrames
 from neural_shadows.settings.base import Model
 
 FILES = sorted((ROOT / "config").glob("*.yaml"))
+REFERENCE = ROOT / "config" / "REFERENCE.md"
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.json"
 
 
@@ -64,15 +67,22 @@ def test_commands_name_their_targets_first():
 
 
 def test_examples_of_the_readme_are_valid():
+    """But for the one of kinds that its own files define, see tests/workflow/test_own_kinds.py."""
     text = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
-    examples = [yaml.safe_load(one) for one in re.findall(r"```yaml\n(.*?)```", text, re.DOTALL)]
+    blocks = re.findall(r"```yaml\n(.*?)```", text, re.DOTALL)
+    examples = [yaml.safe_load(one) for one in blocks if "# config/own.yaml" not in one]
     values = shipped()
-    for section, entries in (item for example in examples for item in example.items()):
-        values[section] = (
-            values.get(section, {}) | entries if isinstance(entries, dict) else entries
-        )
+    for example in examples:
+        update_config(values, example)
     experiments = resolved(read_config(values))["experiments"]
-    assert len(examples) == 7 and {"teapot", "dragon_small"} <= experiments.keys()
+    assert len(examples) == 8 and {"teapot", "dragon_small"} <= experiments.keys()
+
+
+def test_reference_is_checked_in():
+    assert REFERENCE.read_text(encoding="utf-8") == markdown(), (
+        "make it again: PYTHONPATH=workflow python -m neural_shadows.config --markdown "
+        "> config/REFERENCE.md"
+    )
 
 
 def test_schema_is_checked_in():
