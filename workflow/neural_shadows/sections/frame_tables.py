@@ -29,6 +29,23 @@ class NsmTable(AnyTable):
     )
 
 
+class ProfileTable(NsmTable):
+    """Table of the times of one network."""
+
+    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+
+
+class NetworksTable(FramesTable):
+    """Table of trained screen-space networks on a frame set."""
+
+    networks: list[name_in("screen_experiments")] = Field(
+        min_length=1, description="names in `screen_experiments`, in the table's order"
+    )
+
+    def methods_shown(self) -> list[str]:
+        return self.networks
+
+
 class MethodsTable(FramesTable):
     """Table of the methods of `methods_shown` on test frames."""
 

@@ -26,8 +26,7 @@ from neural_shadows.reports.data.screen_rows import (
 from neural_shadows.reports.data.table import Table, number_cells, write_table
 from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
-from neural_shadows.sections.frame_tables import FramesTable
-from neural_shadows.settings.base import name_in
+from neural_shadows.sections.frame_tables import NetworksTable
 from neural_shadows.settings.records import Run, TrainingRecord
 
 TRAINING, VALIDATION, SEQUENCES = "training", "validation", "sequences"
@@ -37,16 +36,10 @@ SHOWN = {"mse": ("MSE × 10⁻⁴", 1e4), OFF_EDGES: ("MSE off edges × 10⁻⁴
 SHOWN |= {name: (text, 1) for name, text in WIDTHS.items()}
 
 
-class Settings(FramesTable):
+class Settings(NetworksTable):
     """Networks' errors by scene and light, beside those of training frames."""
 
     kind: Literal["screen_errors"] = Field(description="`screen_errors`")
-    networks: list[name_in("screen_experiments")] = Field(
-        min_length=1, description="names in `screen_experiments`, in the table's order"
-    )
-
-    def methods_shown(self) -> list[str]:
-        return self.networks
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:

@@ -20,8 +20,7 @@ from neural_shadows.reports.data.published import (
 )
 from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
-from neural_shadows.sections.frame_tables import NsmTable
-from neural_shadows.settings.base import name_in
+from neural_shadows.sections.frame_tables import ProfileTable
 from neural_shadows.settings.records import Run
 
 # Column, its unit, and the digits that the paper prints.
@@ -34,11 +33,10 @@ COLUMNS = {
 OF_ANY_SIZE = ("parameters",)
 
 
-class Settings(NsmTable):
+class Settings(ProfileTable):
     """Time, multiply-adds, weights and storage of each level of a screen-space network."""
 
     kind: Literal["screen_levels"] = Field(description="`screen_levels`")
-    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:

@@ -20,8 +20,7 @@ from neural_shadows.reports.data.published import (
 )
 from neural_shadows.reports.data.table import Table, filled, numbers, write_table
 from neural_shadows.running.stage import run_stage
-from neural_shadows.sections.frame_tables import NsmTable
-from neural_shadows.settings.base import name_in
+from neural_shadows.sections.frame_tables import ProfileTable
 from neural_shadows.settings.records import Run
 
 # The paper's names of `ShadowUnet.parts`.
@@ -35,11 +34,10 @@ PRINTED = {
 NAMES = {"encoder": "convolutions down", "decoder": "convolutions up"}
 
 
-class Settings(NsmTable):
+class Settings(ProfileTable):
     """The time of each level and part of a screen-space network."""
 
     kind: Literal["screen_parts"] = Field(description="`screen_parts`")
-    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:

@@ -23,21 +23,14 @@ from neural_shadows.reports.data.screen_rows import (
 from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
 from neural_shadows.reports.data.width_notes import describe_widths
 from neural_shadows.running.stage import run_stage
-from neural_shadows.sections.frame_tables import FramesTable
-from neural_shadows.settings.base import name_in
+from neural_shadows.sections.frame_tables import NetworksTable
 from neural_shadows.settings.records import Run
 
 
-class Settings(FramesTable):
+class Settings(NetworksTable):
     """Networks' errors by number of solids before the light."""
 
     kind: Literal["screen_solids"] = Field(description="`screen_solids`")
-    networks: list[name_in("screen_experiments")] = Field(
-        min_length=1, description="names in `screen_experiments`, in the table's order"
-    )
-
-    def methods_shown(self) -> list[str]:
-        return self.networks
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
