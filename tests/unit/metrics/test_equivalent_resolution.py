@@ -2,7 +2,7 @@ import pytest
 from report_samples import PUBLISHED
 
 from neural_shadows.metrics.equivalent_resolution import equivalent_resolution
-from neural_shadows.metrics.error_scale import error_of
+from neural_shadows.metrics.registry import error_of
 from neural_shadows.reports.data.published import read_published
 
 SIZES = (128, 256, 512, 1024, 2048)

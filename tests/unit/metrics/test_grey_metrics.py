@@ -5,9 +5,10 @@ import pytest
 from images import constant, random_image
 from skimage.color import rgb2lab
 
-from neural_shadows.metrics.flip import flip
-from neural_shadows.metrics.psnr_ssim import psnr, ssim
-from neural_shadows.metrics.shadow_error import shadow_error
+from neural_shadows.metrics.kinds.errors_of_visibility import shadow_error
+from neural_shadows.metrics.kinds.flip import flip
+from neural_shadows.metrics.kinds.psnr import psnr
+from neural_shadows.metrics.kinds.ssim import ssim
 
 
 def test_psnr():

@@ -7,7 +7,7 @@ import torch
 import torchvision
 from images import random_image
 
-from neural_shadows.metrics.lpips_distance import load_model, make_lpips
+from neural_shadows.metrics.kinds.lpips import load_model, make_lpips
 from neural_shadows.networks.pretrained_trunk import MODELS
 
 

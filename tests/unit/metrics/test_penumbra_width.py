@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from neural_shadows.meshes.prepared_mesh import with_normals
-from neural_shadows.metrics.penumbra_width import (
+from neural_shadows.metrics.kinds.penumbra_width import (
     WIDEST,
     local_widths,
     penumbra_width,
@@ -12,8 +12,8 @@ from neural_shadows.metrics.penumbra_width import (
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.scenes.arrangement import UP
 from neural_shadows.scenes.cameras import Camera
-from neural_shadows.scenes.generators.building import floor
-from neural_shadows.scenes.generators.shapes import box
+from neural_shadows.scenes.pieces.building import floor
+from neural_shadows.scenes.pieces.shapes import box
 from neural_shadows.scenes.scene import make_scene
 
 SIDE, RADIUS = 400, 120.0

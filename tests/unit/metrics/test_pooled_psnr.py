@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.intervals import pooled_psnr_difference, pooled_psnr_interval
 from neural_shadows.metrics.pooled_psnr import identical, mse_of, psnr_of
+from neural_shadows.metrics.registry import error_of, value_of
 
 
 def test_one_identical_frame_does_not_drive_it():

@@ -99,8 +99,8 @@ def test_licence(curve, samples, why):
 
 
 def test_a_dead_training_and_seeds_that_hold_any_prediction_license_nothing():
-    died = power_law.licensed([noisy(1)], BEYOND, seed=1, died=True)
-    assert died == (False, "a training diverged")
+    diverged = power_law.licensed([noisy(1)], BEYOND, seed=1, diverged=True)
+    assert diverged == (False, "a training diverged")
     # As in the review the last budget is missed by 14 %, within the interval of these seeds.
     wild = Curve(REVIEW, IDENTITY * np.exp([[-0.3, 0.0, 0.3]]))
     held = power_law.hold_out(wild, seed=1)

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from neural_shadows.files.whole_files import write_json
-from neural_shadows.metrics.lpips_distance import make_lpips
+from neural_shadows.metrics.kinds.lpips import make_lpips
 from neural_shadows.networks.pretrained_trunk import MODELS, Net
 from neural_shadows.running.stage import run_stage
 

@@ -7,7 +7,7 @@ agreement: a 1024² map on the landscape has 47.6 dB on average, without its two
 
 import numpy as np
 
-IDENTICAL = 100.0  # dB: the most that `psnr_ssim.psnr` gives
+IDENTICAL = 100.0  # dB: the most that `kinds.psnr` gives
 
 
 def mse_of(psnr: np.ndarray) -> np.ndarray:

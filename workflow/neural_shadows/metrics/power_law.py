@@ -144,15 +144,15 @@ def extrapolate_difference(
 
 
 def licensed(
-    curves: Sequence[Curve], samples: float, seed: int, died: bool = False
+    curves: Sequence[Curve], samples: float, seed: int, diverged: bool = False
 ) -> tuple[bool, str]:
     """Permit or refuse extrapolation to a number of samples.
 
     The reason is empty if it is allowed. Allowed if each predicts its largest budget from the
     others, within its 90 % interval and to 10 %, the step is at most thirtyfold, and none of their
-    trainings diverged (`died`).
+    trainings `diverged`.
     """
-    if died:
+    if diverged:
         return False, "a training diverged"
     reasons = []
     for curve in curves:

@@ -4,13 +4,29 @@ On average along edges of hard shadows, and pixel by pixel.
 """
 
 import numpy as np
-import scipy
 
+from neural_shadows.metrics.metric import Metric, Pixels
+
+_WIDTH = {"unit": "pixels", "digits": 1, "better": None, "lights": ("soft",)}
+METRICS = {
+    "width": Metric("penumbra width", **_WIDTH),
+    "width_reference": Metric("penumbra width", "of the reference", **_WIDTH),
+}
 ENDS = (0.1, 0.9)  # visibilities between which 0.8 of a penumbra's width lies
 # An edge of length 1 in a direction drawn at random crosses 4 / π sides of pixels (Cauchy, Crofton).
 LENGTH_OF_A_SIDE = np.pi / 4
 _REACHES = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96)  # pixels, half of a width and more
 WIDEST = 2 * _REACHES[-1]  # pixels: the largest width that is resolved
+
+
+def of_visibility(visibility: np.ndarray, target: np.ndarray, pixels: Pixels) -> dict[str, float]:
+    """`penumbra_width` of both; empty where the hard shadow is unknown."""
+    if pixels.hard is None:
+        return {}
+    images = {"width": visibility, "width_reference": target}
+    return {
+        name: penumbra_width(image, pixels.valid, pixels.hard) for name, image in images.items()
+    }
 
 
 def penumbra_width(visibility: np.ndarray, valid: np.ndarray, hard: np.ndarray) -> float:
@@ -43,6 +59,8 @@ def local_widths(visibility: np.ndarray, valid: np.ndarray, edges: np.ndarray) -
         visibility: (H, W) float32 in [0, 1], exact. valid: (H, W) bool. edges: (H, W) bool, pixels at
             geometry edges, where another surface's visibility begins.
     """
+    from scipy.ndimage import gaussian_filter, maximum_filter, minimum_filter
+
     counts = valid & ~edges
     selected = counts & (visibility > ENDS[0]) & (visibility < ENDS[1])
     widths, remaining = np.full(visibility.shape, np.nan), selected.copy()
@@ -50,12 +68,10 @@ def local_widths(visibility: np.ndarray, valid: np.ndarray, edges: np.ndarray) -
         if not remaining.any():
             break
         sigma = max(0.5, reach / 6)
-        slope = np.hypot(
-            *(scipy.ndimage.gaussian_filter(visibility, sigma, order) for order in ((1, 0), (0, 1)))
-        )
+        slope = np.hypot(*(gaussian_filter(visibility, sigma, order) for order in ((1, 0), (0, 1))))
         # Off other surfaces by most of the filter's support.
-        clear = scipy.ndimage.minimum_filter(counts, 2 * round(1.5 * sigma) + 1, mode="nearest")
-        steepest = scipy.ndimage.maximum_filter(np.where(clear, slope + 1e-6, 0), 2 * reach + 1)
+        clear = minimum_filter(counts, 2 * round(1.5 * sigma) + 1, mode="nearest")
+        steepest = maximum_filter(np.where(clear, slope + 1e-6, 0), 2 * reach + 1)
         measured = remaining & (steepest > 0)
         widths[measured] = np.minimum(4 / np.pi / steepest[measured], WIDEST)
         remaining &= ~(widths <= 2 * reach)

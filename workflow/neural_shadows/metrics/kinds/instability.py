@@ -9,7 +9,22 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from neural_shadows.metrics.metric import Metric
+
+METRICS = {
+    "instability": Metric("flicker E", digits=3, lights=("soft",)),
+    "temporal_error": Metric(
+        "temporal error", unit="× 10⁻²", factor=100, digits=2, lights=("soft",)
+    ),
+}
 SHARPNESS = 3.0  # α of eq. 3 (Datta et al. 2022)
+
+
+def of_changes(changes: Sequence[np.ndarray], pixels: int) -> dict[str, float]:
+    return {
+        "instability": exponential_instability(changes),
+        "temporal_error": root_instability(changes, pixels),
+    }
 
 
 def exponential_instability(differences: Sequence[np.ndarray]) -> float:

@@ -1,23 +1,27 @@
-"""PSNR and SSIM of grey frames (H, W) in [0, 1]. Both raise ValueError for any other pair."""
+"""Structural similarity of grey frames."""
 
 import numpy as np
-from skimage.metrics import structural_similarity
 
 from neural_shadows.metrics.grey_images import check_pair
+from neural_shadows.metrics.metric import Metric
+
+METRICS = {"ssim": Metric("SSIM", better="high")}
 
 
-def psnr(image: np.ndarray, reference: np.ndarray) -> float:
-    """Peak signal-to-noise ratio in dB for peak 1, at most 100 (identical frames)."""
-    check_pair(image, reference)
-    mean_square = np.mean(np.square(image - reference, dtype=np.float64))
-    return float(-10 * np.log10(max(mean_square, 1e-10)))  # 1e-10 is 100 dB
+def of_images(image: np.ndarray, reference: np.ndarray) -> dict[str, float]:
+    return {"ssim": ssim(image, reference)}
 
 
 def ssim(image: np.ndarray, reference: np.ndarray) -> float:
     """Mean structural similarity. Wang et al. 2004: Gaussian window of sigma 1.5, range 1.
 
     Frames must have at least 11 pixels a side, the window's.
+
+    Raises:
+        ValueError: no pair of grey frames (H, W) in [0, 1].
     """
+    from skimage.metrics import structural_similarity
+
     check_pair(image, reference)
     return float(
         structural_similarity(

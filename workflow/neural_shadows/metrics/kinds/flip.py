@@ -6,10 +6,12 @@ Tiles of it that differ from the reference would give the same mean but no soone
 all along their outlines.
 """
 
-import flip_evaluator
 import numpy as np
 
 from neural_shadows.metrics.grey_images import check_pair
+from neural_shadows.metrics.metric import Metric
+
+METRICS = {"flip": Metric("FLIP", slow=True)}
 
 
 def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
@@ -18,6 +20,8 @@ def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
     Raises:
         ValueError: the images are no pair of grey images in [0, 1].
     """
+    import flip_evaluator
+
     check_pair(image, reference)
     pair = (np.repeat(np.float32(grey)[..., None], 3, axis=2) for grey in (reference, image))
     error, _, _ = flip_evaluator.evaluate(*pair, "LDR", applyMagma=False, computeMeanError=False)
@@ -27,3 +31,7 @@ def flip_map(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
 def flip(image: np.ndarray, reference: np.ndarray) -> float:
     """Mean of the error map; 0 for identical images. Raises as `flip_map`."""
     return float(flip_map(image, reference).mean(dtype=np.float64))
+
+
+def of_images(image: np.ndarray, reference: np.ndarray) -> dict[str, float]:
+    return {"flip": flip(image, reference)}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neural_shadows.metrics.occluder_error import errors_by_occluders
+from neural_shadows.metrics.kinds.errors_by_occluders import of_occluders
 
 SOLIDS = np.tile(np.repeat([0, 1, 2, 3, 5], 20), (4, 1))  # five and three are one
 TARGET = np.full(SOLIDS.shape, 0.5, np.float32)
@@ -12,7 +12,7 @@ WIDTHS = np.tile(np.arange(100.0), (4, 1))
 
 
 def errors(off, target=TARGET, valid=VALID, solids=SOLIDS):
-    return errors_by_occluders(target + off.astype(np.float32), target, valid, solids, WIDTHS)
+    return of_occluders(target + off.astype(np.float32), target, valid, solids, WIDTHS)
 
 
 def test_each_number_of_solids_has_its_error():

@@ -1,22 +1,33 @@
 """Errors of soft visibility, by occluders."""
 
-from collections.abc import Mapping
-
 import numpy as np
 
-from neural_shadows.metrics.visibility_error import LIT, UMBRA
+from neural_shadows.metrics.kinds.errors_of_visibility import LIT, UMBRA
+from neural_shadows.metrics.metric import Metric
 
 WIDEST = 90  # percentile of a frame's penumbra pixels by their penumbra's width
 MOST = 3  # solids: more are counted with these
 
+_SQUARED = {"unit": "× 10⁻⁴", "factor": 1e4, "digits": 1, "lights": ("soft",)}
+METRICS = {
+    "mse_widest": Metric("MSE", "of the widest penumbrae", **_SQUARED),
+    **{
+        f"mse_solids_{n}": Metric("MSE", f"behind {n} solid{'s' * (n > 1)}", **_SQUARED)
+        for n in range(1, MOST + 1)
+    },
+    "mse_behind": Metric("MSE", "behind solids", **_SQUARED),
+    "solids_behind": Metric("solids", better=None, lights=("soft",)),
+    "mse_per_solid": Metric("MSE", "of each solid", **_SQUARED),
+}
 
-def errors_by_occluders(
+
+def of_occluders(
     visibility: np.ndarray,
     target: np.ndarray,
     valid: np.ndarray,
     solids: np.ndarray,
     widths: np.ndarray,
-) -> Mapping[str, float]:
+) -> dict[str, float]:
     """Squared errors over parts of a frame's valid pixels. NaN where a part has no pixel.
 
     `mse_widest`: of the tenth of the pixels in a penumbra whose penumbra is widest. `mse_solids_1`, …:

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from neural_shadows.metrics.instability import exponential_instability, root_instability
-from neural_shadows.metrics.visibility_error import visibility_errors
+from neural_shadows.metrics.kinds.errors_of_visibility import of_visibility
+from neural_shadows.metrics.kinds.instability import exponential_instability, root_instability
+from neural_shadows.metrics.metric import Pixels
 
 
 def test_parts_of_the_error():
@@ -17,7 +18,7 @@ def test_parts_of_the_error():
     found[:, 18:22] -= 0.2
     found[:, 22:] -= 0.3
     valid = np.ones((20, 40), bool)
-    errors = visibility_errors(found, target, valid, hard)
+    errors = of_visibility(found, target, Pixels(valid, hard))
     assert errors["mse_umbra"] == pytest.approx(0.01, rel=1e-5)
     assert errors["mse_penumbra"] == pytest.approx(0.04, rel=1e-5)
     assert errors["mse_lit"] == pytest.approx(0.09, rel=1e-5)
@@ -28,9 +29,9 @@ def test_parts_of_the_error():
     # Three pixels on each side of the edge between 19 and 20.
     assert errors["mse_edge"] == pytest.approx((0.01 + 4 * 0.04 + 0.09) / 6, rel=1e-5)
     valid[:, 18:] = False
-    assert np.isnan(visibility_errors(found, target, valid, hard)["mse_lit"])
+    assert np.isnan(of_visibility(found, target, Pixels(valid, hard))["mse_lit"])
     with pytest.raises(ValueError, match="no pixel"):
-        visibility_errors(found, target, np.zeros_like(valid), hard)
+        of_visibility(found, target, Pixels(np.zeros_like(valid), hard))
 
 
 def test_published_vectors_of_instability():

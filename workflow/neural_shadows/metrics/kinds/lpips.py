@@ -3,19 +3,30 @@
 import warnings
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import lpips
 import numpy as np
-import torch
 
 from neural_shadows.metrics.grey_images import check_pair
-from neural_shadows.networks.pretrained_trunk import Net, read_trunk
+from neural_shadows.metrics.metric import Metric
 
+if TYPE_CHECKING:
+    import lpips
+    import torch
+
+    from neural_shadows.networks.pretrained_trunk import Net
+
+METRICS = {"lpips": Metric("LPIPS", slow=True, comparable=False)}
 Lpips = Callable[[np.ndarray, np.ndarray], float]
 """Distance of a grey image (H, W) in [0, 1] to its reference; 0 for identical ones."""
 
 
-def load_model(net: Net, trunk: Path | None) -> lpips.LPIPS:
+def with_backbone(net: "Net", trunk: Path | None) -> Callable[..., dict[str, float]]:
+    distance = make_lpips(net, trunk)
+    return lambda image, reference: {"lpips": distance(image, reference)}
+
+
+def load_model(net: "Net", trunk: Path | None) -> "lpips.LPIPS":
     """LPIPS 0.1 with a backbone from a file or torch's cache. Without a file, torchvision's.
 
     That cache is `$TORCH_HOME/hub/checkpoints`, by default in `~/.cache/torch`; what is not in it
@@ -25,6 +36,10 @@ def load_model(net: Net, trunk: Path | None) -> lpips.LPIPS:
         InputError: the file `trunk` cannot be used.
         OSError, RuntimeError: torchvision's cannot be downloaded, or is damaged.
     """
+    import lpips
+
+    from neural_shadows.networks.pretrained_trunk import read_trunk
+
     with warnings.catch_warnings():
         # lpips 0.1.4 names torchvision's models in the manner of torchvision 0.12.
         warnings.filterwarnings("ignore", category=UserWarning, module="torchvision")
@@ -37,12 +52,14 @@ def load_model(net: Net, trunk: Path | None) -> lpips.LPIPS:
     return model.eval()
 
 
-def make_lpips(net: Net, trunk: Path | None, device: str = "cpu") -> Lpips:
+def make_lpips(net: "Net", trunk: Path | None, device: str = "cpu") -> Lpips:
     """LPIPS of grey frames. Arguments and errors as of `load_model`."""
+    import torch
+
     # Channels last: the backbone is 1.8 times as fast, at the same values to 1e-8.
     model = load_model(net, trunk).to(device, memory_format=torch.channels_last)
 
-    def rgb(image: np.ndarray) -> torch.Tensor:
+    def rgb(image: np.ndarray) -> "torch.Tensor":
         grey = torch.tensor(image, dtype=torch.float32, device=device)
         return grey.expand(1, 3, *grey.shape).contiguous(memory_format=torch.channels_last)
 
