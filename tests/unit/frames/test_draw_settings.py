@@ -56,30 +56,25 @@ def test_the_seed_alone_decides_and_json_keeps_all(room):
     assert one.as_json() != other.as_json()
 
 
-def test_a_light_inside_an_object_is_told(room):
-    middle = {o.name: o.vertices for o in room.arrangement.objects}["table"].mean(0)
-    spoiled = SoftScene({"generate": "room", "seed": 1, "inserted": {}}, [])
-    at = Region(middle, middle)
-    spoiled.arrangement = replace(room.arrangement, lights=at)
-    with pytest.raises(InputError, match=r"room: none of .* the light is in an object or near"):
-        drawn(spoiled)
+@pytest.mark.parametrize(
+    ("spoilt", "fov", "reason"),
+    [
+        ("lights", 120, r"room: none of .* the light is in an object or near"),
+        ("cameras", 120, "the camera is in an object or near"),
+        (None, 10, r"outside the light's map \(\d+\)"),
+    ],
+)
+def test_where_no_frame_can_be_it_is_refused(room, spoilt, fov, reason):
+    table = {o.name: o.vertices for o in room.arrangement.objects}["table"].mean(0)
+    at = {"lights": table, "cameras": np.array([0.0, 0.6, -2.55])}  # the latter in a wall
+    scene = SoftScene({"generate": "room", "seed": 1, "inserted": {}}, [])
+    regions = {spoilt: Region(at[spoilt], at[spoilt])} if spoilt else {}
+    scene.arrangement = replace(room.arrangement, **regions)
+    with pytest.raises(InputError, match=reason):
+        drawn(scene, replace(KIND, light_map={**PICTURE, "fov": fov}))
 
 
-def test_a_camera_in_a_wall_is_told(room):
-    spoiled = SoftScene({"generate": "room", "seed": 1, "inserted": {}}, [])
-    wall = np.array([0.0, 0.6, -2.55])
-    spoiled.arrangement = replace(room.arrangement, cameras=Region(wall, wall))
-    with pytest.raises(InputError, match=r"the camera is in an object or near"):
-        drawn(spoiled)
-
-
-def test_a_narrow_map_is_told(room):
-    narrow = replace(KIND, light_map={**PICTURE, "fov": 10})
-    with pytest.raises(InputError, match=r"outside the light's map \(\d+\)"):
-        drawn(room, narrow)
-
-
-def test_a_path_that_leaves_the_map_is_told(room, monkeypatch):
+def test_a_path_that_leaves_the_map_is_refused(room, monkeypatch):
     """It starts in the map, where a short one stays; a long one does not."""
     narrow = replace(KIND, light_map={**PICTURE, "fov": 80}, radius=0.05)
     monkeypatch.setattr(draw_sequences, "_DRAWS", 8)

@@ -6,7 +6,7 @@ import pytest
 from neural_shadows.frames.feature_names import KPNSM_FEATURES
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.kernel_features import penumbra_pixels
-from neural_shadows.frames.light_size import light_size
+from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.penumbra_widths import penumbra_model
 from neural_shadows.rendering.gbuffer import Lens
 
@@ -42,10 +42,10 @@ def test_penumbra_is_as_wide_as_similar_triangles_say():
     """Head-on: 2 r (z − z_b) / z_b, seen with a focal length at distance d."""
     one = {"z": 0.8, "z_b": 0.5, "d": 0.6, "c_e": 1.0, "c_v": 1.0}
     told = {name: np.full((1, 1), value, np.float32) for name, value in one.items()}
-    pixels = penumbra_pixels(**told, radius=0.01, focal=983.5)
+    pixels = penumbra_pixels(**told, light=LightSize(0, 0.01), focal=983.5)
     exact = 2 * 0.01 * (0.8 - 0.5) / 0.5 / 0.6 * 983.5
     assert pixels[0, 0] == pytest.approx(exact * 2048 / (2 * 983.5), rel=1e-3)
-    half = penumbra_pixels(**told, radius=0.01, focal=983.5 / 2)
+    half = penumbra_pixels(**told, light=LightSize(0, 0.01), focal=983.5 / 2)
     assert half[0, 0] == pytest.approx(pixels[0, 0] / 2)
 
 

@@ -5,29 +5,21 @@ from unittest import mock
 
 import numpy as np
 import pytest
+from rendered_frames import render_part
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames import render_frames as render_frames_stage
 from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.frame_set import FrameSetPart, check_values
-from neural_shadows.frames.render_frames import render_frames
 
-FRAMES = {
-    **{"width": 32, "height": 16, "fov": 55, "of": None, "blur": 0.7},
-    "light_map": {"kind": "perspective", "fov": 120, "resolution": 64},
-    **{"radii": [0, 0.1, 0.25], "radius_unit": "metres"},
-    "twins": {"count": 3, "light": 0.007, "eye": 0.001, "turn_deg": 0.0},
-}
-SCENE = {"generate": "blinds", "seed": 3, "inserted": {}}
+TWINS = {"count": 3, "light": 0.007, "eye": 0.001, "turn_deg": 0.0}
+FRAMES = {"width": 32, "height": 16, "blur": 0.7, "twins": TWINS}
 
 
-def render(folder, first=0, last=2, use="train", **changed):
-    ends = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
-    paths = [folder / f"{use}_000.{end}" for end in ends]
-    told = {"use": use, "first": first, "last": last, "samples": 2, "twins": 2} | changed
-    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES} | told
-    render_frames([], *paths, **told)
-    return FrameSetPart(paths[0])
+def render(folder, use="train", first=0, twins=2):
+    return FrameSetPart(
+        render_part(folder, use, FRAMES, first=first, last=2, samples=2, twins=twins)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -72,6 +64,15 @@ def test_nothing_is_left_where_a_frame_fails_after_others(tmp_path, monkeypatch)
     assert [*tmp_path.iterdir()] == []
 
 
+def copied(part, folder, about=None, **arrays):
+    """A copy of the part's files, with another JSON or other arrays."""
+    copy = folder / part.frames_json.name
+    copy.write_text(json.dumps(about or dict(part.about)))
+    for stem in ("buffers", "targets", "valid"):
+        np.save(copy.with_suffix(f".{stem}.npy"), arrays.get(stem, getattr(part, stem)))
+    return copy
+
+
 @pytest.mark.parametrize(
     "change, told",
     [
@@ -84,32 +85,35 @@ def test_nothing_is_left_where_a_frame_fails_after_others(tmp_path, monkeypatch)
 )
 def test_a_json_that_does_not_fit(part, tmp_path, change, told):
     about = {key: value for key, value in (dict(part.about) | change).items() if value is not None}
-    copy = tmp_path / part.frames_json.name
-    copy.write_text(json.dumps(about))
-    for stem in ("buffers", "targets", "valid"):
-        name = f"{part.frames_json.stem}.{stem}.npy"
-        (tmp_path / name).symlink_to(part.frames_json.with_name(name))
     with pytest.raises(InputError, match=told):
-        _ = FrameSetPart(copy).targets
+        _ = FrameSetPart(copied(part, tmp_path, about)).targets
 
 
 @pytest.mark.parametrize(
     "frame, lacking", [({}, "fov_deg"), ({"setting": {"fov_deg": 55}}, "window")]
 )
 def test_a_setting_without_a_camera(part, tmp_path, frame, lacking):
-    copy = tmp_path / part.frames_json.name
-    copy.write_text(json.dumps(dict(part.about) | {"frames": [frame | {"twins": []}]}))
+    copy = copied(part, tmp_path, dict(part.about) | {"frames": [frame | {"twins": []}]})
     with pytest.raises(InputError, match=f"setting of frame 0 has no '{lacking}'"):
         FrameSetPart(copy).lens(0)
 
 
-def test_a_truncated_shard(part, tmp_path):
-    copy = tmp_path / part.frames_json.name
-    copy.write_bytes(part.frames_json.read_bytes())
-    whole = part.frames_json.with_suffix(".buffers.npy").read_bytes()
-    copy.with_suffix(".buffers.npy").write_bytes(whole[:-100])
-    with pytest.raises(InputError, match=r"test_000|train_000.buffers.npy: damaged"):
+@pytest.mark.parametrize("left, problem", [(-100, "damaged"), (0, "damaged"), (None, "missing")])
+@pytest.mark.parametrize("own", [False, True])
+def test_an_array_that_is_not_whole(part, tmp_path, left, problem, own):
+    """A job's part is written again without its JSON, which other jobs have as an input."""
+    copy = copied(part, tmp_path)
+    copy.write_text(json.dumps({k: v for k, v in part.about.items() if k != "scene" or not own}))
+    array = copy.with_suffix(".buffers.npy")
+    whole = array.read_bytes()
+    array.unlink()
+    if left is not None:
+        array.write_bytes(whole[:left])
+    with pytest.raises(InputError) as error:
         _ = FrameSetPart(copy).buffers
+    assert str(error.value).startswith(f"{array}: {problem}")
+    cure = "Write it anew" if own else f"Delete {copy} and run again"
+    assert str(error.value).endswith(f". {cure}")
 
 
 @pytest.mark.parametrize(
@@ -122,12 +126,7 @@ def test_a_truncated_shard(part, tmp_path):
     ],
 )
 def test_values_that_cannot_be(part, tmp_path, stem, place, value, told):
-    copy = tmp_path / part.frames_json.name
-    copy.write_bytes(part.frames_json.read_bytes())
-    for name in ("buffers", "targets", "valid"):
-        array = np.array(getattr(part, name))
-        if name == stem:
-            array[place] = value
-        np.save(copy.with_suffix(f".{name}.npy"), array)
+    array = np.array(getattr(part, stem))
+    array[place] = value
     with pytest.raises(InputError, match=told):
-        check_values(FrameSetPart(copy))
+        check_values(FrameSetPart(copied(part, tmp_path, **{stem: array})))

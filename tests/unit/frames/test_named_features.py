@@ -42,14 +42,6 @@ def by_name(names, buffers, view, step=2.0):
     return images
 
 
-def test_the_candidates_are_15_channels():
-    buffers, _ = rendered(plate(), camera(), CENTRE)
-    found = named_features(tuple(NSM_FEATURES), buffers, lens_of(camera(), WIDTH, HEIGHT), LIGHT)
-    assert found.shape == (15, HEIGHT, WIDTH) and found.dtype == np.float32
-    assert np.isfinite(found).all()
-    assert named_features(("n", "d"), buffers, HEAD_ON, LIGHT).shape[0] == 4
-
-
 def test_lit_ground():
     """What the light sees is the point itself, but for a texel's slope."""
     buffers, surface = rendered(plate(), camera(), CENTRE)

@@ -61,5 +61,5 @@ def test_at_least_twelve_scenes_are_unseen(layout):
     """Scenes are what a statement on scenes never seen counts."""
     for frame_set in ("frames", "windows"):
         unseen = layout.entry("frame_sets", frame_set)["unseen"]
-        scenes = [layout.entry("soft_scenes", name) for name in unseen]
+        scenes = [layout.entry("scenes", name)["arrangement"] for name in unseen]
         assert len({(one["generate"], one["seed"]) for one in scenes}) == len(unseen) >= 12

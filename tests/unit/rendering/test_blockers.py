@@ -2,14 +2,12 @@
 
 import numpy as np
 import trimesh
-from shapes import box, prepared, sheet
+from shapes import box, scene_of, sheet
 
 from neural_shadows.rendering.blockers import solids_before
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
-from neural_shadows.scenes.scene import make_scene
 
-UP = np.array([0.0, 1.0, 0.0])
 HIGH = np.array([0.0, 1000.0, 0.0])  # a light with upright rays, to a thousandth
 
 
@@ -20,8 +18,8 @@ def moved(shape, *way):
 
 def seen(*shapes):
     """A ground of 6 m under shapes, and what a camera below these sees of it."""
-    mesh, _ = prepared(trimesh.util.concatenate([sheet(0, 3.0), *shapes]))
-    scene = make_scene(mesh, up=UP, ground=False, light=None)
+    shape = trimesh.util.concatenate([sheet(0, 3.0), *shapes])
+    scene = scene_of(shape, ground=False, light=None)
     camera = Camera(np.array([0, 0.8, 0.001]), np.zeros(3), np.array([0, 0, -1.0]), 120.0)
     return scene, see_surface(scene, camera, 64, 64)
 

@@ -2,20 +2,17 @@
 
 import numpy as np
 import trimesh
-from shapes import prepared, sheet
+from shapes import Y_UP, scene_of, sheet
 
 from neural_shadows.rendering.geometry_edges import geometry_edges
 from neural_shadows.rendering.soft_shadows import CENTRE, PLACES, see_places
 from neural_shadows.scenes.cameras import Camera
-from neural_shadows.scenes.scene import make_scene
-
-UP = np.array([0.0, 1.0, 0.0])
 
 
 def edges_of(mesh, eye, target=(0.0, 0.0, 0.0)):
     """Edges in 64 × 32 pixels."""
-    scene = make_scene(prepared(mesh)[0], up=UP, ground=False, light=None)
-    camera = Camera(np.array(eye), np.array(target), UP, 40.0)
+    scene = scene_of(mesh, ground=False, light=None)
+    camera = Camera(np.array(eye), np.array(target), Y_UP, 40.0)
     return geometry_edges(see_places(scene, camera, 64, 32, (CENTRE, *PLACES)))
 
 

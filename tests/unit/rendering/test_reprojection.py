@@ -3,27 +3,22 @@
 import numpy as np
 import pytest
 import trimesh
-from shapes import prepared, sheet
+from shapes import Y_UP, scene_of, sheet
 
 from neural_shadows.rendering.reprojection import looked_up, projected, seen_before
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
-from neural_shadows.scenes.scene import make_scene
-
-UP = np.array([0.0, 1.0, 0.0])
 
 
 @pytest.fixture(scope="module")
 def scene():
     cube = trimesh.creation.box([0.5] * 3)
     cube.apply_translation([0, 0.25, 0])
-    mesh, _ = prepared(trimesh.util.concatenate([sheet(0.0, 4.0), cube]))
-    light = {"domain": "sphere", "min_elevation_deg": 0}
-    return make_scene(mesh, up=UP, ground=False, light=light)
+    return scene_of(trimesh.util.concatenate([sheet(0.0, 4.0), cube]), ground=False)
 
 
 def camera(shift=0.0):
-    return Camera(np.array([1.5 + shift, 1.2, 1.8]), np.array([shift, 0.2, 0]), UP, 40.0)
+    return Camera(np.array([1.5 + shift, 1.2, 1.8]), np.array([shift, 0.2, 0]), Y_UP, 40.0)
 
 
 def test_a_frames_own_points_project_to_their_pixels(scene):

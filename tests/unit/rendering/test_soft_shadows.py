@@ -3,23 +3,18 @@
 import numpy as np
 import pytest
 import trimesh
-from shapes import prepared, sheet
+from half_planes import CENTRE, half_plane, share_seen
+from shapes import Y_UP, scene_of, sheet
 
 from neural_shadows.rendering.light_samples import ring_shares, ring_vectors
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.cameras import Camera
-from neural_shadows.scenes.scene import make_scene
-
-UP = np.array([0.0, 1.0, 0.0])
-LIGHT = {"domain": "sphere", "min_elevation_deg": 0}
-CENTRE = np.array([0.0, 4.0, 0.0])
 
 
-def scene_of(*shapes):
+def joined(*shapes):
     """A scene of several shapes as they lie, in metres."""
-    mesh, _ = prepared(trimesh.util.concatenate([*shapes]))
-    return make_scene(mesh, up=UP, ground=False, light=LIGHT)
+    return scene_of(trimesh.util.concatenate([*shapes]), ground=False, light=None)
 
 
 def down(height, half):
@@ -28,26 +23,9 @@ def down(height, half):
     return Camera(np.array([0, height, 0.001]), np.zeros(3), np.array([0, 0, -1.0]), fov)
 
 
-def half_plane(height):
-    """It covers x > 0."""
-    shape = sheet(height, 20.0)
-    shape.apply_translation([20, 0, 0])
-    return shape
-
-
-def share_seen(x, height, radius):
-    """Of a disc light that faces points at x on the ground, past the edge of a half-plane."""
-    way = np.stack([CENTRE[0] - x, np.full_like(x, CENTRE[1])])
-    edge = np.stack([-x, np.full_like(x, height)])
-    across = np.stack([way[1], -way[0]]) / np.linalg.norm(way, axis=0)
-    edge = edge * (way * way).sum(0) / (edge * way).sum(0)
-    t = np.clip((edge * across).sum(0) / radius, -1, 1)
-    return 1 - (np.arccos(t) - t * np.sqrt(1 - t * t)) / np.pi
-
-
 @pytest.mark.parametrize("height", [0.5, 1.5])
 def test_half_plane_before_a_disc(height):
-    scene = scene_of(sheet(0.0, 30.0), half_plane(height))
+    scene = joined(sheet(0.0, 30.0), half_plane(height))
     # Under the half-plane, so that it sees the ground on both sides of the edge's shadow.
     camera, radii = down(0.4, 0.3 / 16), [0.1, 0.3]
     found = soft_visibility(
@@ -63,7 +41,7 @@ def test_half_plane_before_a_disc(height):
 
 
 def test_point_and_next_to_it():
-    scene = scene_of(sheet(0.0, 30.0), half_plane(1.0))
+    scene = joined(sheet(0.0, 30.0), half_plane(1.0))
     point, tiny = soft_visibility(
         scene, down(0.4, 0.3), 64, 8, centre=CENTRE, radii=[0, 1e-5], samples=2, adaptive=False
     )
@@ -72,7 +50,7 @@ def test_point_and_next_to_it():
 
 
 def test_light_below_the_ground_and_no_surface():
-    scene = scene_of(sheet(0.0, 0.2))
+    scene = joined(sheet(0.0, 0.2))
     under = soft_visibility(
         scene, down(2.0, 0.4), 32, 32, centre=-CENTRE, radii=[0, 0.3], samples=2, adaptive=True
     )
@@ -86,15 +64,15 @@ def forest(seed=0):
     for _ in range(60):
         shape = trimesh.creation.box(rng.uniform(0.02, 0.4, 3))
         shape.apply_translation([*rng.uniform(-1.5, 1.5, 2), 0])
-        shape.apply_transform(trimesh.geometry.align_vectors([0, 0, 1], UP))
+        shape.apply_transform(trimesh.geometry.align_vectors([0, 0, 1], Y_UP))
         shape.apply_translation([0, rng.uniform(0.2, 1.2), 0])
         boxes.append(shape)
-    return scene_of(*boxes)
+    return joined(*boxes)
 
 
 def test_few_rays_where_neighbours_agree():
     scene = forest()
-    camera = Camera(np.array([2.5, 2.0, 2.5]), np.array([0, 0.2, 0]), UP, 50.0)
+    camera = Camera(np.array([2.5, 2.0, 2.5]), np.array([0, 0.2, 0]), Y_UP, 50.0)
     told = {"centre": np.array([0.5, 3.0, 0.3]), "radii": [0, 0.06, 0.12, 0.18, 0.25], "samples": 4}
     whole = soft_visibility(scene, camera, 128, 64, **told, adaptive=False)
     found = soft_visibility(scene, camera, 128, 64, **told)

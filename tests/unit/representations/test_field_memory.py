@@ -2,9 +2,9 @@
 
 import pytest
 import trimesh
+from built_networks import make_network
 
 from neural_shadows.errors import InputError
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.representations.distance_bricks import field_memory
 from neural_shadows.running import process_memory
 

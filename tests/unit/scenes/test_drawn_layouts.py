@@ -8,7 +8,7 @@ from placed_objects import check_objects
 
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.scenes.generators.registry import arrange
+from neural_shadows.scenes.generated import arrange
 
 NAMES = ("interior", "court")
 SEEDS = range(1, 21)

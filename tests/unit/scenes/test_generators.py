@@ -12,10 +12,11 @@ from neural_shadows.meshes.prepared_mesh import with_normals
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import UP, scene_of
 from neural_shadows.scenes.cameras import Camera
+from neural_shadows.scenes.generated import arrange, generator_module, generator_names
 from neural_shadows.scenes.generators.plate import arrange_plate
-from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED, arrange, generator_module
 
-NAMES = [name for name in TRAINED + UNTRAINED if name != "plate"]  # which is bare on purpose
+BARE = {"plate", "stage"}  # an inserted object is all that they have
+NAMES = [name for name in generator_names() if name not in BARE]
 BALL = trimesh.creation.icosphere(2)
 # Evenly over the sphere, by the golden angle.
 _HEIGHTS = (2 * np.arange(256) + 1) / 256 - 1
@@ -111,7 +112,7 @@ def test_a_motion_moves_only_the_mover(name):
 
 def test_scenes_by_name():
     assert all(generator_module(name).is_file() for name in NAMES)
-    with pytest.raises(InputError, match="'cellar' is not a generator. Use one of room"):
+    with pytest.raises(InputError, match="'cellar' is not a generator. Use one of atrium"):
         arrange("cellar", 0)
 
 
@@ -122,3 +123,17 @@ def test_the_plate_holds_an_object_at_its_height(height):
     assert np.ptp(ground.vertices, axis=0).tolist() == [4, 0, 4]
     np.testing.assert_allclose(above.vertices[:, 1].min(), height, atol=1e-6)
     np.testing.assert_allclose(np.ptp(above.vertices, axis=0)[1], 0.4, atol=4e-3)
+
+
+def test_the_stage_shows_its_object_from_all_sides():
+    ball = with_normals(BALL.vertices, BALL.faces)
+    drawn, rng = made("stage", 1), np.random.default_rng(7)
+    whole = scene_of(drawn, {"ball": ball})
+    assert np.ptp(whole.objects[1].vertices, axis=0)[1] == pytest.approx(1, rel=0.01)
+    eyes = np.array([drawn.cameras.draw(rng) for _ in range(32)])
+    assert clearances(whole, eyes).min() > 0.4 and clearances(whole, eyes).max() < 2.5
+    assert (np.ptp(np.sign(eyes[:, [0, 2]]), axis=0) == 2).all()
+    for eye in eyes:
+        surface = see_surface(whole, Camera(eye, drawn.targets.draw(rng), UP, 55.0), 64, 32)
+        assert 0.05 < np.mean(whole.owner[surface.face] == 1) < 0.7
+        assert len(surface.p) > 0.5 * 64 * 32  # of sky and ground most is ground

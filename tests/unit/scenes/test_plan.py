@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from neural_shadows.scenes.generators.plan import Plan, furnish
-from neural_shadows.scenes.generators.shapes import box
+from neural_shadows.scenes.pieces.plan import Plan, furnish
+from neural_shadows.scenes.pieces.shapes import box
 
 
 def test_what_is_placed_is_clear_of_all_else():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import trimesh
+from half_planes import CENTRE, half_plane, share_seen
 from shapes import prepared, sheet
 
 from neural_shadows.shadow_maps.light_filters import (
@@ -13,7 +14,7 @@ from neural_shadows.shadow_maps.light_filters import (
 )
 from neural_shadows.shadow_maps.light_map import cube_map, perspective_map
 
-CENTRE, EDGE, RADIUS = np.array([0.0, 4.0, 0.0]), 1.5, 0.3
+EDGE, RADIUS = 1.5, 0.3
 MAPS = {
     "cube": cube_map(CENTRE, 1024),
     "picture": perspective_map(CENTRE, np.array([0, -1.0, 0]), 90.0, 1024),
@@ -22,9 +23,7 @@ MAPS = {
 
 def half_plane_scene():
     """Ground at 0, and x > 0 covered at `EDGE`."""
-    cover = sheet(EDGE, 20.0)
-    cover.apply_translation([20, 0, 0])
-    return prepared(trimesh.util.concatenate([sheet(0.0, 30.0), cover]))[1]
+    return prepared(trimesh.util.concatenate([sheet(0.0, 30.0), half_plane(EDGE)]))[1]
 
 
 @pytest.fixture(scope="module")
@@ -35,15 +34,6 @@ def receivers():
     from_light = points - CENTRE
     cosines = -from_light[:, 1] / np.linalg.norm(from_light, axis=1)
     return from_light, cosines, np.arange(len(x)), x
-
-
-def share_seen(x):
-    """Of a disc light that faces points at x on the ground (Datta et al. 2022, supplement)."""
-    way, edge = np.stack([-x, np.full_like(x, CENTRE[1])]), np.stack([-x, np.full_like(x, EDGE)])
-    across = np.stack([way[1], -way[0]]) / np.linalg.norm(way, axis=0)
-    edge = edge * (way * way).sum(0) / (edge * way).sum(0)
-    t = np.clip((edge * across).sum(0) / RADIUS, -1, 1)
-    return 1 - (np.arccos(t) - t * np.sqrt(1 - t * t)) / np.pi
 
 
 @pytest.mark.parametrize("name", MAPS)
@@ -69,7 +59,7 @@ def test_blocker_search_finds_the_penumbra_of_a_half_plane(name, receivers):
     found = soft_disc_visibility(
         light_map, depths, from_light, ground, bias, **told, searched=256, samples=512
     )
-    expected = share_seen(x)
+    expected = share_seen(x, EDGE, RADIUS)
     assert expected.min() == 0 and expected.max() == 1
     assert np.abs(found - expected).max() < 0.05
     assert abs((found - expected).mean()) < 0.01

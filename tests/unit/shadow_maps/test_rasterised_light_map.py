@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from neural_shadows.scenes.arrangement import scene_of
-from neural_shadows.scenes.generators.registry import arrange
+from neural_shadows.scenes.generated import arrange
 from neural_shadows.shadow_maps.light_map import cube_map, perspective_map
 from neural_shadows.shadow_maps.neighbourhood import neighbourhood
 from neural_shadows.shadow_maps.rasterised_light_map import rasterised_depths

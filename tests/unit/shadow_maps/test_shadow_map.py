@@ -108,16 +108,6 @@ def test_pcf_weighs_the_four_nearest_texels():
     np.testing.assert_allclose(lit_by(scene, corner, n, pcf=True), 0.75, atol=1e-4)
 
 
-@pytest.mark.parametrize("light", LIGHTS)
-def test_pcf_is_the_nearest_test_but_around_edges(bumpy, light):
-    frame = render_gbuffer(bumpy, looking((1, 2, 2), light), W, H)
-    nearest, soft = lit_by(bumpy, frame, 256), lit_by(bumpy, frame, 256, pcf=True)
-    assert 0 <= soft.min() and soft.max() <= 1
-    between = (soft > 0) & (soft < 1)
-    assert 0.002 < between.mean() < 0.3
-    assert np.mean((nearest != soft)[~between]) < 0.02
-
-
 def test_sixteen_bits_round_to_a_65534th_of_the_extent(bumpy):
     square = shadow_map_square(bumpy.objects[0].vertices, unit(1, 1, 0.5))
     step = (square.highest - square.lowest) / 65534

@@ -10,36 +10,29 @@ import numpy as np
 
 from neural_shadows.errors import InputError
 
-# "balanced" is the same network as "high" for colours in [0, 1] (2.5.1 has no larger one for them).
-QUALITIES = ("high", "balanced", "fast")
+# The library's "balanced" is the same network as "high" for colours in [0, 1] (2.5.1 has no larger one
+# for them).
+QUALITIES = ("high", "fast")
 # Value of full light: the network takes 1 for any brightness clipped at 1, and so
 # fills penumbrae with light. At 1 ray a pixel of a room, a mean squared error of 0.031 became 0.006.
 BRIGHTNESS = np.float32(0.5)
 
 
 def open_image_denoise(
-    visibility: np.ndarray,
-    normal: np.ndarray,
-    *,
-    quality: str = "high",
-    clean: bool = False,
-    threads: int = 1,
+    visibility: np.ndarray, normal: np.ndarray, *, quality: str = "high"
 ) -> np.ndarray:
-    """Denoise a picture, (H, W) float32 in [0, 1].
+    """Denoise a picture, (H, W) float32 in [0, 1], on one thread.
 
     Args:
         visibility: (H, W) float32 in [0, 1].
         normal: (H, W, 3) float32, unit, noise-free; 0 where there is no surface.
-        quality: one of QUALITIES. threads: of the network.
-        clean: `cleanAux`, keep the normals' edges as they are. Those at pixels' centres are free
-            of noise, but have steps, unlike a target of several places in a pixel: without it
-            errors were 20 to 45 % smaller.
+        quality: one of QUALITIES.
 
     Raises:
         InputError: the package is not installed.
         RuntimeError: an error of the library.
     """
-    return _network(*visibility.shape, quality, clean, threads)(visibility, normal)
+    return _network(*visibility.shape, quality)(visibility, normal)
 
 
 def _package():
@@ -54,10 +47,10 @@ def _package():
 
 
 @cache
-def _device(threads: int):
-    """A CPU device for the process's lifetime."""
+def _device():
+    """A CPU device of one thread, for the process's lifetime."""
     device = _package().Device()
-    device.set_int("numThreads", threads)
+    device.set_int("numThreads", 1)
     # Threads that are bound to cores would stay on those of other processes.
     device.set_bool("setAffinity", False)
     device.commit()
@@ -74,9 +67,9 @@ def _check(device) -> None:
 class _Network:
     """The network for pictures of one size, and its buffers."""
 
-    def __init__(self, height: int, width: int, quality: str, clean: bool, threads: int):
+    def __init__(self, height: int, width: int, quality: str):
         oidn = _package()
-        self.device = _device(threads)
+        self.device = _device()
         names = (
             oidn.OIDN_IMAGE_COLOR,
             oidn.OIDN_IMAGE_ALBEDO,
@@ -89,7 +82,9 @@ class _Network:
         for name, buffer in zip(names, buffers):
             self.filter.set_image(name, buffer, oidn.OIDN_FORMAT_FLOAT3)
         self.filter.set_bool("hdr", False)
-        self.filter.set_bool("cleanAux", clean)
+        # Normals at pixels' centres are free of noise, but have steps, unlike a target of several
+        # places in a pixel: without keeping their edges as they are errors were 20 to 45 % smaller.
+        self.filter.set_bool("cleanAux", False)
         self.filter.set_quality(getattr(oidn, f"OIDN_QUALITY_{quality.upper()}"))
         self.filter.commit()
         _check(self.device)

@@ -2,7 +2,8 @@
 
 Lengths are in shares of the scene's size S, distances are radial. Channels, in this order:
 
-- `z`: from the light to the point; `gap`: the map's depth minus z, z_map − z;
+- `z`: from the light, of a sun from its map's `near`, to the point; `gap`: the map's depth minus z,
+  z_map − z;
 - `d`: from the eye to the point;
 - `c_e`, `c_v`: cosines of the normal with the directions to light and eye;
 - `agreement`: cosine between the point's normal and that of the map's surface;
@@ -59,7 +60,7 @@ def channel_images(names: Collection[str], frame: SoftFrame) -> dict[str, np.nda
     occupied, biased_z = np.isfinite(first), z - frame.bias
     lit = {"hard": biased_z <= first} | _filtered({*names}, frame, biased_z)
     values = {
-        "z": z / size,
+        "z": (z - np.float32(frame.light_map.near)) / size,
         "gap": np.where(occupied, first - z, 0) / size,
         "d": d / size,
         "c_e": -np.einsum("ij,ij->i", from_light, normal) / z,
@@ -91,10 +92,11 @@ def _filtered(
         tests = biased_z[:, None, None] <= first
         visibility["pcf"] = np.einsum("ni,nj,nij->n", down, right, tests)
     if "msm" in names:
-        moments, far = np.empty((len(texels), 4)), 2 * frame.scene.size
+        near, span = frame.light_map.near, 2 * frame.scene.size
+        moments = np.empty((len(texels), 4))
         distances = np.linalg.norm(frame.from_light, axis=1)
-        _fill_moments(frame.depths, texels, fractions, _KERNEL, far, moments)
-        visibility["msm"] = hamburger_visibility(moments, distances / far)
+        _fill_moments(frame.depths, texels, fractions, _KERNEL, (near, span), moments)
+        visibility["msm"] = hamburger_visibility(moments, (distances - np.float32(near)) / span)
     return visibility
 
 
@@ -127,12 +129,14 @@ class _TracedFrame(SoftFrame):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _fill_moments(depths, texels, fractions, kernel, far, moments):
+def _fill_moments(depths, texels, fractions, kernel, depth_range, moments):
     """Filter four powers of depth over 3 × 3 texels, bilinearly: (n, 4) float64.
 
-    From `neighbourhood`: texels (n, 4, 4), −1 for none, and fractions (n, 2).
+    From `neighbourhood`: texels (n, 4, 4), −1 for none, and fractions (n, 2). Depth is 0 at the
+    first of `depth_range`, and 1 as far behind it as the second.
     """
     # In float64: rounded weights that do not sum to one spoil the fourth moment.
+    near, span = depth_range
     rows, columns = np.empty(4), np.empty(4)
     for i in range(len(texels)):
         rows[:], columns[:] = 0, 0
@@ -146,7 +150,7 @@ def _fill_moments(depths, texels, fractions, kernel, far, moments):
         for j in range(4):
             for k in range(4):
                 texel = texels[i, j, k]
-                q = min(np.float64(depths[texel]), far) / far if texel >= 0 else 1.0
+                q = min(np.float64(depths[texel]) - near, span) / span if texel >= 0 else 1.0
                 weight = rows[j] * columns[k]
                 weight *= q
                 m1 += weight

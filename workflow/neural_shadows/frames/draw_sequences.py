@@ -35,7 +35,7 @@ def draw_sequence(
     """
     reasons: Counter[str] = Counter()
     for _ in range(_DRAWS):
-        settings = _along(scene, draw_setting(scene, kind, rng), what, frames, rng)
+        settings = _along(scene, kind, draw_setting(scene, kind, rng), what, frames, rng)
         faults = [
             why_unusable(scene, scene.moved(setting.motion), kind, setting) for setting in settings
         ]
@@ -46,12 +46,20 @@ def draw_sequence(
 
 
 def _along(
-    scene: SoftScene, start: Setting, what: str, frames: int, rng: np.random.Generator
+    scene: SoftScene,
+    kind: FrameKind,
+    start: Setting,
+    what: str,
+    frames: int,
+    rng: np.random.Generator,
 ) -> list[Setting]:
-    length = STEP * scene.at_rest.size * (frames - 1)
+    size = scene.at_rest.size
+    length, light_length = (
+        STEP * unit * (frames - 1) for unit in (size, kind.shape.motion_unit(size))
+    )
     still = np.zeros((frames, 3))
     eye = _path(length, frames, rng) if what in ("camera", "both") else still
-    light = _path(length, frames, rng) if what in ("light", "both") else still
+    light = _path(light_length, frames, rng) if what in ("light", "both") else still
     settings = []
     for k in range(frames):
         camera = replace(start.camera, eye=start.camera.eye + eye[k])
@@ -73,8 +81,7 @@ def _path(length: float, frames: int, rng: np.random.Generator) -> np.ndarray:
 
 def _motions(scene: SoftScene, path: np.ndarray) -> list[np.ndarray]:
     """Turn the mover about its vertical axis along a path (frames, 3)."""
-    arrangement = scene.arrangement
-    (vertices,) = [o.vertices for o in arrangement.objects if o.name == arrangement.mover]
+    vertices = scene.at_rest.objects[scene.arrangement.mover_index].vertices
     middle = (vertices.min(0) + vertices.max(0)) / 2
     motions = []
     for k, offset in enumerate(path):

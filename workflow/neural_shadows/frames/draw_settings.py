@@ -1,20 +1,21 @@
 """Random cameras and lights of frames with shadows [Hu et al. 2025, 4]."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.arrangement import UP
 from neural_shadows.scenes.cameras import Camera, Window
 from neural_shadows.scenes.scene import Scene
+from neural_shadows.settings.records import LightMapSettings
 from neural_shadows.shadow_maps.light_map import LightMap, cube_map, perspective_map
 
 EYE_CLEARANCE, LIGHT_CLEARANCE = 0.02, 0.03  # of the scene's size
@@ -30,33 +31,37 @@ class FrameKind:
     Args:
         width, height: in pixels; fov: vertical, in degrees, of the whole frame.
         of: width and height of the whole frame where frames are windows of one; else None.
-        light_map: `kind` (`perspective` or `cube`), `resolution`, and the former's `fov`.
-        radius: of the largest light, in metres.
+        radius: of the largest light, in metres, see `LightShape`. shape: of all lights.
     """
 
     width: int
     height: int
     fov: float
     of: Sequence[int] | None
-    light_map: Mapping[str, Any]
+    light_map: LightMapSettings
     radius: float
+    shape: LightShape = SPHERE
 
 
 def light_map_of(
-    settings: Mapping[str, Any],
+    settings: LightMapSettings,
     scene: SoftScene,
     centre: np.ndarray,
     aimed_from: np.ndarray | None = None,
+    shape: LightShape = SPHERE,
 ) -> LightMap:
     """Make the map of a light at a place.
 
-    A perspective map looks at the middle of the cameras' targets.
+    A perspective map looks at the middle of the cameras' targets, unless the light's shape fits it
+    to the scene.
 
     Args:
         aimed_from: the point that it aims from, if not its centre.
     """
     if settings["kind"] == "cube":
         return cube_map(centre, settings["resolution"])
+    if view := shape.map_view(scene.at_rest, centre):
+        return perspective_map(centre, view.forward, view.fov, settings["resolution"], view.near)
     targets = scene.arrangement.targets
     forward = (targets.low + targets.high) / 2 - (centre if aimed_from is None else aimed_from)
     return perspective_map(centre, forward, settings["fov"], settings["resolution"])
@@ -90,10 +95,8 @@ def none_usable(scene: SoftScene, draws: str, reasons: Counter[str]) -> InputErr
 
 def _drawn(scene: SoftScene, kind: FrameKind, rng: np.random.Generator) -> Setting:
     arrangement = scene.arrangement
-    eye, target, centre = (
-        region.draw(rng)
-        for region in (arrangement.cameras, arrangement.targets, arrangement.lights)
-    )
+    eye, target = (region.draw(rng) for region in (arrangement.cameras, arrangement.targets))
+    centre = kind.shape.draw_centre(arrangement.lights, scene.at_rest, rng)
     window = None
     if kind.of is not None:
         corner = [rng.integers(0, whole - part + 1) for whole, part in _sides(kind)]
@@ -113,12 +116,13 @@ def why_unusable(scene: SoftScene, opened: Scene, kind: FrameKind, setting: Sett
     """
     if not is_clear(opened, setting.camera.eye, EYE_CLEARANCE * opened.size):
         return "the camera is in an object or near one"
-    if not is_clear(opened, setting.centre, LIGHT_CLEARANCE * opened.size + kind.radius):
+    clearance = LIGHT_CLEARANCE * opened.size + kind.shape.reach(kind.radius)
+    if not is_clear(opened, setting.centre, clearance):
         return "the light is in an object or near one"
     surface = preview(opened, kind, setting)
     if len(surface.p) < 0.5 * surface.width * surface.height:
         return "the camera sees little"
-    light_map = light_map_of(kind.light_map, scene, setting.centre)
+    light_map = light_map_of(kind.light_map, scene, setting.centre, shape=kind.shape)
     to_light = setting.centre - surface.p
     if np.mean(light_map.texels_of(-to_light) >= 0) < IN_MAP:
         return "visible points lie outside the light's map"

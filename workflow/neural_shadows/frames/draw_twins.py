@@ -1,8 +1,6 @@
 """Perturbed frames: light and camera moved a little, for temporal losses."""
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -10,13 +8,14 @@ from scipy.spatial.transform import Rotation
 from neural_shadows.frames.draw_settings import FrameKind, light_map_of, preview
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
+from neural_shadows.settings.records import Perturbation
 
 
 def twin_of(
     scene: SoftScene,
     kind: FrameKind,
     setting: Setting,
-    amplitudes: Mapping[str, Any],
+    amplitudes: Perturbation,
     rng: np.random.Generator,
 ) -> Setting:
     """Perturb a setting.
@@ -31,17 +30,18 @@ def twin_of(
         light, eye = (radius * _in_ball(rng) for radius in reach(scene, kind, setting, amplitudes))
     else:
         size = scene.at_rest.size
+        light_unit = kind.shape.motion_unit(size)
         eye = size * amplitudes["eye"] * rng.uniform(-1, 1, 3)
         turn = Rotation.from_rotvec(amplitudes["turn_deg"] * rng.uniform(-1, 1, 3), degrees=True)
         view = turn.apply(view)
-        light = size * amplitudes["light"] * rng.uniform(-1, 1, 3)
+        light = light_unit * amplitudes["light"] * rng.uniform(-1, 1, 3)
     eye = camera.eye + eye
     moved = replace(camera, eye=eye, target=eye + view)
     return replace(setting, camera=moved, centre=setting.centre + light)
 
 
 def reach(
-    scene: SoftScene, kind: FrameKind, setting: Setting, amplitudes: Mapping[str, float]
+    scene: SoftScene, kind: FrameKind, setting: Setting, amplitudes: Perturbation
 ) -> tuple[float, float]:
     """Largest motions of a perturbed frame's light and eye, in metres.
 
@@ -56,9 +56,10 @@ def reach(
         float(np.median(np.linalg.norm(surface.p - place, axis=1)))
         for place in (setting.centre, setting.camera.eye)
     )
-    light_map = light_map_of(kind.light_map, scene, setting.centre)
+    light_map = light_map_of(kind.light_map, scene, setting.centre, shape=kind.shape)
     texel = 2 * light_map.half / light_map.resolution
-    light = amplitudes["light_texels"] * from_light * texel
+    # A shadow's edge moves by so many texels: a sun, by as much more as it is farther away.
+    light = amplitudes["light_texels"] * kind.shape.motion_unit(1.0) * from_light * texel
     light += amplitudes["light_radii"] * kind.radius
     return light, amplitudes["eye_pixels"] * from_eye / setting.camera.focal(kind.height)
 

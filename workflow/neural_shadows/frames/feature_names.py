@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+from neural_shadows.errors import InputError
+
 # Datta et al. 2022 (3.1, 3.2), 15 in all: cosine with the direction to the light, and the light's
 # size; cosine with the direction to the eye over the distance from it; shadow map's depth over the
 # point's distance from the light, and their difference; cosine between the point's normal and the
@@ -25,6 +27,44 @@ KPNSM_FEATURES = dict.fromkeys(
     1,
 )
 FEATURES = NSM_FEATURES | KPNSM_FEATURES
+
+# The buffers of each: of Neural Shadow Mapping's, in its symbols, view is c_c / d, ratio z / z_f,
+# difference z − z_f, and agreement n · n_e.
+_BLOCKED = ("z", "gap", "hard")
+BUFFERS = {
+    "c_e": ("c_e",),
+    "view": ("c_v", "d"),
+    "ratio": ("z", "gap"),
+    "difference": ("gap",),
+    "agreement": ("agreement",),
+    "d": ("d",),
+    "n": ("n_x", "n_y", "n_z"),
+    "z": ("z", "gap"),
+    "n_e": ("e_x", "e_y", "e_z"),
+    "z_f": ("z",),
+    "c_c": ("c_v",),
+    "cosine": ("c_e",),
+    "c_v_by_d": ("c_v", "d"),
+    "penumbra": (*_BLOCKED, "d", "c_e", "c_v"),
+    "penumbra_pcss": (*_BLOCKED, "d"),
+    "behind": _BLOCKED,
+    "z_b_by_z": _BLOCKED,
+    "z_b": _BLOCKED,
+    "r_e": ("z",),
+    **{name: (name.removeprefix("base_"),) for name in BASES},
+}
+
+
+def buffers_of(features: Sequence[str]) -> list[str]:
+    """List the buffers of features, each once.
+
+    Raises:
+        InputError: there is no such feature.
+    """
+    for name in features:
+        if name not in FEATURES:
+            raise InputError(f"{name!r} is not a feature. Use {', '.join(FEATURES)}.")
+    return list(dict.fromkeys(buffer for name in features for buffer in BUFFERS[name]))
 
 
 def channels_of(features: Sequence[str]) -> int:

@@ -11,42 +11,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from neural_shadows.errors import InputError
-from neural_shadows.frames.feature_names import FEATURES, KPNSM_FEATURES
-from neural_shadows.frames.kernel_features import MADE_OF, kernel_feature
+from neural_shadows.frames.feature_names import BUFFERS, KPNSM_FEATURES, buffers_of
+from neural_shadows.frames.kernel_features import kernel_feature
 from neural_shadows.frames.light_size import LARGEST_STEP, LightSize
 from neural_shadows.rendering.gbuffer import Lens
 
 RATIO_SCALE, DIFFERENCE_SCALE = 200, 500  # what is 1 for `signed_log`: 1/200, and S/500
 NEAREST = 0.05  # in shares of S: nearer points are as far in c_c / d
-
-# The buffers of each of `FEATURES`: of Neural Shadow Mapping's, in its symbols, view is c_c / d, ratio
-# z / z_f, difference z − z_f, and agreement n · n_e.
-_MADE_OF = {
-    "c_e": ("c_e",),
-    "view": ("c_v", "d"),
-    "ratio": ("z", "gap"),
-    "difference": ("gap",),
-    "agreement": ("agreement",),
-    "d": ("d",),
-    "n": ("n_x", "n_y", "n_z"),
-    "z": ("z", "gap"),
-    "n_e": ("e_x", "e_y", "e_z"),
-    "z_f": ("z",),
-    "c_c": ("c_v",),
-    **MADE_OF,
-}
-
-
-def buffers_of(names: Sequence[str]) -> list[str]:
-    """List the buffers of features, each once.
-
-    Raises:
-        InputError: there is no such feature.
-    """
-    for name in names:
-        if name not in FEATURES:
-            raise InputError(f"{name!r} is not a feature. Use {', '.join(FEATURES)}.")
-    return list(dict.fromkeys(buffer for name in names for buffer in _MADE_OF[name]))
 
 
 def named_features(
@@ -82,7 +53,7 @@ def _feature(
 ) -> list[np.ndarray]:
     if name in KPNSM_FEATURES:
         return [kernel_feature(name, buffers, lens, light)]
-    images = [buffers[buffer] for buffer in _MADE_OF[name]]
+    images = [buffers[buffer] for buffer in BUFFERS[name]]
     if name == "c_e":
         return [(np.clip(images[0], 0, 1) + light.step) / (LARGEST_STEP + 1)]
     if name == "view":

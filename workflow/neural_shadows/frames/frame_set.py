@@ -14,11 +14,9 @@ A user's frame set has the same files; it may lack some of `channels`, and an en
 no targets (`targets` is false, K 0), no edges, and only the camera's lens as their setting.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -26,10 +24,13 @@ from neural_shadows.errors import InputError
 from neural_shadows.files.arrays import open_array
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.buffers import CHANNELS, LIT
+from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.setting import Setting, setting_of
 from neural_shadows.rendering.gbuffer import Lens, lens_of
+from neural_shadows.rendering.light_shape import LightShape, light_shape
 from neural_shadows.scenes.arrangement import UP
 from neural_shadows.scenes.cameras import Camera, Window
+from neural_shadows.settings.records import PartRecord
 
 UNITS = (
     "settings and radii in metres; z, gap and d of the buffers in shares of `size`; "
@@ -48,7 +49,7 @@ class FrameSetPart:
     frames_json: Path
 
     @cached_property
-    def about(self) -> Mapping[str, Any]:
+    def about(self) -> PartRecord:
         """The part's JSON.
 
         Raises:
@@ -76,8 +77,17 @@ class FrameSetPart:
 
     @property
     def radii(self) -> list[float]:
-        """Radii of the lights, in metres."""
+        """Radii of the lights, in metres, see `LightShape`."""
         return list(self.about["radii"])
+
+    @cached_property
+    def shape(self) -> LightShape:
+        """Shape of the lights."""
+        return light_shape(self.about.get("light"))
+
+    def light_size(self, radius: float) -> LightSize:
+        """Size of a light beside the largest of the part."""
+        return light_size(radius, max(self.radii), self.about["size"], self.shape.AWAY)
 
     def setting(self, number: int) -> Setting:
         """The setting of a frame."""
@@ -152,7 +162,10 @@ class FrameSetPart:
     def _open(self, stem: str, kind: type, *inner: int) -> np.ndarray:
         path = self.frames_json.with_suffix(f".{stem}.npy")
         shape = (len(self), *inner, self.about["height"], self.about["width"])
-        return open_array(path, shape, kind)
+        # The JSON stands for all files of a part that a job writes: arrays are no inputs of other jobs.
+        written = not {"scene", "source"}.isdisjoint(self.about)
+        cure = f"Delete {self.frames_json} and run again" if written else "Write it anew"
+        return open_array(path, shape, kind, cure)
 
 
 def check_values(part: FrameSetPart) -> None:

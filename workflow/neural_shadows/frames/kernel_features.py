@@ -17,24 +17,11 @@ PENUMBRA_PIXELS = 50.0  # the widest distinguished
 FULL_WIDTH = 2048  # pixels, of the paper's frames …
 FULL_FOCAL = 983.5  # … and their focal length
 
-_BLOCKED = ("z", "gap", "hard")
-MADE_OF = {
-    "cosine": ("c_e",),
-    "c_v_by_d": ("c_v", "d"),
-    "penumbra": (*_BLOCKED, "d", "c_e", "c_v"),
-    "penumbra_pcss": (*_BLOCKED, "d"),
-    "behind": _BLOCKED,
-    "z_b_by_z": _BLOCKED,
-    "z_b": _BLOCKED,
-    "r_e": ("z",),
-    **{name: (name.removeprefix("base_"),) for name in BASES},
-}
-
 
 def kernel_feature(
     name: str, buffers: Mapping[str, np.ndarray], lens: Lens, light: LightSize
 ) -> np.ndarray:
-    """Compute a feature of `MADE_OF`, (H, W), with the paper's scaling.
+    """Compute a feature of `KPNSM_FEATURES`, (H, W), with the paper's scaling.
 
     `r_e` is 1 everywhere for the largest light.
     """
@@ -54,7 +41,7 @@ def kernel_feature(
     if name == "z_b":
         return z_b
     slant = (buffers["c_e"], buffers["c_v"]) if name == "penumbra" else (1.0, 1.0)
-    pixels = penumbra_pixels(z, z_b, buffers["d"], *slant, light.share, lens.focal)
+    pixels = penumbra_pixels(z, z_b, buffers["d"], *slant, light, lens.focal)
     return np.clip(pixels, 0, PENUMBRA_PIXELS) / PENUMBRA_PIXELS
 
 
@@ -73,7 +60,7 @@ def penumbra_pixels(
     d: np.ndarray,
     c_e: np.ndarray | float,
     c_v: np.ndarray | float,
-    radius: float,
+    light: LightSize,
     focal: float,
 ) -> np.ndarray:
     """Penumbra widths in pixels, 0 without blockers (Hu et al. 2025, eq. 2, 3).
@@ -81,9 +68,9 @@ def penumbra_pixels(
     With the distance d and the focal length of its code, which the paper leaves out.
 
     Args:
-        radius: of the light, in shares of S. focal: of the camera, in pixels.
+        z, z_b: see `frames.buffers`, of a sun without its distance. focal: of the camera, in pixels.
     """
     width = FULL_WIDTH * focal / FULL_FOCAL
     slant = np.sqrt(np.abs(c_v) / (np.abs(c_e) + 1e-5))
-    blocked = (z - z_b) * radius / (z_b + 1e-5)
+    blocked = (z - z_b) * light.share / (z_b + light.away + 1e-5)
     return (blocked / np.maximum(d, 1e-5) * width * slant).astype(np.float32)

@@ -1,4 +1,4 @@
-"""Size of a spherical light as input of networks."""
+"""Size of a light as input of networks."""
 
 from typing import NamedTuple
 
@@ -9,19 +9,20 @@ class LightSize(NamedTuple):
     """A light's size.
 
     As a step, 0 for a point to 4 for the largest of a training, and as its radius in shares of
-    the scene's size.
+    the scene's size; `away`: see `LightShape.AWAY`.
     """
 
     step: float
     share: float
+    away: float = 0.0
 
 
-def light_size(radius: float, largest: float, scene_size: float) -> LightSize:
+def light_size(radius: float, largest: float, scene_size: float, away: float = 0.0) -> LightSize:
     """The size of a light; all lengths in one unit.
 
     Where the largest is a point, the step is 0.
     """
-    return LightSize(LARGEST_STEP * radius / (largest or 1), radius / scene_size)
+    return LightSize(LARGEST_STEP * radius / (largest or 1), radius / scene_size, away)
 
 
 def shown_radii(count: int) -> list[int]:

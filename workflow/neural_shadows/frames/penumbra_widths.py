@@ -3,6 +3,7 @@
 import numpy as np
 
 from neural_shadows.rendering.blockers import blockers
+from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.cameras import camera_axes
 from neural_shadows.scenes.scene import Scene
@@ -15,18 +16,19 @@ def model_widths(
     radius: float,
     focal: float,
     chosen: np.ndarray | None = None,
+    shape: LightShape = SPHERE,
 ) -> np.ndarray:
     """Widths in pixels at a surface's points, (n,), seen head-on.
 
     0 where the whole light is visible.
 
     Args:
-        centre: (3,) of the light, radius: its, in the scene's unit. focal: of the camera, in pixels.
+        centre: (3,) of the light, radius, shape: its, in the scene's unit. focal: of the camera, in pixels.
         chosen: indices of the points, if not all.
     """
     chosen = np.arange(len(surface.p)) if chosen is None else chosen
     p, camera = np.take(surface.p, chosen, axis=0), surface.camera
-    nearest, farthest = blockers(scene, surface, chosen, centre, radius)
+    nearest, farthest = blockers(scene, surface, chosen, centre, radius, shape)
     widths = penumbra_model(np.linalg.norm(p - centre, axis=1), nearest, farthest, radius)
     forward = camera_axes(camera.eye, camera.target, camera.up)[2]
     return widths * focal / ((p - camera.eye) @ forward)

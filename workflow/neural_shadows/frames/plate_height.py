@@ -12,7 +12,7 @@ from neural_shadows.meshes.prepared_mesh import PreparedMesh
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import UP, scene_of
 from neural_shadows.scenes.cameras import Camera
-from neural_shadows.scenes.generators.registry import generator
+from neural_shadows.scenes.generated import generator
 
 # The paper's largest light and, in pixels, its frames' size.
 RADIUS, SIDE, FOV = 0.25, 512, 45.0

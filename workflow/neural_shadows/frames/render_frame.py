@@ -30,7 +30,7 @@ def render_buffers(
     """
     opened = scene.moved(setting.motion)
     surface = see_surface(opened, setting.camera, kind.width, kind.height)
-    light_map = light_map_of(kind.light_map, scene, setting.centre, aimed_from)
+    light_map = light_map_of(kind.light_map, scene, setting.centre, aimed_from, kind.shape)
     inside = light_map.texels_of(surface.p - setting.centre) >= 0
     return buffers_of(opened, surface, light_map), surface.image(inside, False)
 
@@ -63,6 +63,7 @@ def render_target(
         centre=setting.centre,
         radii=radii,
         samples=samples,
+        shape=kind.shape,
         pool=pool,
         surfaces=surfaces,
     )

@@ -1,9 +1,7 @@
 """Stage: draw and render one scene's frames of one use."""
 
-from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 from zlib import crc32
 
 import numpy as np
@@ -19,9 +17,11 @@ from neural_shadows.frames.render_frame import render_buffers, render_target
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.frames.uses import SEQUENCES, USES
+from neural_shadows.rendering.light_shape import light_shape
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import FrameSettings, GeneratedScene
 
 _TWINS = len(USES)  # random stream of perturbed frames
 
@@ -34,10 +34,10 @@ def render_frames(
     valid_npy: Path,
     edges_npy: Path,
     *,
-    scene: Mapping[str, Any],
+    scene: GeneratedScene,
     name: str,
     seed: int,
-    frames: Mapping[str, Any],
+    frames: FrameSettings,
     use: str,
     first: int,
     last: int,
@@ -54,8 +54,7 @@ def render_frames(
         meshes: prepared, of the inserted objects.
         scene: see `SoftScene`. name: its, in the configuration.
         seed: of the run; the scene's layout has its own.
-        frames: `width`, `height`, `fov`, `of`, `light_map`, `radii` and `radius_unit`, `blur`, and
-            `twins`, the amplitudes of `twin_of`.
+        frames: of the set, see `FrameSettings`.
         use: `train`, `validation`, `test`, or the kind of motion of a sequence.
         samples: see `soft_visibility`.
         twins: perturbed frames of each frame.
@@ -65,11 +64,11 @@ def render_frames(
     """
     opened = SoftScene(scene, meshes)
     size = opened.at_rest.size
-    unit = {"metres": 1.0, "scene_sizes": size}[frames["radius_unit"]]
-    radii = [unit * radius for radius in frames["radii"]]
+    shape = light_shape(frames.get("light"))
+    radii = [shape.radius_of(radius, frames["radius_unit"], size) for radius in frames["radii"]]
     streams = streams_of(name, seed)
     shared = {key: frames[key] for key in ("width", "height", "fov", "of", "light_map")}
-    kind = FrameKind(**shared, radius=max(radii))
+    kind = FrameKind(**shared, radius=max(radii), shape=shape)
     settings = draw(opened, kind, use, first, last, streams)
     perturbed = [
         [twin_of(opened, kind, setting, frames["twins"], rng) for _ in range(twins)]
@@ -114,6 +113,7 @@ def render_frames(
     about |= {"samples": samples, "blur": frames["blur"], "edges": True}
     about |= {
         "light_map": kind.light_map,
+        "light": shape.model_dump(),
         "channels": CHANNELS,
         "units": UNITS,
         "frames": described,

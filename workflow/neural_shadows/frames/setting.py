@@ -1,24 +1,23 @@
 """Setting of a frame: camera, light, and motion of the scene's mover."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from neural_shadows.scenes.arrangement import UP
 from neural_shadows.scenes.cameras import Camera, Window
+from neural_shadows.settings.records import SettingRecord
 
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """A camera, the centre of a spherical light, and the motion of the scene's mover; in metres."""
+    """A camera, the centre of a light, and the motion of the scene's mover; in metres."""
 
     camera: Camera
     centre: np.ndarray  # (3,) float64
     motion: np.ndarray  # (4, 4) float64, rigid; the identity at rest
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> SettingRecord:
         """The setting as plain data."""
         camera, window = self.camera, self.camera.window
         return {
@@ -31,7 +30,7 @@ class Setting:
         }
 
 
-def setting_of(data: Mapping[str, Any]) -> Setting:
+def setting_of(data: SettingRecord) -> Setting:
     """Read a setting from the data of `as_json`."""
     window = data["window"] and Window(**data["window"])
     eye, target, light, motion = (

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.scene import Scene
@@ -26,6 +27,7 @@ class SoftFrame:
     centre: np.ndarray  # (3,) float64, of the light
     light_map: LightMap
     number: int = 0  # in a sequence, for different noise in each frame
+    shape: LightShape = SPHERE
 
     @cached_property
     def depths(self) -> np.ndarray:

@@ -1,17 +1,17 @@
 """A scene in metres, from its settings, with a movable object."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from neural_shadows.frames.plate_height import height_of
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, read_prepared, with_normals
 from neural_shadows.scenes.arrangement import Arrangement, scene_of
-from neural_shadows.scenes.generators.registry import arrange, generator
+from neural_shadows.scenes.generated import arrange, generator
 from neural_shadows.scenes.scene import Scene
+from neural_shadows.settings.records import GeneratedScene
 
 
 class SoftScene:
@@ -27,7 +27,7 @@ class SoftScene:
             width out of reach.
     """
 
-    def __init__(self, scene: Mapping[str, Any], meshes: Sequence[Path]):
+    def __init__(self, scene: GeneratedScene, meshes: Sequence[Path]):
         ups = scene["inserted"].items()
         self._inserted = {name: _upright(path, up) for (name, up), path in zip(ups, meshes)}
         self.settings = dict(scene)  # reopens the scene: with the height found
@@ -56,8 +56,7 @@ class SoftScene:
         Args:
             face: (n,) of the scene's joined mesh.
         """
-        mover = [part.name for part in self.arrangement.objects].index(self.arrangement.mover)
-        moving = scene.owner[face] == mover
+        moving = scene.owner[face] == self.arrangement.mover_index
         motion = then @ np.linalg.inv(now)
         was = p.copy()
         was[moving] = p[moving] @ motion[:3, :3].T + motion[:3, 3]

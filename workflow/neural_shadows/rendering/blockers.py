@@ -1,8 +1,8 @@
-"""Distances and numbers of blockers of a spherical light."""
+"""Distances and numbers of blockers of an area light."""
 
 import numpy as np
 
-from neural_shadows.rendering.light_samples import ring_vectors
+from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.soft_shadows import OFFSET
 from neural_shadows.rendering.surface import Surface
 from neural_shadows.scenes.scene import Scene
@@ -11,24 +11,33 @@ RAYS = 16  # to the light, for the nearest and the farthest blocker
 
 
 def blockers(
-    scene: Scene, surface: Surface, chosen: np.ndarray, centre: np.ndarray, radius: float
+    scene: Scene,
+    surface: Surface,
+    chosen: np.ndarray,
+    centre: np.ndarray,
+    radius: float,
+    shape: LightShape = SPHERE,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Distances of the nearest and the farthest blocker by 16 rays, (n,).
 
     From the light's centre to the first hits from the light; NaN without blockers.
 
     Args:
-        chosen: (n,) int64, indices of the surface's points. centre, radius: of the light.
+        chosen: (n,) int64, indices of the surface's points. centre, radius, shape: of the light.
     """
     starts = np.take(surface.p, chosen, axis=0)
     starts += np.float32(OFFSET * scene.size) * np.take(surface.n_g, chosen, axis=0)
     to_light = np.empty((len(starts), RAYS, 3), np.float32)
     counts = np.array([RAYS])
-    ring_vectors(starts, surface.pixel[chosen], 0, centre, np.array([radius]), counts, to_light)
+    shape.ring_vectors(
+        starts, surface.pixel[chosen], 0, centre, np.array([radius]), counts, to_light
+    )
     to_light = to_light.reshape(-1, 3)
     on_light = np.repeat(starts, RAYS, axis=0) + to_light
     share, _ = scene.tracer.first_hit(on_light, -to_light)
-    blocked = (share < 1 - 1e-3).reshape(-1, RAYS)
+    # Of the distance, but of a sun's that in the scene.
+    ignored = 1e-3 * min(1.0, 4 * scene.size / np.linalg.norm(centre - scene.ball[0]))
+    blocked = (share < np.float32(1 - ignored)).reshape(-1, RAYS)
     hits = on_light - np.minimum(share, 1)[:, None] * to_light
     distances = np.linalg.norm(hits - centre, axis=1).reshape(-1, RAYS)
     nearest = np.where(blocked, distances, np.inf).min(1)

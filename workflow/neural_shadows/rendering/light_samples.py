@@ -1,4 +1,4 @@
-"""Samples of a spherical light seen as a disc, in rings.
+"""Samples of lights in rings: a sphere seen as a disc, and polygons.
 
 One set of samples serves lights of several radii about the same centre: a light of the k-th radius
 consists of the first k rings, each weighted by its area (Datta et al. 2022, supplement 5).
@@ -80,5 +80,37 @@ def ring_vectors(points, keys, first, centre, radii, counts, vectors):
                 vectors[i, index, 0] = x + p * ux + q * vx
                 vectors[i, index, 1] = y + p * uy + q * vy
                 vectors[i, index, 2] = z + p * uz + q * vz
+                index += 1
+            inner = outer
+
+
+@njit(cache=True, nogil=True)
+def polygon_vectors(points, keys, first, centre, corners, radii, counts, vectors):
+    """Fill `vectors` (n, Σ counts, 3) from points to samples of a polygon, by ring.
+
+    A ring lies between copies of the polygon, scaled about the centre.
+
+    Args:
+        points, keys, first, centre, radii, counts: see `ring_vectors`.
+        corners: (S, 3) float64, about the centre in turn, at radius 1; the triangles of the centre
+            and two of them have equal areas, as those of a rectangle or a regular polygon.
+    """
+    numbers = first + np.arange(counts.max()) + 0.5
+    shares, turns = numbers * _GOLDEN[0] % 1, numbers * _GOLDEN[1] % 1
+    for i in range(len(points)):
+        index, inner = 0, 0.0
+        for ring in range(len(radii)):
+            outer = radii[ring] * radii[ring]
+            turn, shift = _hashed(keys[i] * 16 + 2 * ring), _hashed(keys[i] * 16 + 2 * ring + 1)
+            for k in range(counts[ring]):
+                share = shares[k] + shift
+                share -= share >= 1
+                side = (turns[k] + turn) % 1 * len(corners)
+                begin = min(int(side), len(corners) - 1)
+                along, end = side - begin, (begin + 1) % len(corners)
+                scale = np.sqrt(inner + (outer - inner) * share)
+                for axis in range(3):
+                    rim = (1 - along) * corners[begin, axis] + along * corners[end, axis]
+                    vectors[i, index, axis] = centre[axis] - points[i, axis] + scale * rim
                 index += 1
             inner = outer

@@ -1,4 +1,4 @@
-"""Exact soft shadows of spherical lights of several radii, by rays.
+"""Exact soft shadows of area lights of several radii, by rays.
 
 Eight places in each pixel, each with its own surface, so that shadows' edges are smooth as well
 (Datta et al. 2022, 3.1 and supplement 5). Most pixels are wholly lit or dark for every radius: a few
@@ -12,7 +12,8 @@ import numpy as np
 from numba import njit
 from scipy.ndimage import maximum_filter, minimum_filter
 
-from neural_shadows.rendering.light_samples import ring_shares, ring_vectors
+from neural_shadows.rendering.light_samples import ring_shares
+from neural_shadows.rendering.light_shape import SPHERE, LightShape
 from neural_shadows.rendering.surface import Surface, see_surface
 from neural_shadows.scenes.cameras import Camera
 from neural_shadows.scenes.scene import Scene
@@ -36,6 +37,7 @@ def soft_visibility(
     centre: np.ndarray,
     radii: Sequence[float],
     samples: int,
+    shape: LightShape = SPHERE,
     adaptive: bool = True,
     pool: Executor | None = None,
     surfaces: Sequence[Surface] | None = None,
@@ -55,7 +57,8 @@ def soft_visibility(
     rings = np.array([radius for radius in radii if radius > 0], np.float64)
     run = pool.map if pool else map
     surfaces = surfaces or see_places(scene, camera, width, height, pool=pool)
-    rays = [_Place(scene, surface, index, centre, rings) for index, surface in enumerate(surfaces)]
+    light = shape, centre, rings
+    rays = [_Place(scene, surface, index, *light) for index, surface in enumerate(surfaces)]
     hard = np.stack([*run(lambda place: place.hard(), rays)])
     mixed = np.ones((height, width), bool)
     if adaptive:
@@ -88,9 +91,17 @@ def see_places(
 class _Place:
     """The rays of one place in all pixels."""
 
-    def __init__(self, scene: Scene, surface: Surface, index: int, centre, rings: np.ndarray):
+    def __init__(
+        self,
+        scene: Scene,
+        surface: Surface,
+        index: int,
+        shape: LightShape,
+        centre: np.ndarray,
+        rings: np.ndarray,
+    ):
         self.scene, self.surface, self.index = scene, surface, index
-        self.centre, self.rings = np.asarray(centre, np.float64), rings
+        self.shape, self.centre, self.rings = shape, np.asarray(centre, np.float64), rings
         self.start = surface.p + np.float32(OFFSET * scene.size) * surface.n_g
 
     def hard(self) -> np.ndarray:
@@ -131,7 +142,7 @@ class _Place:
             part = points[begin : begin + size]
             start = np.take(self.start, part, axis=0)
             vectors, origins = to_light[: len(part)], starts[: len(part)]
-            ring_vectors(
+            self.shape.ring_vectors(
                 start, self.surface.pixel[part], first, self.centre, self.rings, counts, vectors
             )
             origins[:] = start[:, None]

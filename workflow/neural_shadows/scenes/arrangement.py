@@ -14,6 +14,7 @@ from neural_shadows.meshes.prepared_mesh import PreparedMesh, all_with_normals
 from neural_shadows.scenes.scene import Scene, make_scene
 
 UP = np.array([0.0, 1.0, 0.0])
+INSERTED = "inserted"  # the first inserted object
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +57,14 @@ class Arrangement:
     lights: Region  # centres of the light, 0.3 m or more from all objects
     cameras: Region  # eyes; some are near an object
     targets: Region  # of cameras
-    mover: str  # name of the object moved in sequences
+    mover: str  # name of the object moved in sequences, or `INSERTED`
     lit: tuple[float, float] = (0.05, 0.95)  # range of a frame's lit share, for the light's centre
+
+    @property
+    def mover_index(self) -> int:
+        """Index of the mover among all objects, inserted ones last."""
+        names = [*(part.name for part in self.objects), INSERTED]
+        return names.index(self.mover)
 
 
 def scene_of(
@@ -80,14 +87,12 @@ def scene_of(
             f"{arrangement.name}: {len(inserted)} inserted objects ({', '.join(inserted)}), "
             f"but {len(arrangement.spots)} spots. Insert fewer"
         )
-    motions = {} if moved is None else {arrangement.mover: moved}
-    meshes = []
-    for part in arrangement.objects:
-        motion = motions.get(part.name)
-        vertices = part.vertices if motion is None else _moved(part.vertices, motion)
-        meshes.append((vertices, part.faces))
+    meshes = [(part.vertices, part.faces) for part in arrangement.objects]
     for mesh, spot in zip(inserted.values(), arrangement.spots):
         meshes.append((_on_spot(mesh, spot), mesh.faces))
+    if moved is not None:
+        vertices, faces = meshes[arrangement.mover_index]
+        meshes[arrangement.mover_index] = _moved(vertices, moved), faces
     return make_scene(*all_with_normals(meshes), up=UP, ground=False, light=None)
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from neural_shadows.errors import InputError
+from neural_shadows.settings.records import LightSettings
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 
@@ -32,7 +33,7 @@ def light_basis(light: np.ndarray) -> np.ndarray:
     return np.stack([u, np.cross(light, u), light])
 
 
-def lowest_elevation(domain: dict) -> float:
+def lowest_elevation(domain: LightSettings) -> float:
     """A light domain's `min_elevation_deg` in radians.
 
     Raises:
@@ -44,7 +45,7 @@ def lowest_elevation(domain: dict) -> float:
     return float(np.radians(lowest))
 
 
-def arc_directions(domain: dict, up: np.ndarray, angle: np.ndarray) -> np.ndarray:
+def arc_directions(domain: LightSettings, up: np.ndarray, angle: np.ndarray) -> np.ndarray:
     """Unit vectors (..., 3) to the light on an arc [4.1.1].
 
     `angle` (...) is measured from the zenith. The arc is a rotation about the horizontal `axis` of a `single_axis` domain.
@@ -61,7 +62,7 @@ def arc_directions(domain: dict, up: np.ndarray, angle: np.ndarray) -> np.ndarra
     return np.cos(angle) * up + np.sin(angle) * np.cross(axis, up)
 
 
-def draw_light(domain: dict, up: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+def draw_light(domain: LightSettings, up: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Draw a unit vector (3,) float64 towards the light [4.1].
 
     Args:

@@ -1,10 +1,9 @@
 """Scenes: objects, lights, ground plane and tracer."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,7 +23,7 @@ class Scene:
     """
 
     objects: tuple["PreparedMesh", ...]
-    lights: tuple[Mapping[str, Any], ...]  # domain of light directions; empty in metres
+    lights: tuple[LightSettings, ...]  # domain of light directions; empty in metres
     up: np.ndarray  # (3,) float64, unit vector
     ground: float | None  # height of the ground plane along `up`; None without one
     tracer: Tracer
@@ -46,6 +45,13 @@ class Scene:
     def size(self) -> float:
         """Longest side of the bounding box of all objects."""
         return float(np.ptp(self.joined.vertices, axis=0).max())
+
+    @cached_property
+    def ball(self) -> tuple[np.ndarray, float]:
+        """Middle (3,) float64 of the bounding box, and radius of the sphere about it."""
+        vertices = self.joined.vertices.astype(np.float64)
+        middle = (vertices.min(0) + vertices.max(0)) / 2
+        return middle, float(np.linalg.norm(vertices - middle, axis=1).max())
 
     @cached_property
     def cumulative_area(self) -> np.ndarray:

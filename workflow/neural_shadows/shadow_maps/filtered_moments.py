@@ -33,13 +33,15 @@ def filtered_moments(
     Args:
         depths: (texels,) float32 of the whole map. from_light: (n, 3) from the light to receivers.
         of: the moments (…, moments) of depths (…) in [0, 1], such as `moments.powers`.
-        far: the distance of depth 1, also of empty texels, and for receivers off the map.
+        far: the distance of depth 1, also of empty texels, and for receivers off the map; the
+            map's `near` has depth 0.
         kernel: weights of an odd number of texels along rows and columns.
     """
     empty = of(np.ones(1))[0]
     values = np.tile(empty, (len(from_light), 1))
+    near, span = np.float32(light_map.near), np.float32(far - light_map.near)
     for view in face_views(light_map, depths, from_light, len(kernel)):
-        moments = _filtered(np.minimum(view.depths / np.float32(far), 1), of, kernel)
+        moments = _filtered(np.minimum((view.depths - near) / span, 1), of, kernel)
         _fill_bilinear(moments, view.places, len(kernel) // 2, view.receivers, values)
     return values
 

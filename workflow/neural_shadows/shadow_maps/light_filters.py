@@ -66,7 +66,7 @@ def disc_visibility(
     angle = texels * 2 * light_map.half / light_map.resolution
     visibility = np.empty(len(from_light), np.float32)
     disc, map_arguments = vogel_disc(samples), looked_up(light_map, depths)
-    _fill_even(from_light, normals, bias, angle, disc, keys, *map_arguments, visibility)
+    _fill_even(from_light, normals, bias, angle, disc, keys, map_arguments, visibility)
     return visibility
 
 
@@ -85,7 +85,8 @@ def soft_disc_visibility(
 ) -> np.ndarray:
     """Percentage-closer soft shadows of a light of a radius, (n,) float32.
 
-    Blockers are searched at distances from the light of `nearest` of the receiver's and more; their
+    Blockers are searched at distances from the light of `nearest` of the receiver's and more, behind
+    the map's `near`; their
     mean distance z̄ determines the width of the penumbra: the light's radius seen from the
     receiver, at z̄.
 
@@ -95,29 +96,16 @@ def soft_disc_visibility(
     """
     discs = vogel_disc(searched), vogel_disc(samples)
     visibility = np.empty(len(from_light), np.float32)
-    map_arguments = looked_up(light_map, depths)
-    _fill_soft(
-        from_light, normals, bias, float(radius), nearest, discs, keys, *map_arguments, visibility
-    )
+    receivers, map_arguments = (from_light, normals, bias), looked_up(light_map, depths)
+    widths = float(radius), nearest, light_map.near
+    _fill_soft(*receivers, *widths, discs, keys, map_arguments, visibility)
     return visibility
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _fill_even(
-    from_light,
-    normals,
-    bias,
-    angle,
-    disc,
-    keys,
-    depths,
-    projections,
-    faces,
-    half,
-    resolution,
-    visibility,
-):
+def _fill_even(from_light, normals, bias, angle, disc, keys, looked_up_in, visibility):
     """Unblocked share of a disc's directions."""
+    depths, projections, faces, half, resolution = looked_up_in
     for i in range(len(from_light)):
         receiver = _receiver(from_light, normals, bias, i)
         u, v = across(*receiver[0], keys[i])
@@ -129,27 +117,16 @@ def _fill_even(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _fill_soft(
-    from_light,
-    normals,
-    bias,
-    radius,
-    nearest,
-    discs,
-    keys,
-    depths,
-    projections,
-    faces,
-    half,
-    resolution,
-    visibility,
+    from_light, normals, bias, radius, nearest, near, discs, keys, looked_up_in, visibility
 ):
     """Unblocked share of discs as wide as the blockers' penumbra."""
+    depths, projections, faces, half, resolution = looked_up_in
     searched, disc = discs
     for i in range(len(from_light)):
         receiver = _receiver(from_light, normals, bias, i)
         distance = receiver[1]
         u, v = across(*receiver[0], keys[i])
-        widest = radius * (1 / (nearest * distance) - 1 / distance)
+        widest = radius * (1 / max(nearest * distance, near) - 1 / distance)
         hidden, total = blockers(
             searched, receiver, u, v, widest, depths, projections, faces, half, resolution
         )

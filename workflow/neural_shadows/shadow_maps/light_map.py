@@ -23,6 +23,7 @@ class LightMap:
     faces: np.ndarray  # (F, 3, 3) float64, rows right, down, forward of each
     half: float  # tangent of half a face's angle
     resolution: int  # N
+    near: float = 0.0  # distance before which nothing lies
 
     @property
     def count(self) -> int:
@@ -69,7 +70,7 @@ class LightMap:
         """One face with a margin of texels on each side."""
         resolution = self.resolution + 2 * margin
         half = self.half * resolution / self.resolution
-        return LightMap(self.centre, self.faces[face : face + 1], half, resolution)
+        return LightMap(self.centre, self.faces[face : face + 1], half, resolution, self.near)
 
     def texel_size(self, directions: np.ndarray) -> np.ndarray:
         """A texel's side at distance 1, across a direction (n, 3): (n,) float32.
@@ -92,7 +93,7 @@ def cube_map(centre: np.ndarray, resolution: int) -> LightMap:
 
 
 def perspective_map(
-    centre: np.ndarray, forward: np.ndarray, fov: float, resolution: int
+    centre: np.ndarray, forward: np.ndarray, fov: float, resolution: int, near: float = 0.0
 ) -> LightMap:
     """One face along `forward`; `fov`: its whole angle in degrees."""
     forward = np.asarray(forward, np.float64) / np.linalg.norm(forward)
@@ -100,7 +101,7 @@ def perspective_map(
     right /= np.linalg.norm(right)
     face = [right, np.cross(forward, right), forward]
     half = float(np.tan(np.radians(fov) / 2))
-    return LightMap(np.asarray(centre, np.float64), np.array([face]), half, resolution)
+    return LightMap(np.asarray(centre, np.float64), np.array([face]), half, resolution, near)
 
 
 def distances_of(vectors: np.ndarray) -> np.ndarray:

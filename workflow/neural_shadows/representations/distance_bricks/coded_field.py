@@ -55,8 +55,8 @@ def coded(layout: BrickLayout, levels: np.ndarray) -> dict[str, Tensor]:
 def decoded(tensors: dict[str, Tensor], size: int, solid: bool) -> tuple[BrickLayout, np.ndarray]:
     """Decode the layout of size³ bricks, and levels (count,) int8.
 
-    Outside crossed cells they are −MOST or MOST − 1. Raises ValueError or KeyError for other
-    tensors than those of `coded`.
+    Outside crossed cells they are −MOST or MOST − 1. Raises ValueError, KeyError or LZMAError
+    for other tensors than those of `coded`.
     """
     bricks = unpack_bits(_expanded(tensors["bricks"]), size**3).view(size, size, size).numpy()
     layout = lay_out(bricks, solid)
@@ -80,10 +80,7 @@ def _compressed(data: np.ndarray) -> Tensor:
 
 
 def _expanded(data: Tensor) -> Tensor:
-    try:
-        whole = lzma.decompress(data.numpy().tobytes(), lzma.FORMAT_RAW, filters=FILTERS)
-    except lzma.LZMAError as error:
-        raise ValueError(str(error)) from error
+    whole = lzma.decompress(data.numpy().tobytes(), lzma.FORMAT_RAW, filters=FILTERS)
     return torch.from_numpy(np.frombuffer(bytearray(whole), np.uint8))
 
 

@@ -141,7 +141,7 @@ def first_crossings(origins, d, grid, bricks, steps, sheet, level):
 
 
 @njit(cache=True, nogil=True)
-def blocked_ways(points, to_light, centre, radius, grid, bricks, steps, level, blocked):
+def mark_blocked(points, to_light, centre, radius, grid, bricks, steps, level, blocked):
     """Mark in `blocked` (n,) bool occluded segments of a solid's field.
 
     Args:

@@ -37,14 +37,11 @@ def decoded(data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Decode vertices (V, 3) and faces (F, 3), int64.
 
     Raises:
-        ValueError: not a coded mesh.
+        ValueError, DracoPy.FileTypeException, RuntimeError: not a coded mesh.
     """
     import DracoPy
 
-    try:
-        mesh = DracoPy.decode(data.tobytes())
-    except (DracoPy.FileTypeException, RuntimeError) as error:
-        raise ValueError(f"no mesh that Draco reads: {error}") from error
+    mesh = DracoPy.decode(data.tobytes())
     if not hasattr(mesh, "faces") or mesh.faces is None:
         raise ValueError("points without faces")
     # Draco duplicates vertices where surfaces touch.

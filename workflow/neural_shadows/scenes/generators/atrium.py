@@ -6,9 +6,9 @@
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import arcade, balustrade, column, floor, walls
-from neural_shadows.scenes.generators.furniture import plant, vase
-from neural_shadows.scenes.generators.shapes import Shape, at, bars, box, joined, placed, smooth
+from neural_shadows.scenes.pieces.building import arcade, balustrade, column, floor, walls
+from neural_shadows.scenes.pieces.furniture import plant, vase
+from neural_shadows.scenes.pieces.shapes import Shape, at, bars, box, joined, placed, smooth
 
 SPRING = 2.4  # height of the columns
 GALLERY = 3.8  # height of the galleries' floor

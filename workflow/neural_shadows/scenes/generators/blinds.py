@@ -3,9 +3,9 @@
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import floor, window_wall
-from neural_shadows.scenes.generators.furniture import chair, plant, shelf, table, vase
-from neural_shadows.scenes.generators.shapes import (
+from neural_shadows.scenes.pieces.building import floor, window_wall
+from neural_shadows.scenes.pieces.furniture import chair, plant, shelf, table, vase
+from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
     bars,

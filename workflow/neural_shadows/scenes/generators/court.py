@@ -8,13 +8,13 @@ from collections.abc import Callable
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Placed, Region, Spot
-from neural_shadows.scenes.generators import outdoors
-from neural_shadows.scenes.generators.building import arcade, balustrade, column, flight, floor
-from neural_shadows.scenes.generators.fittings import crates, stool
-from neural_shadows.scenes.generators.furniture import bench, grille, plant, table, vase
-from neural_shadows.scenes.generators.plan import Drawn, Kind, Plan, furnish
-from neural_shadows.scenes.generators.roofs import Site, draw_roofs
-from neural_shadows.scenes.generators.shapes import Shape, at, balls, box, boxes, joined, placed
+from neural_shadows.scenes.pieces import outdoors
+from neural_shadows.scenes.pieces.building import arcade, balustrade, column, flight, floor
+from neural_shadows.scenes.pieces.fittings import crates, stool
+from neural_shadows.scenes.pieces.furniture import bench, grille, plant, table, vase
+from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, furnish
+from neural_shadows.scenes.pieces.roofs import Site, draw_roofs
+from neural_shadows.scenes.pieces.shapes import Shape, at, balls, box, boxes, joined, placed
 
 BESIDE = 0.85  # least distance of lights to objects, metres: room for a light of 0.5 m
 

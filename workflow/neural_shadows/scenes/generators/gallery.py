@@ -4,9 +4,9 @@ import numpy as np
 import trimesh
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import floor, walls
-from neural_shadows.scenes.generators.furniture import bench, vase
-from neural_shadows.scenes.generators.shapes import (
+from neural_shadows.scenes.pieces.building import floor, walls
+from neural_shadows.scenes.pieces.furniture import bench, vase
+from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
     balls,

@@ -4,10 +4,10 @@ import numpy as np
 
 from neural_shadows.meshes.fence import make_fence
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import floor
-from neural_shadows.scenes.generators.furniture import bench, grille, plant
-from neural_shadows.scenes.generators.outdoors import pergola, stones
-from neural_shadows.scenes.generators.shapes import Shape, at, leaves, placed
+from neural_shadows.scenes.pieces.building import floor
+from neural_shadows.scenes.pieces.furniture import bench, grille, plant
+from neural_shadows.scenes.pieces.outdoors import pergola, stones
+from neural_shadows.scenes.pieces.shapes import Shape, at, leaves, placed
 
 PANEL = 2.0  # width of a panel of the fence
 PERGOLA = 2.2  # height of its slats

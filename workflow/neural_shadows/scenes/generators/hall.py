@@ -6,9 +6,9 @@ A substitute for the conference room of Datta et al. (2022).
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import floor, window_wall
-from neural_shadows.scenes.generators.furniture import chair, plant, table, vase
-from neural_shadows.scenes.generators.shapes import (
+from neural_shadows.scenes.pieces.building import floor, window_wall
+from neural_shadows.scenes.pieces.furniture import chair, plant, table, vase
+from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
     bars,

@@ -6,9 +6,9 @@ The seed determines size, walls, furniture, hanging objects, lights and cameras.
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Placed, Region, Spot
-from neural_shadows.scenes.generators import fittings
-from neural_shadows.scenes.generators.building import arcade, column, floor, window_wall
-from neural_shadows.scenes.generators.furniture import (
+from neural_shadows.scenes.pieces import fittings
+from neural_shadows.scenes.pieces.building import arcade, column, floor, window_wall
+from neural_shadows.scenes.pieces.furniture import (
     bench,
     books,
     chair,
@@ -18,7 +18,7 @@ from neural_shadows.scenes.generators.furniture import (
     table,
     vase,
 )
-from neural_shadows.scenes.generators.hanging import (
+from neural_shadows.scenes.pieces.hanging import (
     banner,
     basket,
     frame_over,
@@ -27,8 +27,8 @@ from neural_shadows.scenes.generators.hanging import (
     shade_lamp,
     wires,
 )
-from neural_shadows.scenes.generators.plan import Drawn, Kind, Plan, furnish
-from neural_shadows.scenes.generators.shapes import Shape, at, beams, box, boxes, joined, placed
+from neural_shadows.scenes.pieces.plan import Drawn, Kind, Plan, furnish
+from neural_shadows.scenes.pieces.shapes import Shape, at, beams, box, boxes, joined, placed
 
 TABLE = 0.75
 BESIDE = 0.85  # least distance of lights to objects, metres: room for a light of 0.5 m
@@ -297,8 +297,8 @@ def _hanging(rng: np.random.Generator, plan: Plan, ends: np.ndarray, hung: float
         if pieces:
             parts.append(placed(f"under beam {number + 1}", *pieces))
     first, last = ends[0], ends[-1]
-    way = rng.random()
-    if way < 0.4:  # slats from the first beam to the last, over a part of the room
+    choice = rng.random()
+    if choice < 0.4:  # slats from the first beam to the last, over a part of the room
         long = first[1, 0] - first[0, 0]
         x = first[0, 0] + long * rng.uniform(0.03, 0.4)
         xs = np.arange(x, x + long * rng.uniform(0.3, 0.55), rng.uniform(0.14, 0.3))
@@ -307,7 +307,7 @@ def _hanging(rng: np.random.Generator, plan: Plan, ends: np.ndarray, hung: float
             for beam, out in ((first, -0.2), (last, 0.2))
         )
         parts.append(placed("slats", beams(starts, stops, rng.uniform(0.04, 0.09), 0.04)))
-    elif way < 0.8:
+    elif choice < 0.8:
         share = rng.uniform(0.05, 0.95, (2, rng.integers(3, 6), 1))
         starts, stops = (
             beam[0] + own * (beam[1] - beam[0]) + [0, hung - 0.04, 0]

@@ -3,8 +3,8 @@
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import floor
-from neural_shadows.scenes.generators.shapes import placed
+from neural_shadows.scenes.pieces.building import floor
+from neural_shadows.scenes.pieces.shapes import placed
 
 LIGHT = 3.0  # metres above the ground
 OBJECT = 0.4  # height of the inserted object: a radius of 0.2 m

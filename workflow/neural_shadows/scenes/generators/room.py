@@ -6,9 +6,9 @@ It stands for their living room and bar: much before and behind each other, thin
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import floor, walls
-from neural_shadows.scenes.generators.furniture import chair, grille, plant, shelf, table, vase
-from neural_shadows.scenes.generators.shapes import Shape, at, bars, joined, lathe, placed, ring
+from neural_shadows.scenes.pieces.building import floor, walls
+from neural_shadows.scenes.pieces.furniture import chair, grille, plant, shelf, table, vase
+from neural_shadows.scenes.pieces.shapes import Shape, at, bars, joined, lathe, placed, ring
 
 TABLE = 0.75
 LAMP = 2.0  # height of the lamp's ring

@@ -3,9 +3,9 @@
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import balustrade, column, flight, floor
-from neural_shadows.scenes.generators.furniture import plant, vase
-from neural_shadows.scenes.generators.shapes import (
+from neural_shadows.scenes.pieces.building import balustrade, column, flight, floor
+from neural_shadows.scenes.pieces.furniture import plant, vase
+from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
     balls,

@@ -3,10 +3,10 @@
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Arrangement, Region, Spot
-from neural_shadows.scenes.generators.building import floor
-from neural_shadows.scenes.generators.furniture import bench, chair, table
-from neural_shadows.scenes.generators.outdoors import pickets, tree
-from neural_shadows.scenes.generators.shapes import at, placed
+from neural_shadows.scenes.pieces.building import floor
+from neural_shadows.scenes.pieces.furniture import bench, chair, table
+from neural_shadows.scenes.pieces.outdoors import pickets, tree
+from neural_shadows.scenes.pieces.shapes import at, placed
 
 TABLE = 0.75
 

@@ -1,4 +1,4 @@
-"""Names and modules of scene generators."""
+"""Generated scenes: a module of `generators` each, found by its name."""
 
 from importlib import import_module
 from pathlib import Path
@@ -12,13 +12,17 @@ from neural_shadows.errors import InputError
 if TYPE_CHECKING:  # the graph uses names only
     from neural_shadows.scenes.arrangement import Arrangement
 
-TRAINED = ("room", "atrium", "hall", "classroom", "gallery", "plate")
-UNTRAINED = ("garden", "workshop", "stairs", "blinds", "tree", "interior", "court")
+_FOLDER = Path(__file__).with_name("generators")
+
+
+def generator_names() -> list[str]:
+    """Names of all generators: of the folder's files."""
+    return sorted(path.stem for path in _FOLDER.glob("[a-z]*.py"))
 
 
 def generator_module(name: str) -> Path:
     """Path of a generator's module: `room.py` for `room`."""
-    return Path(__file__).with_name(f"{name}.py")
+    return _FOLDER / f"{name}.py"
 
 
 def generator(name: str) -> ModuleType:
@@ -34,8 +38,6 @@ def arrange(name: str, seed: int) -> "Arrangement":
     Raises:
         InputError: the generator is unknown.
     """
-    if name not in TRAINED + UNTRAINED:
-        raise InputError(
-            f"{name!r} is not a generator. Use one of {', '.join(TRAINED + UNTRAINED)}"
-        )
+    if name not in generator_names():
+        raise InputError(f"{name!r} is not a generator. Use one of {', '.join(generator_names())}")
     return generator(name).arrange(np.random.default_rng(seed))

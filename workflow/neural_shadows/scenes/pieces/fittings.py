@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from neural_shadows.scenes.generators.building import balustrade, flight
-from neural_shadows.scenes.generators.shapes import (
+from neural_shadows.scenes.pieces.building import balustrade, flight
+from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
     bars,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neural_shadows.scenes.generators.shapes import (
+from neural_shadows.scenes.pieces.shapes import (
     Shape,
     at,
     balls,

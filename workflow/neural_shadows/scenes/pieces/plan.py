@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Placed
-from neural_shadows.scenes.generators.shapes import Shape, at, placed
+from neural_shadows.scenes.pieces.shapes import Shape, at, placed
 
 _TRIES = 60
 _MOST_TRIANGLES = 36_000  # of a scene before its last piece; fixed scenes have 10,000 to 60,000

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from neural_shadows.scenes.arrangement import Placed
-from neural_shadows.scenes.generators import outdoors
-from neural_shadows.scenes.generators.hanging import frame_over, ring_lamp, wires
-from neural_shadows.scenes.generators.plan import Plan
-from neural_shadows.scenes.generators.shapes import Shape, at, joined, placed, smooth
+from neural_shadows.scenes.pieces import outdoors
+from neural_shadows.scenes.pieces.hanging import frame_over, ring_lamp, wires
+from neural_shadows.scenes.pieces.plan import Plan
+from neural_shadows.scenes.pieces.shapes import Shape, at, joined, placed, smooth
 
 LOWEST = 1.9  # metres: the light is not lower over a court without roofs
 _TRIES = 60

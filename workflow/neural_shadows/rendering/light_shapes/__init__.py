@@ -1,0 +1,1 @@
+"""Shapes of lights: a module each."""

@@ -1,0 +1,1 @@
+"""Parts of generated scenes: furniture, buildings, gardens, floor plans."""
