@@ -1,4 +1,4 @@
-"""References and methods on viewpoints, and times [4.1, 4.4]."""
+"""Methods on views and frames: references, constants, metrics, times [4.1, 4.4]."""
 
 
 rule find_lpips:
@@ -39,54 +39,52 @@ rule render_references:
     params:
         code=code(
             "evaluation/render_references",
-            modules=hard_modules([REFERENCES[SETTINGS["rendering"]["reference"]]]),
+            modules=method_modules([REFERENCES[LAYOUT.views.reference]]),
         ),
         scene=setting("scenes/{scene}/scene"),
         frames=setting("scenes/{scene}/frames"),
         settings=of(LAYOUT.view_range),
-        reference=setting("rendering/reference"),
+        reference=setting("frame_sets/views/reference"),
     message:
         "Rendering references of {wildcards.scene}, batch {wildcards.batch}"
     script:
         "../neural_shadows/evaluation/render_references.py"
 
 
-rule find_depth_bias:
+rule tune:
     input:
-        references=of(LAYOUT.held_out_views),
-        mesh_ply=PATHS.scene("mesh.ply"),
-        weights=of(LAYOUT.weights),
+        unpack(of(evaluations.tuned_files)),
     output:
-        depth_bias_json=PATHS.depth_bias(),
+        constants_json=PATHS.constants(),
     log:
-        PATHS.log("find_depth_bias", "scene", "method"),
+        PATHS.log("tune", "frame_set", "group", "method"),
     benchmark:
-        PATHS.benchmark("find_depth_bias", "scene", "method")
+        PATHS.benchmark("tune", "frame_set", "group", "method")
     conda:
         ENVIRONMENT
     resources:
-        **usual(4000, minutes=60),
-        gpu=lambda wildcards: GPUS * LAYOUT.can_use_gpu(wildcards.method),
+        **usual(4000, minutes=120),
+        gpu=lambda wildcards: GPUS
+        * evaluations.can_use_gpu(LAYOUT, wildcards.frame_set, wildcards.method),
     params:
         code=lambda wildcards: code(
-            "evaluation/find_depth_bias",
-            LAYOUT.method_encodings(wildcards.method),
-            modules=hard_modules([wildcards.method]),
+            "evaluation/tune",
+            **evaluations.modules(
+                LAYOUT, "tune", wildcards.frame_set, [wildcards.method]
+            ),
         ),
-        scene=setting("scenes/{scene}/scene"),
-        device=COMPUTE["device"],
-        precision=COMPUTE["precision"],
+        settings=of(evaluations.tuned_settings),
     message:
-        "Finding the depth bias of {wildcards.method} on {wildcards.scene}"
+        "Choosing the constants of {wildcards.method} on {wildcards.frame_set}, {wildcards.group}"
     script:
-        "../neural_shadows/evaluation/find_depth_bias.py"
+        "../neural_shadows/evaluation/tune.py"
 
 
 rule query_network:
     input:
         references=PATHS.reference(),
         weights=of(LAYOUT.weights),
-        depth_bias_json=of(LAYOUT.bias_file),
+        constants_json=of(LAYOUT.bias_file),
         mesh_ply=PATHS.scene("mesh.ply"),
     output:
         answers=PATHS.answers(),
@@ -115,63 +113,139 @@ rule query_network:
 
 rule evaluate:
     input:
-        unpack(of(LAYOUT.evaluated_files)),
-        references=PATHS.reference(),
+        unpack(of(evaluations.evaluated_files)),
         lpips_json=PATHS.lpips,
     output:
         metrics_csv=PATHS.evaluation("csv"),
-        visibilities_npz=PATHS.evaluation("npz"),
+        answers_npz=PATHS.evaluation("npz"),
     log:
-        PATHS.log("evaluate", "scene", "method", "batch"),
+        PATHS.log("evaluate", "frame_set", "group", "method"),
     benchmark:
-        PATHS.benchmark("evaluate", "scene", "method", "batch")
+        PATHS.benchmark("evaluate", "frame_set", "group", "method")
     conda:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=120),
     params:
         code=lambda wildcards: code(
-            "evaluation/evaluate", modules=hard_modules([wildcards.method])
+            "evaluation/evaluate",
+            **evaluations.modules(
+                LAYOUT, "evaluate", wildcards.frame_set, [wildcards.method]
+            ),
         ),
-        scene=setting("scenes/{scene}/scene"),
+        settings=of(evaluations.evaluated_settings),
     message:
-        "Evaluating {wildcards.method} on {wildcards.scene}, batch {wildcards.batch}"
+        "Evaluating {wildcards.method} on {wildcards.frame_set}, {wildcards.group}"
     script:
         "../neural_shadows/evaluation/evaluate.py"
 
 
-rule measure_frame_times:
+rule time_methods:
     input:
-        mesh_ply=PATHS.scene("mesh.ply"),
-        weights=of(tables.timed_weights),
+        unpack(of(evaluations.timed_files)),
     output:
-        times_json=PATHS.frame_times(),
+        times_json=PATHS.times(),
     log:
-        PATHS.log("measure_frame_times", "table", "scene"),
+        PATHS.log("time_methods", "table", "group"),
     benchmark:
-        PATHS.benchmark("measure_frame_times", "table", "scene")
+        PATHS.benchmark("time_methods", "table", "group")
     conda:
         ENVIRONMENT
     # It computes on one thread; reserving those of a training keeps a small machine undisturbed.
     threads: COMPUTE["threads"]
     resources:
         **usual(4000, minutes=120),
-        gpu=GPUS,
+        gpu=lambda wildcards: GPUS * evaluations.on_views(LAYOUT, wildcards.table),
     params:
         code=lambda wildcards: code(
-            "evaluation/measure_frame_times",
-            tables.timed_encodings(LAYOUT, wildcards.table, wildcards.scene),
-            modules=hard_modules(
-                tables.timed_methods(LAYOUT, wildcards.table, wildcards.scene)
+            "evaluation/time_methods",
+            **evaluations.timed_modules(LAYOUT, wildcards.table, wildcards.group),
+        ),
+        settings=of(evaluations.timed_settings),
+    message:
+        "Timing the methods of {wildcards.table}, {wildcards.group}"
+    script:
+        "../neural_shadows/evaluation/time_methods.py"
+
+
+rule fit_fields:
+    input:
+        parts=of(frame_sets.fitted_parts),
+        meshes=of(frame_sets.all_meshes),
+    output:
+        fields_npz=PATHS.soft_fields(),
+    log:
+        PATHS.log("fit_fields", "frame_set"),
+    benchmark:
+        PATHS.benchmark("fit_fields", "frame_set")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=60),
+    params:
+        code=lambda wildcards: code(
+            "evaluation/fit_fields",
+            generators=frame_sets.all_generators(LAYOUT, wildcards.frame_set),
+        ),
+    message:
+        "Fitting fields to the objects of {wildcards.frame_set}"
+    script:
+        "../neural_shadows/evaluation/fit_fields.py"
+
+
+rule measure_frames:
+    input:
+        parts=of(frame_sets.tests),
+        beside=of(frame_sets.tested_arrays),
+        meshes=of(frame_sets.all_meshes),
+    output:
+        output=PATHS.frame_measure(),
+    log:
+        PATHS.log("measure_frames", "frame_set", "measure"),
+    benchmark:
+        PATHS.benchmark("measure_frames", "frame_set", "measure")
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=120),
+    params:
+        code=lambda wildcards: code(
+            "evaluation/measure_frames",
+            generators=frame_sets.all_generators(LAYOUT, wildcards.frame_set),
+            modules=frame_sets.light_shapes(LAYOUT, wildcards.frame_set),
+        ),
+    message:
+        "Measuring {wildcards.measure} of the frames of {wildcards.frame_set}"
+    script:
+        "../neural_shadows/evaluation/measure_frames.py"
+
+
+rule answer_frames:
+    input:
+        parts=of(frame_sets.tests),
+        beside=of(frame_sets.tested_arrays),
+        meshes=of(frame_sets.all_meshes),
+        constants_json=of(frame_methods.chosen),
+        weights=of(frame_methods.weights),
+    output:
+        errors_csv=PATHS.report("answers/{frame_set}/{method}.csv"),
+        answers=directory(PATHS.report("answers/{frame_set}/{method}")),
+    log:
+        PATHS.log("answer_frames", "frame_set", "method"),
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(4000, minutes=120),
+    params:
+        code=lambda wildcards: code(
+            "reports/answers/answer_frames",
+            **evaluations.modules(
+                LAYOUT, "answer_frames", wildcards.frame_set, [wildcards.method]
             ),
         ),
-        methods=of(tables.timed_methods),
-        scene=setting("scenes/{scene}/scene"),
-        frames=setting("scenes/{scene}/frames"),
-        frame_times=setting("frame_times"),
-        device=COMPUTE["device"],
-        precision=COMPUTE["precision"],
+        label=of(frame_methods.label),
+        by_scene=of(frame_methods.by_scene),
     message:
-        "Timing frames of {wildcards.scene} for {wildcards.table}"
+        "Evaluating {wildcards.method} on the frames of {wildcards.frame_set}"
     script:
-        "../neural_shadows/evaluation/measure_frame_times.py"
+        "../neural_shadows/reports/answers/answer_frames.py"

@@ -18,9 +18,9 @@ rule profile_screen_network:
     params:
         code=lambda wildcards: code(
             "evaluation/profile_screen_network",
-            forms=[SETTINGS["screen_networks"][wildcards.network]["form"]],
+            forms=[LAYOUT.entry("networks", wildcards.network, "form")["form"]],
         ),
-        network=setting("screen_networks/{network}"),
+        network=setting("networks/{network}"),
         profile=SETTINGS["screen_profiles"],
         device=COMPUTE["device"],
     message:
@@ -29,43 +29,11 @@ rule profile_screen_network:
         "../neural_shadows/evaluation/profile_screen_network.py"
 
 
-rule train_screen:
-    input:
-        unpack(of(screen_networks.training_files)),
-    output:
-        weights=PATHS.screen_network("weights.safetensors"),
-        loss_csv=PATHS.screen_network("loss.csv"),
-        training_json=PATHS.screen_network("training.json"),
-    log:
-        PATHS.log("train_screen", "experiment"),
-    benchmark:
-        PATHS.benchmark("train_screen", "experiment")
-    conda:
-        ENVIRONMENT
-    threads: COMPUTE["threads"]
-    resources:
-        # The same minutes for each attempt: it resumes from its last checkpoint.
-        **usual(8000, minutes=600) | {"runtime": 600},
-        gpu=GPUS,
-    params:
-        code=lambda wildcards: code(
-            "training/train_screen",
-            forms=screen_networks.forms(LAYOUT, [wildcards.experiment]),
-        ),
-        settings=of(screen_networks.training_settings),
-        device=COMPUTE["device"],
-        precision=COMPUTE["precision"],
-    message:
-        "Training {wildcards.experiment}"
-    script:
-        "../neural_shadows/training/train_screen.py"
-
-
 rule measure_sensitivity:
     input:
-        parts=of(soft_methods.validations),
-        beside=of(soft_methods.tuned_arrays),
-        weights=PATHS.screen_network("weights.safetensors"),
+        parts=of(frame_sets.validations),
+        beside=of(frame_sets.tuned_arrays),
+        weights=PATHS.network("weights.safetensors"),
     output:
         sensitivity_json=PATHS.screen_sensitivity(),
     log:
@@ -79,7 +47,7 @@ rule measure_sensitivity:
     params:
         code=lambda wildcards: code(
             "evaluation/measure_sensitivity",
-            forms=screen_networks.forms(LAYOUT, [wildcards.experiment]),
+            forms=LAYOUT.forms([wildcards.experiment]),
         ),
         seed=SETTINGS["seed"],
     message:

@@ -1,73 +1,52 @@
 """Frames as an engine writes them: a trained network answers them as it answers the pipeline's own."""
 
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import OpenEXR
 import pandas as pd
 import pytest
+from built_networks import make_screen_network
 from engine_frames import NAMES, TARGETS, engine_images, write_exr, write_npz
+from opened import called, frame_method
 from PIL import Image
+from rendered_frames import render_part
 from shipped import shipped
 
 from neural_shadows.config.reading import check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.soft_registry import soft_method
 from neural_shadows.files.frame_images import FrameImages
 from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.engine_channels import CHANNEL_IMAGES
 from neural_shadows.frames.import_frame import import_frame
-from neural_shadows.frames.render_frames import render_frames
-from neural_shadows.layout import frame_sets, soft_methods
+from neural_shadows.layout import frame_methods, frame_sets
 from neural_shadows.layout.layout import Layout
-from neural_shadows.metrics.psnr_ssim import ssim
-from neural_shadows.networks.screen_space.screen_networks import (
-    make_screen_network,
-    save_screen_network,
-)
-from neural_shadows.reports.answers.answer_frames import answer_frames
-from neural_shadows.running.stage import arguments_of
+from neural_shadows.metrics.kinds.ssim import ssim
+from neural_shadows.networks.screen_space.screen_networks import save_screen_network
+from neural_shadows.reports.answers.answer_frames import CROP, _window, answer_frames
 
 RADII = [0, 0.00625]  # scene sizes
 WIDTH, HEIGHT = 101, 67  # no multiples of what networks halve
 KINDS = ("json", "buffers.npy", "targets.npy", "valid.npy")
-SCENE = {"generate": "garden", "seed": 3, "inserted": {}}  # under an open sky
 FRAMES = {
-    **{"width": WIDTH, "height": HEIGHT, "fov": 40, "of": None, "blur": 0.0},
+    **{"width": WIDTH, "height": HEIGHT, "fov": 40},
     "light_map": {"kind": "cube", "resolution": 64},
     **{"radii": RADII, "radius_unit": "scene_sizes"},
-    "twins": {"count": 0, "light": 0.0, "eye": 0.0, "turn_deg": 0.0},
 }
-KERNELS = {"form": "kernels", "widths": [4, 8], "filters": 4, "features": None}
-KERNELS["features"] = [
-    "cosine",
-    "c_v_by_d",
-    "z_f",
-    "penumbra",
-    "behind",
-    "z_b_by_z",
-    "z_b",
-    "base_msm",
-]
-VALUES = {
-    "form": "shuffle",
-    "widths": [8, 8],
-    "features": ["c_e", "view", "ratio", "difference", "n"],
-}
+KERNELS = {"form": "kernels", "widths": [4, 8], "filters": 4}
+KERNELS["features"] = "cosine c_v_by_d z_f penumbra behind z_b_by_z z_b base_msm".split()
+VALUES = {"form": "shuffle", "widths": [8, 8]}
+VALUES["features"] = ["c_e", "view", "ratio", "difference", "n"]
 HALF = 2.0**-11  # the rounding of half floats, of 1
 
 
 @pytest.fixture(scope="module")
 def rendered(tmp_path_factory):
     """The pipeline's own frame, but that bases are dark by the shading normal, as an engine's."""
-    part = tmp_path_factory.mktemp("own") / "garden/test_000.json"
-    part.parent.mkdir()
-    files = (part.with_suffix(f".{kind}") for kind in (*KINDS, "edges.npy"))
-    told = {"scene": SCENE, "name": "garden", "seed": 3, "frames": FRAMES, "use": "test"}
-    render_frames([], *files, **told, first=0, last=1, samples=1)
+    folder = tmp_path_factory.mktemp("own") / "garden"  # under an open sky
+    part = render_part(folder, "test", FRAMES, "garden", last=1, samples=1)
     buffers = np.load(part.with_suffix(".buffers.npy"))
     c_e, z = (buffers[:, :, CHANNELS.index(name)] for name in ("c_e", "z"))
     for name in LIT:
@@ -88,7 +67,7 @@ def save_network(settings, radii=RADII, unit="scene_sizes"):
     network.initialise(2)
     if settings["form"] == "shuffle":  # answers about 0.5, where none is cut off
         network.levels[0].decoder[-1].weight.data *= 0.02
-    path = Path("results/screen_networks/kpnsm/weights.safetensors")
+    path = Path("results/networks/kpnsm/weights.safetensors")
     path.parent.mkdir(parents=True)
     save_screen_network(path, network, {"network": settings, "radii": radii, "radius_unit": unit})
     return path
@@ -102,38 +81,29 @@ def layout_of(**engine):
     return Layout(resolved(config))
 
 
-def called(function, **job):
-    """A stage's function with what a job hands to it."""
-    parts = dict.fromkeys(("input", "output", "params", "wildcards"), {})
-    function(**arguments_of(SimpleNamespace(threads=1, **parts | job), function))
-
-
 def answer(layout):
     """What the workflow does for `reports/answers/mine/kpnsm.csv`; its errors, and its folder."""
-    parts = soft_methods.tests(layout, "mine")
+    parts = frame_sets.tests(layout, "mine")
+    keys = ("frames_json", "buffers_npy", "targets_npy", "valid_npy")
     for part in parts:
         *_, scene, name = Path(part).with_suffix("").parts
+        files = {key: str(Path(part).with_suffix(f".{kind}")) for key, kind in zip(keys, KINDS)}
         called(
             import_frame,
             input={"files": frame_sets.engine_files(layout, scene, "mine", name)},
-            output={
-                f"{kind.replace('.', '_').replace('json', 'frames_json')}": str(
-                    Path(part).with_suffix(f".{kind}")
-                )
-                for kind in KINDS
-            },
+            output=files,
             params={"settings": frame_sets.import_settings(layout, scene, "mine")},
         )
     called(
         answer_frames,
         input={
             "parts": parts,
-            "meshes": soft_methods.all_meshes(layout, "mine"),
-            "constants_json": soft_methods.chosen(layout, "mine", "kpnsm"),
-            "weights": soft_methods.weights(layout, "kpnsm"),
+            "meshes": frame_sets.all_meshes(layout, "mine"),
+            "constants_json": frame_methods.chosen(layout, "mine", "kpnsm"),
+            "weights": frame_methods.weights(layout, "kpnsm"),
         },
         output={"errors_csv": "kpnsm.csv", "answers": "kpnsm"},
-        params={"label": soft_methods.label(layout, "kpnsm")},
+        params={"label": frame_methods.label(layout, "kpnsm")},
         wildcards={"method": "kpnsm", "frame_set": "mine"},
     )
     return pd.read_csv("kpnsm.csv"), Path("kpnsm/quay-2")
@@ -160,7 +130,7 @@ def test_a_network_answers_as_it_does_frames_of_our_own(here, rendered, network,
     weights = save_network(network)
     write(here / "mine/quay-2/f_0007", engine_images(rendered))
     table, folder = answer(layout_of())
-    method = soft_method("kpnsm", weights)
+    method = frame_method("kpnsm", weights)
     own = np.stack([rendered.answered(method, radius, {}) for radius in rendered.part.radii])
     assert own[:, rendered.valid].std() > 0.01 and not rendered.valid.all()
     found = read_answers(folder, "f_0007")
@@ -168,7 +138,12 @@ def test_a_network_answers_as_it_does_frames_of_our_own(here, rendered, network,
     off = np.abs(found.astype(np.float32) - own)
     assert off.max() < most and off.mean() < mean
     assert (found[:, ~rendered.valid] == 1).all()
+    means, table = table[table["frame"] == "mean"], table[table["frame"] != "mean"]
     assert table["radius"].tolist() == RADII and (table["radius_unit"] == "scene_sizes").all()
+    assert (table["frame_width"] == WIDTH).all() and (table["frame_height"] == HEIGHT).all()
+    assert means["radius"].tolist() == RADII and means["mse"].tolist() == table["mse"].tolist()
+    base = np.square(rendered.picture("pcf") - rendered.target)[:, rendered.valid].mean(axis=1)
+    assert table["mse_of_pcf"].to_numpy() == pytest.approx(base, rel=5e-3)
     square = np.square(own - rendered.target)[:, rendered.valid].mean(axis=1)
     assert table["mse"].to_numpy() == pytest.approx(square, rel=5e-3)
     # Where nothing is seen all is lit.
@@ -177,6 +152,8 @@ def test_a_network_answers_as_it_does_frames_of_our_own(here, rendered, network,
     assert table["ssim"].to_numpy() == pytest.approx(own_ssim, abs=2e-3)
     with Image.open(folder / "f_0007.png") as picture:
         assert picture.width > 500
+    with Image.open(folder / "f_0007_visibility_1.png") as picture:
+        assert np.abs(np.asarray(picture) / 255 - own[1]).mean() < most + 1 / 500
 
 
 def imported(folder, images, **told):
@@ -203,6 +180,15 @@ def test_a_frame_without_targets_is_answered_but_not_measured(here, rendered):
         _ = frame.target
 
 
+def test_a_crop_of_a_large_frame_is_where_most_differs():
+    difference = np.full((600, 900), 0.01)
+    difference[300:420, 500:620] = 1
+    rows, columns = _window(difference)
+    assert difference[rows, columns].shape == (CROP, CROP)
+    assert difference[rows, columns].sum() > 120 * 120
+    assert rows.start <= 300 and columns.stop >= 620
+
+
 def with_value(channel, value):
     """A spoilt frame: a value where something is seen."""
 
@@ -221,22 +207,13 @@ def without(*names):
 @pytest.mark.parametrize(
     ("spoil", "told"),
     [
-        (
-            with_value("c_e", np.nan),
-            r"MyGBuffer.ce.15:R: NaN or infinity in 1 pixels, the first in",
-        ),
+        (with_value("c_e", np.nan), "MyGBuffer.ce.15:R: NaN or infinity in 1 pixels, the first in"),
         (with_value("d", np.inf), r"distV.15:R: NaN or infinity in 1 pixels"),
-        (
-            with_value("msm", 255),
-            r"MyShadowMap.msm.15:G: msm is from 0 to 255; should be in \[0, 1\]",
-        ),
+        (with_value("msm", 255), r"msm.15:G: msm is from 0 to 255; should be in \[0, 1\]"),
         (with_value("d", -1), r"distV.15:R: d is from -1 to .*; should be 0 or more"),
         (lambda images: images | {NAMES["z"]: 0 * images[NAMES["z"]]}, "no pixel shows a surface"),
         (without(NAMES["z"]), r"distE.15:R: missing. Each frame needs z"),
-        (
-            without("Pass2:R"),
-            r"missing, but the frame has other targets",
-        ),
+        (without("Pass2:R"), "missing, but the frame has other targets"),
         (
             lambda images: images | {NAMES["msm"]: images[NAMES["msm"]][1:]},
             rf"msm.15:G: is {WIDTH} × {HEIGHT - 1}, but the frame's z {WIDTH} × {HEIGHT}",
@@ -277,14 +254,14 @@ def test_a_file_without_the_channel_says_which_it_has(here, rendered):
             f"f_0007: is {WIDTH} × 60, smaller than the kernels of .*, 61 × 61",
         ),
         (
-            lambda images: images,
+            without(),
             {"unit": "metres", "radii": [0, 0.25]},
             "radii are in scene_sizes, but .* was trained with radii in metres, up to 0.25",
         ),
         (
-            lambda images: images,
+            without(),
             {"radii": [0, 0.001]},
-            "up to 0.001 scene sizes, and is asked about one of 0.00625 scene sizes",
+            "0.001 scene sizes, and these frames have one of 0.00625",
         ),
     ],
 )
@@ -292,7 +269,7 @@ def test_what_a_network_cannot_answer_is_refused(here, rendered, spoil, header, 
     weights = save_network(KERNELS, **header)
     frame = imported(here, spoil(engine_images(rendered)))
     with pytest.raises(InputError, match=told):
-        frame.answered(soft_method("kpnsm", weights), frame.part.radii[-1], {})
+        frame.answered(frame_method("kpnsm", weights), frame.part.radii[-1], {})
 
 
 @pytest.mark.parametrize(

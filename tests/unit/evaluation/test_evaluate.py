@@ -1,17 +1,17 @@
 import numpy as np
 import pytest
 from evaluated import SCENE, make_evaluated
+from opened import evaluate_frames, write_constants
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.evaluate import evaluate
-from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.evaluation.answers import read_view
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.query_network import query_network
+from neural_shadows.evaluation.ray_network import network_method, open_network
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import classic_method, network_method, open_network
+from neural_shadows.evaluation.registry import classic_method
 from neural_shadows.evaluation.violations import Violations
-from neural_shadows.evaluation.visibilities import read_visibility
-from neural_shadows.files.whole_files import write_json
-from neural_shadows.metrics.psnr_ssim import psnr
+from neural_shadows.metrics.kinds.psnr import psnr
 from neural_shadows.rendering.shading import shade
 from neural_shadows.scenes.scene import open_scene
 
@@ -21,13 +21,14 @@ def files(tmp_path_factory):
     return make_evaluated(tmp_path_factory.mktemp("evaluated"))
 
 
-def evaluated(files, folder, method, answers=None, depth_bias_json=None):
+def evaluated(files, folder, method, answers=None, constants_json=None):
     """Metrics by view set, view and metric; and the paths of metrics and visibilities."""
-    outputs = folder / f"{method}.000.csv", folder / f"{method}.000.npz"
-    mesh_ply = None if answers else files.mesh_ply
-    inputs = files.references, answers, mesh_ply, depth_bias_json, files.lpips_json
-    evaluate(*inputs, *outputs, method=method, scene=SCENE)
-    metrics = read_metrics(outputs[:1])
+    outputs = folder / f"{method}.csv", folder / f"{method}.npz"
+    files_of = {"answers": answers, "meshes": [] if answers else [files.mesh_ply]}
+    files_of["constants"] = constants_json
+    frames = [files.references], files.lpips_json, outputs
+    evaluate_frames(*frames, **files_of, method=method, scene=SCENE)
+    metrics = read_view_metrics(outputs[:1])
     return metrics.set_index(["view_set", "view", "metric"])["value"], *outputs
 
 
@@ -50,15 +51,15 @@ def test_every_frame_can_be_drawn_again(files, tmp_path, method):
     *_, visibilities_npz = evaluated(files, tmp_path, method)
     answer = classic_method(method, open_scene(files.mesh_ply, **SCENE))
     for number, (frame, _) in enumerate(References(files.references)):
-        kept, given = read_visibility(visibilities_npz, number, frame), answer(frame)(0.0)
+        kept, given = read_view(visibilities_npz, number, frame), answer(frame)(0.0)
         assert (len(np.unique(given)) > 2) == ("pcf" in method)
         np.testing.assert_allclose(kept, given, rtol=0, atol=0.5 / 255 + 1e-6)
     with pytest.raises(InputError, match="damaged"):  # made of other views
-        read_visibility(visibilities_npz, 0, frame)
+        read_view(visibilities_npz, 0, frame)
 
 
 def test_a_network_is_asked_with_its_bias(files, tmp_path):
-    write_json(tmp_path / "net.json", {"depth_bias": 0.3, "push": 0.0})
+    write_constants(tmp_path / "net.json", depth_bias=0.3, push=0.0)
     answers = tmp_path / "answers.npz"
     queried = {"mesh_ply": files.mesh_ply, "answers": answers, "method": "net", "device": "cpu"}
     answer = network_method(*open_network(files.weights, "cpu", 1))
@@ -85,13 +86,13 @@ def test_a_network_is_asked_with_its_bias(files, tmp_path):
 
 
 def test_a_map_has_the_bias_that_was_found_for_it(files, tmp_path):
-    write_json(tmp_path / "map.json", {"depth_bias": -0.05, "push": 0.0})
+    write_constants(tmp_path / "map.json", depth_bias=-0.05)
     errors = {}
     for method, file in {"shadow_map_64": None, "shadow_map_64_biased": "map.json"}.items():
         bias_json = file and tmp_path / file
         values, metrics_csv, _ = evaluated(files, tmp_path, method, None, bias_json)
         errors[method] = values["surface", 0, "false_shadow"]
-        assert set(read_metrics([metrics_csv])["method"]) == {method}
+        assert set(read_view_metrics([metrics_csv])["method"]) == {method}
     assert errors["shadow_map_64_biased"] > errors["shadow_map_64"] + 0.01
 
 

@@ -5,21 +5,22 @@ import json
 import numpy as np
 from screen_frames import write_frames
 
-from neural_shadows.evaluation.measure_widths import measure_widths
-from neural_shadows.reports.data.width_notes import describe_widths
+from neural_shadows.evaluation.measure_frames import measure_frames
+from neural_shadows.reports.data.soft_frames import SoftFrames
 
 
 def test_the_width_of_one_straight_edge(tmp_path):
     """Eight pixels of a ramp: as a light's penumbra as steep, 4 / π of that; a point light has none."""
     part = write_frames(tmp_path / "room", "test", count=2, twins=0)
     out = tmp_path / "widths.json"
-    measure_widths([part], out)
+    measure_frames([part], [], out, measure="widths.json")
     point, soft = json.loads(out.read_text())["scenes"]["room"]
     assert point is None
     assert np.allclose(soft, 8 * 4 / np.pi, rtol=0.2)
-    (note,) = describe_widths(out)
+    shown = {"soft_metrics": [], "labels": {}, "frames_json": part}
+    (note,) = SoftFrames(**shown, widths_json=out).describe_widths()
     assert (
         "of 1 scenes the median (least to most): light of 0.25 m radius 10 (10 to 10) and 10."
         in note
     )
-    assert describe_widths(None) == []
+    assert SoftFrames(**shown).describe_widths() == []

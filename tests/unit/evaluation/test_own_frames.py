@@ -2,24 +2,24 @@
 
 import json
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
+from opened import called
 from shipped import shipped
 
 from neural_shadows.config.reading import check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.evaluate_soft import evaluate_soft
-from neural_shadows.evaluation.measure_widths import measure_widths
+from neural_shadows.evaluation.evaluate import evaluate as stage
+from neural_shadows.evaluation.measure_frames import measure_frames
 from neural_shadows.frames.buffers import CHANNELS
-from neural_shadows.layout import kinds, soft_methods
+from neural_shadows.layout import evaluations, frame_sets, kinds, tables
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.data.table import write_table
+from neural_shadows.layout.paths import ALL
+from neural_shadows.reports.data.table import whole_table, write_table
 from neural_shadows.reports.tables.soft_methods import table as make_table
-from neural_shadows.running.stage import arguments_of
 
 FRAMES, RADII, HEIGHT, WIDTH = 2, [0.0, 0.5], 12, 16
 DARK = 4  # columns, of which a soft light reaches half
@@ -58,41 +58,34 @@ def layout(engine):
     return layout
 
 
-def called(function, **job):
-    """A stage's function with what a job hands to it."""
-    parts = dict.fromkeys(("input", "output", "params", "wildcards"), {})
-    return function(**arguments_of(SimpleNamespace(threads=1, **parts | job), function))
-
-
 def evaluate(layout, method):
     files = {
-        ending: layout.paths.soft_evaluation(ending, "mine", method) for ending in ("csv", "npz")
+        ending: layout.paths.evaluation(ending, "mine", method, ALL) for ending in ("csv", "npz")
     }
     Path(files["csv"]).parent.mkdir(parents=True, exist_ok=True)
+    job = (layout, "mine", ALL, method)
     called(
-        evaluate_soft,
-        input={
-            "parts": soft_methods.tests(layout, "mine"),
-            "sequences": soft_methods.sequences(layout, "mine"),
-            "meshes": soft_methods.all_meshes(layout, "mine"),
-            "constants_json": soft_methods.chosen(layout, "mine", method),
-            "weights": soft_methods.weights(layout, method),
-            "occluders": soft_methods.occluders(layout, "mine", method),
-            "lpips_json": layout.paths.lpips,
-        },
+        stage,
+        input=evaluations.evaluated_files(*job) | {"lpips_json": layout.paths.lpips},
         output={"metrics_csv": files["csv"], "answers_npz": files["npz"]},
-        wildcards={"method": method, "frame_set": "mine"},
+        params={"settings": evaluations.evaluated_settings(*job)},
+        wildcards={"method": method, "frame_set": "mine", "group": ALL},
     )
 
 
 def test_a_table(layout):
-    for method in soft_methods.methods(layout, "soft_mine"):
+    for method in tables.methods(layout, "soft_mine"):
         evaluate(layout, method)
-    (widths,) = soft_methods.widths(layout, "mine")
-    parts = soft_methods.tests(layout, "mine")
-    called(measure_widths, input={"parts": parts}, output={"widths_json": widths})
+    (widths,) = tables.widths(layout, "mine")
+    parts = frame_sets.tests(layout, "mine")
+    called(
+        measure_frames,
+        input={"parts": parts, "meshes": []},
+        output={"output": widths},
+        wildcards={"measure": "widths.json"},
+    )
     table = called(
-        make_table,
+        whole_table(make_table),
         input=kinds.table_files(layout, "soft_mine"),
         params={"settings": kinds.params(layout, "tables", "soft_mine")},
     )
@@ -111,25 +104,9 @@ def test_a_table(layout):
     assert "| Base: hard" in text and "2 frames of 16 × 12 in 1 scenes" in text
 
 
-@pytest.mark.parametrize(
-    ("stem", "spoil", "told"),
-    [
-        (
-            "buffers",
-            lambda array: array[..., :-1],
-            r"test_000.buffers.npy: is float16 .* not float16",
-        ),
-        (
-            "targets",
-            lambda array: np.where(array == 0, np.nan, array),
-            "targets of frame 0 has NaN",
-        ),
-        ("targets", lambda array: 2 * array, r"targets of frame 0 leave \[0, 1\]"),
-    ],
-)
-def test_nothing_is_written_of_damaged_ones(layout, engine, stem, spoil, told):
-    path = engine / f"test_000.{stem}.npy"
-    np.save(path, spoil(np.load(path)).astype(np.float16))
-    with pytest.raises(InputError, match=told):
+def test_nothing_is_written_of_damaged_ones(layout, engine):
+    path = engine / "test_000.targets.npy"
+    np.save(path, 2 * np.load(path))
+    with pytest.raises(InputError, match=r"targets of frame 0 leave \[0, 1\]"):
         evaluate(layout, "base_hard")
-    assert not [*Path("results/soft_evaluations").glob("**/*.*")]
+    assert not [*Path("results/evaluations").glob("**/*.*")]

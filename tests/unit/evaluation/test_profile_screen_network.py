@@ -1,15 +1,15 @@
 """A profile times every part of a network once a frame, whatever its form."""
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
 import torch
+from built_networks import make_screen_network
 
 from neural_shadows.evaluation import profile_screen_network as stage
-from neural_shadows.networks.screen_space.screen_networks import make_screen_network
+from neural_shadows.networks.settings.networks import screen_network
 
 KERNELS = {"form": "kernels", "widths": [4, 8], "features": ["cosine", "base_msm"], "filters": 2}
 FORMS = [
@@ -22,11 +22,12 @@ FORMS = [
 ]
 
 
-def profiled(folder: Path, network: Mapping[str, Any]) -> dict[str, Any]:
+def profiled(folder: Path, network: dict[str, Any]) -> dict[str, Any]:
     """What the stage writes of a network in a frame of 16 × 8 pixels."""
     path = folder / "profile.json"
     profile = {"width": 16, "height": 8, "repeats": 3, "product_size": 10}
-    stage.profile_screen_network(path, network=network, profile=profile, device="cpu", threads=1)
+    settings = screen_network(network)
+    stage.profile_screen_network(path, network=settings, profile=profile, device="cpu", threads=1)
     return json.loads(path.read_text())
 
 

@@ -6,10 +6,9 @@ from evaluated import FRAMES, make_evaluated
 from shapes import bumpy_sphere, scene_of
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.answers import Answers
-from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.evaluation.answers import read_counts, read_view
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.references import References, write_references
-from neural_shadows.evaluation.visibilities import read_visibility
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints
@@ -46,9 +45,9 @@ def test_a_batch_holds_the_views_of_each_set(tmp_path, reference):
     "read",
     [
         References,
-        Answers,
-        lambda path: read_metrics([path]),
-        lambda path: read_visibility(path, 0, None),
+        read_counts,
+        lambda path: read_view_metrics([path]),
+        lambda path: read_view(path, 0, None),
     ],
 )
 def test_a_damaged_file_is_named(tmp_path, read):

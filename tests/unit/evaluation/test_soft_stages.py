@@ -6,72 +6,60 @@ import time
 import numpy as np
 import pytest
 import torch
+from opened import evaluate_frames, frame_method, settings_of
+from rendered_frames import FRAMES, render_part
 from threadpoolctl import threadpool_info
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation import time_soft_methods as timing
-from neural_shadows.evaluation.evaluate_soft import evaluate_soft
+from neural_shadows.evaluation import time_frames as timing
+from neural_shadows.evaluation.answers import read_answer
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.soft_answers import read_answer
-from neural_shadows.evaluation.soft_method import SoftMethod
-from neural_shadows.evaluation.soft_metrics import read_soft_metrics
-from neural_shadows.evaluation.soft_registry import is_tuned, soft_method
-from neural_shadows.evaluation.time_soft_methods import medians, time_soft_methods
-from neural_shadows.evaluation.tune_soft_method import tune_soft_method
-from neural_shadows.frames.render_frames import render_frames
+from neural_shadows.evaluation.method import Method
+from neural_shadows.evaluation.metric_files import read_metrics
+from neural_shadows.evaluation.registry import is_tuned
+from neural_shadows.evaluation.time_frames import medians
+from neural_shadows.evaluation.time_methods import time_methods
+from neural_shadows.evaluation.tune import tune as tune_stage
 from neural_shadows.reports.data.soft_costs import describe_times
 
-RADII = [0, 0.1, 0.25]
-FRAMES = {
-    **{"width": 48, "height": 24, "fov": 55, "of": None, "blur": 0.0},
-    "light_map": {"kind": "perspective", "fov": 120, "resolution": 64},
-    **{"radii": RADII, "radius_unit": "metres"},
-    "twins": {"count": 0, "light": 0.0, "eye": 0.0, "turn_deg": 0.0},
-}
-SCENE = {"generate": "blinds", "seed": 3, "inserted": {}}
-NO_LPIPS = {"available": False}
+RADII = FRAMES["radii"]
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """Parts of two uses and of two sequences, in the folder of their scene."""
     folder = tmp_path_factory.mktemp("results") / "blinds"
-    folder.mkdir()
-    (folder / "lpips.json").write_text(json.dumps(NO_LPIPS))
-    told = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": FRAMES}
-    told |= {"first": 0, "last": 2, "samples": 8}
     for use in ("validation", "test", "camera", "light"):
-        stem = folder / f"{use}_000"
-        names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
-        render_frames([], *(stem.with_name(f"{stem.name}.{n}") for n in names), use=use, **told)
+        render_part(folder, use)
+    (folder / "lpips.json").write_text(json.dumps({"available": False}))
     return folder
 
 
 def tune(folder, method):
     out = folder / f"{method}.json"
-    tune_soft_method([folder / "validation_000.json"], [], out, method=method)
+    tune_stage([folder / "validation_000.json"], [], [], out, method=method)
     return json.loads(out.read_text())
 
 
 def test_the_constants_of_least_error_are_chosen(folder):
     record = tune(folder, "pcf_9")
-    method = soft_method("pcf_9")
+    method = frame_method("pcf_9")
     frames = [*measured_frames([folder / "validation_000.json"], [])]
     for k, radius in enumerate(RADII):
         errors = []
-        for constants in method.settings():
+        for constants in settings_of(method):
             pairs = [
                 (f.answered(method, radius, constants), f.target[k], f.off_edges) for f in frames
             ]
             square = sum(np.square(found - target)[valid].sum() for found, target, valid in pairs)
             errors.append(square / sum(valid.sum() for *_, valid in pairs))
         chosen = record["radii"][k]
-        assert chosen["constants"] == method.settings()[int(np.argmin(errors))]
-        assert chosen["mse"] == pytest.approx(min(errors), rel=1e-4)
+        assert chosen["constants"] == settings_of(method)[int(np.argmin(errors))]
+        assert chosen["error"] == pytest.approx(min(errors), rel=1e-4)
 
 
 def test_no_other_value_of_the_last_constant_is_better(folder):
-    method = soft_method("pcf_disc")
+    method = frame_method("pcf_disc")
     texels, biases = method.constants.values()
     (frame, *rest) = measured_frames([folder / "validation_000.json"], [])
 
@@ -84,7 +72,7 @@ def test_no_other_value_of_the_last_constant_is_better(folder):
 
     for k, found in enumerate(tune(folder, "pcf_disc")["radii"]):
         chosen = found["constants"]
-        assert found["mse"] == pytest.approx(
+        assert found["error"] == pytest.approx(
             min(mse(k, chosen | {"bias": bias}) for bias in biases), rel=1e-4
         )
         # and of the first none is, at the bias in the middle
@@ -97,19 +85,15 @@ def evaluate(folder, method):
     target.mkdir(exist_ok=True)
     if is_tuned(method):
         tune(folder, method)
-    evaluate_soft(
+    evaluate_frames(
         [folder / "test_000.json"],
-        [folder / "camera_000.json", folder / "light_000.json"],
-        [],
-        folder / f"{method}.json" if is_tuned(method) else None,
-        [],
         folder / "lpips.json",
-        target / f"{method}.csv",
-        target / f"{method}.npz",
+        (target / f"{method}.csv", target / f"{method}.npz"),
+        sequences=[folder / "camera_000.json", folder / "light_000.json"],
+        constants=folder / f"{method}.json" if is_tuned(method) else None,
         method=method,
-        occluders=[],
     )
-    return read_soft_metrics([target / f"{method}.csv"])
+    return read_metrics([target / f"{method}.csv"])
 
 
 def means(table):
@@ -145,7 +129,7 @@ def test_a_history_calms_what_few_rays_do(folder):
 def test_answers_are_kept(folder):
     evaluate(folder, "hard")
     (measured, _) = measured_frames([folder / "test_000.json"], [])
-    found = measured.answered(soft_method("hard"), 0.1, {})
+    found = measured.answered(frame_method("hard"), 0.1, {})
     kept = read_answer(folder / "frames/hard.npz", "blinds.test_000.1")
     assert np.array_equal(kept, found)
     with pytest.raises(InputError, match="hard.npz: damaged"):
@@ -157,8 +141,9 @@ def test_times(folder):
     tune(folder, "msm_3")
     tune(folder, "pcss_2048")
     out = folder / "times.json"
-    time_soft_methods(
+    time_methods(
         [folder / "test_000.json"],
+        [],
         [folder / "msm_3.json", folder / "pcss_2048.json"],
         [],
         [],
@@ -186,13 +171,13 @@ def test_all_is_timed_on_the_one_thread_that_tables_name(folder, monkeypatch):
         seen.append(pools | {torch.get_num_threads()})
         return np.ones(len(frame.from_light), np.float32)
 
-    recording = SoftMethod(answer)
-    monkeypatch.setattr(timing, "soft_method", lambda name, weights: recording)
+    recording = Method(answer)
+    monkeypatch.setattr(timing, "open_methods", lambda name, inputs: lambda scene: recording)
     before, out = torch.get_num_threads(), folder / "threads.json"
     torch.set_num_threads(2)
     try:
         parts = [folder / "test_000.json"]
-        time_soft_methods(parts, [], [], [], out, methods={"mine": None}, repeats=1)
+        time_methods(parts, [], [], [], [], out, methods={"mine": None}, repeats=1)
         assert torch.get_num_threads() == 2
     finally:
         torch.set_num_threads(before)
@@ -202,16 +187,10 @@ def test_all_is_timed_on_the_one_thread_that_tables_name(folder, monkeypatch):
 
 def test_a_window_bears_its_share_of_the_map(tmp_path):
     """A quarter of the frame's width and half of its height."""
-    stem = tmp_path / "blinds" / "test_000"
-    stem.parent.mkdir()
-    names = ("json", "buffers.npy", "targets.npy", "valid.npy", "edges.npy")
-    parts = [stem.with_name(f"{stem.name}.{n}") for n in names]
-    told = FRAMES | {"of": [192, 48], "light_map": {"kind": "cube", "resolution": 64}}
-    few = {"scene": SCENE, "name": "blinds", "seed": 3, "frames": told}
-    few |= {"first": 0, "last": 1, "samples": 1}
-    render_frames([], *parts, use="test", **few)
+    window = {"of": [192, 48], "light_map": {"kind": "cube", "resolution": 64}}
+    part = render_part(tmp_path / "blinds", "test", window, last=1, samples=1)
     out = tmp_path / "times.json"
-    time_soft_methods(parts[:1], [], [], [], out, methods={"hard": None}, repeats=1)
+    time_methods([part], [], [], [], [], out, methods={"hard": None}, repeats=1)
     times = json.loads(out.read_text())
     assert times["map_share"] == 1 / 8 and times["maps"]["64"]["ms"] > 0
     assert "12.5% of a whole frame's" in describe_times(times)[0]
@@ -239,7 +218,7 @@ def test_of_frames_without_a_scene_the_buffers_can_be_measured(folder, tmp_path)
         (tmp_path / name).symlink_to(folder / name)
     own = next(measured_frames([tmp_path / "test_000.json"], []))
     ours = next(measured_frames([folder / "test_000.json"], []))
-    held, asked = own.answered(soft_method("base_hard"), 0.1, {}), soft_method("hard")
+    held, asked = own.answered(frame_method("base_hard"), 0.1, {}), frame_method("hard")
     assert np.mean(held != ours.answered(asked, 0.1, {})) < 0.01
     with pytest.raises(InputError, match=r"has no 'scene' to look at\. .* base_hard, base_pcf"):
         own.answered(asked, 0.1, {})

@@ -7,7 +7,7 @@ import trimesh
 from evaluated import make_evaluated
 
 from neural_shadows.evaluation import query_network as stage
-from neural_shadows.evaluation.answers import Answers
+from neural_shadows.evaluation.answers import read_counts, read_view
 from neural_shadows.evaluation.query_network import query_network
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.violations import Violations, count_violations
@@ -52,9 +52,9 @@ def test_a_ball_that_is_short_or_far_breaks_the_bound_on_that_side(
     monkeypatch.setattr(stage, "open_network", lambda *_: (Ball(share), torch.float32))
     path, asked = tmp_path / "answers.npz", {"method": "ball", "violations": True}
     query_network(files.references, tmp_path / "w", None, files.mesh_ply, path, **asked)
-    answers, shown_anywhere = Answers(path), np.zeros(2)
+    counts, shown_anywhere = read_counts(path), np.zeros(2)
     for number, (frame, truth) in enumerate(References(files.references)):
-        found, visibility = answers.violations(number), answers.visibility(number, frame)
+        found, visibility = Violations(*counts[number]), read_view(path, number, frame)
         # The line of a point meets the ball if it passes its centre within the radius.
         light = frame.view.light
         across = np.linalg.norm(frame.p - np.outer(frame.p @ light, light), axis=1)

@@ -1,96 +1,93 @@
-"""Stage: one method against the reference, by view [4.1]."""
+"""Stage: one method on test frames, against the reference [4.1]."""
 
-from collections.abc import Callable, Mapping
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.answers import Answers
-from neural_shadows.evaluation.method_names import unbiased
-from neural_shadows.evaluation.per_view_metrics import write_metrics
-from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import classic_method
-from neural_shadows.evaluation.visibilities import write_visibilities
-from neural_shadows.files.whole_files import read_json
-from neural_shadows.metrics.available_lpips import lpips_metric
-from neural_shadows.metrics.flip import flip
-from neural_shadows.metrics.psnr_ssim import psnr, ssim
-from neural_shadows.metrics.shadow_error import shadow_error
-from neural_shadows.rendering.gbuffer import GBuffer
-from neural_shadows.rendering.shading import shade
+from neural_shadows.evaluation.answers import write_answers
+from neural_shadows.evaluation.frame import (
+    KIND,
+    METRICS,
+    Inputs,
+    are_views,
+    constants_of,
+    module_of,
+)
+from neural_shadows.evaluation.metric_files import write_metrics
+from neural_shadows.metrics.registry import image_metrics
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
-from neural_shadows.scenes.scene import open_scene
-
-# Of a frame by its number in the batch: its visibility (n,), and further counts.
-Answer = Callable[[int, GBuffer], tuple[np.ndarray, Mapping[str, float]]]
+from neural_shadows.settings.records import SceneSettings
 
 
 def evaluate(
-    references: Path,
+    frames: list[Path],
+    sequences: list[Path],
+    meshes: list[Path],
+    weights: list[Path],
     answers: Path | None,
-    mesh_ply: Path | None,
-    depth_bias_json: Path | None,
+    constants_json: Path | None,
     lpips_json: Path,
     metrics_csv: Path,
-    visibilities_npz: Path,
+    answers_npz: Path,
     *,
+    occluders: Path | None = None,
+    fields: list[Path] = (),
     method: str,
-    scene: Mapping[str, Any],
+    scene: SceneSettings | None = None,
+    precision: str = "auto",
+    by_scene: bool = False,
     threads: int = 1,
 ) -> None:
-    """Shade and measure the batch's frames by one method.
+    """Measure a method on frames, and its flicker over sequences.
 
-    Writes tidy metrics (a row per view and metric), with the numbers of `Violations` where they
-    are counted; and the method's visibilities, see `write_visibilities`, to draw any frame.
+    Writes metrics, see `write_metrics`, and visibilities, see `write_answers`.
 
     Args:
-        references: of `render_references`.
-        answers: of `query_network`; None for a method without a network.
-        mesh_ply: prepared, for such a method.
-        depth_bias_json: of `find_depth_bias`, for a method with a bias.
+        frames: test frames. sequences, meshes, weights, fields, occluders, scene, precision,
+            by_scene: see `Inputs`.
+        answers: of `query_network`, for a network on views, in place of weights and meshes.
+        constants_json: of `tune`; None for a method without constants.
         lpips_json: of `find_lpips`; LPIPS is left out where it is not available.
         method: the method's key.
-        scene: `up`, `ground` and `light`, see `open_scene`.
 
     Raises:
         InputError: an input file cannot be read.
     """
-    if answers:
-        answer = _of_network(Answers(answers))
-    else:
-        bias = read_json(depth_bias_json)["depth_bias"] if depth_bias_json else 0.0
-        answer = _of_classic(unbiased(method), mesh_ply, scene, bias)
-    metrics = {"psnr": psnr, "ssim": ssim, "flip": flip} | lpips_metric(lpips_json, threads)
-    batch = References(references)
+    settings = {"scene": scene, "precision": precision, "threads": threads, "by_scene": by_scene}
+    beside = {"answers": answers, "fields": fields, "occluders": occluders}
+    inputs = Inputs(frames, meshes, weights, sequences, **beside, **settings)
+    kind, measures = (module_of(names, are_views(frames)) for names in (KIND, METRICS))
+    method_of = kind.open_methods(method, inputs)
+    constants = constants_of(constants_json, kind.count_radii(frames[0]))
+    images = image_metrics(measures.LIGHT, lpips_json, threads)
+
     rows: list[dict[str, Any]] = []
-    lit: list[np.ndarray] = []
-    with progress_bar(len(batch), "views", f"evaluate {method}") as bar:
-        for number, (frame, truth) in enumerate(batch):
-            visibility, counted = answer(number, frame)
-            image, reference = shade(frame, visibility), shade(frame, truth)
-            lit.append(visibility[frame.lit_side])
-            values = {name: metric(image, reference) for name, metric in metrics.items()}
-            values |= {**shadow_error(visibility, truth)._asdict(), **counted}
-            key = {"view": frame.view.index, "view_set": frame.view.view_set, "method": method}
-            rows += [key | {"metric": name, "value": value} for name, value in values.items()]
-            bar.update()
-    write_visibilities(visibilities_npz, lit)
+    visibilities: dict[str, np.ndarray] = {}
+    total = kind.count_frames([*frames, *sequences])
+
+    def add(key: dict[str, Any], values: dict[str, float], stored: dict[str, np.ndarray]) -> None:
+        place = key | {"method": method}
+        rows.extend(place | {"metric": name, "value": value} for name, value in values.items())
+        visibilities.update(stored)
+
+    with progress_bar(total, "frames", f"evaluate {method}") as bar:
+        for path, of_file in groupby(kind.open_frames(inputs), lambda frame: frame.path):
+            scene_method = method_of(path.parent.name)
+            if scene_method is None:
+                bar.update(sum(1 for _ in of_file))
+            elif path in sequences:
+                add(*measures.flicker(of_file, scene_method, constants, bar.update))
+            else:
+                for frame in of_file:
+                    for k, shares in enumerate(frame.visibilities(scene_method, constants)):
+                        values = measures.metrics(frame, shares, k, images)
+                        add(frame.key(k), values, frame.stored(shares, k))
+                    bar.update()
     write_metrics(metrics_csv, rows)
-
-
-def _of_network(answers: Answers) -> Answer:
-    def answer(number: int, frame: GBuffer) -> tuple[np.ndarray, Mapping[str, float]]:
-        counted = answers.violations(number)
-        return answers.visibility(number, frame), counted._asdict() if counted else {}
-
-    return answer
-
-
-def _of_classic(method: str, mesh_ply: Path, scene: Mapping[str, Any], bias: float) -> Answer:
-    shadow_method = classic_method(method, open_scene(mesh_ply, **scene))
-    return lambda number, frame: (shadow_method(frame)(bias), {})
+    write_answers(answers_npz, visibilities)
 
 
 if "snakemake" in globals():

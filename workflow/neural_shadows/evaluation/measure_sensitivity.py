@@ -10,7 +10,6 @@ from neural_shadows.files.whole_files import write_json
 from neural_shadows.frames.feature_names import FEATURES
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
-from neural_shadows.frames.light_size import light_size
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
@@ -83,11 +82,13 @@ def _features(
     opened = [FrameSetPart(path) for path in parts]
     numbered = [(part, number) for part in opened for number in range(len(part))]
     for part, number in numbered[:: max(1, len(numbered) // count)][:count]:
-        about, lens = part.about, part.lens(number)
-        buffers = {name: part.image(number, name) for name in about["channels"]}
+        lens = part.lens(number)
+        buffers = {name: part.image(number, name) for name in part.about["channels"]}
         for radius in part.radii:
-            light = light_size(radius, max(part.radii), about["size"])
-            yield named_features(names, buffers, lens, light), part.valid[number, 0]
+            yield (
+                named_features(names, buffers, lens, part.light_size(radius)),
+                part.valid[number, 0],
+            )
 
 
 def _evaluated(network: torch.nn.Module, features: np.ndarray) -> np.ndarray:

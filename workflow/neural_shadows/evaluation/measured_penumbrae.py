@@ -33,7 +33,7 @@ def widths(measured: MeasuredFrame, k: int) -> np.ndarray:
     rows_columns = np.divmod(surface.pixel[selected], surface.width)
     measured_across = measured_widths(target, same_surface, np.array(rows_columns))
     radius, focal = measured.part.radii[k], surface.camera.focal(surface.height)
-    pixels = model_widths(frame.scene, surface, frame.centre, radius, focal, selected)
+    pixels = model_widths(frame.scene, surface, frame.centre, radius, focal, selected, frame.shape)
     return np.stack([measured_across, pixels])[:, (measured_across > 0) & (pixels >= NARROWEST)]
 
 

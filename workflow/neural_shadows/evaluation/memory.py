@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from neural_shadows.evaluation.method_names import METHODS, family_and_size
+from neural_shadows.evaluation.registry import METHODS, family_and_size
 
 
 def network_bytes(weights: Path) -> int:

@@ -17,6 +17,7 @@ from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
 from neural_shadows.networks.screen_space.widths import by_level
+from neural_shadows.networks.settings.networks import ScreenNetwork as Settings
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
@@ -32,7 +33,7 @@ LevelPart = tuple[int, str]  # a level and a part of `ScreenNetwork.parts`
 def profile_screen_network(
     profile_json: Path,
     *,
-    network: Mapping[str, Any],
+    network: Settings,
     profile: Mapping[str, int],
     device: str,
     threads: int,
@@ -70,7 +71,7 @@ def profile_screen_network(
     write_json(
         profile_json,
         {
-            "network": network,
+            "network": network.model_dump(),
             **profile,
             "warm_up": WARM_UP,
             "levels": _counts(network),
@@ -80,7 +81,7 @@ def profile_screen_network(
     )
 
 
-def _counts(network: Mapping[str, Any]) -> list[dict[str, float]]:
+def _counts(network: Settings) -> list[dict[str, float]]:
     layers = layers_of(network)
     counts = {name: by_level(layers, name) for name in ("weights", "macs", "storage")}
     levels = counts["weights"]

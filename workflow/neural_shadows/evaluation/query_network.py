@@ -1,4 +1,4 @@
-"""Stage: a network's lit points on a batch of frames.
+"""Stage: a network's visibility of a batch of views.
 
 Separate from `evaluate`, so that metrics, most of the time and on a CPU, hold no GPU.
 """
@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.evaluation.answers import write_answers
+from neural_shadows.evaluation.ray_network import open_network, take_constants
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.shadow_methods import open_network, take_found
 from neural_shadows.evaluation.violations import Violations, count_violations
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
@@ -23,7 +23,7 @@ from neural_shadows.scenes.tracing import Tracer
 def query_network(
     references: Path,
     weights: Path,
-    depth_bias_json: Path | None,
+    constants_json: Path | None,
     mesh_ply: Path,
     answers: Path,
     *,
@@ -34,13 +34,13 @@ def query_network(
     precision: str = "auto",
     threads: int = 1,
 ) -> None:
-    """Write a network's lit points; on request, violations of its depths.
+    """Write a network's visibilities; on request, violations of its depths.
 
     Args:
         references: of `render_references`.
-        depth_bias_json: of `find_depth_bias`, where `bias` is `held_out`.
+        constants_json: of `tune`, where `bias` is `held_out`.
         mesh_ply: prepared, for the labels.
-        answers: see `Answers`.
+        answers: see `write_answers`.
         method: the network's name.
         bias: of the depth test, in sphere radii, or `held_out`.
         violations: count `Violations` too, which takes a CPU two more rays for each point.
@@ -49,7 +49,7 @@ def query_network(
         InputError: an input file cannot be read.
     """
     network, dtype = open_network(weights, device, threads, precision)
-    depth_bias = take_found(network, depth_bias_json) if depth_bias_json else bias or 0.0
+    depth_bias = take_constants(network, constants_json) if constants_json else bias or 0.0
     tracer = None
     if violations:
         mesh = read_prepared(mesh_ply)
@@ -72,7 +72,8 @@ def query_network(
                 true = truth[frame.lit_side][index]
                 counted.append(count_violations(t, *bounds, lit_points[-1][index], true))
             bar.update()
-    write_answers(answers, lit_points, counted)
+    named = {str(number): points for number, points in enumerate(lit_points)}
+    write_answers(answers, named, np.array(counted, np.int64) if tracer else None)
 
 
 if "snakemake" in globals():

@@ -1,27 +1,24 @@
 """Stage: reference frames of a batch of viewpoints [4.1]."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from neural_shadows.evaluation.method_names import REFERENCES
 from neural_shadows.evaluation.references import write_references
-from neural_shadows.evaluation.shadow_methods import classic_method
+from neural_shadows.evaluation.registry import REFERENCES, classic_method
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
-from neural_shadows.settings.records import ViewSettings
+from neural_shadows.settings.records import SceneSettings, ViewSettings
 
 
 def render_references(
     mesh_ply: Path,
     references: Path,
     *,
-    scene: Mapping[str, Any],
+    scene: SceneSettings,
     frames: ViewSettings,
     first: int,
     last: int,

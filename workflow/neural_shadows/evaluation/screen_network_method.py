@@ -7,9 +7,10 @@ import numpy as np
 import torch
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.soft_method import SoftMethod
+from neural_shadows.evaluation.method import Method
 from neural_shadows.frames.buffers import LIT, channel_images
-from neural_shadows.frames.features import buffers_of, named_features
+from neural_shadows.frames.feature_names import buffers_of
+from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import LightSize, light_size
 from neural_shadows.frames.soft_frame import SoftFrame
@@ -17,11 +18,12 @@ from neural_shadows.networks.compute import choose_dtype, is_native
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.networks.weight_file import load_tensors
 from neural_shadows.rendering.gbuffer import Lens, lens_of
+from neural_shadows.rendering.light_shape import LightShape, light_shape
 
 _CPU = torch.device("cpu")  # device of all methods for soft shadows
 
 
-def screen_method(weights: Path, precision: str = "auto") -> SoftMethod:
+def screen_method(weights: Path, precision: str = "auto") -> Method:
     """The method of a file of weights, in a number format. See `choose_dtype`.
 
     Raises:
@@ -50,13 +52,14 @@ class _OpenedNetwork:
     def __init__(self, weights: Path, precision: str):
         self._weights = weights
         network, self._header = load_screen_network(weights)
+        self._shape = light_shape(self._header.get("light"))
         self._network = network.for_inference().in_format(choose_dtype(precision, _CPU))
 
-    def method(self) -> SoftMethod:
+    def method(self) -> Method:
         bytes_held = 2 * sum(
             weight.numel() for weight in self._network.parameters()
         )  # 16 bits each
-        return SoftMethod(
+        return Method(
             self._of_frame,
             of_buffers=self._of_buffers,
             check_own=self._check_own,
@@ -64,9 +67,14 @@ class _OpenedNetwork:
         )
 
     def _of_buffers(
-        self, buffers: Mapping[str, np.ndarray], lens: Lens, radius: float, size: float
+        self,
+        buffers: Mapping[str, np.ndarray],
+        lens: Lens,
+        radius: float,
+        size: float,
+        shape: LightShape,
     ) -> np.ndarray:
-        light = self._light(radius, size)
+        light = self._light(radius, size, shape)
         features = named_features(self._network.features, buffers, lens, light)
         planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
         with torch.inference_mode():
@@ -101,17 +109,18 @@ class _OpenedNetwork:
         surface = frame.surface
         buffers = channel_images(buffers_of(self._network.features), frame)
         lens = lens_of(surface.camera, surface.width, surface.height)
-        return self._of_buffers(buffers, lens, radius, frame.scene.size).ravel()[surface.pixel]
+        visible = self._of_buffers(buffers, lens, radius, frame.scene.size, frame.shape)
+        return visible.ravel()[surface.pixel]
 
-    def _light(self, radius: float, size: float) -> LightSize:
+    def _light(self, radius: float, size: float, shape: LightShape) -> LightSize:
         """The light's size as input: step 4 at the largest trained."""
-        of_size = self._header["radius_unit"] == "scene_sizes"
-        unit, name = (size, "scene sizes") if of_size else (1.0, "m")
-        largest = unit * max(self._header["radii"])
+        unit, trained_on = self._header["radius_unit"], max(self._header["radii"])
+        largest = self._shape.radius_of(trained_on, unit, size)
         if radius > largest * (1 + 1e-6):
+            given = radius / self._shape.radius_of(1.0, unit, size)
             raise InputError(
-                f"{self._weights}: was trained on lights of up to {largest / unit:g} {name}, and is "
-                f"asked about one of {radius / unit:g} {name}. Train it on a frame set with such "
-                "a light in `radii`."
+                f"{self._weights}: trained on lights of up to {trained_on:g} {unit.replace('_', ' ')}, "
+                f"and these frames have one of {given:g}. Train it on a frame set with such a light in "
+                "`radii`."
             )
-        return light_size(radius, largest, size)
+        return light_size(radius, largest, size, shape.AWAY)

@@ -90,29 +90,26 @@ def denoised_sequence(
         yield temporal.next_frame(*pictures, surface, points).ravel()[surface.pixel]
 
 
-# One of a kind is cached: 50 MB for a million pixels, and the frames of a set have one size.
-_svgf_filter, _ffx_filter, _sigma_filter, _sigma_ffx_filter = (
-    lru_cache(maxsize=1)(kind) for kind in (SvgfFilter, FfxFilter, SigmaFilter, SigmaFfxFilter)
-)
+def _depth_and_normal(surface: Surface) -> tuple[np.ndarray, np.ndarray]:
+    return surface.depth_image(), surface.image(surface.n)
 
 
-def _svgf(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
-    filter_ = _svgf_filter(*picture.shape, **constants)
-    return svgf_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
+def _single(kind: type, like: Callable, guides: Callable = lambda surface: (surface,)) -> Callable:
+    """A `Denoiser`'s `single`; one filter of a kind is cached.
 
+    50 MB for a million pixels, and the frames of a set have one size.
 
-def _ffx(picture: np.ndarray, surface: Surface, **constants: float) -> np.ndarray:
-    filter_ = _ffx_filter(*picture.shape, **constants)
-    return ffx_like(filter_, picture, surface.depth_image(), surface.image(surface.n))
+    Args:
+        like: of the filter, the pictures and the surface's guides, the smooth picture.
+    """
+    cached = lru_cache(maxsize=1)(kind)
 
+    def single(*pictures_and_surface, **constants: float) -> np.ndarray:
+        *pictures, surface = pictures_and_surface
+        filter_ = cached(*pictures[0].shape, **constants)
+        return like(filter_, *pictures, *guides(surface))
 
-def _sigma(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
-    return sigma_like(_sigma_filter(*picture.shape, **constants), picture, penumbra, surface)
-
-
-def _sigma_ffx(picture: np.ndarray, penumbra: np.ndarray, surface: Surface, **constants: float):
-    filter_ = _sigma_ffx_filter(*picture.shape, **constants)
-    return sigma_ffx_like(filter_, picture, penumbra, surface)
+    return single
 
 
 def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
@@ -120,10 +117,12 @@ def _oidn(picture: np.ndarray, surface: Surface, *, quality: str) -> np.ndarray:
 
 
 BY_KEY = {
-    "svgf": Denoiser(_svgf, TemporalFilter),
-    "ffx": Denoiser(_ffx, TemporalFfx),
-    "sigma": Denoiser(_sigma, TemporalSigma, distances=True),
-    "sigma_ffx": Denoiser(_sigma_ffx, TemporalSigmaFfx, distances=True),
+    "svgf": Denoiser(_single(SvgfFilter, svgf_like, _depth_and_normal), TemporalFilter),
+    "ffx": Denoiser(_single(FfxFilter, ffx_like, _depth_and_normal), TemporalFfx),
+    "sigma": Denoiser(_single(SigmaFilter, sigma_like), TemporalSigma, distances=True),
+    "sigma_ffx": Denoiser(
+        _single(SigmaFfxFilter, sigma_ffx_like), TemporalSigmaFfx, distances=True
+    ),
     "oidn_fast": Denoiser(partial(_oidn, quality="fast")),
     "oidn": Denoiser(partial(_oidn, quality="high")),
 }

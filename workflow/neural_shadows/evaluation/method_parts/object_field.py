@@ -20,7 +20,7 @@ from neural_shadows.representations.distance_bricks.field_cones import ConeField
 from neural_shadows.representations.distance_bricks.field_marching import (
     BRICK,
     SAMPLES_PER_CELL,
-    blocked_ways,
+    mark_blocked,
 )
 from neural_shadows.representations.distance_bricks.surface_fit import fitted_distances
 from neural_shadows.representations.voxels.occupancy import surface_cells
@@ -44,10 +44,10 @@ class ObjectField:
         return len(self.grid) * BRICK
 
     def block(self, points: np.ndarray, to_light: np.ndarray, blocked: np.ndarray) -> None:
-        """Mark blocked vectors (n, 3) from their points, see `blocked_ways`."""
+        """Mark blocked vectors (n, 3) from their points, see `mark_blocked`."""
         steps = SAMPLES_PER_CELL * self.resolution
         field = self.grid, self.bricks, steps, np.float32(0)
-        blocked_ways(points, to_light, self.centre, self.radius, *field, blocked)
+        mark_blocked(points, to_light, self.centre, self.radius, *field, blocked)
 
     @cached_property
     def cone_field(self) -> ConeField:

@@ -6,7 +6,6 @@ import numpy as np
 from numba import njit
 
 from neural_shadows.frames.soft_frame import SoftFrame
-from neural_shadows.rendering.light_samples import ring_vectors
 from neural_shadows.rendering.soft_shadows import PLACES
 from neural_shadows.scenes.tracing import NEARLY_ALL
 
@@ -33,8 +32,8 @@ def ray_traced(
 ) -> np.ndarray:
     """Share of a pixel's unblocked rays, (n,) float32.
 
-    On one thread. The rays of a pixel go to a low-discrepancy set of its own, on the disc that the
-    light is from there (`ring_vectors`), so that pixels' errors are independent and 0 on average.
+    On one thread. The rays of a pixel go to a low-discrepancy set of its own on the light, as of a
+    sphere on the disc that it is from there, so that pixels' errors are independent and 0 on average.
 
     Args:
         radius: of the light, in the scene's unit; 0 is a point, to which one ray goes.
@@ -95,7 +94,7 @@ def _rays(
         part = slice(begin, begin + size)
         points = starts[part]
         vectors, ray_origins = to_light[: len(points)], origins[: len(points)]
-        ring_vectors(points, keys[part], drawn, frame.centre, radii, counts, vectors)
+        frame.shape.ring_vectors(points, keys[part], drawn, frame.centre, radii, counts, vectors)
         ray_origins[:] = points[:, None]
         yield part, ray_origins, vectors
 

@@ -1,0 +1,85 @@
+"""Denoised rays beside the exact soft shadow."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plate_frames import CENTRE, RADIUS, error, plate, plate_frame, plate_truth
+
+from neural_shadows.evaluation.method import visibility
+from neural_shadows.evaluation.method_parts.denoisers import BY_KEY
+from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced, ray_traced_penumbrae
+from neural_shadows.evaluation.methods.denoised import METHODS
+
+# At least how many times less the squared error of two rays is.
+FALLS = {"svgf": 6, "ffx": 12, "sigma": 12, "sigma_ffx": 12, "oidn_fast": 15, "oidn": 15}
+
+
+@pytest.fixture(scope="module")
+def frame():
+    return plate_frame()
+
+
+def method(key, count):
+    if key.startswith("oidn"):
+        pytest.importorskip("pyoidn", reason="no pyoidn for this machine")
+    return METHODS[f"rt_{count}_{key}"]
+
+
+@pytest.mark.parametrize("key", BY_KEY)
+def test_two_rays_denoised(frame, key):
+    raw = ray_traced(frame, RADIUS, samples=2)
+    found = method(key, 2).answer(frame, RADIUS)
+    assert found.dtype == np.float32 and found.min() >= 0 and found.max() <= 1
+    assert FALLS[key] * error(found, plate_truth()) < error(raw, plate_truth())
+    # A point's shadow has no noise.
+    hard = ray_traced(frame, 0, samples=1)
+    assert np.array_equal(method(key, 2).answer(frame, 0), hard)
+
+
+@pytest.mark.parametrize("key", BY_KEY)
+def test_a_denoiser_is_the_last_step(frame, key):
+    """What faces away from the light's centre is not cut out of the picture behind it."""
+    turned = replace(frame, centre=np.array([0.0, -3.0, 0.0]))
+    assert np.all(turned.cosines <= 0)
+    smooth = method(key, 1).answer(turned, RADIUS)
+    assert np.array_equal(visibility(method(key, 1), turned, RADIUS, {}), smooth)
+    assert not ray_traced(turned, RADIUS, samples=1).any()
+    assert smooth.max() < (0.05 if key.startswith("oidn") else 1e-6)
+
+
+SEQUENCES = [key for key, denoiser in BY_KEY.items() if denoiser.temporal]
+
+
+@pytest.mark.parametrize("key", SEQUENCES)
+def test_a_sequence_gets_better(frame, key):
+    frames = (replace(frame, number=k) for k in range(12))
+    found = [*method(key, 1).sequence(frames, RADIUS)]
+    errors = [error(one, plate_truth()) for one in found]
+    assert np.abs(found[0] - method(key, 1).answer(frame, RADIUS)).max() < 1e-6
+    assert np.mean(errors[8:]) < {"svgf": 1 / 6}.get(key, 0.7) * errors[0]
+
+
+def test_quality_of_oidn_differs(frame):
+    high, fast = (method(key, 1).answer(frame, RADIUS) for key in ("oidn", "oidn_fast"))
+    assert 1e-4 < np.abs(high - fast).mean() < 0.03
+
+
+def test_rays_with_distances_see_what_others_do(frame):
+    for samples in (1, 4):
+        visible, penumbra = ray_traced_penumbrae(frame, RADIUS, samples=samples)
+        assert np.array_equal(visible, ray_traced(frame, RADIUS, samples=samples))
+        assert np.array_equal(penumbra < 0, visible == 1)
+        assert np.all(penumbra[penumbra < 0] == -1)
+
+
+def test_penumbrae_are_as_wide_as_similar_triangles_say(frame):
+    """A ball 0.8 over the ground under a light at a height of 3."""
+    _, penumbra = ray_traced_penumbrae(frame, RADIUS, samples=16)
+    blockers = plate().joined.vertices[:, 1]
+    low, high = blockers[blockers > 0.1].min(), blockers.max()
+    met = penumbra[penumbra >= 0]
+    height = CENTRE[1]
+    assert len(met) > 100
+    assert RADIUS * low / (height - low) < met.min() * 1.01
+    assert met.max() * 0.99 < RADIUS * high / (height - high)

@@ -1,0 +1,32 @@
+import pytest
+
+from neural_shadows.evaluation import registry as names
+
+
+@pytest.mark.parametrize(
+    ("method", "module"),
+    [
+        *((f"shadow_map_{kind}", "shadow_map") for kind in ("2", "16bit_2048", "pcf_16bit_32768")),
+        *(("no_shadow", "null"), ("all_dark", "null")),
+    ],
+)
+def test_methods_that_need_no_network(method, module):
+    assert names.is_classic(method) and names.method_of(method).label
+    (path,) = names.method_modules([method, names.biased_key(method)])
+    assert path.stem == module
+
+
+@pytest.mark.parametrize(
+    "method",
+    ["dragon", "ray_traced", "shadow_map", "shadow_map_16bit", "shadow_map_1", "shadow_map_32769"]
+    + ["shadow_map_pcf_", "shadow_map_8bit_512", "shadow_map_-4", "shadow_map_512_biased"],
+)
+def test_others(method):
+    assert not names.is_classic(method)
+    assert names.is_network(method) == (names.method_modules([method]) == set())
+
+
+@pytest.mark.parametrize("method", ["dragon", "shadow_map_pcf_512"])
+def test_a_bias_comes_off_a_key_again(method):
+    biased = names.biased_key(method)
+    assert biased != method == names.unbiased(biased) == names.unbiased(method)

@@ -1,0 +1,112 @@
+"""A method's flicker over a sequence of frames."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from neural_shadows.evaluation.answers import flicker_name
+from neural_shadows.evaluation.measured_frames import MeasuredFrame
+from neural_shadows.evaluation.method import Constants, Method
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.metrics.registry import measure
+from neural_shadows.rendering.reprojection import looked_up, seen_before
+
+
+def flicker(
+    frames: Iterable[MeasuredFrame],
+    method: Method,
+    constants: Sequence[Constants],
+    advance: Callable[[], Any],
+) -> tuple[dict[str, str | int], dict[str, float], dict[str, np.ndarray]]:
+    """Instability over a sequence, of the middle radius.
+
+    Of the method, the exact shadow, and the method's frames each averaged with the one before
+    (`_taa`); with squared errors. One frame of history is what Datta et al. 2022 (4) compare with.
+    Returns: the columns of the metrics, the metrics by name, and mean changes of each pixel,
+        (height, width), by name, see `answers`.
+    """
+    changes: dict[str, list[np.ndarray]] = {"": [], "_reference": [], "_taa": []}
+    errors: dict[str, list[float]] = {"_sequence": [], "_taa": []}
+    images = _answered(frames, method, constants)
+    before, last, _ = next(images)
+    averaged = last
+    sums = {name: np.zeros(last.size, np.float32) for name in changes}
+    advance()
+    part, k = before.part, before.middle
+    key = before.key(k) | {"frame": 0}
+    for now, visibility, (accepted, pixels_before) in images:
+        pixel, pixels_before = now.frame.surface.pixel[accepted], pixels_before[:, accepted]
+        target, valid = now.target[k], now.valid
+        blended = visibility.copy()
+        blended.ravel()[pixel] += (looked_up(last, pixels_before) - blended.ravel()[pixel]) / 2
+        for name, old, new in (
+            ("", last, visibility),
+            ("_reference", before.target[k], target),
+            ("_taa", averaged, blended),
+        ):
+            changes[name].append(new.ravel()[pixel] - looked_up(old, pixels_before))
+            sums[name][pixel] += np.abs(changes[name][-1])
+        for name, image in (("_sequence", visibility), ("_taa", blended)):
+            errors[name].append(float(np.square(image - target)[valid].mean()))
+        before, last, averaged = now, visibility, blended
+        advance()
+    pixels = part.about["width"] * part.about["height"]
+    values = {f"mse{name}": float(np.mean(each)) for name, each in errors.items()}
+    for name, each in changes.items():
+        changed = measure("of_changes", "soft", each, pixels)
+        values |= {f"{metric}{name}": value for metric, value in changed.items()}
+    count = len(errors["_sequence"])
+    maps = {name: (total / count).reshape(last.shape) for name, total in sums.items()}
+    path = part.frames_json
+    named = {flicker_name(path): maps[""], flicker_name(path, True): maps["_reference"]}
+    return key, values, named
+
+
+Seen = tuple[np.ndarray, np.ndarray]
+
+
+def _answered(
+    frames: Iterable[MeasuredFrame], method: Method, constants: Sequence[Constants]
+) -> Iterator[tuple[MeasuredFrame, np.ndarray, Seen | None]]:
+    """Each frame, the method's image, and what is still visible.
+
+    The last is None at first. A method with a history runs through all frames in turn.
+    """
+    history = None
+    points_before: list[np.ndarray | None] = []  # of the current frame
+    waiting: list[SoftFrame] = []
+    before = None
+    for now in frames:
+        k = now.middle
+        radius, chosen = now.part.radii[k], constants[k]
+        seen, points = _seen(before, now) if before else (None, None)
+        if method.sequence is None:
+            yield now, now.answered(method, radius, chosen), seen
+        else:
+            waiting.append(now.frame)
+            points_before.append(points)
+            if history is None:
+                history = method.sequence(
+                    _taken(waiting), radius, was=_taken(points_before), **chosen
+                )
+            yield now, now.frame.surface.image(next(history), 1.0), seen
+        before = now
+
+
+def _taken(waiting: list[Any]) -> Iterator[Any]:
+    """Pop items of a growing list."""
+    while waiting:
+        yield waiting.pop(0)
+
+
+def _seen(before: MeasuredFrame, now: MeasuredFrame) -> tuple[Seen, np.ndarray]:
+    """Reprojection of valid points into the previous frame.
+
+    Accepted points and their pixels there (see `seen_before`), and their previous positions (n, 3).
+    """
+    surface, scene = now.frame.surface, now.scene
+    motions = (frame.part.setting(frame.number).motion for frame in (now, before))
+    points_before = scene.before(now.frame.scene, surface.face, surface.p, *motions)
+    accepted, pixels_before = seen_before(surface, before.frame.surface, points_before)
+    return (accepted & now.valid.ravel()[surface.pixel], pixels_before), points_before

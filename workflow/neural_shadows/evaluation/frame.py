@@ -1,0 +1,124 @@
+"""Frames of either kind, for tuning and evaluation.
+
+A frame is a view of a scene in its unit sphere under a sun (`views`), or an image of a scene in metres
+under an area light of several radii (`measured_frames`). Each module has the functions of
+`FrameKind`, and the one of its metrics `metrics`, of a frame, a method's visibility, a radius by number
+and image metrics by name. None is imported by a statement, so that a result depends on its own
+kind's alone.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Protocol
+
+import numpy as np
+
+from neural_shadows.evaluation.method import Constants, Method
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.settings.records import SceneSettings
+
+# Modules of views and of frames: themselves, their metrics, their times.
+KIND = "views", "measured_frames"
+METRICS = "view_metrics", "frame_metrics"
+TIMES = "time_views", "time_frames"
+
+
+class Frame(Protocol):
+    """A frame under one light, or one of several radii."""
+
+    path: Path  # of its file
+    number: int  # in the file
+    scene_name: str
+
+    def visibilities(self, method: Method, constants: Sequence[Constants]) -> Iterator[np.ndarray]:
+        """The method's visibility by radius."""
+
+    def errors_of(
+        self, method: Method, tried: Sequence[Sequence[Constants]]
+    ) -> tuple[np.ndarray, float]:
+        """Sums of errors, and their divisor.
+
+        Sums are (radii, settings, terms) of `ERRORS`.
+
+        Args:
+            tried: the settings of each radius, equally many.
+        """
+
+    def key(self, radius: int) -> dict[str, str | int]:
+        """Columns of its metrics, see `metric_files`."""
+
+    def stored(self, visibility: np.ndarray, radius: int) -> dict[str, np.ndarray]:
+        """What is stored of a visibility, by name; see `answers`."""
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """Files and settings of frames and a method.
+
+    Args:
+        frames: `References`, or parts of a frame set. sequences: parts of consecutive frames.
+        meshes: prepared: of the scene in its sphere, or of all inserted objects, in folders of their
+            names.
+        weights: of a network, or of one for each scene.
+        answers: of `query_network`.
+        fields: of `fit_fields`, for a method that needs them.
+        occluders: of `measure_frames`, over all test frames; None for no errors by occluder.
+        scene: `up`, `ground` and `light` of a scene in its sphere, see `open_scene`.
+        device, precision: of a network, see `choose_device` and `choose_dtype`.
+        by_scene: evaluate each of the networks of `weights` on its training scenes alone.
+    """
+
+    frames: Sequence[Path]
+    meshes: Sequence[Path] = ()
+    weights: Sequence[Path] = ()
+    sequences: Sequence[Path] = ()
+    answers: Path | None = None
+    fields: Sequence[Path] = ()
+    occluders: Path | None = None
+    scene: SceneSettings | None = None
+    device: str = "auto"
+    precision: str = "auto"
+    threads: int = 1
+    by_scene: bool = False
+
+
+class FrameKind(Protocol):
+    """Module of a kind of frames."""
+
+    ERRORS: tuple[str, ...]
+    """Names of the terms of errors in tuning, whose sum is least at the best constants."""
+
+    def count_frames(self, paths: Sequence[Path]) -> int:
+        """Frames in files."""
+
+    def count_radii(self, path: Path) -> int:
+        """Radii of the light in a file."""
+
+    def open_frames(self, inputs: Inputs) -> Iterator[Frame]:
+        """Frames and sequences, in order."""
+
+    def open_methods(self, key: str, inputs: Inputs) -> Callable[[str], Method | None]:
+        """Method of a key by scene; None for no answer."""
+
+
+def module_of(names: tuple[str, str], views: bool) -> ModuleType:
+    """One of `KIND`, `METRICS` or `TIMES`."""
+    return import_module(f"{__package__}.{names[not views]}")
+
+
+def module_file(name: str) -> Path:
+    """File of a module imported by name."""
+    return Path(__file__).with_name(f"{name}.py")
+
+
+def are_views(frames: Sequence[Path]) -> bool:
+    """Check for files of views."""
+    return frames[0].suffix == ".safetensors"
+
+
+def constants_of(path: Path | None, radii: int = 1) -> list[Constants]:
+    """Constants by radius, of `tune`; empty without a path."""
+    return [each["constants"] for each in read_json(path)["radii"]] if path else [{}] * radii

@@ -1,1 +1,0 @@
-"""Families of methods for hard shadows without a network."""

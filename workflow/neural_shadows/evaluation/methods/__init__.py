@@ -1,0 +1,1 @@
+"""Families of shadow methods: `METHODS` by key, and `LOOK`."""

@@ -1,0 +1,100 @@
+"""Ray tracing with few rays a pixel, then a denoiser."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+from neural_shadows.evaluation.look import BLUE, ORANGE, PINK, SKY, YELLOW, Look
+from neural_shadows.evaluation.method import Method, rays_label
+
+
+@dataclass(frozen=True)
+class Denoiser:
+    """A denoiser of `method_parts.denoisers`, with its ray counts.
+
+    Args:
+        tried: its constants, see `Method`. history: uses previous frames of sequences.
+    """
+
+    label: str
+    look: Look
+    counts: Sequence[int] = (1, 2, 4)
+    tried: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    history: bool = True
+    package: str | None = None
+
+
+def _look(filter_: str, colour: str, marker: str, symbol: str, rays_are: str) -> Look:
+    return Look(f"rays, {filter_}", colour, marker, symbol, f"Rays, {rays_are}", joined=True)
+
+
+_OIDN = {"history": False, "package": "pyoidn"}  # x86-64 only
+_SIGMA = (0.5, 1.0, 2.0, 4.0, 8.0)
+DENOISERS = {
+    "svgf": Denoiser(
+        "SVGF-like",
+        _look("SVGF-like filter", PINK, "v", "▼", "smoothed within surfaces."),
+        (1, 2, 4, 16, 30),
+        {"sigma_luminance": (1.0, 2.0, 4.0, 8.0, 16.0)},
+    ),
+    "ffx": Denoiser(
+        "FFX-like",
+        _look("FFX-like filter", SKY, ">", "►", "smoothed within surfaces by the fewest taps."),
+        tried={"sigma": (*_SIGMA, 16.0)},
+    ),
+    "sigma": Denoiser(
+        "SIGMA-like",
+        _look("SIGMA-like filter", BLUE, "d", "♦", "blurred by the distances to occluders."),
+        tried={"reach": (0.12, 0.25, 0.5, 0.7, 1.0, 1.4, 2.0)},
+    ),
+    "sigma_ffx": Denoiser(
+        "SIGMA- and FFX-like",
+        _look(
+            "SIGMA- and FFX-like filters",
+            YELLOW,
+            "H",
+            "⬣",
+            "blurred by distances, then smoothed within surfaces.",
+        ),
+        tried={"reach": (0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0), "sigma": _SIGMA},
+    ),
+    "oidn_fast": Denoiser(
+        "OIDN fast",
+        _look("Open Image Denoise fast", ORANGE, "x", "✖", "denoised by a smaller network."),
+        **_OIDN,
+    ),
+    "oidn": Denoiser(
+        "OIDN",
+        _look("Open Image Denoise", ORANGE, "X", "✕", "denoised by a network."),
+        (1, 2, 4, 16, 30),
+        **_OIDN,
+    ),
+}
+
+
+def _visibility(*of_frame, **settings):
+    from neural_shadows.evaluation.method_parts.denoisers import denoised
+
+    return denoised(*of_frame, **settings)
+
+
+def _sequence(*of_frames, **settings):
+    from neural_shadows.evaluation.method_parts.denoisers import denoised_sequence
+
+    return denoised_sequence(*of_frames, **settings)
+
+
+METHODS = {
+    f"rt_{count}_{key}": Method(
+        partial(_visibility, samples=count, denoiser=key),
+        denoiser.tried,
+        f"{rays_label(count)}, {denoiser.label}",
+        package=denoiser.package,
+        look=denoiser.look,
+        sequence=partial(_sequence, samples=count, denoiser=key) if denoiser.history else None,
+        texel_floats=0,
+        by_rays=True,
+    )
+    for key, denoiser in DENOISERS.items()
+    for count in denoiser.counts
+}

@@ -1,0 +1,58 @@
+"""Percentage-closer soft shadows: blurred by blockers' distance (Fernando 2005).
+
+With 64 samples of the search and 128 of the filter (Hu et al. 2025, 6.1). The constant `scale`
+scales the light; a point light has the four tests round each receiver.
+"""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from neural_shadows.evaluation.look import BLUE, Look
+from neural_shadows.evaluation.method import Method
+
+if TYPE_CHECKING:
+    from neural_shadows.frames.soft_frame import SoftFrame
+    from neural_shadows.rendering.surface import Surface
+
+LOOK = Look(
+    "percentage-closer soft shadows",
+    BLUE,
+    "P",
+    "✚",
+    "Searches for blockers first, and sets the filter's width by them.",
+)
+
+
+def _visibility(frame: "SoftFrame", radius: float, *, scale: float, bias: float) -> np.ndarray:
+    from neural_shadows.shadow_maps.box_filter import box_visibility
+    from neural_shadows.shadow_maps.light_filters import soft_disc_visibility
+
+    receivers = frame.from_light, frame.surface.n_g, np.float32(bias) * frame.bias
+    if radius == 0:
+        return box_visibility(frame.light_map, frame.depths, *receivers, size=1)
+    return soft_disc_visibility(
+        frame.light_map,
+        frame.depths,
+        *receivers,
+        radius=scale * radius,
+        keys=frame.surface.pixel,
+    )
+
+
+def _filtered(surface: "Surface", shares: np.ndarray) -> np.ndarray:
+    from neural_shadows.evaluation.method_parts.depth_aware_filter import depth_aware
+
+    return depth_aware(surface, shares)
+
+
+_CONSTANTS = {"scale": (0.5, 0.7, 1.0, 1.4, 2.0), "bias": (0.1, 0.3, 1.0, 3.0)}
+_PCSS = Method(_visibility, _CONSTANTS, "PCSS")
+_FINE = replace(_PCSS, label="PCSS, map of 2048²", resolution=2048)
+METHODS = {
+    "pcss": _PCSS,
+    "pcss_post": replace(_PCSS, label=f"{_PCSS.label}, depth-aware filter", last=_filtered),
+    "pcss_2048": _FINE,
+    "pcss_2048_post": replace(_FINE, label=f"{_FINE.label}, depth-aware filter", last=_filtered),
+}

@@ -1,0 +1,150 @@
+"""Times of methods on frames under an area light."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from neural_shadows.evaluation.frame import Inputs
+from neural_shadows.evaluation.measured_frames import MeasuredFrame, open_frames, open_methods
+from neural_shadows.evaluation.method import Method, visibility
+from neural_shadows.evaluation.registry import tuned_as
+from neural_shadows.files.whole_files import read_json
+from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.running.progress import progress_bar
+
+# Milliseconds, of which a disturbance is a small share. All methods of the default table three
+# times each take 120 s.
+_LONG = 100
+
+
+def times(
+    inputs: Inputs, methods: Mapping[str, str | None], constants: Sequence[Path], repeats: int
+) -> dict[str, Any]:
+    """Time each method on each part's first frame, all radii.
+
+    Methods take turns, so that other load disturbs all of them alike.
+
+    Args:
+        inputs: test parts, one a scene; weights of networks, each in a folder of its experiment's
+            name.
+        methods: the experiment of each one's weights, or None. constants: of the tuned methods.
+
+    Returns: of each method and radius `ms`, the median over frames of the median over `repeats`, one
+        if it takes long, of the method alone; its light `map`, the numbers in a texel, and other bytes
+        held. By the texels of a side, `maps`: the `ms` of rasterising it, of which a window bears its
+        `map_share`, and its `texels`.
+
+    Raises:
+        InputError: an input file cannot be read.
+    """
+    frames = [frame for frame in open_frames(inputs) if frame.number == 0]
+    radii = range(len(frames[0].part.radii))
+    tuned = {
+        record["method"]: [each["constants"] for each in record["radii"]]
+        for record in map(read_json, constants)
+    }
+    chosen = {name: tuned.get(tuned_as(name), [{}] * len(radii)) for name in methods}
+    trained = {path.parent.name: path for path in inputs.weights}
+    opened = {
+        name: open_methods(name, replace(inputs, weights=[trained[n]] if n else []))(None)
+        for name, n in methods.items()
+    }
+    timed = {name: method for name, method in opened.items() if method.answer}
+    answer_ms = {name: np.zeros((len(frames), len(radii))) for name in timed}
+    own = frames[0].frame.light_map.resolution
+    sides = {name: method.resolution or own for name, method in timed.items()}
+    maps: dict[int, list[float]] = {side: [] for side in sorted({own, *sides.values()})}
+    shares: list[float] = []
+    with progress_bar(len(frames) * len(radii), "frames", "time methods") as bar:
+        for number, measured in enumerate(frames):
+            frame = _prepared(measured.frame)
+            shares.append(_share(frame))
+            for side, times in maps.items():
+                with_map = _prepared(frame.with_map_of(side))
+                work = partial(_rasterised, with_map)
+                times.append(shares[-1] * medians({"map": work}, repeats)["map"])
+            for k in radii:
+                radius = measured.part.radii[k]
+                works = {
+                    name: partial(visibility, method, frame, radius, chosen[name][k])
+                    for name, method in timed.items()
+                    if method.changes_at(chosen[name], k)
+                }
+                # What is compiled, and what a method makes of a scene: a point light's may be another
+                # path than that of all others. Cones through fields took five times as long at first.
+                for work in works.values() if k <= 1 else ():
+                    work()
+                milliseconds = medians(works, repeats)
+                for name, each in answer_ms.items():
+                    each[number, k] = (
+                        milliseconds[name] if name in milliseconds else each[number, k - 1]
+                    )
+                bar.update()
+    return {
+        "frames": len(frames),
+        "repeats": repeats,
+        "once_above_ms": _LONG,
+        "maps": {
+            str(side): {
+                "ms": float(np.median(times)),
+                "texels": frames[0].frame.with_map_of(side).light_map.count,
+            }
+            for side, times in maps.items()
+        },
+        "map_share": float(np.median(shares)),
+        "methods": {
+            name: {
+                "ms": np.median(each, axis=0).tolist(),
+                "map": str(sides[name]) if timed[name].texel_floats else None,
+                "texel_floats": timed[name].texel_floats,
+                "held_bytes": _held(timed[name], frames),
+            }
+            for name, each in answer_ms.items()
+        },
+    }
+
+
+def _share(frame: SoftFrame) -> float:
+    """An image's share of the whole frame's pixels. 1 unless it is a window of it."""
+    surface, window = frame.surface, frame.surface.camera.window
+    if window is None:
+        return 1.0
+    return surface.width * surface.height / (window.full_width * window.full_height)
+
+
+def _held(method: Method, frames: Sequence[MeasuredFrame]) -> float:
+    """Median bytes kept of the scene, over frames."""
+    return (
+        float(np.median([method.held(measured.frame) for measured in frames]))
+        if method.held
+        else 0.0
+    )
+
+
+def _prepared(frame: SoftFrame) -> SoftFrame:
+    """The frame with points, normals and map computed."""
+    for name in ("from_light", "cosines", "bias", "starts", "depths"):
+        getattr(frame, name)
+    return frame
+
+
+def _rasterised(frame: SoftFrame) -> np.ndarray:
+    return replace(frame).depths
+
+
+def medians(works: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:
+    """Median milliseconds of each call, taking turns. Calls above `_LONG` run once."""
+    times: dict[str, list[float]] = {name: [] for name in works}
+    for _ in range(repeats):
+        for name, work in works.items():
+            if times[name] and times[name][0] > _LONG:
+                continue
+            started = time.perf_counter()
+            work()
+            times[name].append(1000 * (time.perf_counter() - started))
+    return {name: float(np.median(each)) for name, each in times.items()}

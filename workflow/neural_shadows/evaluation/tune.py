@@ -1,0 +1,127 @@
+"""Stage: a method's constants of least error, on validation frames."""
+
+from collections.abc import Sequence
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from neural_shadows.evaluation.frame import KIND, FrameKind, Inputs, are_views, module_of
+from neural_shadows.evaluation.method import Constants, Method
+from neural_shadows.files.whole_files import write_json
+from neural_shadows.running.origin import describe_origin
+from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import SceneSettings
+
+
+def tune(
+    frames: list[Path],
+    meshes: list[Path],
+    weights: list[Path],
+    constants_json: Path,
+    *,
+    fields: list[Path] = (),
+    method: str,
+    scene: SceneSettings | None = None,
+    device: str = "auto",
+    precision: str = "auto",
+    threads: int = 1,
+) -> None:
+    """Find the constants of least error, by radius.
+
+    Of frames the mean squared error off the geometry's edges, of views the share of points in error.
+    One constant after another, the others at their best so far, or in the middle: 6 settings of two
+    constants with three values each, instead of all 9; or jointly, see `Method.joint`.
+
+    Args:
+        frames: validation frames of all scenes, or held-out views of one, which no evaluation uses.
+        meshes, weights, fields, scene, device, precision: see `Inputs`.
+        constants_json: `candidates` by constant; by radius, as `radii`, the best `constants`, their
+            `error`, `tried`, errors of the last constant's candidates or of all settings in order,
+            by term, and `at_end`, the constants whose best value may lie beyond the candidates.
+        method: the method's key, without a bias.
+
+    Raises:
+        InputError: an input file cannot be read.
+    """
+    settings = {"device": device, "precision": precision, "threads": threads}
+    inputs = Inputs(frames, meshes, weights, fields=fields, scene=scene, **settings)
+    kind: FrameKind = module_of(KIND, are_views(frames))
+    tuned = kind.open_methods(method, inputs)(None)
+    candidates = {name: list(values) for name, values in tuned.constants.items()}
+    middle = {name: values[len(values) // 2] for name, values in candidates.items()}
+    by_radius = [{"constants": middle, "at_end": []} for _ in range(kind.count_radii(frames[0]))]
+    for names in [[*candidates]] if tuned.joint else [[name] for name in candidates]:
+        grid = [dict(zip(names, values)) for values in product(*map(candidates.get, names))]
+        tried = [[best["constants"] | values for values in grid] for best in by_radius]
+        title = f"tune {' and '.join(names)} of {method}"
+        errors = _errors(kind, inputs, tuned, tried, title)
+        for best, settings, terms in zip(by_radius, tried, errors):
+            sums = terms.sum(axis=1)
+            chosen = _least(settings, sums, names[::-1] if tuned.joint else [])
+            best |= {"constants": settings[chosen], "error": sums[chosen]}
+            best["tried"] = [
+                setting | dict(zip(kind.ERRORS, each))
+                for setting, each in zip(settings, terms.tolist())
+            ]
+            ends = [n for n in names if _at_end(n, candidates[n], settings, sums, chosen)]
+            best["at_end"] += ends
+            for name in ends:
+                value = f"{name.replace('_', ' ')}, {settings[chosen][name]}"
+                print(f"warning: {method}: the best {value}, ends the search")
+    about = {"method": method, "frames": kind.count_frames(frames), "candidates": candidates}
+    write_json(constants_json, about | {"radii": by_radius} | describe_origin())
+
+
+def _errors(
+    kind: FrameKind,
+    inputs: Inputs,
+    method: Method,
+    tried: Sequence[Sequence[Constants]],
+    title: str,
+) -> np.ndarray:
+    """Mean errors of frames, (radii, settings, terms)."""
+    sums, count = 0.0, 0
+    with progress_bar(kind.count_frames(inputs.frames), "frames", title) as bar:
+        for frame in kind.open_frames(inputs):
+            errors, weight = frame.errors_of(method, tried)
+            sums, count = sums + errors, count + weight
+            bar.update()
+    return sums / count
+
+
+def _least(settings: Sequence[Constants], errors: np.ndarray, smallest: Sequence[str]) -> int:
+    """Setting of least error.
+
+    Of equal ones the first, or that of the smallest constants.
+    """
+    order = [
+        (error, *(abs(constants[name]) for name in smallest))
+        for constants, error in zip(settings, errors)
+    ]
+    return order.index(min(order))
+
+
+def _at_end(
+    name: str,
+    candidates: Sequence[float],
+    settings: Sequence[Constants],
+    errors: np.ndarray,
+    chosen: int,
+) -> bool:
+    """Check for a best value at an end of its candidates.
+
+    If its neighbour is worse, the other constants as chosen; a bound of its own, as 0 is, is no end.
+    """
+    others = settings[chosen] | {name: None}
+    along = [e for constants, e in zip(settings, errors) if constants | {name: None} == others]
+    value = settings[chosen][name]
+    best = candidates.index(value)
+    if len(along) < 2 or not value or best not in (0, len(along) - 1):
+        return False
+    return bool(along[1 if best == 0 else -2] > along[best])
+
+
+if "snakemake" in globals():
+    run_stage(snakemake, tune)
