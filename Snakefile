@@ -22,7 +22,6 @@ include: "workflow/rules/rays.smk"
 include: "workflow/rules/networks.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/frames.smk"
-include: "workflow/rules/soft_methods.smk"
 include: "workflow/rules/screen_networks.smk"
 include: "workflow/rules/reports.smk"
 include: "workflow/rules/viewer.smk"
@@ -36,8 +35,7 @@ rule all:
 
 onsuccess:
     # Snakemake has recorded all networks by now.
-    for networks in ("networks", "screen_networks"):
-        remove_finished(Path(PATHS.results) / networks)
+    remove_finished(Path(PATHS.results) / "networks")
     outputs = [path for job in workflow.dag.finished_jobs for path in job.output]
     if words := targets.closing_words(LAYOUT, outputs):
         print(words)

@@ -1,6 +1,7 @@
 """The checked configuration and shared names of the rules."""
 
 import functools
+import gc
 import hashlib
 import inspect
 import os
@@ -8,6 +9,9 @@ import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+
+# A graph of 1,000 jobs is millions of objects that stay: to search them for cycles took 6 % of planning.
+gc.set_threshold(200_000, 20, 20)
 
 # The package of this file's checkout, for the rules and their stages: as a module, the main Snakefile
 # is another workflow's.
@@ -28,7 +32,7 @@ kernels = os.path.abspath(
 os.environ.update(NUMBA_CACHE_DIR=kernels)
 
 # glibc returns arrays to the system and requests them again, which clears their pages: 3.2 of 20 CPU
-# seconds of `evaluate_soft`. Keep up to 256 MiB, and serve arrays below 32 MiB from them.
+# seconds of `evaluate`. Keep up to 256 MiB, and serve arrays below 32 MiB from them.
 os.environ.setdefault("MALLOC_MMAP_THRESHOLD_", str(32 << 20))
 os.environ.setdefault("MALLOC_TRIM_THRESHOLD_", str(256 << 20))
 
@@ -36,21 +40,25 @@ from neural_shadows.config.reading import check_duplicates, check_files, read_co
 from neural_shadows.config.resolved import resolved
 from neural_shadows.config.targets import check_targets
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.method_names import REFERENCES, hard_modules
-from neural_shadows.evaluation.soft_registry import method_module
-from neural_shadows.layout import frame_sets, kinds, parts, screen_networks
-from neural_shadows.layout import soft_methods, tables, viewers
+from neural_shadows.evaluation.registry import REFERENCES, method_modules
+from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds, parts
+from neural_shadows.layout import previews, tables, trainings, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import form_module, kind_module
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.page import targets
 from neural_shadows.running.module_graph import digest, modules_of
-from neural_shadows.scenes.generators.registry import generator_module
+from neural_shadows.scenes.generated import generator_module
 from neural_shadows.training.checkpoints import remove_finished
 
 try:
     check_duplicates(workflow.configfiles)
-    CONFIG = read_config(config)
+    overlays = len(
+        workflow.config_settings.configfiles
+    )  # they come first, and are merged last
+    CONFIG = read_config(
+        config, [*workflow.configfiles[overlays:], *workflow.configfiles[:overlays]]
+    )
     check_files(CONFIG)
     check_targets(sys.argv[1:], CONFIG, WORKFLOW.parent / "config")
 except InputError as error:
@@ -84,11 +92,20 @@ wildcard_constraints:
     shard="[0-9]+",
     batch=f"[0-9]+|{parts.HELD_OUT}",
     frame_set="[a-z][a-z0-9_]*",
+    # A scene, SCENE.BATCH or `all`.
+    group=rf"[a-z][a-z0-9_]*(\.([0-9]+|{parts.HELD_OUT}))?",
+    measure=r"widths\.json|occluders\.npy",
     part="[a-z]+_[0-9]+",
     # Names without an entry in the configuration are refused by the functions below.
     table=r"(?!claims\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",
     viewer="viewer(_[a-z0-9_]+)?",
+
+
+def with_signature(function):
+    """A function that keeps its signature: Snakemake derives it anew for each job."""
+    function.__signature__ = inspect.signature(function)
+    return function
 
 
 def setting(path):
@@ -104,7 +121,7 @@ def setting(path):
             value = value[key.format(**wildcards)]
         return value
 
-    return value_of
+    return with_signature(value_of)
 
 
 def of(function):
@@ -120,10 +137,10 @@ def of(function):
             )
         return function(**{name: arguments[name] for name in names})
 
-    return value_of
+    return with_signature(value_of)
 
 
-def code(stage, encodings=(), generators=(), methods=(), forms=(), modules=()):
+def code(stage, encodings=(), generators=(), forms=(), modules=()):
     """A param: a digest of the modules behind a stage's result.
 
     Modules imported by name are included only for the jobs that use them: of networks by kind, of
@@ -139,7 +156,6 @@ def code(stage, encodings=(), generators=(), methods=(), forms=(), modules=()):
     ]
     sources += [
         *map(generator_module, generators),
-        *map(method_module, methods),
         *modules,
     ]
     return digest_of(frozenset(sources))
@@ -154,6 +170,6 @@ def digest_of(sources):
 def usual(mem_mb, minutes):
     """Memory and minutes of a job, in proportion to attempts."""
     return {
-        "mem_mb": lambda wildcards, attempt: mem_mb * attempt,
-        "runtime": lambda wildcards, attempt: minutes * attempt,
+        "mem_mb": with_signature(lambda wildcards, attempt: mem_mb * attempt),
+        "runtime": with_signature(lambda wildcards, attempt: minutes * attempt),
     }

@@ -1,44 +1,29 @@
 """Mesh source → clean mesh in normalised space."""
 
 
-rule generate_mesh:
+rule get_mesh:
     output:
-        generated_ply=PATHS.scene("generated.ply"),
+        source_ply=PATHS.scene("source.ply"),
     log:
-        PATHS.log("generate_mesh", "scene"),
+        PATHS.log("get_mesh", "scene"),
     benchmark:
-        PATHS.benchmark("generate_mesh", "scene")
-    conda:
-        ENVIRONMENT
-    resources:
-        **usual(4000, minutes=10),
-    params:
-        code=code("meshes/generate_mesh"),
-        mesh=setting("scenes/{scene}/mesh"),
-    message:
-        "Generating the mesh of scene {wildcards.scene}"
-    script:
-        "../neural_shadows/meshes/generate_mesh.py"
-
-
-rule download_mesh:
-    output:
-        downloaded_ply=PATHS.scene("downloaded.ply"),
-    log:
-        PATHS.log("download_mesh", "scene"),
+        PATHS.benchmark("get_mesh", "scene")
     retries: 2
-    # Compute nodes of clusters often have no network.
+    # Compute nodes of clusters often have no network, for downloads.
     localrule: True
     conda:
         ENVIRONMENT
     resources:
-        **usual(1000, minutes=30),
+        **usual(4000, minutes=30),
     params:
-        code=code("meshes/download_mesh"),
+        code=lambda wildcards: code(
+            "meshes/get_mesh", modules=[LAYOUT.mesh_module(wildcards.scene)]
+        ),
+        mesh=setting("scenes/{scene}/mesh"),
     message:
-        "Downloading the mesh of scene {wildcards.scene}"
+        "Generating or downloading the mesh of scene {wildcards.scene}"
     script:
-        "../neural_shadows/meshes/download_mesh.py"
+        "../neural_shadows/meshes/get_mesh.py"
 
 
 rule prepare_mesh:

@@ -3,7 +3,7 @@
 
 rule train:
     input:
-        unpack(of(LAYOUT.training_files)),
+        unpack(of(trainings.files)),
     output:
         weights=PATHS.network("weights.safetensors"),
         loss_csv=PATHS.network("loss.csv"),
@@ -21,14 +21,15 @@ rule train:
         gpu=lambda wildcards: GPUS * LAYOUT.is_trained(wildcards.experiment),
     params:
         code=lambda wildcards: code(
-            "training/train", LAYOUT.encodings([wildcards.experiment])
+            f"training/{trainings.stage(LAYOUT, wildcards.experiment)}",
+            LAYOUT.encodings([wildcards.experiment]),
+            forms=LAYOUT.forms([wildcards.experiment]),
         ),
-        network=setting("experiments/{experiment}/network"),
-        training=setting("experiments/{experiment}/training"),
-        seed=setting("experiments/{experiment}/seed"),
+        kind=of(trainings.stage),
+        settings=of(trainings.settings),
         device=COMPUTE["device"],
         precision=COMPUTE["precision"],
     message:
         "Training {wildcards.experiment}"
     script:
-        "../neural_shadows/training/train.py"
+        "../neural_shadows/training/{params.kind}.py"

@@ -30,6 +30,7 @@ rule sample_rays:
         directions_npy=PATHS.rays("directions.npy"),
     output:
         origins_npy=PATHS.rays("origins.{shard}.npy"),
+        bounds_npy=PATHS.rays("bounds.{shard}.npy"),
     log:
         PATHS.log("sample_rays", "scene", "sampling", "shard"),
     benchmark:
@@ -45,35 +46,9 @@ rule sample_rays:
         seed=setting("scenes/{scene}/seed"),
         settings=of(LAYOUT.shard_range),
     message:
-        "Sampling rays of {wildcards.scene} ({wildcards.sampling}), shard {wildcards.shard}"
+        "Sampling and tracing rays of {wildcards.scene} ({wildcards.sampling}), shard {wildcards.shard}"
     script:
         "../neural_shadows/rays/sample_rays.py"
-
-
-rule label_rays:
-    input:
-        mesh_ply=PATHS.scene("mesh.ply"),
-        directions_npy=PATHS.rays("directions.npy"),
-        origins_npy=PATHS.rays("origins.{shard}.npy"),
-    output:
-        bounds_npy=PATHS.rays("bounds.{shard}.npy"),
-    log:
-        PATHS.log("label_rays", "scene", "sampling", "shard"),
-    benchmark:
-        PATHS.benchmark("label_rays", "scene", "sampling", "shard")
-    conda:
-        ENVIRONMENT
-    threads: COMPUTE["threads"]
-    resources:
-        **usual(4000, minutes=10),
-    params:
-        code=code("rays/label_rays"),
-        seed=setting("scenes/{scene}/seed"),
-        settings=of(LAYOUT.shard_range),
-    message:
-        "Tracing labels of {wildcards.scene} ({wildcards.sampling}), shard {wildcards.shard}"
-    script:
-        "../neural_shadows/rays/label_rays.py"
 
 
 rule describe_rays:

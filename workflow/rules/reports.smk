@@ -70,8 +70,7 @@ rule figure:
 
 rule preview_scene:
     input:
-        mesh_ply=PATHS.scene("mesh.ply"),
-        mesh_json=PATHS.scene("mesh.json"),
+        unpack(of(previews.files)),
     output:
         png=report(
             PATHS.report("scenes/{scene}.png"),
@@ -87,12 +86,16 @@ rule preview_scene:
     resources:
         **usual(4000, minutes=10),
     params:
-        code=code("reports/drawing/preview"),
-        scene=setting("scenes/{scene}/scene"),
+        code=lambda wildcards: code(
+            f"reports/drawing/{previews.kind(LAYOUT, wildcards.scene)}",
+            generators=previews.generators(LAYOUT, wildcards.scene),
+        ),
+        kind=of(previews.kind),
+        settings=of(previews.settings),
     message:
-        "Drawing scene {wildcards.scene}, its sphere and its quadtree"
+        "Drawing scene {wildcards.scene}"
     script:
-        "../neural_shadows/reports/drawing/preview.py"
+        "../neural_shadows/reports/drawing/{params.kind}.py"
 
 
 rule claims:
@@ -122,43 +125,32 @@ rule claims:
         "../neural_shadows/reports/claims/write_claims.py"
 
 
+# `index` is the page of a whole run; `available` shows what there is: its reports are params, not
+# inputs, so that none is made for it.
 rule page:
     input:
-        **targets.page_files(LAYOUT),
+        unpack(of(targets.page_inputs)),
         template=TEMPLATE,
     output:
         html=report(
-            PATHS.report("index.html"),
+            PATHS.report("{page}.html"),
             caption="../report/page.rst",
             category="Report",
             labels={"what": "everything on one page, with frames to compare"},
         ),
     log:
-        PATHS.log("page"),
+        PATHS.log("page", "page"),
+    wildcard_constraints:
+        page="index|available",
     conda:
         ENVIRONMENT
     resources:
         **usual(4000, minutes=10),
     params:
         code=code("reports/page/page", modules=targets.method_modules(LAYOUT)),
-        settings=targets.page_arguments(LAYOUT),
-    message:
-        "Writing the page of the run"
-    script:
-        "../neural_shadows/reports/page/page.py"
-
-
-# Shown reports are params, not inputs, so that none is made for it.
-use rule page as available with:
-    input:
-        template=TEMPLATE,
-    output:
-        html=PATHS.report("available.html"),
-    log:
-        PATHS.log("available"),
-    params:
-        code=code("reports/page/page", modules=targets.method_modules(LAYOUT)),
-        settings=of(targets.available_arguments),
+        settings=of(targets.page_settings),
         beside=of(targets.newest),
     message:
-        "Writing a page of the available reports"
+        "Writing the page {wildcards.page}"
+    script:
+        "../neural_shadows/reports/page/page.py"

@@ -8,8 +8,8 @@ from neural_shadows.config.reading import read_config
 # Key, value in YAML, and what the message has among others.
 MISTAKES = """
 sceens | {} | unknown key: 'sceens' (did you mean 'scenes'?) is not among scale, seed
-rendering.width | '600' | rendering.width = '600': Input should be a valid integer
-rendering.width | null | rendering.width: this key is missing
+frame_sets.views.width | '600' | frame_sets.views.width = '600': Input should be a valid integer
+frame_sets.views.width | null | frame_sets.views.width: this key is missing
 claims.slower_than_shadow_maps.kind | null | claims.slower_than_shadow_maps: the key 'kind' is missing
 networks.thesis.encoding | wavelet | encoding = 'wavelet': should be one of 'frequency', 'hash_grid'
 experiments.dragon_hash_grid.network.table_size | 1000 | table_size: 1000 is not a power of two
@@ -29,16 +29,23 @@ figures.figure_4_4.view_sets | [centre] | figure_4_4.view_sets: 'centre' is not 
 figures.figure_beyond_dragon.table | table_4_6 | 'table_4_6' is not among beyond, ablations
 figures.figure_beyond_slice.experiment | dragon | experiment: 'dragon' (did you mean 'dragon_fi
 viewers.viewer.scene | dragn | viewers.viewer.scene: 'dragn' (did you mean 'dragon'?) is not among
-viewers.viewer.networks | [shadow_map_64] | 'shadow_map_64' is not an experiment. Remove it; shadow maps are
+viewers.viewer.networks | [shadow_map_64] | 'shadow_map_64' is not an experiment on rays. Remove it; shadow maps are
 viewers.viewer.networks | [fence] | viewers.viewer.networks: 'fence' has the scene 'fence', the viewer
 viewers.viewer.networks | [dragon_hash_grid] | is a hash_grid, without a shader. Allowed: frequency, occupancy_field
 viewers.table | {scene: dragon} | viewers.table
 claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | no experiment among them. Add one
 claims.learning_rate.pairs | [[dragon, dragon]] | 'dragon' is compared with itself
 claims.learning_rate.pairs | [[dragon, dragon_field]] | 'dragon_field' of encoding 'occupancy_field' has another loss
-claims.learning_rate.pairs | [[dragon, dragn]] | learning_rate.pairs.0.1: 'dragn' (did you mean
+claims.learning_rate.pairs | [[dragon, dragn]] | learning_rate.pairs: 'dragn' (did you mean
 claims.sampling.pairs | [[no_shadow_biased, dragon]] | has no depth bias. Write 'no_shadow'
 claims.sampling.metrics | [lpips, lpips] | claims.sampling.metrics: 'lpips' is listed twice
+claims.sampling.metrics | [lpips, loss] | claims.sampling.metrics: 'loss' is not among
+claims.sampling.metrics | [mse_off_edges] | claims.sampling.metrics: 'mse_off_edges' is not among
+claims.msm_leaks.metrics | [psnr] | claims.msm_leaks.metrics: 'psnr' is not among
+claims.sampling.radii | [1] | claims.sampling.radii: it needs `table`. Name one
+claims.rays_at_equal_time.radii | null | `rays_of_equal_time` needs radii. List some
+claims.rays_at_equal_time.pairs | [[pcss, rays_of_equal_time]] | soft_windows.methods: 'rays_of_equal_time' is not among
+claims.rays_at_equal_time.table | kpnsm_table_1 | rays_at_equal_time.table: 'kpnsm_table_1' is not among
 claims.sampling.needs | {device: tpu} | needs.device = 'tpu': Input should be 'cuda' or 'cpu'
 claims.sampling.needs | {seeds: many} | needs.seeds = 'many': Input should be a valid integer
 claims.sampling.needs | {seeds: 0} | needs.seeds = 0: Input should be greater than or equal to 1
@@ -58,6 +65,7 @@ tables.table_4_3.rows.0 | {method: no_shadow, bias: held_out} | tables.table_4_3
 tables.table_4_3.rows.0 | {method: ray_traced, bias: held_out} | 'ray_traced' is not among shadow_map_N
 tables.table_4_3.rows.0 | shadow_map_512_biased | 'shadow_map_512_biased' (did you mean
 tables.table_4_3.against | dragon_64 | table_4_3.against: 'dragon_64' (did you mean
+tables.table_4_3.more_metrics | [lpip] | table_4_3.more_metrics.0: 'lpip' (did you mean 'lpips'?)
 tables.beyond.against | {fence: dragon} | tables.beyond.against: 'dragon' is not among ray_traced
 experiments.tiny | {scene: dragon, network: {encoding: mesh, triangles: 3}} | experiments.tiny.network.triangles = 3: Input should be greater than or equal to 4
 experiments.tiny | {scene: dragon, network: {encoding: mesh, stored: coded, bits: 24}} | experiments.tiny.network: bits: 24: more than the 23 of a coded mesh
@@ -65,7 +73,7 @@ experiments.tiny | {scene: dragon, network: {encoding: mesh}, training: base} | 
 experiments.dragon_field.training | muon | experiments.dragon_field.training: optimiser = 'muon': needs matrices between two hidden layers
 tables.table_4_7.against | dragon | tables.table_4_7: unknown key: 'against' is not among
 tables.table_4_6.against | {dragon: dragon} | tables.table_4_6: unknown key: 'against' is not among
-experiments.landscape_heights.network.up | z | network: unknown key: 'up'
+experiments.landscape_heights.network.up | w | network.up = 'w': Input should be 'x', 'y' or 'z'
 experiments.tiny | {scene: dragon, sampling: uniform, network: {encoding: ray_grid, hidden_layers: 1}, training: muon} | this network of the kind 'ray_grid' has none. Use adam
 networks.sheet_256.start | distances | start: distances: surface: sheet has no inside
 networks.sheet_256.start | fitted | start: fitted: surface: sheet has no inside
@@ -74,37 +82,60 @@ experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tabl
 experiments.dragon.training | null | experiments.dragon.training: this key is missing. A trained network
 experiments.dragon.sampling | null | experiments.dragon.sampling: this key is missing. A trained network
 claims.slower_than_shadow_maps.pairs | [[dragon, shadow_map_8]] | 'shadow_map_8' (did you me
-frame_sets.frames.scenes | [dragon] | scenes.0: 'dragon' is in `scenes`, whose unit is unknown. Insert it
+soft_scenes | {room: {generate: room}} | soft_scenes: is now `scenes`. Move it there
+screen_experiments | {} | screen_experiments: is now `experiments`. Move it there
+rendering | {width: 600} | rendering: is now `frame_sets.views`. Move it there
+scenes.dragon.generate | room | needs either `mesh` (a mesh in its unit sphere) or `generate`
+scenes.mine | {up: z} | needs either `mesh` (a mesh in its unit sphere) or `generate`
+scenes.room.inserted | [hall] | inserted.0: 'hall' is not a mesh (an entry with `mesh`). Allowed: dragon, fence, landscape
+experiments.dragon.scene | room | experiments.dragon.scene: 'room' is not a mesh (an entry with `mesh`). Allowed: dragon
+experiments.dragon.network | nsm | experiments.dragon.network: 'nsm' is not a network on rays (by `encoding`). Allowed: thesis
+experiments.nsm.network | thesis | experiments.nsm.network: 'thesis' is not a screen-space network (by `form`). Allowed: nsm
+experiments.nsm.training | base | experiments.nsm.training: 'base' is not a training on frames (with `crops`). Allowed: nsm
+experiments.nsm.frame_set | views | 'views' is not a set of frames under an area light. Allowed: frames
+tables.nsm_unseen.networks | [dragon] | networks.0: 'dragon' is not an experiment on frames (with `frame_set`). Allowed: nsm
+tables.table_4_3.rows.0 | nsm | rows of dragon: 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
+tables.soft_methods.methods | [dragon] | methods: 'dragon' is not an experiment on frames (with `frame_set`). Allowed: nsm
+learning_curves | {experiments: [nsm], steps: [1, 2, 3], seeds: 3} | 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
+frame_sets.views | null | frame_sets.views: this key is missing
+frame_sets.views | {path: mine} | frame_sets.views: only `views` holds views of meshes
+frame_sets.mine | {width: 600, height: 400, views_per_set: 24, batch: 12} | frame_sets.mine: only `views` holds
 frame_sets.frames.scenes | [rom] | frame_sets.frames.scenes.0: 'rom' (did you mean 'room'?) is not among
 frame_sets.frames.unseen | [hall] | frame_sets.frames: unseen: hall is also in `scenes`
-frame_sets.nsm.scenes | [garden] | 'garden' has the generator 'garden', which is for tests only
+tables.nsm_methods.methods | [pcss, nsm_joint] | 'nsm_joint' is trained on room_dragon, in `unseen` of frame_sets.nsm
+tables.soft_sun.methods | [pcss, nsm] | 'nsm' is trained on lights with radii in metres, and frame_sets.sun has them in degrees
 frame_sets.frames.unseen | [room] | frame_sets.frames.unseen: 'room' has the generator 'room' and no object beyond
 frame_sets.nsm.twins | {count: 3, light_texels: 1, light: 0.01} | frame_sets.nsm.twins: unknown key: 'light' (did you mean
 frame_sets.nsm.twins | {count: 3, eye_pixels: 1} | frame_sets.nsm.twins: unknown key: 'eye_pixels'
-soft_scenes.room.penumbra | 90 | soft_scenes.room.penumbra: needs `generate: plate` and one object
+scenes.room.penumbra | 90 | scenes.room.penumbra: needs `generate: plate` and one object
 frame_sets.frames.radii | [-0.1, 0.2] | frame_sets.frames.radii.0 = -0.1: Input should be greater than
 frame_sets.frames.radii | [0.2, 0.1] | frame_sets.frames: radii = [0.2, 0.1]: must be ascending
+frame_sets.sun.radius_unit | metres | frame_sets.sun: radius_unit: 'metres' does not suit a light of the shape sun. Use degrees
+frame_sets.sun.light_map | {kind: cube, resolution: 64} | light_map.kind: 'cube' does not suit a light of the shape sun
+frame_sets.panels.radius_unit | degrees | does not suit a light of the shape rectangle. Use metres or scene_sizes
+frame_sets.panels.light | {shape: rectangle, facing: [0, 0, 0]} | facing: [0, 0, 0] is no direction
+frame_sets.panels.light | {shape: rectangl} | frame_sets.panels.light
 frame_sets.frames.sequence | 1 | frame_sets.frames: sequence = 1: a sequence needs at least two frames
 frame_sets.windows.of | {width: 64, height: 64} | frame_sets.windows: of = 64 × 64: must be at least the window
 frame_sets.frames.light_map.resolution | 100 | light_map.resolution: 100 is not a power of two
-soft_scenes.room.seed | -1 | soft_scenes.room.seed = -1: Input should be greater than or equal to 0
-soft_scenes.court_3.seed | 1 | frame_sets.frames: 'court_1' and 'court_3' are the same scene
-soft_scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each object once
+scenes.room.seed | -1 | scenes.room.seed = -1: Input should be greater than or equal to 0
+scenes.court_3.seed | 1 | frame_sets.frames: 'court_1' and 'court_3' are the same scene
+scenes.room.inserted | [dragon, dragon] | inserted = ['dragon', 'dragon']: must name each object once
 tables.soft_methods.methods | [pcs] | tables.soft_methods.methods: 'pcs' (did you mean 'pcss'?)
 claims.pcss_better_than_msm.radii | [9] | radii: 9 is not below 6, the number of radii of 'windows'
 claims.pcss_better_than_msm.radii | [-1] | radii.0 = -1: Input should be greater than or equal to 0
 claims.nsm_first_level.ratios.0.per | compute | a ratio to the sum of all others has no `per`
-screen_networks.nsm.form | whole | screen_networks.nsm.form = 'whole': should be one of 'direct', 'full', 'half', 'kernels', 'original', 'shuffle'
-screen_networks.nsm.widths | [32] | screen_networks.nsm.widths = [32]: List should have at least 2 items
-screen_networks.layers_7.widths | [16, [32], 64] | widths.1 = [32]: List should have at least 2 items
-screen_networks.layers_7.widths | [16, 0] | widths.1 = 0: Input should be greater than or equal to 1
-screen_networks.original.widths | [32, [64, 32]] | screen_networks.original.widths.1 = [64, 32]: Input should be a valid integer
-screen_networks.nsm.pool | max | screen_networks.nsm: unknown key: 'pool' is not among
-screen_networks.nsm.features | [ratoi] | screen_networks.nsm.features: 'ratoi' (did you mean 'ratio'?) is not among c_e, view
-screen_networks.nsm.features | [z, z] | screen_networks.nsm.features: 'z' is listed twice
-screen_experiments.pcss | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | screen_experiments.pcss: a method of soft tables has this name
-screen_experiments.mine_bfloat16 | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | screen_experiments.mine_bfloat16: '_bfloat16' is the ending of networks in that number
-networks_by_scene.rt_4 | {label: x, experiments: [nsm, kpnsm]} | networks_by_scene.rt_4: a method of soft tables has this name
+networks.nsm.form | whole | networks.nsm.form = 'whole': should be one of 'direct', 'full', 'half', 'kernels', 'original', 'shuffle'
+networks.nsm.widths | [32] | networks.nsm.widths = [32]: List should have at least 2 items
+networks.layers_7.widths | [16, [32], 64] | widths.1 = [32]: List should have at least 2 items
+networks.layers_7.widths | [16, 0] | widths.1 = 0: Input should be greater than or equal to 1
+networks.original.widths | [32, [64, 32]] | networks.original.widths.1 = [64, 32]: Input should be a valid integer
+networks.nsm.pool | max | networks.nsm: unknown key: 'pool' is not among
+networks.nsm.features | [ratoi] | networks.nsm.features: 'ratoi' (did you mean 'ratio'?) is not among c_e, view
+networks.nsm.features | [z, z] | networks.nsm.features: 'z' is listed twice
+experiments.pcss | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | experiments.pcss: a method of tables has a name like this
+experiments.mine_bfloat16 | {network: nsm, training: nsm, frame_set: nsm, scenes: [room], seed: 7} | experiments.mine_bfloat16: '_bfloat16' is the ending of networks in that number
+networks_by_scene.rt_4 | {label: x, experiments: [nsm, kpnsm]} | networks_by_scene.rt_4: a method of tables has a name like this
 tables.nsm_temporal.frame_set | nsm_between | tables.nsm_temporal.frame_set: frame_sets.nsm_between has sequence = 0
 tables.nsm_temporal.methods | [pcs] | tables.nsm_temporal.methods: 'pcs' (did you mean 'pcss'?)
 tables.nsm_table_s2.network | nms | tables.nsm_table_s2.network: 'nms' (did you mean 'nsm'?) is not among

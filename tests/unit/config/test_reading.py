@@ -54,6 +54,13 @@ def test_mesh_files(values, tmp_path, monkeypatch):
             check_files(read_config({**values, "dragon": path}))
 
 
+def test_a_link_to_nothing(values, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "results").symlink_to("gone")
+    with pytest.raises(InputError, match="results: is a link to gone, which does not exist"):
+        check_files(read_config(values))
+
+
 def test_what_yaml_lets_pass(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text("one:\n  a: 1\ntwo:\n  a: 1\n")
@@ -65,3 +72,26 @@ def test_what_yaml_lets_pass(tmp_path):
         path.write_text(text)
         with pytest.raises(InputError, match=words):
             check_duplicates([path])
+
+
+def test_a_message_names_the_file_and_line_of_its_key(tmp_path, values):
+    first, overlay = tmp_path / "first.yaml", tmp_path / "mine.yaml"
+    first.write_text("seed: 3\nscenes:\n  dragon: {up: y}\n")
+    overlay.write_text("\nscenes:\n  dragon:\n    up: y\n    upp: z\nmine: 1\n")
+    values["scenes"]["dragon"] |= {"up": "y", "upp": "z"}
+
+    def said():
+        with pytest.raises(InputError) as caught:
+            read_config(values, [first, overlay])
+        return str(caught.value)
+
+    assert said().endswith("mine.yaml, line 5]")
+    del values["scenes"]["dragon"]["upp"]
+    values["mine"] = 1
+    assert said().endswith("mine.yaml, line 6]")
+    del values["mine"]
+    values["seed"] = "many"  # by the command line: no file has this value
+    assert said().startswith("config: seed = 'many': ") and "first.yaml" not in said()
+    values["seed"] = 3
+    values["scenes"]["dragon"]["light"] = 5  # of no file: the last that has the scene
+    assert said().endswith("mine.yaml, line 3]")

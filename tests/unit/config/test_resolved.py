@@ -49,12 +49,15 @@ def test_scenes_and_experiments(values):
     assert smoke["experiments"]["dragon_field"]["label"] == "64³ occupancy field"
 
 
-def test_a_soft_scene_has_its_own_seed_or_the_run_s(settings):
-    scenes = settings["soft_scenes"]
+def test_an_arrangement_has_its_own_seed_or_the_run_s(settings):
+    scenes = {name: scene["arrangement"] for name, scene in settings["scenes"].items()}
     assert scenes["room"] == {"generate": "room", "seed": 2026, "inserted": {}, "penumbra": None}
     found = scenes["interior_2"]
     assert (found["generate"], found["seed"]) == ("interior", 2)
     assert found["inserted"] == {"dragon": settings["scenes"]["dragon"]["up"]}
+    # A mesh stands alone.
+    alone = {"generate": "stage", "seed": 2026, "inserted": {"fence": "y"}, "penumbra": None}
+    assert scenes["fence"] == alone
 
 
 def test_a_height_map_has_its_scene_s_up(values):
@@ -137,7 +140,7 @@ def test_figures_and_claims(settings):
     methods = [r["method"] for r in figures["figure_beyond_pictures_fence"]["rows"]]
     assert methods[:3] == ["shadow_map_2048", "shadow_map_512", "fence_mesh_20k"]
     assert methods[3:] == ["fence_distances_256", "fence_field_512", "fence_biased"]
-    ((_, shadow_map),) = settings["claims"]["fence_better_than_128"]["pairs"]
+    ((_, shadow_map),) = settings["claims"]["fence_better_than_128"]["rows"]
     assert shadow_map == row("shadow_map_128", "128² shadow map", scene="fence")
 
 
@@ -145,7 +148,7 @@ def test_claims_on_methods_without_a_network_and_on_what_is_printed(changed):
     pairs = [["dragon_biased", "shadow_map_64_biased"], ["no_shadow", "fence"]]
     claims = resolved(read_config(changed("claims.sampling.pairs", pairs)))["claims"]
     methods = [
-        (r["scene"], r["method"], r["bias"]) for pair in claims["sampling"]["pairs"] for r in pair
+        (r["scene"], r["method"], r["bias"]) for pair in claims["sampling"]["rows"] for r in pair
     ]
     assert methods == [
         ("dragon", "dragon_biased", "held_out"),
@@ -189,7 +192,7 @@ def test_a_network_that_is_built_and_not_trained(changed, message):
         section = experiments[name]
         assert section["sampling"] is section["training"] is None and section["label"] == label
     curves = {"experiments": ["built"], "steps": [1, 2, 3], "seeds": 1}
-    pair = {"kind": "lower_loss", "section": "4", "statement": "x", "pairs": [["built", "dragon"]]}
+    pair = {"kind": "better", "metrics": ["loss"], "statement": "x", "pairs": [["built", "dragon"]]}
     for wrong, words in (
         ({"learning_curves": curves}, "learning_curves.experiments: 'built' has no training"),
         ({"claims": {"loss": pair}}, "claims.loss.pairs: 'built' is not trained and has no loss"),

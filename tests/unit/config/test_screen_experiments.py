@@ -16,7 +16,7 @@ EXPERIMENT = {"network": "nsm", "training": "nsm", "frame_set": "few", "scenes":
 
 
 def read(frames=None, metrics=None, **changes):
-    sections = {"screen_experiments": {"mine": EXPERIMENT | changes}}
+    sections = {"experiments": {"mine": EXPERIMENT | changes}}
     sections["frame_sets"] = {"few": FRAMES | (frames or {})}
     if metrics is not None:
         sections["metrics"] = {"lpips": metrics}
@@ -66,7 +66,7 @@ def read(frames=None, metrics=None, **changes):
     ],
 )
 def test_what_cannot_be_trained_is_refused(changes, words):
-    with pytest.raises(InputError, match=f"config: screen_experiments.mine.*{words}"):
+    with pytest.raises(InputError, match=f"config: experiments.mine.*{words}"):
         read(**changes)
 
 
@@ -79,7 +79,7 @@ def test_what_cannot_be_trained_is_refused(changes, words):
     ],
 )
 def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
-    found = resolved(read(metrics=metrics))["screen_experiments"]["mine"]
+    found = resolved(read(metrics=metrics))["experiments"]["mine"]
     assert (found["training"]["perceptual"]["net"], found["trunk"]) == (net, trunk)
 
 
@@ -92,7 +92,7 @@ def test_squeezenet_s_trunk_is_lpips_s(metrics, net, trunk):
         ),
         (
             {"networks_by_scene": {"nsm": {"experiments": ["nsm"], "label": "Mine"}}},
-            "networks_by_scene.nsm: an entry of `screen_experiments` has this name",
+            "networks_by_scene.nsm: an entry of `experiments` has this name",
         ),
         (
             {"frame_sets": {"windows": {"unseen": []}}},

@@ -6,11 +6,14 @@ from shipped import shipped
 from neural_shadows.config.reading import read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
-from neural_shadows.layout import frame_sets, kinds, soft_methods, tables
+from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds, tables, trainings
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_range
+from neural_shadows.layout.paths import ALL
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.page import targets
+from neural_shadows.sections.frame_sets import VIEWS
+from neural_shadows.sections.views import Views
 
 
 def layout_of(*overlays: str, **values) -> Layout:
@@ -31,23 +34,23 @@ def desk() -> Layout:
 
 def test_parts_follow_each_other():
     assert [part_range(25, 3, part) for part in range(3)] == [(0, 8), (8, 16), (16, 25)]
-    rendering = {"views_per_set": 25, "batch": 12, "held_out_views": 8}
-    assert batches(rendering) == ["000", "001", "002"]
-    ranges = [view_range(rendering, batch) for batch in [*batches(rendering), HELD_OUT]]
+    views = Views(width=64, height=64, views_per_set=25, batch=12, held_out_views=8)
+    assert batches(views) == ["000", "001", "002"]
+    ranges = [view_range(views, batch) for batch in [*batches(views), HELD_OUT]]
     assert ranges == [(0, 12), (12, 24), (24, 25), (25, 33)]
 
 
 def test_sources_of_meshes_and_folders_of_scales():
     mesh = {"generate": None, "path": "meshes/mine.ply"}
     layout = layout_of(scenes={"fence": {"mesh": mesh}}, dragon="stanford")
-    assert layout.mesh_source("dragon") == "results/scenes/dragon/downloaded.ply"
+    assert layout.mesh_source("dragon") == "results/scenes/dragon/source.ply"
     assert layout.mesh_source("fence") == "meshes/mine.ply"
-    assert layout.mesh_source("landscape") == "results/scenes/landscape/generated.ply"
+    assert layout.mesh_source("landscape") == "results/scenes/landscape/source.ply"
     assert layout_of("smoke").paths.report("table.csv") == "reports/smoke/table.csv"
 
 
 def test_files_of_a_training(desk):
-    thesis, field = map(desk.training_files, ("dragon", "dragon_field"))
+    thesis, field = (trainings.files(desk, name) for name in ("dragon", "dragon_field"))
     assert thesis["rays_json"] == "results/rays/dragon/poisson_quadtree/rays.json"
     # An edited mesh of a network that needs none reaches it through its rays.
     assert thesis["mesh_ply"] == [] and field["mesh_ply"] == ["results/scenes/dragon/mesh.ply"]
@@ -55,7 +58,8 @@ def test_files_of_a_training(desk):
     assert thesis["bounds"] == shards
     # One that is only built is made of no rays: a stage is told so by the same names.
     built = {**desk.settings["experiments"]["dragon_field"], "sampling": None, "training": None}
-    made = Layout({**desk.settings, "experiments": {"built": built}}).training_files("built")
+    layout = Layout({**desk.settings, "experiments": {"built": built}})
+    made = trainings.files(layout, "built")
     assert made["mesh_ply"] == field["mesh_ply"] and made.keys() == field.keys()
     assert made["origins"] == made["bounds"] == made["directions_npy"] == made["rays_json"] == []
 
@@ -70,7 +74,7 @@ def test_files_of_methods(desk):
     for method in ("dragon_biased", "dragon_field", "shadow_map_512_biased"):
         assert desk.bias(method) == HELD_OUT
         name = method.removesuffix("_biased")
-        found = [f"results/depth_biases/dragon/{name}.json"]
+        found = [f"results/constants/views/dragon/{name}.json"]
         assert desk.bias_file("dragon", method) == found
         if name != "shadow_map_512":
             assert desk.export_files(name)["depth_bias_json"] == desk.bias_file("dragon", name)
@@ -82,6 +86,18 @@ def test_what_reserves_a_gpu(desk):
     assert [desk.can_use_gpu(method) for method in methods] == [True, True, False, False]
     trained = [desk.is_trained(name) for name in ("dragon", "dragon_distances_256", "dragon_mesh")]
     assert trained == [True, False, False]
+    assert evaluations.on_views(desk, "table_4_4") and not evaluations.on_views(desk, "soft_sun")
+
+
+@pytest.mark.parametrize(
+    ("frame_set", "group"),
+    [(VIEWS, "all"), (VIEWS, "dragon"), (VIEWS, "room_dragon.000"), ("frames", "dragon")],
+)
+def test_groups_of_other_frames_are_refused(desk, frame_set, group):
+    with pytest.raises(InputError, match=f"frame_sets.{frame_set}: group '{group}'.* among"):
+        evaluations.evaluated_files(desk, frame_set, group, "no_shadow")
+    with pytest.raises(InputError, match="frame_sets: 'views' has no `path`"):
+        frame_sets.tests(desk, VIEWS)
 
 
 def test_violations_are_counted_for_the_claims_about_them():
@@ -95,14 +111,29 @@ def test_violations_are_counted_for_the_claims_about_them():
 
 def test_files_that_methods_are_evaluated_from(desk):
     """Networks from their answers alone, whatever their bias; others from the mesh."""
-    network = desk.evaluated_files("dragon", "dragon_biased", "000")
-    answers = "results/answers/dragon/dragon_biased.000.npz"
-    assert network == {"answers": answers, "mesh_ply": [], "depth_bias_json": []}
+    network = evaluations.evaluated_files(desk, VIEWS, "dragon.000", "dragon_biased")
+    assert network["answers"] == ["results/answers/dragon/dragon_biased.000.npz"]
+    assert network["meshes"] == network["weights"] == network["constants_json"] == []
     for method, bias in {"shadow_map_512_biased": "shadow_map_512", "no_shadow": None}.items():
-        files = desk.evaluated_files("dragon", method, "000")
-        assert files["answers"] == [] and files["mesh_ply"] == "results/scenes/dragon/mesh.ply"
-        found = [f"results/depth_biases/dragon/{bias}.json"] if bias else []
-        assert files["depth_bias_json"] == found
+        files = evaluations.evaluated_files(desk, VIEWS, "dragon.000", method)
+        assert files["answers"] == [] and files["meshes"] == ["results/scenes/dragon/mesh.ply"]
+        found = [f"results/constants/views/dragon/{bias}.json"] if bias else []
+        assert files["constants_json"] == found
+
+
+def test_a_change_of_one_kind_of_frames_is_none_of_the_other(desk):
+    """Nor of methods: each job has the modules of its own."""
+    of_views = evaluations.modules(desk, "evaluate", VIEWS, ["shadow_map_64", "dragon"])
+    assert {path.stem for path in of_views["modules"]} == {"views", "view_metrics", "shadow_map"}
+    assert of_views["encodings"] == set()
+    tuned = evaluations.modules(desk, "tune", VIEWS, ["dragon"])
+    assert tuned["encodings"] == {"frequency"}
+    of_frames = evaluations.modules(desk, "evaluate", "frames", ["pcss"])
+    names = {"measured_frames", "frame_metrics", "pcss", "sphere"}
+    assert {path.stem for path in of_frames["modules"]} == names and not of_frames["forms"]
+    of_network = evaluations.modules(desk, "tune", "windows", ["kpnsm"])
+    assert of_network["forms"] == {"kernels"}
+    assert "screen_network_method" in {path.stem for path in of_network["modules"]}
 
 
 def test_unseen_scenes_may_have_more_test_frames():
@@ -118,37 +149,35 @@ def test_unseen_scenes_may_have_more_test_frames():
     assert parts["hall", "test"] == ["test_000"]
     assert parts["tree", "test"] == ["test_000", "test_001"]
     assert parts["tree", "validation"] == ["validation_000"]
-    last = [
-        frame_sets.frame_settings(layout, scene, "windows", part)["last"]
-        for scene, part in (("hall", "test_000"), ("tree", "test_000"), ("tree", "test_001"))
-    ]
-    assert last == [2, 16, 20]
+    last = frame_sets.frame_settings(layout, "tree", "windows", "test_001")["last"]
+    assert last == 20
 
 
 def test_steps_are_measured_in_their_number_formats(desk):
     made = kinds.table_files(desk, "nsm_steps")
-    assert [path.rsplit("/", 1)[1] for path in made["soft_metrics"]] == [
+    measured = [*made["soft_metrics"], *made["null_metrics"]]
+    assert [path.rsplit("/", 1)[1] for path in measured] == [
         *("nsm_trimmed_float32.csv", "nsm_trimmed_bfloat16.csv", "nsm_bfloat16.csv"),
         *("no_shadow.csv", "all_dark.csv", "hard.csv"),  # what learns nothing
     ]
     method = "nsm_trimmed_float32"
-    assert soft_methods.precision(desk, method) == "float32"
-    assert soft_methods.weights(desk, method) == soft_methods.weights(desk, "nsm_trimmed")
-    assert soft_methods.precision(desk, "nsm_trimmed") == "auto"
+    assert frame_methods.precision(desk, method) == "float32"
+    assert frame_methods.weights(desk, method) == frame_methods.weights(desk, "nsm_trimmed")
+    assert frame_methods.precision(desk, "nsm_trimmed") == "auto"
 
 
 def test_a_network_for_each_scene_is_by_scene(desk):
     methods = ("kpnsm_nsm_single", "kpnsm_nsm_joint", "pcss")
-    assert [soft_methods.by_scene(desk, one) for one in methods] == [True, False, False]
+    assert [frame_methods.by_scene(desk, one) for one in methods] == [True, False, False]
 
 
 def test_tables_and_claims_are_made_of_their_rows(desk):
     made = kinds.table_files(desk, "table_4_3")
-    assert "results/evaluations/dragon/shadow_map_512.001.csv" in made["metrics"]
+    assert "results/evaluations/views/dragon.001/shadow_map_512.csv" in made["metrics"]
     networks = ["dragon", "dragon_field"]
     assert made["trainings"] == [f"results/networks/{name}/training.json" for name in networks]
-    assert made["depth_biases"] == ["results/depth_biases/dragon/dragon_field.json"]
-    assert "results/evaluations/dragon/all_dark.000.csv" in made["metrics"]
+    assert made["depth_biases"] == ["results/constants/views/dragon/dragon_field.json"]
+    assert "results/evaluations/views/dragon.000/all_dark.csv" in made["metrics"]
     assert "reports/scenes/dragon.png" in made["beside"]
     # An edited network's code leaves a table alone that reads none of its files.
     encodings = [kinds.encodings(desk, "tables", name) for name in ("table_4_3", "table_4_7")]
@@ -158,12 +187,22 @@ def test_tables_and_claims_are_made_of_their_rows(desk):
     # Not timed, but in a pair: its record says how long it was trained.
     assert "results/networks/landscape_axis_128/training.json" in judged["trainings"]
     for scene in ("dragon", "fence", "landscape"):
-        assert f"results/evaluations/{scene}/no_shadow.000.csv" in judged["metrics"]
+        assert f"results/evaluations/views/{scene}.000/no_shadow.csv" in judged["metrics"]
         assert f"results/scenes/{scene}/mesh.json" in judged["meshes"]
     assert judged["published_csv"] == "config/published.csv"
     assert claims.arguments(desk)["learning_curves"] == {}
     with pytest.raises(InputError, match="tables: .*did you mean 'table_4_3'"):
         kinds.table_files(desk, "table_4_33")
+
+
+def test_an_argument_of_no_file_and_no_setting_is_refused(desk, monkeypatch):
+    def table(soft_metric, more_metrics=()):
+        return soft_metric, more_metrics
+
+    monkeypatch.setattr(kinds.kind_of(desk, "tables", "table_4_3"), "table", table)
+    message = r"tables.table_4_3: argument 'soft_metric' \(did you mean 'soft_metrics'\?\)"
+    with pytest.raises(InputError, match=f"{message}.*of reports/tables/comparison.py return it"):
+        kinds.table_files(desk, "table_4_3")
 
 
 @pytest.mark.parametrize("name", ["kpnsm_forty_rays_are_better", "kpnsm_rays_at_equal_time"])
@@ -172,9 +211,9 @@ def test_claims_on_networks_of_frames_read_all_their_trainings(name):
     layout.settings["claims"] = {name: layout.settings["claims"][name]}
     judged = claims.files(layout)
     for network in ("kpnsm", "kpnsm_seed_1", "kpnsm_basic_seed_2"):
-        record = f"results/screen_networks/{network}/training.json"
+        record = f"results/networks/{network}/training.json"
         assert record in judged["screen_trainings"]
-        assert layout.paths.soft_evaluation("csv", "windows", network) in judged["soft_metrics"]
+        assert layout.paths.evaluation("csv", "windows", network, ALL) in judged["soft_metrics"]
 
 
 def test_files_of_learning_curves():
@@ -184,9 +223,9 @@ def test_files_of_learning_curves():
     made, judged = kinds.table_files(layout, "learning_sampling"), claims.files(layout)
     for found in (made, judged):
         for name in names:
-            assert f"results/claims/evaluations/dragon/{name}.000.csv" in found["metrics"]
+            assert f"results/claims/evaluations/views/dragon.000/{name}.csv" in found["metrics"]
             assert f"results/claims/networks/{name}/training.json" in found["trainings"]
-        assert "results/claims/evaluations/dragon/no_shadow.000.csv" in found["metrics"]
+        assert "results/claims/evaluations/views/dragon.000/no_shadow.csv" in found["metrics"]
     for name in names:
         assert f"results/claims/networks/{name}/loss.csv" in made["losses"]
     told = kinds.params(layout, "tables", "learning_sampling")
@@ -196,22 +235,34 @@ def test_files_of_learning_curves():
     biased = {**told["rows"][0], "method": "dragon_biased"}
     methods = [row["method"] for row in tables.with_curves(layout, [biased])]
     assert methods[:2] == ["dragon_biased", "dragon_500_steps_seed_2026_biased"]
-    assert kinds.files(layout, "figures", "figure_learning_fence") == {
-        "table": "reports/claims/learning_networks.csv"
-    }
-    told = kinds.params(layout, "figures", "figure_learning_fence")
-    assert [row["method"] for row in told["rows"]] == ["fence"]
-    assert targets.chapters(layout)["figure_learning_fence"] == "thesis"
 
 
 def test_durations_are_of_what_comes_before_a_training(desk):
-    told = kinds.params(desk, "tables", "beyond")["durations"]["landscape_field_axis"]
+    durations = kinds.params(desk, "tables", "beyond")["durations"]
+    told = durations["landscape_field_axis"]
     assert told[:2] == [
         "results/benchmarks/prepare_mesh/landscape.tsv",
         "results/benchmarks/draw_directions/landscape.single_axis.tsv",
     ]
-    assert told[-1] == "results/benchmarks/label_rays/landscape.single_axis.003.tsv"
-    assert len(told) == 2 + 2 * 4
+    assert told[-1] == "results/benchmarks/sample_rays/landscape.single_axis.003.tsv"
+    assert len(told) == 2 + 4
+    # What is only built needs no rays.
+    assert durations["dragon_mesh"] == ["results/benchmarks/prepare_mesh/dragon.tsv"]
+
+
+def test_pictures_are_judged_by_all_views_and_by_no_shadow(desk):
+    made = kinds.files(desk, "figures", "figure_4_4")
+    groups = [f"results/evaluations/views/dragon.{part}" for part in ("000", "001")]
+    for method in ("dragon", "no_shadow"):
+        assert {f"{group}/{method}.csv" for group in groups} <= {*made["metrics"]}
+    assert {f"{group}/dragon.npz" for group in groups} <= {*made["visibilities"]}
+    assert f"{groups[0]}/no_shadow.npz" not in made["visibilities"]
+
+
+def test_losses_come_with_what_became_of_their_trainings(desk):
+    made = kinds.files(desk, "figures", "figure_4_1")
+    for name, file in {"losses": "loss.csv", "trainings": "training.json"}.items():
+        assert f"results/networks/dragon/{file}" in made[name]
 
 
 def test_what_is_made_by_default(desk):
@@ -226,7 +277,7 @@ def test_a_page_is_told_its_first_figure_and_every_method_s_kind(desk):
     assert targets.front(desk) == "figure_front" and targets.front(layout_of("claims")) is None
     told = targets.page_arguments(desk)
     assert told["data"]["figure_front"] == "beyond"
-    assert told["missing"] == {}
+    assert told["missing"] == []
     looks = {"Poisson-disk quadtree sampling": "frequency", "No shadow": "no_shadow"}
     assert looks.items() <= told["kinds"].items()
 
@@ -234,35 +285,32 @@ def test_a_page_is_told_its_first_figure_and_every_method_s_kind(desk):
 def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
     made, told = targets.page_files(desk), targets.page_arguments(desk)["soft_pictures"]
     assert "results/frames/nsm/room_dragon/test_000.json" in made["soft_parts"]
-    assert "results/soft_evaluations/nsm/nsm.npz" in made["soft_answers"]
+    assert "results/evaluations/nsm/all/nsm.npz" in made["soft_answers"]
     assert len(made["soft_answers"]) == len(set(made["soft_answers"]))
     shown = {(one["table"], one["scene"]): one for one in told}
     one = shown["nsm_methods", "room_dragon"]
     assert one["frame_set"] == "nsm" and one["radii"] == [1, 2, 4]
     assert one["labels"]["nsm"] == "Neural Shadow Mapping"
-    chosen = layout_of(figures={"figure_nsm_pictures": {"radii": [0, 3]}})
-    assert kinds.params(chosen, "figures", "figure_nsm_pictures")["radii"] == [0, 3]
 
 
 def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    assert targets.newest(desk) == 0
+    assert targets.newest(desk, "available") == 0
     made = tmp_path / "reports" / "table_4_1.json"
     made.parent.mkdir()
     made.touch()
-    told = targets.available_arguments(desk)
+    told = targets.page_settings(desk, "available")
     assert told["tables"] == ["reports/table_4_1.json"]
-    assert told["viewers"] == [] and "viewer.html" in told["missing"]["found"]
-    assert "figure_front.svg" in told["missing"]["found"]
-    assert "table_4_1.json" not in told["missing"]["tables"] and told["missing"]["compare"]
-    assert not {*told["missing"]["figures"]} & {*told["missing"]["extensions"]}
+    assert told["viewers"] == [] and {"viewer", "figure_front"} <= {*told["missing"]}
+    assert "table_4_1" not in told["missing"]
+    assert not any("frames of" in name for name in told["missing"])  # no reference is rendered
     # The second viewer is shown where the first is not there.
     second = f"reports/{[*desk.settings['viewers']][1]}.html"
     (tmp_path / second).touch()
-    assert targets.available_arguments(desk)["viewers"] == [second]
+    assert targets.page_settings(desk, "available")["viewers"] == [second]
     (tmp_path / second).unlink()
     assert told["figures"] == told["claims_json"] == told["lpips_json"] == []
-    assert targets.newest(desk) == made.stat().st_mtime
+    assert targets.newest(desk, "available") == made.stat().st_mtime
 
 
 def test_the_words_at_the_end(desk, monkeypatch, tmp_path):
@@ -284,6 +332,6 @@ def test_claims_on_networks_have_what_learns_nothing_on_their_frames(desk):
         "windows": ("no_shadow", "all_dark", "hard", "base_msm", "base_hard", "base_pcf"),
     }.items():
         for name in names:
-            assert desk.paths.soft_evaluation("csv", frame_set, name) in measured
+            assert desk.paths.evaluation("csv", frame_set, name, ALL) in measured
     bases = desk.settings["claims"]["kpnsm_moments_are_the_best_base"]["bases"]
     assert bases == {"kpnsm": "base_msm", "kpnsm_basic": "base_hard", "kpnsm_pcf": "base_pcf"}

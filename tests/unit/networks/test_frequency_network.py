@@ -14,15 +14,6 @@ WIDTHS = (256, 128, 64)  # of the thesis [4.4.2]
 RAYS = ball_batch(256)[:2]
 
 
-@pytest.fixture(autouse=True, scope="module")
-def one_thread():
-    """Tiny products on two threads mostly wait for each other where cores are shared."""
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(before)
-
-
 def thesis_network(width: int, seed: int = 0) -> FrequencyNetwork:
     network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
     network.initialise(seed)

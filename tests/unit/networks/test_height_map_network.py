@@ -4,24 +4,18 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+from built_networks import laid_out, reloaded
 from rays import ball_rays
 from shapes import box, prepared, sheet
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.landscape import make_landscape
-from neural_shadows.networks.kinds import make_network
-from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.representations.depths import LIT
 
 
 def build_network(shape: trimesh.Trimesh, tmp_path, resolution: int, bits: int = 16, up: str = "y"):
-    """A network of a shape as it comes back from its file."""
-    shape.export(tmp_path / "mesh.ply")
     settings = {"encoding": "height_map", "up": up, "resolution": resolution, "bits": bits}
-    network = make_network(settings)
-    network.prepare(tmp_path / "mesh.ply")
-    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
-    return load_network(tmp_path / "weights.safetensors")[0]
+    return reloaded(laid_out(shape, tmp_path, settings), tmp_path, settings)
 
 
 def trace(network, o: np.ndarray, d: np.ndarray) -> np.ndarray:

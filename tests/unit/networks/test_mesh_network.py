@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+from built_networks import laid_out, reloaded
 from rays import ball_batch
 from shapes import bumpy_sphere, prepared
 
 from neural_shadows.errors import InputError
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
-from neural_shadows.networks.weight_file import load_network, save_network, save_tensors
+from neural_shadows.networks.weight_file import load_network, save_tensors
 from neural_shadows.representations.depths import LIT
 from neural_shadows.representations.meshes.coded_mesh import coded, decoded
 from neural_shadows.representations.meshes.decimation import decimated
@@ -25,13 +25,8 @@ from neural_shadows.running.module_graph import PACKAGE
 
 
 def build_network(shape: trimesh.Trimesh, tmp_path, triangles=None, bits=16, stored="packed"):
-    """A network of a shape as it comes back from its file."""
     settings = {"encoding": "mesh", "triangles": triangles, "bits": bits, "stored": stored}
-    shape.export(tmp_path / "mesh.ply")
-    network = make_network(settings)
-    network.prepare(tmp_path / "mesh.ply")
-    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
-    return load_network(tmp_path / "weights.safetensors")[0]
+    return reloaded(laid_out(shape, tmp_path, settings), tmp_path, settings)
 
 
 @pytest.mark.parametrize(
@@ -113,36 +108,36 @@ def test_an_edge_of_many_triangles_is_coded_exactly():
 def test_damaged_coded_meshes_are_refused(tmp_path):
     network = build_network(bumpy_sphere(2), tmp_path, stored="coded")
     whole = network.stored()["mesh"]
-    for wrong in (whole[:0], whole[:-3], torch.zeros(100, dtype=torch.uint8)):
-        with pytest.raises(ValueError, match="no mesh that Draco reads"):
-            network.restore({"mesh": wrong})
-    points = DracoPy.encode(np.eye(3, dtype=np.float32))
-    with pytest.raises(ValueError, match="points without faces"):
-        network.restore({"mesh": torch.frombuffer(bytearray(points), dtype=torch.uint8)})
-    network.bits = 12
-    with pytest.raises(ValueError, match="vertices beyond 12 bits"):
-        network.restore({"mesh": whole})
+    points = bytearray(DracoPy.encode(np.eye(3, dtype=np.float32)))
     path = tmp_path / "weights.safetensors"
-    settings = {"encoding": "mesh", "triangles": None, "bits": 16, "stored": "coded"}
-    save_tensors(path, {"mesh": whole[:-3]}, {"network": settings})
-    with pytest.raises(InputError, match="weights do not fit the header .* Delete it and train"):
-        load_network(path)
+    for mesh, bits, reason in (
+        *((wrong, 16, "") for wrong in (whole[:0], whole[:-3], torch.zeros(100).byte())),
+        (torch.frombuffer(points, dtype=torch.uint8), 16, "points without faces"),
+        (whole, 12, "vertices beyond 12 bits"),
+    ):
+        settings = {"encoding": "mesh", "triangles": None, "bits": bits, "stored": "coded"}
+        save_tensors(path, {"mesh": mesh}, {"network": settings})
+        with pytest.raises(InputError, match=f"do not fit the header .{reason}.* Delete it and tr"):
+            load_network(path)
 
 
 MEASURE = """
 import ctypes, sys
 import numpy as np
-from neural_shadows.running.process_memory import held_bytes
 from neural_shadows.scenes.tracing import Tracer
+
+def held():
+    with open("/proc/self/status") as status:
+        return next(1024 * int(line.split()[1]) for line in status if line.startswith("VmRSS:"))
 
 vertices, faces = (np.load(path) for path in sys.argv[1:])
 Tracer(vertices[:3], np.array([[0, 1, 2]], np.int32))
 give_back = ctypes.CDLL(None).malloc_trim
 give_back(0)
-before = held_bytes()
+before = held()
 tracers = [Tracer(vertices, faces) for _ in range(4)]
 give_back(0)
-print((held_bytes() - before) / 4)
+print((held() - before) / 4)
 """
 
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+from built_networks import laid_out, reloaded
 from rays import ball_batch, ball_rays
 from shapes import bumpy_sphere, prepared, sheet
 
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.occupancy_field_network import LIMIT, PUSHES
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch, chords, hits
@@ -19,14 +19,6 @@ from neural_shadows.representations.distance_bricks.brick_layout import lay_out
 
 SOLID_32 = {"encoding": "occupancy_field", "resolution": 32, "surface": "solid", "stored": "int8"}
 SHEET_32 = SOLID_32 | {"surface": "sheet"}
-
-
-def build_network(shape: trimesh.Trimesh, tmp_path, settings):
-    shape.export(tmp_path / "mesh.ply")
-    network = make_network(settings)
-    network.prepare(tmp_path / "mesh.ply")
-    network.initialise(1)
-    return network
 
 
 def positions(network) -> torch.Tensor:
@@ -49,7 +41,7 @@ def ball(p):
 
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
 def test_crossings_of_a_ball(tmp_path, settings):
-    network = build_network(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)
+    network = laid_out(trimesh.creation.icosphere(4, radius=0.5), tmp_path, settings)
     set_logits(network, ball)
     batch = ball_batch(3000)
     o, d, t_lb, t_ub = batch
@@ -70,10 +62,9 @@ def test_crossings_of_a_ball(tmp_path, settings):
 def test_skipping_empty_space_changes_no_depth(tmp_path, settings, stored, push):
     """The CPU's march against the form that looks at every sample, on random logits."""
     settings = settings | {"stored": stored}
-    network = build_network(bumpy_sphere(4), tmp_path, settings)
+    network = laid_out(bumpy_sphere(4), tmp_path, settings)
     set_logits(network, lambda p: 6 * torch.sin(40 * p).prod(1) + 20 * (0.85 - p.norm(dim=1)))
-    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
-    network, _ = load_network(tmp_path / "weights.safetensors")
+    network = reloaded(network, tmp_path, settings)
     network.push = push
     rng = np.random.default_rng(0)
     for d in (*rng.normal(size=(6, 3)), [0, 0, 1], [0, -1, 0], [1, 1e-7, 0]):
@@ -101,7 +92,7 @@ def learn(network, batch: LabelledBatch, steps: int) -> None:
 
 
 def test_it_learns_a_ball(tmp_path):
-    network = build_network(trimesh.creation.icosphere(4, radius=0.5), tmp_path, SOLID_32)
+    network = laid_out(trimesh.creation.icosphere(4, radius=0.5), tmp_path, SOLID_32)
     learn(network, ball_batch(30_000), 60)
     batch = ball_batch(2000, seed=3)
     o, d, t_lb, t_ub = batch
@@ -114,7 +105,7 @@ def test_it_learns_a_ball(tmp_path):
 @pytest.mark.parametrize("winding", [1, -1])
 def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
     shape = sheet(0.1, 0.6, winding)
-    network = build_network(shape, tmp_path, SHEET_32)
+    network = laid_out(shape, tmp_path, SHEET_32)
     _, tracer = prepared(shape)
     o, d = ball_rays(20_000)[:2]
     batch = LabelledBatch(*map(torch.from_numpy, (o, d, *dual_bounds(tracer, o, d))))
@@ -138,9 +129,8 @@ def test_a_sheet_is_learned_from_both_sides(tmp_path, winding):
 def test_untrained_distances_of_a_ball_and_their_push(tmp_path, resolution, stored):
     """Rays through the centre end where the ball of a radius of 0.5 and so many cells does."""
     settings = SOLID_32 | {"resolution": resolution, "stored": stored, "start": "distances"}
-    network = build_network(trimesh.creation.icosphere(5, radius=0.5), tmp_path, settings)
-    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
-    network, _ = load_network(tmp_path / "weights.safetensors")
+    network = laid_out(trimesh.creation.icosphere(5, radius=0.5), tmp_path, settings)
+    network = reloaded(network, tmp_path, settings)
     o = torch.nn.functional.normalize(ball_batch(1000)[0], dim=1)
     assert 0.0 in network.pushes and min(network.pushes) < 0 < max(network.pushes)
     for push in network.pushes:
@@ -159,7 +149,7 @@ def test_untrained_distances_of_a_ball_and_their_push(tmp_path, resolution, stor
 
 def test_a_trained_surface_is_not_pushed(tmp_path):
     settings = SOLID_32 | {"start": "distances"}
-    network = build_network(bumpy_sphere(3), tmp_path, settings)
+    network = laid_out(bumpy_sphere(3), tmp_path, settings)
     path = tmp_path / "weights.safetensors"
     for training, pushes in [(None, PUSHES), ({"steps": 60}, (0.0,))]:
         save_network(path, network, {"network": settings, "training": training})
@@ -168,7 +158,7 @@ def test_a_trained_surface_is_not_pushed(tmp_path):
 
 def test_signs_take_a_bit_each(tmp_path):
     settings = SOLID_32 | {"stored": "sign", "start": "distances"}
-    network = build_network(bumpy_sphere(3), tmp_path, settings)
+    network = laid_out(bumpy_sphere(3), tmp_path, settings)
     values = network.stored()["values"]
     assert values.dtype == torch.uint8 and len(values) == -(-len(network.values) // 8)
     inside = positions(network).norm(dim=1) < 0.7
@@ -178,14 +168,12 @@ def test_signs_take_a_bit_each(tmp_path):
 def test_a_query_on_a_cpu_holds_the_bricks(tmp_path):
     """Of a solid masks, words of the cells that are crossed, their places and a light's tables."""
     shape = trimesh.creation.icosphere(3, radius=0.5)
-    network = build_network(shape, tmp_path, SHEET_32)
+    network = laid_out(shape, tmp_path, SHEET_32)
     bricks = int((network.grid >= 0).sum())
     assert network.resident_bytes() == 4 * 8**3 + 125 * bricks
     resident = {}
     for bits in (4, 8):
-        network = build_network(
-            shape, tmp_path, SOLID_32 | {"start": "distances", "corner_bits": bits}
-        )
+        network = laid_out(shape, tmp_path, SOLID_32 | {"start": "distances", "corner_bits": bits})
         resident[bits] = network.resident_bytes()
     inside = (network.logits() > 0)[network.table.long()].view(-1, 5, 5, 5)
     cells = inside.unfold(1, 2, 1).unfold(2, 2, 1).unfold(3, 2, 1).flatten(4)
@@ -205,7 +193,7 @@ def test_a_query_on_a_cpu_holds_the_bricks(tmp_path):
 @pytest.mark.parametrize("settings", [SOLID_32, SHEET_32])
 def test_points_are_lit_up_to_the_crossing(tmp_path, settings):
     """Whether anything is met, for any depth bias, against where it is met first."""
-    network = build_network(bumpy_sphere(4), tmp_path, settings)
+    network = laid_out(bumpy_sphere(4), tmp_path, settings)
     set_logits(network, lambda p: 6 * torch.sin(20 * p).prod(1) + 20 * (0.85 - p.norm(dim=1)))
     light = torch.nn.functional.normalize(torch.tensor([0.3, -0.5, 0.8]), dim=0)
     rays = sphere_rays(1.5 * torch.from_numpy(ball_rays(5000)[0]) * torch.rand(5000, 1), light)
@@ -223,7 +211,7 @@ def test_training_from_distances_starts_with_a_lower_loss(tmp_path):
     losses = []
     for start in ("distances", "undecided"):
         shape = trimesh.creation.icosphere(4, radius=0.5)
-        network = build_network(shape, tmp_path, SOLID_32 | {"start": start})
+        network = laid_out(shape, tmp_path, SOLID_32 | {"start": start})
         generator = torch.Generator().manual_seed(0)
         result, _ = network.losses(ball_batch(3000), DeadZone(), torch.float32, generator)
         losses.append(result.mean().item())

@@ -3,14 +3,13 @@
 import pytest
 import torch
 import trimesh
+from built_networks import make_network, reloaded
 from rays import ball_batch
 from shapes import bumpy_sphere, prepared
 
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.ray_grid_network import FeatureGrid
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch, chords, hits
-from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
 
 SMALL = {
@@ -106,13 +105,11 @@ def test_it_learns_a_ball(ball_ply, kind, head):
 def test_round_trip_of_weight_files(tmp_path, ball_ply, kind, stored, error):
     settings = KINDS[kind] | {"stored": stored}
     network = build_network(kind, ball_ply, stored=stored)
-    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
-    loaded, _ = load_network(tmp_path / "weights.safetensors")
+    loaded = reloaded(network, tmp_path, settings)
     o, d, *_ = ball_batch(500)
     with torch.inference_mode():
         expected, result = (net(o, d, torch.float32) for net in (network, loaded))
     assert (result - expected).abs().max() <= error
     # As the answers of a file are those of the network it makes, writing it again is the same.
-    save_network(tmp_path / "again.safetensors", loaded, {"network": settings})
-    again, _ = load_network(tmp_path / "again.safetensors")
+    again = reloaded(loaded, tmp_path, settings)
     assert torch.equal(again(o, d, torch.float32), result)

@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+from built_networks import laid_out, reloaded
 from rays import ball_batch, ball_rays
 from shapes import bumpy_sphere
 
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import hits
-from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.representations.depths import LIT
 from neural_shadows.representations.voxels.occupancy import enclosed_cells, surface_cells
 from neural_shadows.representations.voxels.voxel_bricks import surface_bricks
@@ -18,13 +17,8 @@ from neural_shadows.representations.voxels.voxel_inside import inside_of
 
 
 def build_network(shape: trimesh.Trimesh, tmp_path, resolution: int, surface: str):
-    """A network of a shape as it comes back from its file."""
-    shape.export(tmp_path / "mesh.ply")
     settings = {"encoding": "voxel_dag", "resolution": resolution, "surface": surface}
-    network = make_network(settings)
-    network.prepare(tmp_path / "mesh.ply")
-    save_network(tmp_path / "weights.safetensors", network, {"network": settings})
-    return load_network(tmp_path / "weights.safetensors")[0]
+    return reloaded(laid_out(shape, tmp_path, settings), tmp_path, settings)
 
 
 def holed_sphere() -> trimesh.Trimesh:

@@ -1,4 +1,9 @@
+"""Quadtrees over silhouettes against their definition."""
+
 import numpy as np
+import pytest
+
+from neural_shadows.rays.quadtree import DISK_RADIUS, build_quadtree, disk_area
 
 AXIS = (2 * np.arange(64) + 1) / 64 - 1
 A, B = np.meshgrid(AXIS, AXIS)  # texel centres
@@ -14,7 +19,7 @@ SILHOUETTES = {
 def leaves_by_definition(silhouette, min_quad):
     """The definition read out, in the Z-order of the quads."""
     resolution = len(silhouette)
-    found = []
+    leaves = []
 
     def visit(row, column, size):
         lines = np.array([[row, row + size], [column, column + size]]) * 2 / resolution - 1
@@ -23,7 +28,7 @@ def leaves_by_definition(silhouette, min_quad):
             return
         texels = silhouette[row : row + size, column : column + size]
         if size == min_quad or texels.all() or not texels.any():
-            found.append((row, column, size))
+            leaves.append((row, column, size))
             return
         half = size // 2
         for i in (0, half):
@@ -31,4 +36,16 @@ def leaves_by_definition(silhouette, min_quad):
                 visit(row + i, column + j, half)
 
     visit(0, 0, resolution)
-    return np.array(found)
+    return np.array(leaves)
+
+
+@pytest.mark.parametrize("name", SILHOUETTES)
+@pytest.mark.parametrize("min_quad", [1, 4])
+def test_leaves_are_those_of_the_definition_and_tile_the_disk(name, min_quad):
+    quads = build_quadtree(SILHOUETTES[name], min_quad)
+    assert quads.dtype == np.int32
+    assert np.array_equal(quads, leaves_by_definition(SILHOUETTES[name], min_quad))
+    corners = 2 * quads / 64
+    areas = [disk_area(c - 1, r - 1, c - 1 + s, r - 1 + s) for r, c, s in corners]
+    assert min(areas) > 0
+    assert sum(areas) == pytest.approx(np.pi * DISK_RADIUS**2, rel=1e-12)

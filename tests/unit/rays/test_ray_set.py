@@ -11,11 +11,10 @@ from shapes import prepared
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import sha256_of
+from neural_shadows.rays import sample_rays as stage
 from neural_shadows.rays.describe_rays import describe_rays
 from neural_shadows.rays.draw_directions import draw_directions
-from neural_shadows.rays.label_rays import label_rays
 from neural_shadows.rays.labels import dual_bounds
-from neural_shadows.rays.sample_rays import sample_rays
 
 SEED = 3
 SAMPLING = {
@@ -52,10 +51,10 @@ def make_set(mesh_ply, tmp_path_factory):
         files["directions_npy"] = folder / "directions.npy"
         draw_directions(directions_npy=files["directions_npy"], sampling=sampling, seed=SEED)
         for shard, (first, last) in enumerate(zip(cuts, cuts[1:], strict=False)):
-            files["origins_npy"] = folder / f"origins.{shard:03}.npy"
-            part = {"seed": seed, "first": first, "last": last, "threads": threads}
-            sample_rays(sampling=sampling, **files, **part)
-            label_rays(bounds_npy=folder / f"bounds.{shard:03}.npy", **files, **part)
+            for part in ("origins", "bounds"):
+                files[f"{part}_npy"] = folder / f"{part}.{shard:03}.npy"
+            of_shard = {"seed": seed, "first": first, "last": last, "threads": threads}
+            stage.sample_rays(sampling=sampling, **files, **of_shard)
         return folder
 
     return make
@@ -127,28 +126,22 @@ def test_the_description_counts_rays_by_their_hits(mesh_ply, ray_set, tmp_path):
     assert content.items() >= expected.items()
 
 
-@pytest.mark.parametrize(
-    ("first", "error", "message"),
-    [
-        (0, InputError, r"origins.npy: is float32 \(19, 400, 3\)"),  # another range's
-        (11, RuntimeError, r"labels .*bounds.npy \(seed 3\): ray \d+ of direction \d+ from"),
-    ],
-)
-def test_a_shard_that_cannot_be_labelled_is_not_there(
-    mesh_ply, ray_set, tmp_path, first, error, message
-):
-    np.save(tmp_path / "origins.npy", 0.5 * np.load(ray_set / "origins.001.npy"))
-    with pytest.raises(error, match=message):
-        label_rays(
+def test_a_shard_that_cannot_be_labelled_is_not_there(mesh_ply, ray_set, tmp_path, monkeypatch):
+    """Rays that start inside the unit sphere."""
+    sample = stage.sample_direction
+    monkeypatch.setattr(stage, "sample_direction", lambda *of, **more: 0.5 * sample(*of, **more))
+    files = {f"{part}_npy": tmp_path / f"{part}.npy" for part in ("origins", "bounds")}
+    with pytest.raises(RuntimeError, match=r"bounds.npy \(seed 3\): ray \d+ of direction \d+ from"):
+        stage.sample_rays(
             mesh_ply=mesh_ply,
             directions_npy=ray_set / "directions.npy",
-            origins_npy=tmp_path / "origins.npy",
-            bounds_npy=tmp_path / "bounds.npy",
+            sampling=SAMPLING,
             seed=SEED,
-            first=first,
+            first=11,
             last=30,
+            **files,
         )
-    assert [path.name for path in tmp_path.iterdir()] == ["origins.npy"]
+    assert [*tmp_path.iterdir()] == []
 
 
 def cut(path):

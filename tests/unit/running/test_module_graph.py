@@ -7,9 +7,7 @@ from neural_shadows.running import module_graph
 from neural_shadows.running.module_graph import PACKAGE, digest, modules_of
 from neural_shadows.settings.kinds import kinds
 
-STAGES = [
-    path for path in PACKAGE.rglob("*.py") if "run_stage(snakemake" in path.read_text("utf-8")
-]
+STAGES = [path for path in PACKAGE.rglob("*.py") if "(snakemake, " in path.read_text("utf-8")]
 
 
 @pytest.mark.parametrize("stage", STAGES, ids=lambda path: path.stem)
@@ -20,7 +18,7 @@ def test_no_stage_depends_on_the_configuration(stage):
 
 
 def test_training_depends_on_what_decides_the_weights():
-    found = modules_of(PACKAGE / "training" / "train.py")
+    found = modules_of(PACKAGE / "training" / "train_on_rays.py")
     names = {path.relative_to(PACKAGE).as_posix()[:-3] for path in found}
     assert {"training/training_run", "networks/weight_file", "rays/ray_set"} <= names
     rooms = {name.split("/")[0] for name in names}
@@ -44,9 +42,12 @@ def test_a_kind_of_network_depends_on_its_own_class_and_on_no_settings(module):
     "stage",
     [
         "frames/render_frames",
-        "evaluation/tune_soft_method",
-        "evaluation/evaluate_soft",
-        "evaluation/time_soft_methods",
+        "evaluation/tune",
+        "evaluation/evaluate",
+        "evaluation/time_methods",
+        "evaluation/measured_frames",
+        "evaluation/frame_metrics",
+        "evaluation/time_frames",
     ],
 )
 def test_soft_shadows_depend_on_no_network_and_no_other_method(stage):
@@ -56,7 +57,7 @@ def test_soft_shadows_depend_on_no_network_and_no_other_method(stage):
     assert not others & {"training", "networks", "rays", "reports"}
     # Maps of a directional light are the thesis's; a scene or a method is an input of its own jobs.
     assert "shadow_maps/shadow_map" not in names
-    kinds = {path.stem for path in found if path.parent.name in ("soft_methods", "generators")}
+    kinds = {path.stem for path in found if path.parent.name in ("methods", "generators")}
     assert kinds <= {"registry"}
 
 

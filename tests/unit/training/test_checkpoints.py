@@ -22,7 +22,7 @@ HEADER = {
 
 def folder_of(tmp_path, header=HEADER, kind=KIND):
     weights = tmp_path / "networks" / "ball" / "weights.safetensors"
-    return checkpoint_folder(weights, header, (STAGES / "train.py", kind))
+    return checkpoint_folder(weights, header, (STAGES / "train_on_rays.py", kind))
 
 
 @pytest.mark.parametrize("change", [{"name": "balls"}, {"data": {"rays": 20_001}}])

@@ -5,20 +5,22 @@ import json
 import numpy as np
 import pytest
 import trimesh
+from built_networks import make_network
 from shapes import SPHERE_OF_LIGHTS
 
-from neural_shadows.evaluation.shadow_methods import network_method
+from neural_shadows.evaluation.ray_network import network_method
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
-from neural_shadows.metrics.shadow_error import shadow_error
-from neural_shadows.networks.kinds import make_network
+from neural_shadows.metrics.kinds.errors_of_visibility import shadow_error
 from neural_shadows.networks.mesh_surface import is_unfit, with_surface
+from neural_shadows.networks.settings.networks import ray_network
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rays.labels import dual_bounds
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints
+from neural_shadows.running.stage import converted
 from neural_shadows.scenes.scene import open_scene
-from neural_shadows.training.train import train
+from neural_shadows.training.train_on_rays import train_on_rays
 
 FIELD = {"encoding": "occupancy_field", "resolution": 32, "start": "undecided", "stored": "int8"}
 FIELD |= {"corner_bits": 8}
@@ -76,14 +78,13 @@ def trained(folder, scene, surface):
     """The record of a field that was trained, and the share of points that it shadows wrongly."""
     out = folder / surface
     out.mkdir()
-    train(
+    train_on_rays(
         mesh_ply=folder / "mesh.ply",
         mesh_json=folder / "mesh.json",
         weights=out / "weights.safetensors",
         loss_csv=out / "loss.csv",
         training_json=out / "training.json",
-        network=FIELD | {"surface": surface},
-        training=BRIEF,
+        **converted(train_on_rays, {"network": FIELD | {"surface": surface}, "training": BRIEF}),
         seed=1,
         experiment=surface,
         device="cpu",
@@ -126,9 +127,12 @@ def test_an_unresolved_surface_is_refused():
         (True, {"surface": "solid"}, "solid", True),
         (False, {"surface": "sheet"}, "sheet", False),
         (True, {"surface": "auto"}, "sheet", False),
-        (True, {"frequencies": 10}, None, False),
+        (True, {"encoding": "ray_grid"}, None, False),
     ],
 )
 def test_which_surface_a_network_takes(sheet, network, surface, unfit):
-    chosen = with_surface(network, {"sheet": sheet})
-    assert chosen.get("surface") == surface and is_unfit(chosen, {"sheet": sheet}) == unfit
+    settings = ray_network({"encoding": "occupancy_field", **network})
+    chosen = with_surface(settings, {"sheet": sheet})
+    assert (
+        getattr(chosen, "surface", None) == surface and is_unfit(chosen, {"sheet": sheet}) == unfit
+    )

@@ -8,10 +8,11 @@ import numpy as np
 import onnxruntime
 import pytest
 import torch
+from built_networks import make_network
+from opened import write_constants
 from shapes import bumpy_sphere, looking, unit
 
 from neural_shadows.errors import InputError
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rendering.gbuffer import render_gbuffer
@@ -42,7 +43,7 @@ def export(tmp_path):
     shape = bumpy_sphere(4)
     shape.export(tmp_path / "mesh.ply")
     (tmp_path / "mesh.json").write_text(json.dumps({"centre": [1, 2, 3], "radius": 4}))
-    (tmp_path / "bias.json").write_text(json.dumps({"depth_bias": 0.02, "push": 0.1}))
+    write_constants(tmp_path / "bias.json", depth_bias=0.02, push=0.1)
 
     def export(settings, biased=True):
         network = make_network(settings)

@@ -5,9 +5,9 @@ import zlib
 
 import numpy as np
 import pytest
+from built_networks import make_network
 from shapes import bumpy_sphere
 
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.representations.distance_bricks.field_marching import SOLID
 from neural_shadows.viewer.network_arrays import SOLID_CODE, network_arrays
 

@@ -1,4 +1,8 @@
-"""JSON schema of the configuration: `python -m neural_shadows.config`."""
+"""JSON schema of the configuration: `python -m neural_shadows.config`.
+
+With `--markdown` the reference of its keys; with config files the first that cannot be read as YAML, and
+where: Snakemake reads those of `--configfile` before all else, and names neither.
+"""
 
 import json
 import sys
@@ -37,5 +41,13 @@ if __name__ == "__main__":
         from neural_shadows.config.reference import markdown
 
         print(markdown(), end="")
+    elif sys.argv[1:]:
+        from neural_shadows.config.reading import check_duplicates
+        from neural_shadows.errors import InputError
+
+        try:
+            check_duplicates(sys.argv[1:])
+        except InputError as error:
+            sys.exit(str(error))
     else:
         print(json_schema(), end="")

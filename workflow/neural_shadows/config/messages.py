@@ -2,10 +2,15 @@
 
 import re
 import reprlib
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
+import yaml
 from pydantic import ValidationError
 
+LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_FIRST_KEY = re.compile(r"(?:(?!unknown key)(\w+(?:\.\w+)*)(?:: | = ))?(?:unknown key: '(\w+)')?")
 _NUMBER = re.compile(r"[-+.\d]+(e[-+]?\d+)?$", re.IGNORECASE)
 
 
@@ -53,6 +58,52 @@ def _key(problem: Any, values: Any) -> str:
     if problem["type"] == "missing":
         keys.append(str(problem["loc"][-1]))
     return ".".join(keys)
+
+
+def place_of(message: str, files: Iterable[str | Path], values: Any) -> str:
+    """File and line of a message's first key, as ` [config/mine.yaml, line 7]`.
+
+    Empty for a value of the command line.
+
+    Args:
+        message: begins with the key. files: in the order of merging. values: the merged ones.
+    """
+    path, unknown = _FIRST_KEY.match(message).groups()
+    keys = [key for key in [*(path or "").split("."), unknown] if key]
+    depth, place = 0, ""
+    for file in files:
+        path = Path(file)
+        with path.open(encoding="utf-8") as content:
+            matched, line = _depth(yaml.compose(content, LOADER), keys, values)
+        if matched and matched >= depth:
+            depth, place = matched, f" [{_relative(path)}, line {line}]"
+    return place
+
+
+def _relative(path: Path) -> Path:
+    here = Path.cwd()
+    return path.relative_to(here) if path.is_relative_to(here) else path
+
+
+def _depth(node: yaml.Node | None, keys: Sequence[str], values: Any) -> tuple[int, int]:
+    """Depth of the keys below a node, and line of the last; 0 where another file's value counts."""
+    depth, line = 0, 0
+    for key in keys:
+        if isinstance(node, yaml.MappingNode):
+            below = {k.value: (k, v) for k, v in node.value}
+        elif isinstance(node, yaml.SequenceNode):
+            below = {str(index): (item, item) for index, item in enumerate(node.value)}
+        else:
+            break
+        if key not in below or not isinstance(values, dict | list):
+            break
+        name, node = below[key]
+        values = values[int(key)] if isinstance(values, list) else values.get(key)
+        depth, line = depth + 1, name.start_mark.line + 1
+    if isinstance(node, yaml.ScalarNode) and not isinstance(values, dict | list):
+        same = yaml.safe_load(yaml.serialize(node)) == values
+        return (depth, line) if same else (0, 0)
+    return depth, line
 
 
 def _shown(value: Any) -> str:

@@ -1,13 +1,13 @@
 """Reading and checking the configuration."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import yaml
 from pydantic import ValidationError
 
-from neural_shadows.config.messages import describe
+from neural_shadows.config.messages import LOADER, describe, place_of
 from neural_shadows.config.whole import Config
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.formats import format_of
@@ -26,7 +26,7 @@ def _without_nulls(value: Any) -> Any:
     return {key: _without_nulls(part) for key, part in value.items() if part is not None}
 
 
-class _NoDuplicates(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
+class _NoDuplicates(LOADER):
     """YAML loader rejecting repeated keys."""
 
     def construct_mapping(self, node, deep=False):
@@ -58,11 +58,12 @@ def check_duplicates(paths: Iterable[str | Path]) -> None:
             raise InputError(f"config: {path}: has no sections. Write `section: ...` at its top")
 
 
-def read_config(values: dict[str, Any]) -> Config:
+def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Config:
     """Check a configuration merged by Snakemake.
 
     Args:
-        values: the merged config files and `--config` values.
+        values: the merged config files and `--config` values. files: in the order of merging, for
+            messages.
 
     Raises:
         InputError: a key is unknown or missing, a value has the wrong type or range, or a
@@ -87,7 +88,8 @@ def read_config(values: dict[str, Any]) -> Config:
     try:
         return Config.model_validate(values, context=values)
     except ValidationError as error:
-        raise InputError(f"config: {describe(error, values)}") from error
+        message = describe(error, values)
+        raise InputError(f"config: {message}{place_of(message, files, values)}") from error
 
 
 def check_files(config: Config) -> None:
@@ -96,10 +98,17 @@ def check_files(config: Config) -> None:
     Snakemake does not check inputs of an existing result.
 
     Raises:
-        InputError: a mesh, a frame folder or weights are missing, or a mesh has an unknown suffix; one
-            line with the key.
+        InputError: a mesh, a frame folder or weights are missing, a mesh has an unknown suffix, or the
+            folder of results or reports is a link to nothing; one line with the key.
     """
-    for name, scene in config.scenes.items():
+    for folder in (Path("results"), Path("reports")):
+        for path in (folder, folder / config.scale):
+            if path.is_symlink() and not path.exists():
+                raise InputError(
+                    f"{path}: is a link to {path.readlink()}, which does not exist. Make that folder, "
+                    "or remove the link"
+                )
+    for name, scene in config.mesh_scenes.items():
         if isinstance(scene.mesh, MeshFile):
             path, key = scene.mesh.path, f"scenes.{name}.mesh.path"
             if name == "dragon" and config.dragon == path:
@@ -120,9 +129,9 @@ def check_files(config: Config) -> None:
                 "results/README.md describes the format"
             )
     for name in config.screen_experiments:
-        trunk = getattr(config.screen_training_of(name).perceptual, "trunk", None)
+        trunk = getattr(config.training_of(name).perceptual, "trunk", None)
         if trunk is not None:
-            _check_file(f"screen_experiments.{name}: perceptual.trunk", trunk)
+            _check_file(f"experiments.{name}: perceptual.trunk", trunk)
     if config.metrics.lpips.trunk is not None:
         _check_file("metrics.lpips.trunk", config.metrics.lpips.trunk)
 

@@ -68,7 +68,7 @@ def _tag(field: FieldInfo) -> bool:
 
 def _title(model: type[Model]) -> str:
     """Title of a model: its kind, or its class."""
-    for key in ("kind", "encoding", "form", "generate"):
+    for key in ("kind", "encoding", "form", "generate", "shape"):
         if (field := model.model_fields.get(key)) and _tag(field):
             return f"`{key}: {get_args(field.annotation)[0]}`"
     return re.sub(r"(?<!^)(?=[A-Z])", " ", model.__name__).capitalize()

@@ -3,6 +3,7 @@
 import re
 from typing import Any
 
+from neural_shadows.sections.frame_sets import VIEWS
 from neural_shadows.sections.own_frames import OwnFrames, own_settings
 from neural_shadows.sections.rows import row_of
 from neural_shadows.sections.scenes import mesh_name
@@ -14,17 +15,17 @@ Section = dict[str, Any]
 def resolved(config: Sections) -> Section:
     """Sections with names replaced by their entries.
 
-    Sections are as in config.yaml, with every default, but: a scene has its `mesh_name`, `scene`
-    (arguments of `open_scene` besides the mesh) and `frames` (settings of its viewpoints); an experiment's `network` and `training` are sections, the former with keys of its
-    scene, and points of learning curves are experiments as well; a screen experiment has its sections
-    and a `trunk`; `learning_curves` has the points of each (`points_of`); seeds and labels are the
+    Sections are as in config.yaml, with every default, but: a scene has its `arrangement` in metres,
+    and a mesh `mesh_name`, `scene` (arguments of `open_scene` besides the mesh) and `frames` (settings
+    of its viewpoints); an experiment's `network` and `training` are sections, the former with keys of
+    its scene, and points of learning curves are experiments as well; one on frames has a `trunk`;
+    `learning_curves` has the points of each (`points_of`); seeds and labels are the
     effective ones; tables, figures and claims are resolved by their kinds.
     """
     names = config.learning_curves.experiments if config.learning_curves else []
     curves = {name: config.points_of(name) for name in names}
     return config.model_dump() | {
         "scenes": {name: _scene(config, name) for name in config.scenes},
-        "soft_scenes": {name: _soft_scene(config, name) for name in config.soft_scenes},
         "frame_sets": {name: _frame_set(config, name) for name in config.frame_sets},
         "experiments": {
             **{
@@ -33,9 +34,6 @@ def resolved(config: Sections) -> Section:
                 for point in points
             },
             **{name: _experiment(config, name) for name in config.experiments},
-        },
-        "screen_experiments": {
-            name: _screen_experiment(config, name) for name in config.screen_experiments
         },
         "learning_curves": curves,
         "viewers": {
@@ -65,19 +63,26 @@ def _figure(config: Sections, name: str) -> Section:
 
 
 def _scene(config: Sections, name: str) -> Section:
+    arrangement = {"arrangement": _arrangement(config, name)}
+    if name not in config.mesh_scenes:
+        return arrangement
     scene = config.scenes[name].model_dump()
     scene["seed"] = config.seed if scene["seed"] is None else scene["seed"]
-    size = {"width": config.rendering.width, "height": config.rendering.height}
-    return scene | {
-        "mesh_name": mesh_name(config.scenes[name]),
-        "scene": {key: scene[key] for key in ("up", "ground", "light")},
-        "frames": size | {key: scene[key] for key in ("view_sets", "least_shadow", "seed")},
-    }
+    size = {"width": config.views.width, "height": config.views.height}
+    return (
+        scene
+        | arrangement
+        | {
+            "mesh_name": mesh_name(config.scenes[name]),
+            "scene": {key: scene[key] for key in ("up", "ground", "light")},
+            "frames": size | {key: scene[key] for key in ("view_sets", "least_shadow", "seed")},
+        }
+    )
 
 
-def _soft_scene(config: Sections, name: str) -> Section:
+def _arrangement(config: Sections, name: str) -> Section:
     """Arguments of `SoftScene` besides meshes, with the meshes' vertical axes."""
-    scene = config.soft_scenes[name]
+    scene = config.arrangement(name)
     return {
         "generate": scene.generate,
         "seed": config.layout_seed(name),
@@ -91,14 +96,20 @@ def _frame_set(config: Sections, name: str) -> Section:
     if isinstance(frames, OwnFrames):
         return own_settings(frames)
     settings = frames.model_dump()
+    if name == VIEWS:
+        return settings
     return settings | {"of": settings["of"] and [*settings["of"].values()], "path": None}
 
 
 def _experiment(config: Sections, name: str) -> Section:
-    training, network = config.training_of(name), config.network_of(name)
+    if name in config.screen_experiments:
+        return _screen_experiment(config, name)
+    training, network = config.training_of(name), config.network_of(name).model_dump()
     scene = config.scenes[config.experiments[name].scene]
+    for key in config.network_of(name).of_scene:
+        network[key] = network[key] or getattr(scene, key)
     return config.experiments[name].model_dump() | {
-        "network": network.model_dump() | {key: getattr(scene, key) for key in network.of_scene},
+        "network": network,
         "training": training and training.model_dump(),
         "seed": config.seed_of(name),
         "label": config.label_of(name),
@@ -113,22 +124,22 @@ def _experiment_at(config: Sections, name: str, point: Section) -> Section:
 
 
 def _screen_experiment(config: Sections, name: str) -> Section:
-    """Sections of a screen experiment, with training `lights` and `trunk`.
+    """Sections of an experiment on frames, with `trunk`.
 
     Without weights (`trunk`) the perceptual loss is `none`.
     """
     experiment = config.screen_experiments[name]
-    training = config.screen_training_of(name).model_dump() | {"lights": experiment.lights}
+    training = config.training_of(name).model_dump()
     perceptual, lpips = training["perceptual"], config.metrics.lpips
-    trunk = perceptual.pop("trunk", None)
+    trunk = perceptual.get("trunk")
     if perceptual["net"] == "squeeze":
         trunk = lpips.trunk if lpips.net == "squeeze" else None
         if trunk is None:
             training["perceptual"] = {"net": "none"}
     return experiment.model_dump() | {
-        "network": config.screen_network_of(name).model_dump(),
+        "network": config.network_of(name).model_dump(),
         "training": training,
         "trunk": trunk,
-        "seed": config.screen_seed_of(name),
-        "label": experiment.label or name,
+        "seed": config.seed_of(name),
+        "label": config.label_of(name),
     }

@@ -5,7 +5,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from neural_shadows.errors import InputError
+from neural_shadows.evaluation.registry import FRAME_METHODS
+from neural_shadows.sections.frame_tables import check_method
 from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import check_among
 
 
 def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> None:
@@ -15,7 +18,8 @@ def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> Non
         targets: the command line. folder: of the shipped configuration and its overlays.
 
     Raises:
-        InputError: a target is in the folder of another scale, or the name of an entry.
+        InputError: a target is in the folder of another scale, or the name of an entry; or a method
+            cannot answer a user's frames.
     """
     scales = _scales(folder)
     for target in targets:
@@ -27,6 +31,7 @@ def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> Non
                     f"{target}: has the scale {scale!r}, and this run {config.scale!r}. Add "
                     f"`--configfile {scales[scale]}` after the targets"
                 )
+        _check_answers(target, config)
         for section, ending in (("tables", "csv"), ("figures", "png"), ("viewers", "html")):
             if target in getattr(config, section):
                 below = "reports" if config.scale == "desk" else f"reports/{config.scale}"
@@ -34,6 +39,20 @@ def check_targets(targets: Iterable[str], config: Sections, folder: Path) -> Non
                     f"{target}: is an entry of `{section}`, not a file. Use "
                     f"{below}/{target}.{ending}"
                 )
+
+
+def _check_answers(target: str, config: Sections) -> None:
+    """Check a method for `reports/answers/FRAME_SET/METHOD.csv`."""
+    if not (match := re.fullmatch(r"reports/(?:\w+/)?answers/(\w+)/(\w+)(?:\.csv)?", target)):
+        return
+    frame_set, method = match.groups()
+    methods = [*FRAME_METHODS, *config.screen_experiments, *config.networks_by_scene]
+    try:
+        check_among(target, frame_set, config.soft_frame_sets)
+        check_among(target, method, methods)
+        check_method(config, f"{target}: {method!r}", frame_set, method)
+    except ValueError as error:
+        raise InputError(str(error)) from error
 
 
 def _scales(folder: Path) -> Mapping[str, str]:

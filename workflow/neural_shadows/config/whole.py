@@ -11,8 +11,6 @@ from neural_shadows.config.checks import (
     learning_curves,
     networks_by_scene,
     scenes,
-    screen_experiments,
-    soft_scenes,
     viewers,
 )
 from neural_shadows.sections.sections import FigureName, Sections
@@ -25,10 +23,10 @@ Claim = union("reports/claims/kinds")
 
 # Folders of the default scale, with which an overlay's folder of this name would collide.
 RESERVED_SCALES = {
-    *("scenes", "rays", "networks", "references", "answers", "evaluations", "depth_biases"),
-    *("frame_times", "logs", "benchmarks", "reference"),
-    *("frames", "imported_frames", "occluders", "soft_constants", "soft_evaluations", "soft_times"),
-    *("screen_networks", "screen_profiles", "screen_sensitivities", "soft_fields"),
+    *("scenes", "rays", "networks", "references", "answers", "evaluations", "constants"),
+    *("times", "logs", "benchmarks", "reference"),
+    *("frames", "imported_frames", "frame_measures"),
+    *("screen_profiles", "screen_sensitivities", "soft_fields"),
 }
 RESERVED_TABLES = ("claims", "index")
 
@@ -48,10 +46,8 @@ class Config(Sections):
             raise ValueError(f"scale = {self.scale!r}: is a folder of results. Choose another name")
         for section in (
             scenes,
-            soft_scenes,
             frame_sets,
             experiments,
-            screen_experiments,
             networks_by_scene,
             learning_curves,
         ):

@@ -24,8 +24,16 @@ def new_array(path: Path, shape: tuple[int, ...], dtype: type = np.float32) -> I
         array.flush()
 
 
-def open_array(path: Path, shape: tuple[int | None, ...], dtype: type = np.float32) -> np.ndarray:
+def open_array(
+    path: Path,
+    shape: tuple[int | None, ...],
+    dtype: type = np.float32,
+    cure: str = "Delete it and run again",
+) -> np.ndarray:
     """Open an array for reading; `None` in `shape` is any length.
+
+    Args:
+        cure: what to do about a file that cannot be used.
 
     Raises:
         InputError: the file is missing, damaged, or of another type or shape.
@@ -33,13 +41,14 @@ def open_array(path: Path, shape: tuple[int | None, ...], dtype: type = np.float
     try:
         array = np.lib.format.open_memmap(path, mode="r")  # never reads pickles
     except (OSError, ValueError) as error:
-        raise InputError(f"{path}: damaged ({error}). Delete it and run again") from error
+        problem = "missing" if isinstance(error, FileNotFoundError) else f"damaged ({error})"
+        raise InputError(f"{path}: {problem}. {cure}") from error
     fits = len(array.shape) == len(shape) and all(
         expected in (None, length) for length, expected in zip(array.shape, shape, strict=True)
     )
     if array.dtype != dtype or not fits:
         raise InputError(
             f"{path}: is {array.dtype} {array.shape}, not {np.dtype(dtype)} {shape} "
-            "(None: any length). Delete it and run again"
+            f"(None: any length). {cure}"
         )
     return np.asarray(array)  # a plain view of the mapping: numba takes no memmap

@@ -1,26 +1,31 @@
 """Parts of frame sets: files and settings of their jobs."""
 
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 from neural_shadows.frames.uses import SEQUENCES
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
+from neural_shadows.rendering.light_shape import shape_module
 
 # Settings shared by all frames of a set.
-FRAME_KEYS = ("width", "height", "fov", "of", "light_map", "radii", "radius_unit", "twins", "blur")
+FRAME_KEYS = (
+    *("width", "height", "fov", "of", "light", "light_map"),
+    *("radii", "radius_unit", "twins", "blur"),
+)
 
 
 def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dict[str, Any]:
     """Settings of `render_frames` for a part."""
-    settings = layout.entry("frame_sets", frame_set)
+    settings = layout.frames(frame_set)
     use, number = part.rsplit("_", 1)
     total, shard = _counts(settings, scene, use)
     first, is_training = int(number) * shard, use == "train"
     frames = {key: settings[key] for key in FRAME_KEYS}
     frames["width"] = (settings["train_width"] if is_training else None) or settings["width"]
     return {
-        "scene": layout.entry("soft_scenes", scene),
+        "scene": layout.entry("scenes", scene)["arrangement"],
         "name": scene,
         "seed": layout.settings["seed"],
         "frames": frames,
@@ -45,31 +50,42 @@ def _counts(settings: Mapping[str, Any], scene: str, use: str) -> tuple[int, int
 
 def engine_files(layout: Layout, scene: str, frame_set: str, part: str) -> list[str]:
     """Files of an engine's frame."""
-    return layout.entry("frame_sets", frame_set)["engine"]["files"][scene][part]
+    return layout.frames(frame_set)["engine"]["files"][scene][part]
 
 
 def import_settings(layout: Layout, scene: str, frame_set: str) -> dict[str, Any]:
     """Settings of `import_frame` for an engine's frames."""
-    engine = layout.entry("frame_sets", frame_set)["engine"]
+    engine = layout.frames(frame_set)["engine"]
     keys = ("fov", "radii", "radius_unit", "channels", "targets")
     return {"size": engine["sizes"][scene], **{key: engine[key] for key in keys}}
 
 
-def meshes(layout: Layout, scene: str) -> list[str]:
+def meshes(layout: Layout, scene: str, frame_set: str) -> list[str]:
     """Meshes of a scene's inserted objects; none of a user's frames."""
-    inserted = layout.settings["soft_scenes"].get(scene, {}).get("inserted", ())
-    return [layout.paths.scene("mesh.ply", name) for name in inserted]
+    inserted = _arrangements(layout, [scene], frame_set)
+    return [layout.paths.scene("mesh.ply", name) for one in inserted for name in one["inserted"]]
 
 
-def generators(layout: Layout, scenes: Iterable[str]) -> list[str]:
+def generators(layout: Layout, scenes: Iterable[str], frame_set: str) -> list[str]:
     """Generators of scenes, each once; none of a user's frames."""
-    soft = layout.settings["soft_scenes"]
-    return sorted({soft[scene]["generate"] for scene in scenes if scene in soft})
+    return sorted({one["generate"] for one in _arrangements(layout, scenes, frame_set)})
+
+
+def _arrangements(layout: Layout, scenes: Iterable[str], frame_set: str) -> list[Mapping[str, Any]]:
+    if layout.frames(frame_set)["path"] is not None:
+        return []
+    return [layout.entry("scenes", scene)["arrangement"] for scene in scenes]
+
+
+def light_shapes(layout: Layout, frame_set: str) -> list[Path]:
+    """Module of the shape of a frame set's lights; none of a user's frames."""
+    settings = layout.frames(frame_set)
+    return [shape_module(settings["light"]["shape"])] if settings["path"] is None else []
 
 
 def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
     """Files of a scene's frames of one use."""
-    settings = layout.entry("frame_sets", frame_set)
+    settings = layout.frames(frame_set)
     if settings["path"] is not None:
         names = [part for part in settings["parts"][scene] if part.rsplit("_", 1)[0] == use]
         if settings["engine"] is not None:
@@ -80,20 +96,82 @@ def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
     return [layout.paths.frames("json", scene, frame_set, name) for name in names]
 
 
-def arrays(parts: Iterable[str]) -> list[str]:
-    """Arrays of parts, beside their JSON."""
+def arrays(layout: Layout, frame_set: str, parts: Iterable[str]) -> list[str]:
+    """Arrays of a user's parts, beside their JSON.
+
+    None of others: their stage writes them with the JSON, and to plan 12,000 such inputs took 2 s.
+    """
+    settings = layout.frames(frame_set)
+    if settings["path"] is None or settings["engine"] is not None:
+        return []
     stems = ("buffers", "targets", "valid")
     return [f"{part.removesuffix('.json')}.{stem}.npy" for part in parts for stem in stems]
 
 
 def tuned_scenes(layout: Layout, frame_set: str) -> list[str]:
     """Scenes with validation frames, for choosing constants of methods."""
-    settings = layout.entry("frame_sets", frame_set)
+    settings = layout.frames(frame_set)
     return list(settings["parts"]) if settings["path"] is not None else settings["scenes"]
 
 
 def measured_scenes(layout: Layout, frame_set: str) -> list[str]:
     """Scenes with test frames."""
-    settings = layout.entry("frame_sets", frame_set)
+    settings = layout.frames(frame_set)
     unseen = [] if settings["path"] is not None else settings["unseen"]
     return [*tuned_scenes(layout, frame_set), *unseen]
+
+
+def fitted_parts(layout: Layout, frame_set: str) -> list[str]:
+    """Frames with scenes covered by the fields."""
+    uses = tests(layout, frame_set), validations(layout, frame_set), sequences(layout, frame_set)
+    return [part for parts in uses for part in parts]
+
+
+def tests(layout: Layout, frame_set: str) -> list[str]:
+    """Test parts of a frame set."""
+    scenes = measured_scenes(layout, frame_set)
+    return [part for name in scenes for part in parts(layout, name, frame_set, "test")]
+
+
+def validations(layout: Layout, frame_set: str) -> list[str]:
+    """Validation parts of a frame set."""
+    scenes = tuned_scenes(layout, frame_set)
+    return [p for name in scenes for p in parts(layout, name, frame_set, "validation")]
+
+
+def tested_arrays(layout: Layout, frame_set: str) -> list[str]:
+    """Arrays of a user's test frames."""
+    return arrays(layout, frame_set, tests(layout, frame_set))
+
+
+def tuned_arrays(layout: Layout, frame_set: str) -> list[str]:
+    """Arrays of a user's validation frames."""
+    return arrays(layout, frame_set, validations(layout, frame_set))
+
+
+def all_meshes(layout: Layout, frame_set: str) -> list[str]:
+    """Meshes of all inserted objects of a frame set, each once."""
+    scenes = measured_scenes(layout, frame_set)
+    paths = [mesh for scene in scenes for mesh in meshes(layout, scene, frame_set)]
+    return list(dict.fromkeys(paths))
+
+
+def sequences(layout: Layout, frame_set: str) -> list[str]:
+    """Sequence parts of a frame set, of its first scene."""
+    settings = layout.frames(frame_set)
+    if settings["path"] is not None:
+        return []
+    first = settings["scenes"][0]
+    return [part for use in SEQUENCES for part in parts(layout, first, frame_set, use)]
+
+
+def first_tests(layout: Layout, frame_set: str) -> list[str]:
+    """First test part of each scene."""
+    scenes = measured_scenes(layout, frame_set)
+    return [parts(layout, scene, frame_set, "test")[0] for scene in scenes]
+
+
+def all_generators(layout: Layout, frame_set: str) -> list[str]:
+    """Generators of a frame set's scenes."""
+    scenes = measured_scenes(layout, frame_set)
+    return generators(layout, scenes, frame_set)

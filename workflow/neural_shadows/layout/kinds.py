@@ -1,13 +1,17 @@
 """Files and parameters of reports, by kind."""
 
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from neural_shadows.evaluation.method_names import hard_modules
-from neural_shadows.evaluation.soft_registry import is_network, method_module
-from neural_shadows.layout import soft_methods
+from neural_shadows.errors import InputError
+from neural_shadows.evaluation import registry
+from neural_shadows.layout import frame_sets, tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.report_inputs import FILES, PARAMS, Report
+from neural_shadows.running.bundles import argument_types, required
+from neural_shadows.settings.base import not_among
 from neural_shadows.settings.kinds import kinds
 
 FOLDERS = {
@@ -15,6 +19,8 @@ FOLDERS = {
     "figures": "reports/figures",
     "claims": "reports/claims/kinds",
 }
+# What writes a table or figure takes, beside what its function names.
+_ALWAYS = {"tables": ("title", "published", "run"), "figures": ("title", "run")}
 
 
 def kind_of(layout: Layout, section: str, name: str) -> ModuleType:
@@ -23,8 +29,25 @@ def kind_of(layout: Layout, section: str, name: str) -> ModuleType:
 
 
 def files(layout: Layout, section: str, name: str) -> dict[str, Any]:
-    """Input files of an entry, by argument of its function."""
-    return kind_of(layout, section, name).files(layout, name)
+    """Input files of an entry, by argument of its function.
+
+    Those of `report_inputs.FILES`, and the kind's own, of its `files(layout, name)`.
+
+    Raises:
+        InputError: an argument is neither a file nor a setting.
+    """
+    names, report = _named(layout, section, name), _report(layout, section, name)
+    own, params = _own(layout, section, name, "files"), _own(layout, section, name, "params")
+    known = {**own, **params, **FILES, **PARAMS, **report.settings, "heading": report.name}
+    for argument in required(_function(layout, section, name)):
+        if argument not in known:
+            kind = report.settings["kind"]
+            raise InputError(
+                f"{section}.{name}: argument {not_among(argument, known)}. Let `files` or `params` of "
+                f"{FOLDERS[section]}/{kind}.py return it, or rename it"
+            )
+    shared = (key for key in names if key in FILES and key not in own | params)
+    return own | {key: FILES[key](report) for key in shared}
 
 
 def table_files(layout: Layout, table: str) -> dict[str, Any]:
@@ -48,15 +71,45 @@ def figure_labels(layout: Layout, figure: str) -> dict[str, str]:
 
 
 def params(layout: Layout, section: str, name: str) -> dict[str, Any]:
-    """Arguments of an entry's function besides files."""
-    title = layout.entry(section, name)["title"]
-    return {"title": title, **kind_of(layout, section, name).params(layout, name)}
+    """Arguments of an entry's function besides files.
+
+    Those of `report_inputs.PARAMS`, the entry's own settings by their keys, and those of the kind's
+    `params(layout, name)`.
+    """
+    names, report = _named(layout, section, name), _report(layout, section, name)
+    own = _own(layout, section, name, "params")
+    others = own.keys() | FILES.keys() | _own(layout, section, name, "files").keys()
+    keys = {*_ALWAYS[section], *names} - others
+    shared = {key: PARAMS[key](report) for key in keys & PARAMS.keys()}
+    settings = {key: report.settings[key] for key in keys & report.settings.keys()}
+    return settings | shared | own
+
+
+def _own(layout: Layout, section: str, name: str, function: str) -> dict[str, Any]:
+    """Files or parameters that only an entry's kind has."""
+    kind = kind_of(layout, section, name)
+    return getattr(kind, function)(layout, name) if hasattr(kind, function) else {}
+
+
+def _named(layout: Layout, section: str, name: str) -> list[str]:
+    """Arguments of the function of an entry's kind."""
+    return [*argument_types(_function(layout, section, name))]
+
+
+def _function(layout: Layout, section: str, name: str) -> Callable[..., Any]:
+    kind = kind_of(layout, section, name)
+    return kind.table if section == "tables" else kind.draw
+
+
+def _report(layout: Layout, section: str, name: str) -> Report:
+    return Report(layout, name, layout.entry(section, name))
 
 
 def encodings(layout: Layout, section: str, name: str) -> set[str]:
     """Kinds of networks with weights read by an entry."""
-    kind = kind_of(layout, section, name)
-    return kind.encodings(layout, name) if hasattr(kind, "encodings") else set()
+    has_weights = "weights" in _named(layout, section, name)
+    experiments = _report(layout, section, name).experiments if has_weights else ()
+    return layout.encodings(experiments)
 
 
 def forms(layout: Layout, section: str, name: str) -> set[str]:
@@ -66,9 +119,10 @@ def forms(layout: Layout, section: str, name: str) -> set[str]:
 
 
 def generators(layout: Layout, section: str, name: str) -> list[str]:
-    """Generators of scenes used by an entry."""
-    kind = kind_of(layout, section, name)
-    return kind.generators(layout, name) if hasattr(kind, "generators") else []
+    """Generators of scenes with meshes read by an entry."""
+    if "soft_meshes" not in _named(layout, section, name):
+        return []
+    return frame_sets.all_generators(layout, _report(layout, section, name).frame_set)
 
 
 def method_modules(layout: Layout, section: str, name: str) -> set[Path]:
@@ -79,9 +133,8 @@ def method_modules(layout: Layout, section: str, name: str) -> set[Path]:
     entry = layout.entry(section, name)
     table = name if section == "tables" else entry.get("table")
     has_methods = "methods" in layout.settings["tables"].get(table, ())
-    soft = soft_methods.methods(layout, table) if has_methods else ()
-    hard = hard_modules(row["method"] for row in entry.get("rows", ()))
-    return hard | {method_module(key) for key in soft if not is_network(key)}
+    soft = tables.methods(layout, table) if has_methods else ()
+    return registry.method_modules([*soft, *(row["method"] for row in entry.get("rows", ()))])
 
 
 def uses_gpu(layout: Layout, section: str, name: str) -> bool:

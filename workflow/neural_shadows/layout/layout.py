@@ -4,14 +4,17 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.method_names import is_classic, unbiased
+from neural_shadows.evaluation.registry import is_classic, is_network, unbiased
 from neural_shadows.layout.parts import HELD_OUT, part_names, part_range, view_range
 from neural_shadows.layout.paths import Paths
 from neural_shadows.networks.kind_module import ENCODINGS
 from neural_shadows.networks.settings.object_space import NetworkModel
+from neural_shadows.sections.frame_sets import VIEWS
+from neural_shadows.sections.views import Views
 from neural_shadows.settings.base import not_among
 from neural_shadows.settings.kinds import kinds
 
@@ -37,44 +40,78 @@ class Layout:
         """Path of a data file in the checkout."""
         return os.path.normpath(f"{self.root}/{name}")
 
-    def entry(self, section: str, name: str) -> Mapping[str, Any]:
-        """A named entry of a section.
+    def entry(self, section: str, name: str, key: str | None = None) -> Mapping[str, Any]:
+        """A named entry of a section, of those with a key.
 
         Raises:
-            InputError: no such name; lists the allowed ones.
+            InputError: no such name, or its entry lacks the key; lists the allowed ones.
         """
         entries = self.settings[section]
-        if name not in entries:
-            raise InputError(f"{section}: {not_among(name, entries)}")
-        return entries[name]
+        if name in entries and (key is None or key in entries[name]):
+            return entries[name]
+        allowed = [n for n, entry in entries.items() if key is None or key in entry]
+        if name in entries:
+            names = ", ".join(allowed[:20])
+            raise InputError(f"{section}: {name!r} has no `{key}`. Choose another, such as {names}")
+        raise InputError(f"{section}: {not_among(name, allowed)}")
+
+    def mesh_scene(self, scene: str) -> Mapping[str, Any]:
+        """An entry of `scenes` with a mesh."""
+        return self.entry("scenes", scene, "mesh")
+
+    def on_rays(self, experiment: str) -> Mapping[str, Any]:
+        """An experiment on rays."""
+        return self.entry("experiments", experiment, "scene")
+
+    def on_frames(self, experiment: str) -> Mapping[str, Any]:
+        """An experiment on frames."""
+        return self.entry("experiments", experiment, "frame_set")
+
+    def frames(self, frame_set: str) -> Mapping[str, Any]:
+        """A frame set of frames, not views."""
+        return self.entry("frame_sets", frame_set, "path")
+
+    @cached_property
+    def mesh_scenes(self) -> list[str]:
+        """Names of the scenes with a mesh."""
+        return [name for name, scene in self.settings["scenes"].items() if "mesh" in scene]
+
+    @cached_property
+    def views(self) -> Views:
+        """Views of meshes under a sun."""
+        return Views.model_validate(self.settings["frame_sets"][VIEWS])
 
     def run(self) -> dict[str, Any]:
         """Description of the run in reports."""
-        keys = ("width", "height", "reference")
-        rendering = {key: self.settings["rendering"][key] for key in keys}
-        return {"scale": self.settings["scale"], "seed": self.settings["seed"], **rendering}
+        views = self.views.model_dump(include={"width", "height", "reference"})
+        return {"scale": self.settings["scale"], "seed": self.settings["seed"], **views}
 
     def scenes(self, names: Iterable[str]) -> dict[str, dict[str, Any]]:
         """Descriptions of scenes in reports."""
         about = {}
         for name in names:
-            scene = self.entry("scenes", name)
+            scene = self.mesh_scene(name)
             generated = "generate" in scene["mesh"]
             about[name] = {"mesh_name": scene["mesh_name"], "procedural": generated}
             about[name]["seed"] = scene["seed"]
         return about
 
     def mesh_source(self, scene: str) -> str:
-        """Source file of a scene's mesh: the user's, or a generated one."""
-        mesh = self.entry("scenes", scene)["mesh"]
-        file = "generated.ply" if "generate" in mesh else "downloaded.ply"
-        return mesh["path"] if "path" in mesh else self.paths.scene(file, scene)
+        """Source file of a scene's mesh: the user's, or that of `get_mesh`."""
+        mesh = self.mesh_scene(scene)["mesh"]
+        return mesh["path"] if "path" in mesh else self.paths.scene("source.ply", scene)
+
+    def mesh_module(self, scene: str) -> Path:
+        """Module that generates or downloads a scene's mesh."""
+        mesh = self.mesh_scene(scene)["mesh"]
+        name = mesh.get("generate") or mesh["download"]
+        return Path(__file__).parents[1] / "meshes" / f"{name}.py"
 
     def direction_light(self, scene: str, sampling: str) -> Mapping[str, Any] | None:
         """Domain of view directions; None for the whole sphere."""
         match self.entry("samplings", sampling)["domain"]:
             case "light":
-                return self.entry("scenes", scene)["light"]
+                return self.mesh_scene(scene)["light"]
             case "hemisphere":
                 return {"domain": "sphere", "min_elevation_deg": 0}
         return None
@@ -93,27 +130,9 @@ class Layout:
             for stem in ("origins", "bounds")
         }
 
-    def training_files(self, experiment: str) -> dict[str, Any]:
-        """Training rays of an experiment, and the mesh if needed."""
-        settings = self.entry("experiments", experiment)
-        names = settings["scene"], settings["sampling"]
-        rays = dict.fromkeys(("directions_npy", "rays_json", "origins", "bounds"), [])
-        if settings["training"] is not None:
-            rays = {
-                "directions_npy": self.paths.rays("directions.npy", *names),
-                "rays_json": self.paths.rays("rays.json", *names),
-                **self.shards(*names),
-            }
-        needed = self.kind(experiment).needs_mesh
-        return {
-            "mesh_ply": [self.paths.scene("mesh.ply", names[0])] * needed,
-            "mesh_json": [self.paths.scene("mesh.json", names[0])] * needed,
-            **rays,
-        }
-
     def kind(self, experiment: str) -> type[NetworkModel]:
         """Settings class of an experiment's network."""
-        encoding = self.entry("experiments", experiment)["network"]["encoding"]
+        encoding = self.on_rays(experiment)["network"]["encoding"]
         return kinds(ENCODINGS)[encoding].Settings
 
     def is_trained(self, experiment: str) -> bool:
@@ -122,56 +141,47 @@ class Layout:
 
     def can_use_gpu(self, method: str) -> bool:
         """Check for a trained network."""
-        return _is_network(method) and self.kind(unbiased(method)).trained
+        return is_network(method) and self.kind(unbiased(method)).trained
 
     def export_files(self, experiment: str) -> dict[str, Any]:
         """Files with a network's sphere and its depth bias, if held out."""
-        scene = self.entry("experiments", experiment)["scene"]
+        scene = self.on_rays(experiment)["scene"]
         mesh_json = self.paths.scene("mesh.json", scene)
         return {"mesh_json": mesh_json, "depth_bias_json": self.bias_file(scene, experiment)}
 
     def encodings(self, experiments: Iterable[str]) -> set[str]:
-        """Kinds of networks of experiments."""
-        return {self.entry("experiments", name)["network"]["encoding"] for name in experiments}
+        """Kinds of networks on rays of experiments."""
+        return self._of_networks(experiments, "encoding")
+
+    def forms(self, experiments: Iterable[str]) -> set[str]:
+        """Forms of screen-space networks of experiments."""
+        return self._of_networks(experiments, "form")
+
+    def _of_networks(self, experiments: Iterable[str], key: str) -> set[str]:
+        networks = [self.entry("experiments", name)["network"] for name in experiments]
+        return {network[key] for network in networks if key in network}
 
     def view_range(self, batch: str) -> dict[str, int]:
         """First and last (exclusive) viewpoint of a batch, per view set."""
-        first, last = view_range(self.settings["rendering"], batch)
+        first, last = view_range(self.views, batch)
         return {"first": first, "last": last}
-
-    def held_out_views(self, scene: str) -> str:
-        """References of a scene's held-out viewpoints, for depth biases."""
-        return self.paths.reference(scene, HELD_OUT)
 
     def bias(self, method: str) -> float | str | None:
         """A method's depth bias: a number, `held_out`, or None."""
         if method != unbiased(method):
             return HELD_OUT
-        return None if is_classic(method) else self.entry("experiments", method)["bias"]
+        return None if is_classic(method) else self.on_rays(method)["bias"]
 
     def bias_file(self, scene: str, method: str) -> list[str]:
         """File of a method's depth bias, if held out."""
         held_out = self.bias(method) == HELD_OUT
-        return [self.paths.depth_bias(scene, unbiased(method))] * held_out
+        return [self.paths.constants(VIEWS, unbiased(method), scene)] * held_out
 
     def weights(self, method: str) -> list[str]:
         """File of a method's weights; empty without a network."""
         file = self.paths.network("weights.safetensors", unbiased(method))
-        return [file] * _is_network(method)
-
-    def evaluated_files(self, scene: str, method: str, batch: str) -> dict[str, Any]:
-        """Inputs of a method's visibility: predictions, or mesh and bias."""
-        if _is_network(method):
-            answers = self.paths.answers(scene, method, batch)
-            return {"answers": answers, "mesh_ply": [], "depth_bias_json": []}
-        mesh_ply = self.paths.scene("mesh.ply", scene)
-        bias = self.bias_file(scene, method)
-        return {"answers": [], "mesh_ply": mesh_ply, "depth_bias_json": bias}
+        return [file] * is_network(method)
 
     def method_encodings(self, method: str) -> set[str]:
         """Kind of a method's network; empty without a network."""
-        return self.encodings([unbiased(method)] * _is_network(method))
-
-
-def _is_network(method: str) -> bool:
-    return not is_classic(unbiased(method))
+        return self.encodings([unbiased(method)] * is_network(method))

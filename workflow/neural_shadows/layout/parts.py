@@ -1,7 +1,6 @@
 """Parts of work per job: shards of rays, batches of viewpoints."""
 
-from collections.abc import Mapping
-from typing import Any
+from neural_shadows.sections.views import Views
 
 HELD_OUT = "held_out"
 """Batch of viewpoints for depth biases only."""
@@ -17,18 +16,18 @@ def part_names(count: int) -> list[str]:
     return [f"{part:03d}" for part in range(count)]
 
 
-def batches(rendering: Mapping[str, Any]) -> list[str]:
+def batches(views: Views) -> list[str]:
     """Names of the batches of a view set."""
-    return part_names(-(-rendering["views_per_set"] // rendering["batch"]))
+    return part_names(-(-views.views_per_set // views.batch))
 
 
-def view_range(rendering: Mapping[str, Any], batch: str) -> tuple[int, int]:
+def view_range(views: Views, batch: str) -> tuple[int, int]:
     """First and last (exclusive) viewpoint of a batch, per view set.
 
     Held-out viewpoints follow the evaluated ones.
     """
-    views = rendering["views_per_set"]
+    count = views.views_per_set
     if batch == HELD_OUT:
-        return views, views + rendering["held_out_views"]
-    first = int(batch) * rendering["batch"]
-    return first, min(first + rendering["batch"], views)
+        return count, count + views.held_out_views
+    first = int(batch) * views.batch
+    return first, min(first + views.batch, count)

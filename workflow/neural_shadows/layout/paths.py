@@ -1,7 +1,10 @@
 """Paths of results, with Snakemake's wildcards by default."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partialmethod
+
+ALL = "all"
+"""The group of frame sets other than views, whose groups are SCENE or SCENE.BATCH."""
 
 
 @dataclass(frozen=True)
@@ -38,10 +41,28 @@ class Paths:
         return f"{self.results}/references/{scene}/{batch}.safetensors"
 
     def evaluation(
-        self, ending: str, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
+        self,
+        ending: str,
+        frame_set: str = "{frame_set}",
+        method: str = "{method}",
+        group: str = "{group}",
     ) -> str:
-        """`csv`, metrics of a method on a batch; `npz`, visibilities."""
-        return f"{self.results}/evaluations/{scene}/{method}.{batch}.{ending}"
+        """`csv`, metrics of a method on test frames; `npz`, visibilities."""
+        return f"{self.results}/evaluations/{frame_set}/{group}/{method}.{ending}"
+
+    def constants(
+        self, frame_set: str = "{frame_set}", method: str = "{method}", group: str = "{group}"
+    ) -> str:
+        """Best constants of a method on validation frames."""
+        return f"{self.results}/constants/{frame_set}/{group}/{method}.json"
+
+    def times(self, table: str = "{table}", group: str = "{group}") -> str:
+        """Times of a table's methods on a group of frames."""
+        return f"{self.results}/times/{table}/{group}.json"
+
+    def frame_measure(self, measure: str = "{measure}", frame_set: str = "{frame_set}") -> str:
+        """`widths.json`, `occluders.npy` of all test frames."""
+        return f"{self.results}/frame_measures/{frame_set}/{measure}"
 
     def answers(
         self, scene: str = "{scene}", method: str = "{method}", batch: str = "{batch}"
@@ -49,71 +70,28 @@ class Paths:
         """Predictions of a network for a batch."""
         return f"{self.results}/answers/{scene}/{method}.{batch}.npz"
 
-    def depth_bias(self, scene: str = "{scene}", method: str = "{method}") -> str:
-        """Held-out depth bias of a method on a scene."""
-        return f"{self.results}/depth_biases/{scene}/{method}.json"
-
-    def frame_times(self, table: str = "{table}", scene: str = "{scene}") -> str:
-        """Times of a table's methods on a scene."""
-        return f"{self.results}/frame_times/{table}/{scene}.json"
-
     def frames(
         self,
         ending: str,
         scene: str = "{scene}",
         frame_set: str = "{frame_set}",
         part: str = "{part}",
+        folder: str = "frames",
     ) -> str:
         """`json`, `buffers.npy`, `targets.npy`, `valid.npy`, `edges.npy` of a part."""
-        return f"{self.results}/frames/{frame_set}/{scene}/{part}.{ending}"
+        return f"{self.results}/{folder}/{frame_set}/{scene}/{part}.{ending}"
 
-    def imported_frames(
-        self,
-        ending: str,
-        scene: str = "{scene}",
-        frame_set: str = "{frame_set}",
-        part: str = "{part}",
-    ) -> str:
-        """Files like `frames` for an engine's frame."""
-        return f"{self.results}/imported_frames/{frame_set}/{scene}/{part}.{ending}"
-
-    def soft_constants(self, frame_set: str = "{frame_set}", method: str = "{method}") -> str:
-        """Best constants of a method on validation frames."""
-        return f"{self.results}/soft_constants/{frame_set}/{method}.json"
+    imported_frames = partialmethod(frames, folder="imported_frames")  # of an engine
 
     def soft_fields(self, frame_set: str = "{frame_set}") -> str:
         """Signed-distance fields of the objects in a frame set's scenes."""
         return f"{self.results}/soft_fields/{frame_set}.npz"
-
-    def soft_evaluation(
-        self, ending: str, frame_set: str = "{frame_set}", method: str = "{method}"
-    ) -> str:
-        """`csv`, errors of a method on test frames; `npz`, visibilities."""
-        return f"{self.results}/soft_evaluations/{frame_set}/{method}.{ending}"
-
-    def occluders(
-        self, scene: str = "{scene}", frame_set: str = "{frame_set}", part: str = "{part}"
-    ) -> str:
-        """Occluders of the light in the frames of a part."""
-        return f"{self.results}/occluders/{frame_set}/{scene}/{part}.npy"
-
-    def penumbra_widths(self, frame_set: str = "{frame_set}") -> str:
-        """Penumbra widths of a frame set's test frames."""
-        return f"{self.results}/penumbra_widths/{frame_set}.json"
 
     def screen_sensitivity(
         self, frame_set: str = "{frame_set}", experiment: str = "{experiment}"
     ) -> str:
         """Sensitivity of a screen-space network to each input feature."""
         return f"{self.results}/screen_sensitivities/{frame_set}/{experiment}.json"
-
-    def soft_times(self, table: str = "{table}") -> str:
-        """Times of a table's methods for soft shadows."""
-        return f"{self.results}/soft_times/{table}.json"
-
-    def screen_network(self, file: str, experiment: str = "{experiment}") -> str:
-        """`weights.safetensors`, `loss.csv`, `training.json` of a screen-space network."""
-        return f"{self.results}/screen_networks/{experiment}/{file}"
 
     def screen_profile(self, network: str = "{network}") -> str:
         """Times of a screen-space network by level and part."""

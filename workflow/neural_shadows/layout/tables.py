@@ -1,12 +1,16 @@
-"""Files of rows: metrics, visibilities, networks, depth biases, learning curves."""
+"""Files of tables: rows on scenes, methods on frame sets."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from neural_shadows.evaluation.method_names import RAY_TRACED, biased_key, unbiased
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
+from neural_shadows.evaluation.registry import LABELS, RAY_TRACED, available, biased_key, unbiased
+from neural_shadows.layout import frame_methods, frame_sets
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import HELD_OUT, batches, part_names
+from neural_shadows.layout.paths import ALL
+from neural_shadows.rendering.light_shape import UNITS
+from neural_shadows.sections.frame_sets import VIEWS
 
 Row = Mapping[str, Any]
 
@@ -14,21 +18,6 @@ Row = Mapping[str, Any]
 def timed_rows(layout: Layout, table: str, scene: str) -> list[Row]:
     """Rows of a table timed on a scene."""
     return [row for row in layout.entry("tables", table)["rows"] if row["scene"] == scene]
-
-
-def timed_methods(layout: Layout, table: str, scene: str) -> list[str]:
-    """Methods of `timed_rows`."""
-    return [row["method"] for row in timed_rows(layout, table, scene)]
-
-
-def timed_weights(layout: Layout, table: str, scene: str) -> list[str]:
-    """Weights of the networks in `timed_rows`."""
-    return networks(layout, timed_rows(layout, table, scene), "weights.safetensors")
-
-
-def timed_encodings(layout: Layout, table: str, scene: str) -> set[str]:
-    """Kinds of the networks in `timed_rows`."""
-    return layout.encodings(experiments_of(timed_rows(layout, table, scene)))
 
 
 def metrics(layout: Layout, rows: Sequence[Row]) -> list[str]:
@@ -43,13 +32,14 @@ def visibilities(layout: Layout, rows: Sequence[Row]) -> list[str]:
 
 def _evaluations(layout: Layout, rows: Sequence[Row], ending: str) -> list[str]:
     methods = [(row["scene"], row["method"]) for row in rows if row["method"] != RAY_TRACED]
-    parts = batches(layout.settings["rendering"])
-    return unique(layout.paths.evaluation(ending, *m, part) for m in methods for part in parts)
+    parts = batches(layout.views)
+    groups = [(f"{scene}.{part}", method) for scene, method in methods for part in parts]
+    return unique(layout.paths.evaluation(ending, VIEWS, method, group) for group, method in groups)
 
 
 def references(layout: Layout, scenes: Iterable[str]) -> list[str]:
     """References of all batches of scenes, without held-out ones."""
-    parts = batches(layout.settings["rendering"])
+    parts = batches(layout.views)
     return [layout.paths.reference(scene, part) for scene in scenes for part in parts]
 
 
@@ -61,7 +51,7 @@ def networks(layout: Layout, rows: Sequence[Row], file: str) -> list[str]:
 def depth_biases(layout: Layout, rows: Sequence[Row]) -> list[str]:
     """Held-out depth biases of the rows' methods, each once."""
     methods = [(row["scene"], unbiased(row["method"])) for row in rows if row["bias"] == HELD_OUT]
-    return unique(layout.paths.depth_bias(*names) for names in methods)
+    return unique(layout.paths.constants(VIEWS, method, scene) for scene, method in methods)
 
 
 def curves(layout: Layout, rows: Sequence[Row]) -> dict[str, list[dict[str, Any]]]:
@@ -92,17 +82,13 @@ def before_training(layout: Layout, experiment: str) -> list[str]:
 
     Params and no inputs: changed times must not rebuild anything.
     """
-    settings, folder = layout.entry("experiments", experiment), layout.paths.benchmarks
+    settings, folder = layout.on_rays(experiment), layout.paths.benchmarks
     scene, sampling = settings["scene"], settings["sampling"]
     jobs = [("prepare_mesh", scene)]
     if sampling is not None:  # None without training
         shards = part_names(layout.entry("samplings", sampling)["shards"])
         jobs.append(("draw_directions", scene, sampling))
-        jobs += [
-            (rule, scene, sampling, shard)
-            for rule in ("sample_rays", "label_rays")
-            for shard in shards
-        ]
+        jobs += [("sample_rays", scene, sampling, shard) for shard in shards]
     return [f"{folder}/{rule}/{'.'.join(names)}.tsv" for rule, *names in jobs]
 
 
@@ -114,3 +100,79 @@ def experiments_of(rows: Sequence[Row]) -> list[str]:
 def unique(values: Iterable[Any]) -> list[Any]:
     """Each value once, in order."""
     return list(dict.fromkeys(values))
+
+
+def methods(layout: Layout, table: str) -> list[str]:
+    """Methods of a table available on this machine, in order."""
+    return [*filter(available, _named(layout, table))]
+
+
+def left_out(layout: Layout, table: str) -> list[str]:
+    """Labels of a table's unavailable methods."""
+    return [LABELS[method] for method in _named(layout, table) if not available(method)]
+
+
+def _named(layout: Layout, table: str) -> list[str]:
+    rows = layout.entry("tables", table)["methods"]
+    return [row if isinstance(row, str) else row["method"] for row in rows]
+
+
+def frame_set(layout: Layout, table: str) -> str:
+    """Frame set of a table."""
+    return layout.entry("tables", table)["frame_set"]
+
+
+def evaluations(layout: Layout, table: str, ending: str) -> list[str]:
+    """Evaluation file of each method of a table."""
+    frames = frame_set(layout, table)
+    return [
+        layout.paths.evaluation(ending, frames, method, ALL) for method in methods(layout, table)
+    ]
+
+
+def constants(layout: Layout, table: str) -> list[str]:
+    """Files of chosen constants of a table's methods, in order."""
+    frames = frame_set(layout, table)
+    paths = (
+        path
+        for method in methods(layout, table)
+        for path in frame_methods.chosen(layout, frames, method)
+    )
+    return list(dict.fromkeys(paths))
+
+
+def widths(layout: Layout, frame_set: str) -> list[str]:
+    """File of penumbra widths; none without targets."""
+    engine = layout.frames(frame_set).get("engine")
+    has_targets = engine is None or engine["targets"]
+    return [layout.paths.frame_measure("widths.json", frame_set)] if has_targets else []
+
+
+def labels(layout: Layout, table: str) -> dict[str, str]:
+    """Labels of a table's methods."""
+    return {method: frame_methods.label(layout, method) for method in methods(layout, table)}
+
+
+def shown_scenes(layout: Layout, table: str) -> list[str]:
+    """Scenes of a table's test frames."""
+    settings = layout.entry("tables", table)
+    match settings.get("over"):  # of a summary
+        case "trained":
+            return frame_sets.tuned_scenes(layout, settings["frame_set"])
+        case "unseen":
+            return layout.frames(settings["frame_set"])["unseen"]
+    return frame_sets.measured_scenes(layout, settings["frame_set"])
+
+
+def radii(layout: Layout, table: str) -> list[str]:
+    """Radii of a table's frame set as text."""
+    settings = layout.frames(frame_set(layout, table))
+    unit = UNITS[settings["radius_unit"]]
+    return [f"{radius:.3g} {unit}" for radius in settings["radii"]]
+
+
+def times(layout: Layout, table: str) -> list[str]:
+    """Times of a table; none without a column, or of a user's frames."""
+    own = layout.frames(frame_set(layout, table))["path"] is not None
+    timed = "time" in layout.entry("tables", table).get("metrics", ["time"])
+    return [layout.paths.times(table, ALL)] if timed and not own else []

@@ -22,13 +22,13 @@ def arguments(layout: Layout, viewer: str) -> dict[str, Any]:
     """Arguments of `write_viewer` besides files."""
     settings = layout.entry("viewers", viewer)
     name = settings["scene"]
-    scene = layout.entry("scenes", name)
+    scene = layout.mesh_scene(name)
     return {
         "name": name,
         "rows": settings["rows"],
         "scene": scene["scene"],
         "frames": scene["frames"],
-        "views": layout.settings["rendering"]["views_per_set"],
+        "views": layout.views.views_per_set,
         "about": layout.scenes([name])[name],
         "run": layout.run(),
     }

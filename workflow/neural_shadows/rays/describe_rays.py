@@ -1,9 +1,7 @@
 """Stage: check and describe a whole ray set."""
 
-from collections.abc import Mapping
 from itertools import chain
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +9,7 @@ from neural_shadows.files.whole_files import sha256_of, write_json
 from neural_shadows.rays.labels import SECOND_HIT_STEP, chord_lengths
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.running.stage import run_stage
+from neural_shadows.settings.records import SamplingSettings
 
 
 def describe_rays(
@@ -20,7 +19,7 @@ def describe_rays(
     origins: list[Path],
     bounds: list[Path],
     rays_json: Path,
-    sampling: Mapping[str, Any],
+    sampling: SamplingSettings,
     seed: int,
 ) -> None:
     """Check a ray set as a whole and write `rays.json`.

@@ -1,8 +1,6 @@
 """Stage: draw the view directions of a ray set [3.4.1]."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -11,13 +9,13 @@ from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.rays.streams import DIRECTIONS
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.lights import arc_directions, axis_vector, draw_light, lowest_elevation
-from neural_shadows.settings.records import LightSettings
+from neural_shadows.settings.records import LightSettings, SamplingSettings
 
 
 def draw_directions(
     *,
     directions_npy: Path,
-    sampling: Mapping[str, Any],
+    sampling: SamplingSettings,
     seed: int,
     light: LightSettings | None = None,
     up: str = "y",

@@ -1,18 +1,24 @@
-"""Stage: sample the rays of one shard of a ray set [3.4.2]."""
+"""Stage: sample and label the rays of one shard of a ray set [3.4.2, 3.4.3]."""
 
-from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from neural_shadows.files.arrays import new_array
+from neural_shadows.meshes.prepared_mesh import read_prepared
+from neural_shadows.rays.labels import check_bounds, dual_bounds
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.ray_set import read_directions
 from neural_shadows.rays.sampling import sample_direction
-from neural_shadows.rays.shards import open_tracer, run_tasks
 from neural_shadows.rays.streams import PATTERNS, POINTS
+from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
+from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.settings.records import SamplingSettings
+
+# Least rays of a task: with fewer, starting it takes noticeable time.
+_TASK_RAYS = 8192
 
 
 def sample_rays(
@@ -20,41 +26,63 @@ def sample_rays(
     mesh_ply: Path,
     directions_npy: Path,
     origins_npy: Path,
-    sampling: Mapping[str, Any],
+    bounds_npy: Path,
+    sampling: SamplingSettings,
     seed: int,
     first: int,
     last: int,
     threads: int = 1,
 ) -> None:
-    """Sample the rays of the directions first to last − 1 and write their shard.
+    """Sample and trace the rays of the directions first to last − 1 and write their shard.
 
     The rays of a direction depend on the seed and its index alone, not on shards or threads.
 
     Args:
         origins_npy: gets (last − first, m, 3) float32 points on the unit sphere.
+        bounds_npy: gets (last − first, m, 2) float32, [t_lb, t_ub] of each ray.
         sampling: see `sample_direction`.
 
     Raises:
         InputError: an unusable file.
+        RuntimeError: a ray with impossible bounds, named by shard, seed and index.
     """
-    directions = read_directions(directions_npy)
+    directions = read_directions(directions_npy)[first:last]
     points = sampling["points_per_direction"]
-    tracer = open_tracer(mesh_ply)
+    mesh = read_prepared(mesh_ply)
+    tracer = Tracer(mesh.vertices, mesh.faces)
     bank = PatternBank((seed, PATTERNS))
 
-    with new_array(origins_npy, (last - first, points, 3)) as origins:
+    with (
+        new_array(origins_npy, (len(directions), points, 3)) as origins,
+        new_array(bounds_npy, (len(directions), points, 2)) as bounds,
+    ):
 
         def sample(begin: int, end: int) -> None:
             for i in range(begin, end):
                 origins[i] = sample_direction(
                     tracer,
-                    directions[first + i],
+                    directions[i],
                     sampling,
                     rng=np.random.default_rng((seed, POINTS, first + i)),
                     bank=bank,
                 )
 
-        run_tasks(sample, last - first, points, threads, "rays")
+            rays = np.array(origins[begin:end]).reshape(-1, 3)
+            t_lb, t_ub = dual_bounds(tracer, rays, np.repeat(directions[begin:end], points, axis=0))
+            bounds[begin:end, :, 0] = t_lb.reshape(-1, points)
+            bounds[begin:end, :, 1] = t_ub.reshape(-1, points)
+
+        begins = range(0, len(directions), -(-_TASK_RAYS // points))
+        ends = [*begins, len(directions)][1:]
+        with (
+            progress_bar(len(directions) * points, "samples", "rays") as bar,
+            # Embree and the numba kernels release the interpreter's lock, so that threads scale.
+            ThreadPoolExecutor(threads) as pool,
+        ):
+            for begin, end, _ in zip(begins, ends, pool.map(sample, begins, ends), strict=True):
+                bar.update((end - begin) * points)
+        name = f"labels {bounds_npy} (seed {seed})"
+        check_bounds(directions, origins, bounds, name=name, first=first)
 
 
 if "snakemake" in globals():

@@ -1,8 +1,6 @@
 """Training rays of one view direction, by the sampling methods of table 4.1 [3.4.2]."""
 
 import math
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numba import njit
@@ -11,12 +9,13 @@ from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.quadtree import DISK_RADIUS, build_quadtree, disk_area
 from neural_shadows.rays.silhouette import entry_points, silhouette
 from neural_shadows.scenes.tracing import Tracer
+from neural_shadows.settings.records import SamplingSettings
 
 
 def sample_direction(
     tracer: Tracer,
     direction: np.ndarray,
-    sampling: Mapping[str, Any],
+    sampling: SamplingSettings,
     *,
     rng: np.random.Generator,
     bank: PatternBank,

@@ -4,19 +4,27 @@ import hashlib
 import re
 from collections.abc import Iterable
 from functools import cache
+from operator import attrgetter
 from pathlib import Path
 
 PACKAGE = Path(__file__).parents[1]
+_NAME = PACKAGE.name
 
 # Logs and error messages of all stages: no result depends on them.
 _AROUND = PACKAGE / "running" / "stage.py"
 
 # Configuration and file names: jobs have them as inputs and params, which Snakemake compares itself.
 _OF_THE_GRAPH = (
-    *(PACKAGE / room for room in ("settings", "sections", "layout", "networks/settings")),
+    *(
+        PACKAGE / room
+        for room in ("settings", "sections", "layout", "networks/settings", "training/settings")
+    ),
     *(PACKAGE / "networks" / folder for folder in ("object_space/kinds", "screen_space/forms")),
 )
 
+
+# What a module imports by walking a folder.
+_WALKED = {PACKAGE / "metrics" / "registry.py": PACKAGE / "metrics" / "kinds"}
 
 # By a pattern: to parse all modules took 1.2 s of each start of Snakemake.
 _IMPORT = re.compile(
@@ -25,17 +33,32 @@ _IMPORT = re.compile(
     re.MULTILINE,
 )
 
+# Of annotations alone, which no result depends on.
+_TYPES = re.compile(r"^if TYPE_CHECKING:.*\n(?:(?:[ \t]+.*)?\n)+", re.MULTILINE)
+
 
 @cache
 def _imported(source: Path) -> frozenset[Path]:
-    """Modules of this package imported by a file, anywhere in it."""
+    """Modules of this package imported by a file, anywhere in it but for types."""
     names = set()
-    for package, imported, module in _IMPORT.findall(source.read_text(encoding="utf-8")):
+    text = _TYPES.sub("", source.read_text(encoding="utf-8"))
+    for package, imported, module in _IMPORT.findall(text):
         names |= {package or module}
         names |= {f"{package}.{name}" for name in re.findall(r"\w+", imported)}
-    parts = [name.split(".")[1:] for name in names]
-    paths = {PACKAGE.joinpath(*part).with_suffix(".py") for part in parts if part}
-    return frozenset(path for path in paths if path.is_file() and path.parent not in _OF_THE_GRAPH)
+    files = _files(PACKAGE)
+    paths = {files[name] for name in names if name in files}
+    if source in _WALKED:
+        paths |= {*_WALKED[source].glob("*.py")}
+    return frozenset(path for path in paths if path.parent not in _OF_THE_GRAPH)
+
+
+@cache
+def _files(package: Path) -> dict[str, Path]:
+    """Files of a package by their modules' names."""
+    files = package.glob("**/*.py")
+    return {
+        ".".join((_NAME, *file.relative_to(package).with_suffix("").parts)): file for file in files
+    }
 
 
 @cache
@@ -56,17 +79,23 @@ def modules_of(stage: Path) -> list[Path]:
         new = _imported(queue.pop()) - modules - {_AROUND}
         modules |= new
         queue += new
-    return sorted(path for path in modules if path.parent not in _OF_THE_GRAPH)
+    return _sorted(path for path in modules if path.parent not in _OF_THE_GRAPH)
 
 
 def digest(modules: Iterable[Path]) -> str:
     """Of modules' names and content, 16 hexadecimal digits."""
     content = hashlib.sha256()
-    for module in sorted(modules):
-        content.update(f"{module.relative_to(PACKAGE)} {_content(module)} ".encode())
+    for module in _sorted(modules):
+        content.update(_content(module))
     return content.hexdigest()[:16]
 
 
+def _sorted(paths: Iterable[Path]) -> list[Path]:
+    return sorted(paths, key=attrgetter("parts"))  # paths themselves compare far more slowly
+
+
 @cache
-def _content(module: Path) -> str:
-    return hashlib.sha256(module.read_bytes()).hexdigest()
+def _content(module: Path) -> bytes:
+    """A module's name and a digest of its content."""
+    content = hashlib.sha256(module.read_bytes()).hexdigest()
+    return f"{module.relative_to(PACKAGE)} {content} ".encode()

@@ -9,7 +9,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_type_hints
 
 from neural_shadows.errors import InputError
 from neural_shadows.running import origin, progress
@@ -72,8 +72,7 @@ def run_stage(
 def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
     """Keyword arguments of a job for its stage's function.
 
-    Paths are converted to the argument's annotation: `Path`, `Path | None` (None for no file) or
-    `list[Path]`; other values stay unchanged, but a wildcard may be an `int`.
+    See `converted`.
     """
     input, output, params, wildcards = (
         dict(part.items()) for part in (job.input, job.output, job.params, job.wildcards)
@@ -82,19 +81,39 @@ def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:
     optional = {"threads": job.threads, **wildcards}
     arguments = {name: value for name, value in optional.items() if name in parameters}
     arguments |= {**input, **output, **params.pop("settings", {}), **params}
-    types = get_type_hints(function)
-    return {
-        name: _converted(value, types.get(name))
-        for name, value in arguments.items()
-        if name not in _RULE_ONLY
-    }
+    return converted(function, {k: v for k, v in arguments.items() if k not in _RULE_ONLY})
+
+
+def converted(function: Callable[..., Any], arguments: dict[str, Any]) -> dict[str, Any]:
+    """Arguments in the types of a function's annotations.
+
+    Paths: `Path`, `Path | None` (None for no file) or `list[Path]`; settings: a model, or a union of
+    models, from plain data; a wildcard may be an `int`. Other values stay unchanged.
+    """
+    types = get_type_hints(function, include_extras=True)
+    return {name: _converted(value, types.get(name)) for name, value in arguments.items()}
 
 
 def _converted(value: Any, type_: Any) -> Any:
     if type_ == list[Path]:
         return [Path(path) for path in ([value] if isinstance(value, str) else value)]
     if type_ is Path or type_ == Path | None:
+        if value is None or isinstance(value, Path):
+            return value
         # Snakemake passes the file of an input function as a list.
         paths = [value] if isinstance(value, str) else list(value)
         return Path(paths[0]) if paths else None
-    return int(value) if type_ is int else value  # a wildcard is text
+    if type_ is int:
+        return int(value)  # a wildcard is text
+    if not _holds_model(type_):
+        return value
+    from pydantic import TypeAdapter  # not of each job
+
+    return TypeAdapter(type_).validate_python(value)
+
+
+def _holds_model(type_: Any) -> bool:
+    """Check for a model within an annotation."""
+    if isinstance(type_, type):
+        return hasattr(type_, "model_validate")
+    return any(map(_holds_model, get_args(type_)))

@@ -1,12 +1,25 @@
-"""`frame_sets`: frames with buffers and exact soft shadows."""
+"""`frame_sets`: views under a sun, and frames with exact soft shadows."""
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationInfo, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
+from neural_shadows.rendering.light_shape import SPHERE
 from neural_shadows.sections.own_frames import OwnFrames, own_parts
-from neural_shadows.settings.base import Model, Name, PowerOfTwo, by_kind, has_key, name_in
+from neural_shadows.sections.views import Views
+from neural_shadows.settings.base import (
+    EntryKind,
+    Model,
+    Name,
+    PowerOfTwo,
+    by_kind,
+    has_key,
+    name_in,
+)
+from neural_shadows.settings.kinds import kinds, union
+from neural_shadows.settings.records import RadiusUnit
 
+_SHAPES = "rendering/light_shapes"
 Pixels = Annotated[int, Field(ge=16, le=16384)]
 Share = Annotated[float, Field(ge=0, le=0.1)]
 
@@ -66,27 +79,13 @@ class Samples(Model):
     measured: int = Field(16, ge=1, le=1024, description="of test frames and sequences")
 
 
-def _in_metres(name: Any, info: ValidationInfo) -> Any:
-    """Reject names of `scenes` alone: their meshes have no known unit."""
-    hard, metric = (info.context.get(section) or () for section in ("scenes", "soft_scenes"))
-    if isinstance(name, str) and name in hard and name not in metric:
-        raise ValueError(
-            f"{name!r} is in `scenes`, whose unit is unknown. Insert it into a scene of `soft_scenes`: "
-            f"`inserted: [{name}]`"
-        )
-    return name
-
-
-MetricScene = Annotated[name_in("soft_scenes"), BeforeValidator(_in_metres)]
-
-
 class RenderedFrames(Model):
-    """Frames of generated scenes."""
+    """Frames of scenes under an area light, with buffers and exact soft shadows."""
 
-    scenes: list[MetricScene] = Field(
-        min_length=1, description="names in `soft_scenes`, for training, validation and test"
+    scenes: list[name_in("scenes")] = Field(
+        min_length=1, description="names in `scenes`, for training, validation and test"
     )
-    unseen: list[MetricScene] = Field([], description="names in `soft_scenes`, for tests alone")
+    unseen: list[name_in("scenes")] = Field([], description="names in `scenes`, for tests alone")
     width: Pixels = Field(description="pixels of a frame")
     height: Pixels = Field(description="pixels of a frame")
     train_width: Pixels | None = Field(None, description="pixels of a training frame, if different")
@@ -97,12 +96,18 @@ class RenderedFrames(Model):
     light_map: by_kind("kind", PerspectiveMap, CubeMap) = Field(
         description="the light's shadow map"
     )
-    radii: list[Annotated[float, Field(ge=0, le=10)]] = Field(
-        min_length=1, max_length=16, description="radii of the light, ascending; 0 is a point"
+    light: union(_SHAPES, default="sphere", key="shape") = Field(
+        kinds(_SHAPES)["sphere"].Settings(shape="sphere"), description="shape of the light"
     )
-    radius_unit: Literal["metres", "scene_sizes"] = Field(
-        "metres",
-        description="unit of `radii`; a scene's size is the longest side of its bounding box",
+    radii: list[Annotated[float, Field(ge=0, le=10)]] = Field(
+        min_length=1,
+        max_length=16,
+        description="radii of the light, ascending; 0 is a point, or a sun without extent",
+    )
+    radius_unit: RadiusUnit = Field(
+        default_factory=lambda frames: frames.get("light", SPHERE).RADIUS_UNITS[0],
+        description="unit of `radii`: `metres`, or `scene_sizes`, the longest side of the scene's bounding "
+        "box; of a sun `degrees`",
     )
     train: int = Field(0, ge=0, le=100_000, description="training frames of each scene")
     validation: int = Field(2, ge=1, le=10_000, description="validation frames of each scene")
@@ -123,6 +128,15 @@ class RenderedFrames(Model):
 
     @model_validator(mode="after")
     def _check(self):
+        for key, value, allowed in (
+            ("radius_unit", self.radius_unit, self.light.RADIUS_UNITS),
+            ("light_map.kind", self.light_map.kind, self.light.MAPS),
+        ):
+            if value not in allowed:
+                raise ValueError(
+                    f"{key}: {value!r} does not suit a light of the shape {self.light.shape}. Use "
+                    f"{' or '.join(allowed)}"
+                )
         if self.radii != sorted(set(self.radii)):
             raise ValueError(f"radii = {self.radii}: must be ascending, without repetition")
         if both := set(self.scenes) & set(self.unseen):
@@ -139,9 +153,27 @@ class RenderedFrames(Model):
         return self
 
 
+VIEWS = "views"
+"""The entry with the thesis's views of meshes under a sun."""
+
+
+def _is_views(entry: Any) -> bool:
+    return any(has_key(entry, key) for key in ("views_per_set", "held_out_views", "batch"))
+
+
+SOFT = EntryKind("a set of frames under an area light", lambda entry: not _is_views(entry))
+FrameSetName = name_in("frame_sets", SOFT)
+
+
+def _tag(entry: Any) -> str:
+    return "Views" if _is_views(entry) else "Own" if has_key(entry, "path") else "Rendered"
+
+
 FrameSet = Annotated[
-    Annotated[RenderedFrames, Tag("Rendered")] | Annotated[OwnFrames, Tag("Own")],
-    Discriminator(lambda value: "Own" if has_key(value, "path") else "Rendered"),
+    Annotated[Views, Tag("Views")]
+    | Annotated[RenderedFrames, Tag("Rendered")]
+    | Annotated[OwnFrames, Tag("Own")],
+    Discriminator(_tag),
 ]
 
 

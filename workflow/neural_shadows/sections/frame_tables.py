@@ -4,11 +4,16 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from neural_shadows.evaluation.soft_registry import METHODS, needs_scene
+from neural_shadows.evaluation.registry import FRAME_METHODS, needs_scene
+from neural_shadows.frames.feature_names import buffers_of
+from neural_shadows.rendering.light_shape import SPHERE
 from neural_shadows.sections.any_report import AnyTable, Chapter
-from neural_shadows.sections.own_frames import OwnFrames
+from neural_shadows.sections.experiments import FRAMES, ScreenExperimentName
+from neural_shadows.sections.frame_sets import FrameSetName
+from neural_shadows.sections.networks import ScreenNetworkName
+from neural_shadows.sections.own_frames import OwnFrames, lacking
 from neural_shadows.sections.sections import Sections
-from neural_shadows.settings.base import check_among, name_in
+from neural_shadows.settings.base import Name, check_among, of_another_kind
 
 
 class FramesTable(AnyTable):
@@ -16,7 +21,7 @@ class FramesTable(AnyTable):
 
     chapter: ClassVar[Chapter] = "soft"
 
-    frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
+    frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")
 
 
 class NsmTable(AnyTable):
@@ -32,18 +37,29 @@ class NsmTable(AnyTable):
 class ProfileTable(NsmTable):
     """Table of the times of one network."""
 
-    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+    network: ScreenNetworkName = Field(description="a screen-space network of `networks`")
 
 
 class NetworksTable(FramesTable):
     """Table of trained screen-space networks on a frame set."""
 
-    networks: list[name_in("screen_experiments")] = Field(
-        min_length=1, description="names in `screen_experiments`, in the table's order"
+    networks: list[ScreenExperimentName] = Field(
+        min_length=1, description="experiments on frames, in the table's order"
     )
 
     def methods_shown(self) -> list[str]:
         return self.networks
+
+
+class ColumnsTable(FramesTable):
+    """Table of trained screen-space networks by the paper's names."""
+
+    columns: dict[Name, ScreenExperimentName] = Field(
+        min_length=1, description="an experiment on frames for each of the paper's names"
+    )
+
+    def methods_shown(self) -> list[str]:
+        return [*self.columns.values()]
 
 
 class MethodsTable(FramesTable):
@@ -57,33 +73,74 @@ class MethodsTable(FramesTable):
         """Check methods against the frame set."""
         frames = config.frame_sets[self.frame_set]
         own = isinstance(frames, OwnFrames)
-        names = [*METHODS, *config.screen_experiments, *config.networks_by_scene]
+        names = [*FRAME_METHODS, *config.screen_experiments, *config.networks_by_scene]
         methods = self.methods_shown()
         for method in methods:
+            if method in config.ray_experiments:
+                message = of_another_kind(method, FRAMES, config.screen_experiments)
+                raise ValueError(f"{key}.methods: {message}")
             check_among(f"{key}.methods", method, names)
             if methods.count(method) > 1:
                 raise ValueError(f"{key}.methods: {method!r} is listed twice. List it once")
             if own and needs_scene(method):
-                bases = ", ".join(name for name, base in METHODS.items() if base.channel)
+                bases = ", ".join(name for name, base in FRAME_METHODS.items() if base.channel)
                 raise ValueError(
                     f"{key}.methods: {method!r} needs the scene's geometry, and a user's own frames have "
                     f"none. Allowed: {bases}, and networks"
                 )
-            if method in config.screen_experiments:
-                _check_network(config, f"{key}.methods: {method!r}", self.frame_set, method)
+            check_method(config, f"{key}.methods: {method!r}", self.frame_set, method)
         if self.needs_sequence() and not getattr(frames, "sequence", 0):
             raise ValueError(
                 f"{key}.frame_set: frame_sets.{self.frame_set} has sequence = 0. Set 2 or more"
             )
 
 
+def check_method(config: Sections, key: str, frame_set: str, method: str) -> None:
+    """Check a frame set's lights and channels against a method.
+
+    Raises:
+        ValueError: a network is trained on smaller lights, or on radii in another unit; or the
+            user's own frames lack a channel.
+    """
+    if method in config.networks_by_scene:
+        networks = config.networks_by_scene[method].experiments
+    else:
+        networks = [method] if method in config.screen_experiments else []
+    for experiment in networks:
+        _check_network(config, key, frame_set, experiment)
+    frames = config.frame_sets[frame_set]
+    if isinstance(frames, OwnFrames):
+        features = (config.network_of(experiment).features for experiment in networks)
+        buffers = [buffer for names in features for buffer in buffers_of(names)]
+        base = FRAME_METHODS[method].channel if method in FRAME_METHODS else None
+        if absent := lacking(frames, dict.fromkeys([base] if base else buffers)):
+            raise ValueError(f"{key} needs all its channels in frame_sets.{frame_set}: {absent}")
+
+
 def _check_network(config: Sections, key: str, frame_set: str, experiment: str) -> None:
-    """Reject test lights larger than those of the training."""
+    learned = config.screen_experiments[experiment]
+    seen = {*learned.scenes} & {*getattr(config.frame_sets[frame_set], "unseen", ())}
+    if seen and learned.frame_set != frame_set:
+        raise ValueError(
+            f"{key} is trained on {', '.join(sorted(seen))}, in `unseen` of frame_sets.{frame_set}. Move "
+            "that to its `scenes`, or leave the network out"
+        )
     frames, trained_on = (
-        _radii(config.frame_sets[name])
-        for name in (frame_set, config.screen_experiments[experiment].frame_set)
+        _radii(config.frame_sets[name]) for name in (frame_set, learned.frame_set)
     )
-    if frames and trained_on and frames[0] == trained_on[0] and frames[1] > trained_on[1]:
+    if not frames or not trained_on:
+        return
+    if isinstance(config.frame_sets[frame_set], OwnFrames) and frames[0] != trained_on[0]:
+        raise ValueError(
+            f"{key} is trained on radii in {trained_on[0]}, and frame_sets.{frame_set} has them in "
+            f"{frames[0]}. Set its `engine.radius_unit`, and radii of up to {trained_on[1]:g}"
+        )
+    if frames[0] != trained_on[0] and "degrees" in (frames[0], trained_on[0]):
+        raise ValueError(
+            f"{key} is trained on lights with radii in {trained_on[0]}, and frame_sets.{frame_set} has them "
+            f"in {frames[0]}. Train it on frames of such a light, or leave it out"
+        )
+    if frames[0] == trained_on[0] and frames[2] > trained_on[2]:
         raise ValueError(
             f"{key} is trained on lights of up to {trained_on[1]:g} {trained_on[0]}, and "
             f"frame_sets.{frame_set} has one of {frames[1]:g}. Train it on frames with such a light, "
@@ -91,7 +148,11 @@ def _check_network(config: Sections, key: str, frame_set: str, experiment: str) 
         )
 
 
-def _radii(frames: Any) -> tuple[str, float] | None:
-    """Unit and maximum of the radii; None for a user's arrays."""
+def _radii(frames: Any) -> tuple[str, float, float] | None:
+    """Unit and maximum of the radii, and its `LightShape`'s; None for a user's arrays."""
     frames = getattr(frames, "engine", frames) if isinstance(frames, OwnFrames) else frames
-    return frames and (frames.radius_unit.replace("_", " "), max(frames.radii))
+    if not frames:
+        return None
+    unit, largest = frames.radius_unit, max(frames.radii)
+    shape = getattr(frames, "light", SPHERE)
+    return unit.replace("_", " "), largest, shape.radius_of(largest, unit, 1.0)

@@ -4,7 +4,8 @@ from typing import Annotated
 
 from pydantic import Field, field_validator
 
-from neural_shadows.settings.base import Model, name_in
+from neural_shadows.sections.experiments import RayExperimentName
+from neural_shadows.settings.base import Model
 
 # A power law without offset has two unknowns; the third budget checks the fit.
 FEWEST_BUDGETS = 3
@@ -13,9 +14,7 @@ FEWEST_BUDGETS = 3
 class LearningCurves(Model):
     """Trainings per experiment and budget, with schedules of that length."""
 
-    experiments: list[name_in("experiments")] = Field(
-        min_length=1, description="names of experiments"
-    )
+    experiments: list[RayExperimentName] = Field(min_length=1, description="experiments on rays")
     steps: list[Annotated[int, Field(ge=1)]] = Field(
         description="budgets in optimiser steps: three or more, ascending"
     )

@@ -1,8 +1,17 @@
-"""`networks` by encoding, and `screen_networks` by form."""
+"""`networks`: on rays by `encoding`, in screen space by `form`."""
 
-from neural_shadows.networks.kind_module import ENCODINGS, FORMS
-from neural_shadows.settings.kinds import union
+from typing import Annotated
 
-Network = union(ENCODINGS, "frequency", key="encoding")
-# Screen-space networks (Datta et al. 2022, 3.5; Hu et al. 2025, 4.2.1).
-ScreenNetwork = union(FORMS, key="form")
+from pydantic import Discriminator, Tag
+
+from neural_shadows.networks.settings.networks import RayNetwork, ScreenNetwork
+from neural_shadows.settings.base import EntryKind, has_key, name_in
+
+SCREEN = EntryKind("a screen-space network (by `form`)", lambda entry: has_key(entry, "form"))
+RAYS = EntryKind("a network on rays (by `encoding`)", lambda entry: not SCREEN.holds(entry))
+RayNetworkName, ScreenNetworkName = name_in("networks", RAYS), name_in("networks", SCREEN)
+
+Network = Annotated[
+    Annotated[RayNetwork, Tag("Rays")] | Annotated[ScreenNetwork, Tag("Frames")],
+    Discriminator(lambda value: "Frames" if SCREEN.holds(value) else "Rays"),
+]

@@ -2,14 +2,15 @@
 
 from pydantic import Field
 
-from neural_shadows.settings.base import Model, Text, name_in
+from neural_shadows.sections.experiments import ScreenExperimentName
+from neural_shadows.settings.base import Model, Text
 
 
 class NetworksByScene(Model):
     """One method of several networks, each for its own scenes."""
 
-    experiments: list[name_in("screen_experiments")] = Field(
+    experiments: list[ScreenExperimentName] = Field(
         min_length=1,
-        description="names in `screen_experiments`, trained on different scenes; other scenes are not evaluated",
+        description="experiments on frames, trained on different scenes; other scenes are not evaluated",
     )
     label: Text = Field(description="label in tables")

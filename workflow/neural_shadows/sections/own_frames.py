@@ -1,10 +1,13 @@
 """Frame sets of the user: one folder per scene."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal
+from zipfile import BadZipFile, ZipFile
 
 from pydantic import Field, model_validator
 
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.frames.engine_channels import CHANNEL_IMAGES, RADII, TARGET_IMAGES
 from neural_shadows.settings.base import Model
 
@@ -32,12 +35,16 @@ class EngineFrames(Model):
         "scene_sizes",
         description="unit of `radii`, the same as in the network's training; with `metres` frames must be in metres",
     )
+    prefix: str = Field(
+        "", description="begins the file names of `channels` and `targets` by default, as `Mogwai.`"
+    )
     channels: dict[Channel, ImageName | None] = Field(
         {}, description="images with other names than the default, as `FILE:CHANNEL`; null for none"
     )
     targets: list[ImageName] = Field(
-        TARGET_IMAGES,
-        description="images of exact shadows, as `FILE:CHANNEL`, one per radius; [] for none",
+        default_factory=lambda frames: [frames.get("prefix", "") + name for name in TARGET_IMAGES],
+        description="images of exact shadows, as `FILE:CHANNEL`, one per radius; default: the six of Hu "
+        "et al. 2025's frames; [] for none",
     )
 
     @model_validator(mode="after")
@@ -103,11 +110,57 @@ def without_frames(frames: OwnFrames) -> str | None:
     return f"no frame in {empty[0]}/, such as {empty[0]}/FRAME/z.exr" if empty else None
 
 
+def lacking(frames: OwnFrames, buffers: Iterable[str]) -> str | None:
+    """First missing channel of buffers in words, or None.
+
+    An EXR file's own channels are read with the frame.
+
+    Args:
+        buffers: names of `frames.buffers`.
+    """
+    if frames.engine is None:
+        for scene, parts in own_parts(frames).items():
+            for file in (Path(frames.path, scene, f"{part}.json") for part in parts):
+                channels = read_json(file).get("channels", [])
+                if absent := [buffer for buffer in buffers if buffer not in channels]:
+                    return f"{file} has no channel {absent[0]}. Write it"
+        return None
+    images = _images(frames.engine)
+    for channel in ("z_b" if buffer == "gap" else buffer for buffer in buffers):
+        key = f"`engine.channels.{channel}`"
+        if (image := images[channel]) is None:
+            return f"{key} names no image. Name the frames' image of it as FILE:CHANNEL"
+        name = image.rsplit(":", 1)[0]
+        for paths in (p for parts in _engine_files(frames).values() for p in parts.values()):
+            if name not in _image_files(paths):
+                where = paths[0] if paths[0].endswith(".npz") else Path(paths[0]).parent
+                return f"{where} has no {name}. Write it there, or name another image in {key}"
+    return None
+
+
+def _image_files(paths: list[str]) -> set[str]:
+    """Names of a frame's EXR files, or of its archive's arrays."""
+    archives = [path for path in paths if path.endswith(".npz")]
+    if not archives:
+        return {Path(path).stem for path in paths}
+    try:
+        with ZipFile(archives[0]) as archive:
+            return {name.removesuffix(".npy") for name in archive.namelist()}
+    except (OSError, BadZipFile):  # the import says so
+        return set()
+
+
+def _images(engine: EngineFrames) -> dict[str, str | None]:
+    """Image of each channel."""
+    names = {name: image and engine.prefix + image for name, image in CHANNEL_IMAGES.items()}
+    return names | engine.channels
+
+
 def own_settings(frames: OwnFrames) -> dict[str, Any]:
     """A user's frame set as rules use it; an engine's with `files`."""
     settings = {"path": frames.path, "parts": own_parts(frames), "engine": None}
     if frames.engine is None:
         return settings
     engine = frames.engine.model_dump() | {"files": _engine_files(frames)}
-    engine["channels"] = CHANNEL_IMAGES | frames.engine.channels
+    engine["channels"] = _images(frames.engine)
     return settings | {"engine": engine}

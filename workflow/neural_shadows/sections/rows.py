@@ -5,18 +5,20 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from neural_shadows.evaluation.method_names import (
+from neural_shadows.evaluation.null_predictors import is_null
+from neural_shadows.evaluation.registry import (
     PATTERNS,
     RAY_TRACED,
     biased_key,
-    classic_label,
     is_classic,
+    method_of,
 )
-from neural_shadows.evaluation.null_predictors import is_null
 from neural_shadows.sections.any_report import AnyTable
+from neural_shadows.sections.experiments import RAYS
 from neural_shadows.sections.row_settings import Rows, RowSettings
+from neural_shadows.sections.scenes import MeshName
 from neural_shadows.sections.sections import Sections
-from neural_shadows.settings.base import check_among, name_in
+from neural_shadows.settings.base import check_among, of_another_kind
 from neural_shadows.settings.records import Row
 
 
@@ -55,7 +57,7 @@ class RowsTable(AnyTable):
 
     def experiments_allowed(self, config: Sections) -> list[str]:
         """Experiments allowed as rows."""
-        return list(config.experiments)
+        return list(config.ray_experiments)
 
     def check(self, config: Sections, key: str) -> None:
         """Check that rows are methods of their scene, without duplicates."""
@@ -82,7 +84,9 @@ class RowsTable(AnyTable):
                 f"{key}: {row.method!r} is a null predictor and has no depth bias. Remove `bias`"
             )
         names = self.experiments_allowed(config)
-        allowed = [name for name in names if config.experiments[name].scene == scene]
+        allowed = [name for name in names if config.ray_experiments[name].scene == scene]
+        if row.method in config.screen_experiments:
+            raise ValueError(f"{key}: {of_another_kind(row.method, RAYS, allowed)}")
         check_among(key, row.method, [*self.classic_allowed(row), *allowed])
 
     def classic_allowed(self, row: RowSettings) -> list[str]:
@@ -96,19 +100,19 @@ class TableOfOneScene(RowsTable):
     """Table of methods on one scene."""
 
     rows: Rows = Field(description="methods, in the table's order")
-    scene: name_in("scenes") | None = Field(
-        None, description="a name in `scenes`; default: that of the rows' experiments"
+    scene: MeshName | None = Field(
+        None, description="a mesh in `scenes`; default: that of the rows' experiments"
     )
 
     def check(self, config: Sections, key: str) -> None:
-        if not self.scene and not any(row.method in config.experiments for row in self.rows):
+        if not self.scene and not any(row.method in config.ray_experiments for row in self.rows):
             for row in self.rows:  # a misspelt experiment has no scene
                 allowed = [*self.classic_allowed(row), *self.experiments_allowed(config)]
                 check_among(f"{key}.rows", row.method, allowed)
         super().check(config, key)
 
     def named_rows(self, config: Sections) -> dict[str, list[RowSettings]]:
-        experiments = [config.experiments.get(row.method) for row in self.rows]
+        experiments = [config.ray_experiments.get(row.method) for row in self.rows]
         scenes = {experiment.scene for experiment in experiments if experiment}
         return {self.scene or min(scenes, default=""): self.rows}
 
@@ -116,7 +120,7 @@ class TableOfOneScene(RowsTable):
 class TableByScene(RowsTable):
     """Table of methods on several scenes."""
 
-    rows: dict[name_in("scenes"), Rows] = Field(min_length=1, description="methods, by scene")
+    rows: dict[MeshName, Rows] = Field(min_length=1, description="methods, by scene")
 
     def named_rows(self, config: Sections) -> dict[str, list[RowSettings]]:
         return self.rows
@@ -130,12 +134,12 @@ def row_of(config: Sections, scene: str, row: RowSettings) -> Row:
         `held_out`, or None if it has none.
     """
     method, own, label = row.method, None, row.label
-    if experiment := config.experiments.get(row.method):
+    if experiment := config.ray_experiments.get(row.method):
         label, own = config.label_of(row.method, row.label), experiment.bias
     elif method == RAY_TRACED:
         label = label or "Ray traced"
     else:
-        label = label or classic_label(method)
+        label = label or method_of(method).label
     bias = row.bias or own
     if bias != own:  # of a method whose own depth bias the row changes
         method = biased_key(method)

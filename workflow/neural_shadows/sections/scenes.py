@@ -1,11 +1,12 @@
-"""`scenes`: a mesh, its ground and its light."""
+"""`scenes`: meshes in their unit sphere, and arrangements in metres."""
 
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from neural_shadows.settings.base import Model, Seed, by_kind, has_key
+from neural_shadows.scenes.generated import generator_names
+from neural_shadows.settings.base import EntryKind, Model, Seed, by_kind, has_key, name_in
 
 
 class Wyrm(Model):
@@ -96,8 +97,11 @@ class SingleAxisLight(Model):
 ViewSet = Literal["shadow", "surface", "centre"]
 
 
-class Scene(Model):
-    """Mesh with its ground, lights and views [4.1, 4.1.1]."""
+class MeshScene(Model):
+    """Mesh in its unit sphere, with ground, lights and views [4.1, 4.1.1].
+
+    Named in a rendered frame set, it stands alone on the ground of a generated arrangement.
+    """
 
     mesh: Mesh = Field(description=WHERE_FROM)
     up: Literal["x", "y", "z"] = Field("y", description="vertical axis of the mesh, pointing up")
@@ -118,7 +122,49 @@ class Scene(Model):
     )
 
 
-def mesh_name(scene: Scene) -> str:
+MESH = EntryKind("a mesh (an entry with `mesh`)", lambda entry: has_key(entry, "mesh"))
+MeshName = name_in("scenes", MESH)
+STAGE = "stage"  # the generator for a mesh alone
+
+
+class Arrangement(Model):
+    """Generated arrangement in metres, with inserted meshes, lit by a sphere."""
+
+    generate: Literal[tuple(generator_names())] = Field(
+        description="generator of the scene, a file in workflow/neural_shadows/scenes/generators/"
+    )
+    inserted: list[MeshName] = Field(
+        [],
+        description="names of meshes in `scenes`, placed on the scene's spots in this order",
+    )
+    seed: int | None = Field(None, ge=0, description="seed of the layout; default: the global seed")
+    penumbra: float | None = Field(
+        None,
+        gt=0,
+        le=1000,
+        description="for `plate` only: sets the object's height by the 95th percentile of penumbra widths, in "
+        "pixels of a 512² frame at 45° under a light of 0.25 m, by Neural Shadow Mapping's model",
+    )
+
+
+def _scene_tag(scene: Any) -> str | None:
+    tags = [tag for key, tag in (("mesh", "Mesh"), ("generate", "Metres")) if has_key(scene, key)]
+    return tags[0] if len(tags) == 1 else None
+
+
+Scene = Annotated[
+    Annotated[MeshScene, Tag("Mesh")] | Annotated[Arrangement, Tag("Metres")],
+    Discriminator(
+        _scene_tag,
+        custom_error_type="scene",
+        custom_error_message=(
+            "needs either `mesh` (a mesh in its unit sphere) or `generate` (an arrangement in metres)"
+        ),
+    ),
+]
+
+
+def mesh_name(scene: MeshScene) -> str:
     """Name of a scene's mesh in tables."""
     if isinstance(scene.mesh, MeshFile):
         return Path(Path(scene.mesh.path).name.removesuffix(".gz")).stem

@@ -1,28 +1,27 @@
 """All sections of a configuration, with values derived from several."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from functools import cached_property
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
 from neural_shadows.sections.any_report import AnyClaim, AnyFigure, AnyTable
 from neural_shadows.sections.compute import Compute
-from neural_shadows.sections.experiments import Experiment
-from neural_shadows.sections.frame_sets import FrameSet
+from neural_shadows.sections.experiments import Experiment, RayExperiment, ScreenExperiment
+from neural_shadows.sections.frame_sets import VIEWS, FrameSet, RenderedFrames
 from neural_shadows.sections.frame_times import FrameTimes
 from neural_shadows.sections.learning_curves import LearningCurves
 from neural_shadows.sections.metrics import Metrics
-from neural_shadows.sections.networks import Network, ScreenNetwork
+from neural_shadows.sections.networks import Network
 from neural_shadows.sections.networks_by_scene import NetworksByScene
-from neural_shadows.sections.rendering import Rendering
+from neural_shadows.sections.own_frames import OwnFrames
 from neural_shadows.sections.samplings import Sampling
-from neural_shadows.sections.scenes import Scene
-from neural_shadows.sections.screen_experiments import ScreenExperiment
+from neural_shadows.sections.scenes import STAGE, Arrangement, MeshScene, Scene
 from neural_shadows.sections.screen_profiles import ScreenProfiles
-from neural_shadows.sections.screen_trainings import ScreenTraining
-from neural_shadows.sections.soft_scenes import SoftScene
 from neural_shadows.sections.trainings import Training
 from neural_shadows.sections.viewers import Viewer
+from neural_shadows.sections.views import Views
 from neural_shadows.settings.base import Model, Name, Seed
 
 FigureName = Annotated[str, Field(pattern=r"^figure_[a-z0-9_]+$")]
@@ -32,6 +31,14 @@ ViewerName = Annotated[str, Field(pattern=r"^viewer(_[a-z0-9_]+)?$")]
 class Sections(Model):
     """A configuration; `config.whole` adds kinds of reports."""
 
+    moved: ClassVar[dict[str, str]] = {
+        "soft_scenes": "`scenes`",
+        "screen_networks": "`networks`",
+        "screen_trainings": "`trainings`",
+        "screen_experiments": "`experiments`",
+        "rendering": "`frame_sets.views`",
+    }
+
     scale: Name = Field(description="name of this configuration and of its folders of results")
     seed: Seed = Field(description="seed of all random draws")
     dragon: str | None = Field(None, min_length=1, description="`wyrm`, `stanford`, or a mesh file")
@@ -39,29 +46,24 @@ class Sections(Model):
         None, description="vertical axis of the dragon's mesh, overriding its scene's"
     )
     compute: Compute = Field(Compute(), description="device, threads and number format of networks")
-    scenes: dict[Name, Scene] = Field(description="meshes with ground, lights and views, by name")
+    scenes: dict[Name, Scene] = Field(
+        description="meshes in their unit sphere, and arrangements in metres, by name"
+    )
     samplings: dict[Name, Sampling] = Field(description="samplings of training rays, by name")
-    networks: dict[Name, Network] = Field(description="architectures of networks on rays, by name")
-    trainings: dict[Name, Training] = Field(description="trainings of networks on rays, by name")
-    experiments: dict[Name, Experiment] = Field(description="networks on rays, trained, by name")
+    networks: dict[Name, Network] = Field(
+        description="architectures, on rays by `encoding` or in screen space by `form`, by name"
+    )
+    trainings: dict[Name, Training] = Field(
+        description="trainings, on rays with `batch_size` or on frames with `crops`, by name"
+    )
+    experiments: dict[Name, Experiment] = Field(
+        description="trained networks, on rays of a `scene` or on frames of a `frame_set`, by name"
+    )
     learning_curves: LearningCurves | None = Field(
         None, description="trainings at several budgets, from several seeds"
     )
-    rendering: Rendering = Field(description="hard frames and their viewpoints")
-    soft_scenes: dict[Name, SoftScene] = Field(
-        {}, description="generated scenes in metres, lit by a sphere, by name"
-    )
     frame_sets: dict[Name, FrameSet] = Field(
-        {}, description="frames with buffers and exact soft shadows, by name"
-    )
-    screen_networks: dict[Name, ScreenNetwork] = Field(
-        {}, description="architectures of screen-space networks, by name"
-    )
-    screen_trainings: dict[Name, ScreenTraining] = Field(
-        {}, description="trainings of screen-space networks, by name"
-    )
-    screen_experiments: dict[Name, ScreenExperiment] = Field(
-        {}, description="screen-space networks, one training each, by name"
+        description="`views` of meshes under a sun, and frames with exact soft shadows, by name"
     )
     networks_by_scene: dict[Name, NetworksByScene] = Field(
         {}, description="methods with one screen-space network per scene, by name"
@@ -80,12 +82,51 @@ class Sections(Model):
     )
     claims: Mapping[Name, AnyClaim] = Field({}, description="conclusions to be judged, by name")
 
+    @cached_property
+    def mesh_scenes(self) -> dict[str, MeshScene]:
+        """Entries of `scenes` with a mesh."""
+        return {k: scene for k, scene in self.scenes.items() if isinstance(scene, MeshScene)}
+
+    def arrangement(self, scene: str) -> Arrangement:
+        """A scene in metres; a mesh alone stands on a stage."""
+        settings = self.scenes[scene]
+        if isinstance(settings, Arrangement):
+            return settings
+        alone = {"generate": STAGE, "inserted": [scene], "seed": settings.seed, "penumbra": None}
+        return Arrangement.model_construct(**alone)
+
+    def layout_seed(self, scene: str) -> int:
+        """Seed of a scene's arrangement."""
+        seed = self.scenes[scene].seed
+        return self.seed if seed is None else seed
+
+    @property
+    def views(self) -> Views:
+        """Views of meshes under a sun."""
+        return self.frame_sets[VIEWS]
+
+    @cached_property
+    def soft_frame_sets(self) -> dict[str, RenderedFrames | OwnFrames]:
+        """Frame sets under an area light."""
+        soft = RenderedFrames | OwnFrames
+        return {k: frames for k, frames in self.frame_sets.items() if isinstance(frames, soft)}
+
+    @cached_property
+    def ray_experiments(self) -> dict[str, RayExperiment]:
+        """Experiments on rays."""
+        return {k: e for k, e in self.experiments.items() if isinstance(e, RayExperiment)}
+
+    @cached_property
+    def screen_experiments(self) -> dict[str, ScreenExperiment]:
+        """Experiments on frames."""
+        return {k: e for k, e in self.experiments.items() if isinstance(e, ScreenExperiment)}
+
     def network_of(self, experiment: str) -> Any:
         """Section of an experiment's network."""
         network = self.experiments[experiment].network
         return self.networks[network] if isinstance(network, str) else network
 
-    def training_of(self, experiment: str) -> Training | None:
+    def training_of(self, experiment: str) -> Any:
         """Section of an experiment's training, or None."""
         training = self.experiments[experiment].training
         return self.trainings[training] if isinstance(training, str) else training
@@ -93,8 +134,8 @@ class Sections(Model):
     def seed_of(self, experiment: str) -> int:
         """An experiment's seed: its own, its scene's or the configuration's."""
         settings = self.experiments[experiment]
-        seeds = settings.seed, self.scenes[settings.scene].seed, self.seed
-        return next(seed for seed in seeds if seed is not None)
+        of_scene = self.scenes[settings.scene].seed if isinstance(settings, RayExperiment) else None
+        return next(seed for seed in (settings.seed, of_scene, self.seed) if seed is not None)
 
     def label_of(self, experiment: str, label: str | None = None) -> str:
         """Label of an experiment, with settings in braces filled in.
@@ -134,27 +175,7 @@ class Sections(Model):
                 )
         return points
 
-    def layout_seed(self, scene: str) -> int:
-        """Seed of the layout of a soft scene."""
-        seed = self.soft_scenes[scene].seed
-        return self.seed if seed is None else seed
-
-    def screen_network_of(self, experiment: str) -> Any:
-        """Section of a screen-space experiment's network."""
-        network = self.screen_experiments[experiment].network
-        return self.screen_networks[network] if isinstance(network, str) else network
-
-    def screen_training_of(self, experiment: str) -> ScreenTraining:
-        """Section of a screen-space experiment's training."""
-        training = self.screen_experiments[experiment].training
-        return self.screen_trainings[training] if isinstance(training, str) else training
-
-    def screen_seed_of(self, experiment: str) -> int:
-        """A screen-space experiment's seed: its own or the configuration's."""
-        seed = self.screen_experiments[experiment].seed
-        return self.seed if seed is None else seed
-
     def differences(self, experiment: str, other: str) -> list[str]:
-        """Differing keys of two screen-space experiments, except `seed` and `label`."""
-        first, second = (dict(self.screen_experiments[name]) for name in (experiment, other))
+        """Differing keys of two experiments, except `seed` and `label`."""
+        first, second = (dict(self.experiments[name]) for name in (experiment, other))
         return [k for k in first if k not in ("seed", "label") and first[k] != second[k]]

@@ -4,8 +4,8 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.evaluation.null_predictors import is_null
+from neural_shadows.evaluation.registry import RAY_TRACED
 from neural_shadows.sections.any_report import AnyFigure, AnyTable
 from neural_shadows.sections.own_frames import OwnFrames
 from neural_shadows.sections.rows import Row

@@ -1,10 +1,10 @@
 """Base model and field types of all sections."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from functools import reduce
 from operator import or_
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import (
     AfterValidator,
@@ -24,11 +24,17 @@ class Model(BaseModel):
     """Base of all sections, without unknown keys or implicit conversions."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+    moved: ClassVar[dict[str, str]] = {}  # former keys, and where their values belong now
 
     @model_validator(mode="before")
     @classmethod
     def _check_keys(cls, values: Any) -> Any:
         for key in values if isinstance(values, dict) else ():
+            if key in cls.moved:
+                context = {"key": str(key), "new": cls.moved[key]}
+                raise PydanticCustomError(
+                    "unknown_key", "{key}: is now {new}. Move it there", context
+                )
             if key not in cls.model_fields:
                 # pydantic's own error does not list the allowed keys.
                 context = {"key": not_among(str(key), cls.model_fields)}
@@ -41,8 +47,11 @@ def not_among(value: str, allowed: Iterable[str]) -> str:
     names = list(allowed)
     close = get_close_matches(value, names, 1)
     meant = f" (did you mean {close[0]!r}?)" if close else ""
-    more = ", …" if len(names) > 20 else ""
-    return f"{value!r}{meant} is not among {', '.join(names[:20])}{more}"
+    return f"{value!r}{meant} is not among {_listed(names)}"
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names[:20]) + (", …" if len(names) > 20 else "")
 
 
 def check_among(key: str, value: str, allowed: Iterable[str]) -> None:
@@ -63,14 +72,31 @@ Seed = Annotated[int, Field(ge=0, lt=2**32)]
 PowerOfTwo = Annotated[int, AfterValidator(_power_of_two)]
 
 
-def name_in(section: str) -> Any:
-    """Name of an entry of a section, looked up in the context."""
+class EntryKind(NamedTuple):
+    """Kind of a section's entries."""
+
+    title: str  # as in "is not …"
+    holds: Callable[[Any], bool]  # of an entry, as a dict or as a model
+
+
+def of_another_kind(name: str, kind: EntryKind, allowed: Iterable[str]) -> str:
+    """Message about an entry's name where one of a kind is needed."""
+    return f"{name!r} is not {kind.title}. Allowed: {_listed(list(allowed))}"
+
+
+def name_in(section: str, kind: EntryKind | None = None) -> Any:
+    """Name of an entry of a section, of a kind, looked up in the context."""
 
     def check(name: str, info: ValidationInfo) -> str:
-        entries = info.context.get(section)
-        if isinstance(entries, dict) and name not in entries:
-            raise ValueError(not_among(name, map(str, entries)))
-        return name
+        entries = (info.context or {}).get(section)
+        if not isinstance(entries, dict):
+            return name
+        if name in entries and (kind is None or kind.holds(entries[name])):
+            return name
+        allowed = [str(key) for key, entry in entries.items() if not kind or kind.holds(entry)]
+        if name in entries:
+            raise ValueError(of_another_kind(name, kind, allowed))
+        raise ValueError(not_among(name, allowed))
 
     return Annotated[Name, AfterValidator(check)]
 

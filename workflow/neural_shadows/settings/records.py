@@ -3,6 +3,7 @@
 from typing import Any, Literal, TypedDict
 
 Bias = float | Literal["held_out"] | None
+RadiusUnit = Literal["metres", "scene_sizes", "degrees"]
 
 
 class Run(TypedDict):
@@ -63,6 +64,14 @@ class ViewSettings(TypedDict):
     seed: int
 
 
+class FrameTimesSettings(TypedDict):
+    """Size and number of timed frames."""
+
+    width: int  # pixels
+    height: int
+    repeats: int
+
+
 class SamplingSettings(TypedDict, total=False):
     """Sampling of training rays, see `sections.samplings.Sampling`."""
 
@@ -106,8 +115,31 @@ class DepthBias(TypedDict):
     at_end: bool  # at the first or last candidate
 
 
+class TunedRadius(TypedDict, total=False):
+    """Constants of a method for a radius."""
+
+    constants: dict[str, float]
+    at_end: list[str]  # those at the first or last candidate
+
+
+class Tuned(TypedDict, total=False):
+    """Constants of a method, of `tune`."""
+
+    method: str
+    candidates: dict[str, list[float]]
+    radii: list[TunedRadius]
+
+
+class FeatureShare(TypedDict):
+    """Sensitivity of a network to a feature, of `measure_sensitivity`."""
+
+    sensitivity: float
+    share: float  # of all features'
+    as_printed: float
+
+
 class TrainingSettings(TypedDict, total=False):
-    """A training's settings, see `sections.trainings` and `sections.screen_trainings`."""
+    """A training's settings, as in the header of its weights."""
 
     optimiser: str
     steps: int
@@ -129,6 +161,21 @@ class TrainingSettings(TypedDict, total=False):
     seed: int
     device: str
     precision: str
+
+
+class WeightsHeader(TypedDict, total=False):
+    """Header of a network's weights; `features` to `perceptual` of one of frames."""
+
+    name: str
+    network: dict[str, Any]
+    training: TrainingSettings | None
+    data: dict[str, Any] | None
+    features: list[str]
+    radii: list[float]
+    radius_unit: str
+    light: dict[str, Any] | None  # of a `LightShape`; None of a sphere
+    scenes: list[str]
+    perceptual: str
 
 
 class TrainingRecord(TypedDict, total=False):
@@ -156,7 +203,7 @@ class TrainingRecord(TypedDict, total=False):
 
 
 class FrameTimes(TypedDict, total=False):
-    """Times of methods on a scene, of `measure_frame_times`."""
+    """Times of methods on a scene, of `time_methods`."""
 
     scene: str
     methods: dict[str, dict[str, Any]]
@@ -172,7 +219,7 @@ class FrameTimes(TypedDict, total=False):
 
 
 class SoftTimes(TypedDict, total=False):
-    """Times of methods for soft shadows, of `time_soft_methods`."""
+    """Times of methods for soft shadows, of `time_methods`."""
 
     methods: dict[str, dict[str, Any]]
     maps: dict[str, dict[str, float]]
@@ -222,9 +269,79 @@ class PartRecord(TypedDict, total=False):
     height: int
     radii: list[float]  # scene's unit
     given_radii: list[float]  # as configured
-    radius_unit: Literal["metres", "scene_sizes"]
+    radius_unit: RadiusUnit
     size: float
     channels: list[str]
+    scene: "GeneratedScene"
+    light: dict[str, Any]  # of a `LightShape`; a sphere without it
+    light_map: "LightMapSettings"
+    frames: "list[FrameRecord]"
+    source: str  # of an engine's frame: its folder
+    targets: bool
+    edges: bool
+
+
+class SettingRecord(TypedDict, total=False):
+    """A `Setting`; of an engine's frame its lens alone."""
+
+    eye: list[float]  # metres
+    target: list[float]
+    fov_deg: float
+    window: dict[str, int] | None  # of a larger frame
+    light: list[float]  # its centre
+    motion: list[list[float]]  # of the mover, (4, 4)
+
+
+class FrameRecord(TypedDict):
+    """A frame of a part."""
+
+    setting: SettingRecord
+    twins: list[SettingRecord]  # its perturbed frames
+
+
+class GeneratedScene(TypedDict, total=False):
+    """A scene in metres, see `SoftScene`."""
+
+    generate: str
+    seed: int
+    inserted: dict[str, str]  # up axes by name
+    penumbra: float | None
+    height: float
+
+
+class LightMapSettings(TypedDict, total=False):
+    """A light's map, see `sections.frame_sets`."""
+
+    kind: Literal["perspective", "cube"]
+    resolution: int
+    fov: float  # degrees
+
+
+class Perturbation(TypedDict, total=False):
+    """Amplitudes of perturbed frames, see `twin_of`."""
+
+    count: int
+    light: float
+    eye: float
+    turn_deg: float
+    light_texels: float
+    light_radii: float
+    eye_pixels: float
+
+
+class FrameSettings(TypedDict, total=False):
+    """Settings common to the frames of a set."""
+
+    width: int  # pixels
+    height: int
+    fov: float  # vertical, of the whole frame, degrees
+    of: list[int] | None  # width and height of the whole frame
+    light: dict[str, Any]  # of a `LightShape`; a sphere without it
+    light_map: LightMapSettings
+    radii: list[float]
+    radius_unit: RadiusUnit
+    twins: Perturbation
+    blur: float  # σ in pixels
 
 
 class CurvePoint(TypedDict):

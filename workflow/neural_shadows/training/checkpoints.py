@@ -3,11 +3,11 @@
 import hashlib
 import json
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from neural_shadows.running.module_graph import modules_of
+from neural_shadows.settings.records import WeightsHeader
 
 # Beside the networks' folders, with a folder `<experiment>-<digest>` for each training.
 CHECKPOINTS = "checkpoints"
@@ -17,7 +17,7 @@ STATE = "state.safetensors"  # in such a folder
 STAGES = Path(__file__).parent  # folder of the training stages
 
 
-def checkpoint_folder(weights: Path, header: Mapping[str, Any], code: Iterable[Path]) -> Path:
+def checkpoint_folder(weights: Path, header: WeightsHeader, code: Iterable[Path]) -> Path:
     """Checkpoint folder of a training: `networks/checkpoints/<experiment>-<digest>`.
 
     Snakemake deletes a failed job's outputs, so a checkpoint cannot be among them. Its name has a

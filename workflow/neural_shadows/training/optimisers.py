@@ -7,7 +7,6 @@ and their bookkeeping takes 0.1 to 0.5 ms a step.
 
 import re
 from collections.abc import Callable, Collection, Mapping
-from typing import Any
 
 import torch
 from torch import Tensor
@@ -15,6 +14,7 @@ from torch.optim._muon import muon
 from torch.optim.adam import adam
 
 from neural_shadows.errors import InputError
+from neural_shadows.settings.records import TrainingSettings
 
 # Matrices between two layers of neurons: all `layers` but the first, behind encoding or grids.
 _HIDDEN = re.compile(r"layers\.[1-9]\d*(\.weight)?")
@@ -118,7 +118,7 @@ class Muon:
 
 def make_optimisers(
     weights: Mapping[str, Tensor],
-    settings: Mapping[str, Any],
+    settings: TrainingSettings,
     hidden: Collection[str] | None = None,
 ) -> dict[str, Adam | Muon]:
     """Optimisers of a training's weights, by key of their rate.

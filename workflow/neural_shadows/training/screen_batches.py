@@ -11,10 +11,9 @@ from torch import Tensor
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.aligned_twins import ALIGNED_BY, twin_pixels
-from neural_shadows.frames.feature_names import BASES
-from neural_shadows.frames.features import buffers_of, named_features
+from neural_shadows.frames.feature_names import BASES, buffers_of
+from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
-from neural_shadows.frames.light_size import light_size
 from neural_shadows.rendering.gbuffer import Lens, lens_of
 from neural_shadows.training.screen_crops import Crops, CropSample
 
@@ -132,7 +131,7 @@ class ScreenFrames:
         part, number = self._frames[frame]
         buffers = self._read(frame, version, self._buffers, window)
         lens = self._lens(part, number)
-        light = light_size(part.radii[radius], max(part.radii), part.about["size"])
+        light = part.light_size(part.radii[radius])
         return named_features(self._features, buffers, lens._replace(axis=lens.axis[window]), light)
 
     def ranges(self) -> tuple[np.ndarray, np.ndarray]:

@@ -11,6 +11,7 @@ from torch import Tensor
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.screen_space.chunk_norm import chunk_statistics
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
+from neural_shadows.settings.records import TrainingSettings
 from neural_shadows.training.crop_samples import crop_samples
 from neural_shadows.training.screen_batches import ScreenFrames
 from neural_shadows.training.screen_crops import Crops, CropSample
@@ -35,7 +36,7 @@ class ScreenRun(TrainingState):
     def __init__(
         self,
         network: ScreenNetwork,
-        settings: Mapping[str, Any],
+        settings: TrainingSettings,
         frames: ScreenFrames,
         loss: ScreenLoss,
     ):

@@ -1,8 +1,6 @@
 """A step of a shadow network's training on labelled rays."""
 
-from collections.abc import Mapping
 from concurrent.futures import Executor
-from typing import Any
 
 import numpy as np
 import torch
@@ -10,6 +8,7 @@ import torch
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch, ShadowNetwork
+from neural_shadows.settings.records import TrainingSettings
 from neural_shadows.training.training_state import LOSS_SCALE, TrainingState
 
 
@@ -25,7 +24,7 @@ class TrainingRun(TrainingState):
         InputError: an optimiser unfit for this network.
     """
 
-    def __init__(self, network: ShadowNetwork, settings: Mapping[str, Any]):
+    def __init__(self, network: ShadowNetwork, settings: TrainingSettings):
         device = torch.device(settings["device"])
         self.network, self.dead_zone = network.to(device), DeadZone(**settings["loss"])
         self.dtype = choose_dtype(settings["precision"], device)

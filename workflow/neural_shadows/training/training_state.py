@@ -11,6 +11,7 @@ import torch
 from torch import Tensor
 
 from neural_shadows.networks.weight_file import load_tensors, save_tensors
+from neural_shadows.settings.records import TrainingSettings
 from neural_shadows.training.optimisers import make_optimisers
 
 # Losses are multiplied by it before the backward pass and gradients divided by it after: float16's
@@ -19,7 +20,7 @@ LOSS_SCALE = {torch.float16: 128.0}
 
 
 def learning_rate_at(
-    step: Tensor, settings: Mapping[str, Any], key: str = "learning_rate"
+    step: Tensor, settings: TrainingSettings, key: str = "learning_rate"
 ) -> Tensor:
     """Learning rate of a step.
 
@@ -56,7 +57,7 @@ class TrainingState:
     def __init__(
         self,
         weights: Mapping[str, Tensor],
-        settings: Mapping[str, Any],
+        settings: TrainingSettings,
         samples_a_step: int,
         hidden: Collection[str] | None = None,
     ):

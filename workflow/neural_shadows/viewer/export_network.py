@@ -8,7 +8,7 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.shadow_methods import take_found
+from neural_shadows.evaluation.ray_network import take_constants
 from neural_shadows.files.whole_files import read_json, whole_file, write_json
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import load_network
@@ -107,7 +107,7 @@ def export_network(
             "Export a network of another encoding"
         )
     mesh = read_json(mesh_json)
-    depth_bias = take_found(network, depth_bias_json) if depth_bias_json else bias
+    depth_bias = take_constants(network, depth_bias_json) if depth_bias_json else bias
     export_onnx(network, network_onnx)
     difference = largest_difference(network, network_onnx)
     if not difference <= TOLERANCE:  # catches NaN

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from PIL import Image
 
 from neural_shadows.evaluation.memory import network_bytes
-from neural_shadows.evaluation.shadow_methods import take_found
+from neural_shadows.evaluation.ray_network import take_constants
 from neural_shadows.files.whole_files import whole_file, write_text
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.networks.weight_file import load_network
@@ -22,7 +22,7 @@ from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import open_scene
-from neural_shadows.settings.records import Row, ViewSettings
+from neural_shadows.settings.records import Row, Run, SceneInfo, SceneSettings, ViewSettings
 from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays
 from neural_shadows.viewer.network_arrays import network_arrays
 from neural_shadows.viewer.packed import packed
@@ -43,11 +43,11 @@ def write_viewer(
     depth_biases: list[Path],
     name: str,
     rows: Sequence[Row],
-    scene: Mapping[str, Any],
+    scene: SceneSettings,
     frames: ViewSettings,
     views: int,
-    about: Mapping[str, Any],
-    run: Mapping[str, Any],
+    about: SceneInfo,
+    run: Run,
 ) -> None:
     """Write a scene's viewer as one file, and its poster.
 
@@ -74,7 +74,7 @@ def write_viewer(
         image.save(part, "PNG")
     report = read_mesh_report(mesh_json)
     biases = {path.stem: path for path in depth_biases}
-    title = f"Shadows of the {name}: {report['name']}"
+    title = f"Shadows of {report['name']}"
     data = {
         "name": name,
         "mesh": {"bits": BITS, **{key: packed(array) for key, array in arrays._asdict().items()}},
@@ -124,7 +124,7 @@ def _network(weights: Path, row: Row, depth_biases: Mapping[str, Path]) -> dict[
     network, header = load_network(weights)
     depth_bias = row["bias"]
     if depth_bias == "held_out":
-        depth_bias = take_found(network, depth_biases[row["experiment"]])
+        depth_bias = take_constants(network, depth_biases[row["experiment"]])
     return {
         "key": row["method"],
         "name": row["label"],

@@ -80,21 +80,6 @@ def test_multiply_adds_are_those_of_the_table_with_the_head_at_half_resolution(l
     assert total(kernel_convolutions("kernels", WIDTHS[layers], 8, 4), "macs") == expected
 
 
-@each_form
-def test_modules_of_a_level_have_its_weights(form):
-    name, ends = FORMS[form]
-    network = KernelUnet(name, SLIM, EIGHT, filters=3, ends=ends)
-    layers = kernel_convolutions(name, SLIM, 8, 3, ends)
-    levels = range(5 if ends == "half" else 4)
-    expected, result = {0: 0} | by_level(layers, "weights"), dict.fromkeys(levels, 0)
-    for (level, _), part in network.parts().items():
-        result[level] += sum(
-            parameter.numel() for parameter in part.parameters() if parameter.ndim == 4
-        )
-    assert result == expected
-    assert counted(network, 8) == (total(layers, "weights"), total(layers, "macs"))
-
-
 def test_the_head_before_the_enlargement_is_the_head_behind_it():
     """And what it leaves is filtered as `unfold` does it."""
     network, size = tiny(), (13, 21)
@@ -134,22 +119,6 @@ def test_logits_lie_plane_by_plane_and_are_the_convolution_s(images):
 
 
 @each_form
-@pytest.mark.parametrize("size", [(1, 1), (5, 7), (8, 16)])
-def test_any_size_is_padded_by_its_border_and_cropped(form, size):
-    network = tiny(form)
-    x = planes(network, *size)
-    result = answer(network, x)
-    multiple = 4 if form == "full" else 8
-    border = (0, -size[1] % multiple, 0, -size[0] % multiple)
-    padded = functional.pad(x, border, mode="replicate")
-    assert result.shape == (1, 1, *size) and result.dtype == torch.float32
-    with torch.inference_mode():
-        assert torch.equal(network.inner(x), network.inner(padded))
-    if form == "direct":
-        assert torch.equal(result, answer(network, padded)[..., : size[0], : size[1]])
-
-
-@each_form
 def test_folded_norms_give_the_same_output(form):
     network = tiny(form)
     x, folded = planes(network, 24, 16), network.for_inference()
@@ -176,18 +145,6 @@ def test_norms_are_updated_in_order_of_computation(form):
 
 
 @each_form
-def test_every_weight_has_a_gradient_in_bfloat16(form):
-    network = tiny(form).in_format(torch.bfloat16)
-    x = planes(network, 16, 16).contiguous(memory_format=torch.channels_last)
-    with chunk_statistics():
-        network(x).square().mean().backward()
-    assert all(
-        parameter.grad.abs().sum() > 0 for parameter in network.parameters() if parameter.ndim == 4
-    )
-    assert {parameter.weight.dtype for parameter in network.norms()} == {torch.float32}
-
-
-@each_form
 def test_bfloat16_output_is_close(form):
     network = tiny(form)
     x = planes(network, 32, 32)
@@ -195,28 +152,6 @@ def test_bfloat16_output_is_close(form):
     for parameter in (network, network.for_inference()):
         off = (answer(parameter.in_format(torch.bfloat16), x) - exact).abs().mean()
         assert 0 < off < 0.1 * exact.std()
-
-
-def test_weights_depend_on_the_seed_alone():
-    first, other = tiny(seed=3), tiny()
-    other.initialise(3)
-    second = KernelUnet("kernels", TINY, EIGHT, filters=2, seed=3)
-    assert all(map(torch.equal, other.state_dict().values(), second.state_dict().values()))
-    assert torch.equal(first.head.weight, second.head.weight)
-    assert not torch.equal(tiny(seed=4).head.weight, second.head.weight)
-
-
-@each_form
-def test_all_convolutions_but_the_first_and_the_last_are_hidden(form):
-    network = tiny(form)
-    weights = {
-        name: parameter for name, parameter in network.named_parameters() if parameter.ndim == 4
-    }
-    ends = {*weights} - {*network.hidden()}
-    assert ends == {
-        "levels.0.encoder.0.weight",
-        "head.3.weight" if form == "direct" else "head.weight",
-    }
 
 
 def test_index_of_the_base_after_three_channel_features():

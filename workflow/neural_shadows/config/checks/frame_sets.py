@@ -3,29 +3,29 @@
 from itertools import combinations
 from typing import Any
 
-from neural_shadows.scenes.generators.registry import TRAINED, UNTRAINED
-from neural_shadows.sections.frame_sets import measured_scenes
-from neural_shadows.sections.own_frames import OwnFrames
+from neural_shadows.sections.frame_sets import VIEWS, RenderedFrames, measured_scenes
 from neural_shadows.sections.sections import Sections
+from neural_shadows.sections.views import Views
 
 
 def check(config: Sections) -> None:
-    """Check that training scenes and unseen scenes are disjoint."""
+    """Check `views`, and that training scenes and unseen scenes are disjoint."""
+    if VIEWS not in config.frame_sets:
+        raise ValueError(f"frame_sets.{VIEWS}: this key is missing")
     for name, frames in config.frame_sets.items():
-        if isinstance(frames, OwnFrames):
+        if isinstance(frames, Views) != (name == VIEWS):
+            raise ValueError(
+                f"frame_sets.{name}: only `{VIEWS}` holds views of meshes (`views_per_set`, …), "
+                "and nothing else"
+            )
+        if not isinstance(frames, RenderedFrames):
             continue
-        trained = [config.soft_scenes[scene] for scene in frames.scenes]
-        for scene, settings in zip(frames.scenes, trained):
-            if settings.generate in UNTRAINED:
-                raise ValueError(
-                    f"frame_sets.{name}.scenes: {scene!r} has the generator {settings.generate!r}, which "
-                    f"is for tests only. Move it to `unseen` (for training: {', '.join(TRAINED)})"
-                )
-        # Another seed moves objects of a training generator by only 15 cm: such a scene is not unseen.
+        trained = [config.arrangement(scene) for scene in frames.scenes]
+        # Another seed moves objects of most generators by only 15 cm: such a scene is not unseen.
         generators = {settings.generate for settings in trained}
         objects = {inserted for settings in trained for inserted in settings.inserted}
         for scene in frames.unseen:
-            settings = config.soft_scenes[scene]
+            settings = config.arrangement(scene)
             if settings.generate in generators and objects.issuperset(settings.inserted):
                 raise ValueError(
                     f"frame_sets.{name}.unseen: {scene!r} has the generator {settings.generate!r} and "
@@ -41,6 +41,6 @@ def check(config: Sections) -> None:
 
 def _drawn_from(config: Sections, scene: str) -> tuple[Any, ...]:
     """Generator, seed, objects and penumbra of a scene."""
-    settings = config.soft_scenes[scene]
+    settings = config.arrangement(scene)
     seed = config.layout_seed(scene)
     return settings.generate, seed, set(settings.inserted), settings.penumbra

@@ -10,11 +10,11 @@ def check(config: Sections) -> None:
     for name, viewer in config.viewers.items():
         for row in viewer.networks:
             key = f"viewers.{name}.networks: {row.method!r}"
-            if row.method not in config.experiments:
+            if row.method not in config.ray_experiments:
                 raise ValueError(
-                    f"{key} is not an experiment. Remove it; shadow maps are always included"
+                    f"{key} is not an experiment on rays. Remove it; shadow maps are always included"
                 )
-            scene = config.experiments[row.method].scene
+            scene = config.ray_experiments[row.method].scene
             if scene != viewer.scene:
                 raise ValueError(f"{key} has the scene {scene!r}, the viewer {viewer.scene!r}")
             network = config.network_of(row.method)

@@ -1,47 +1,37 @@
 """Screen-space networks: built from settings, written, read."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import torch
 
-from neural_shadows.errors import InputError
 from neural_shadows.networks.screen_space.screen_forms import form_of
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
-from neural_shadows.networks.weight_file import load_tensors, save_tensors
+from neural_shadows.networks.settings.networks import screen_network
+from neural_shadows.networks.settings.screen_space import AnyScreenNetwork
+from neural_shadows.networks.weight_file import load_fitting, save_tensors
+from neural_shadows.settings.records import WeightsHeader
 
 STORED = torch.float16
 
 
-def make_screen_network(settings: Mapping[str, Any]) -> ScreenNetwork:
-    """Build a network from an entry of the config's `screen_networks`.
-
-    Raises:
-        KeyError, TypeError, ValueError: a missing, unknown or wrong argument.
-    """
+def make_screen_network(settings: AnyScreenNetwork) -> ScreenNetwork:
+    """Build a network from its settings."""
     return form_of(settings).network(settings)
 
 
-def save_screen_network(path: Path, network: ScreenNetwork, header: Mapping[str, Any]) -> None:
+def save_screen_network(path: Path, network: ScreenNetwork, header: WeightsHeader) -> None:
     """Write weights in 16 bits; `header["network"]` holds the settings."""
     tensors = {name: weight.to(STORED) for name, weight in network.state_dict().items()}
     save_tensors(path, tensors, header)
 
 
 def load_screen_network(path: Path) -> tuple[ScreenNetwork, dict[str, Any]]:
-    """Read a network in float32, and its header.
+    """Read a network in float32, and its header; see `load_fitting`."""
 
-    Raises:
-        InputError: a damaged file, or weights of other widths than its header's.
-    """
-    tensors, header = load_tensors(path)
-    try:
-        network = make_screen_network(header["network"])
+    def build(header: dict[str, Any], tensors: dict[str, torch.Tensor]) -> ScreenNetwork:
+        network = make_screen_network(screen_network(header["network"]))
         network.load_state_dict({name: weight.float() for name, weight in tensors.items()})
-    except (KeyError, TypeError, ValueError, RuntimeError) as error:
-        reason = " ".join(str(error).split())[:200]
-        raise InputError(
-            f"{path}: weights do not fit the header ({reason}). Delete it and train again."
-        ) from error
-    return network, header
+        return network
+
+    return load_fitting(path, build)

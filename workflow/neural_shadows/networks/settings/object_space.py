@@ -20,7 +20,7 @@ class NetworkModel(Model):
 
     trained: ClassVar[bool] = True  # else its experiments have no sampling and no training
     needs_mesh: ClassVar[bool] = False
-    of_scene: ClassVar[tuple[str, ...]] = ()  # its class's arguments from the scene's settings
+    of_scene: ClassVar[tuple[str, ...]] = ()  # settings that default to the scene's
     loss_of_depths: ClassVar[bool] = False  # the dead-zone loss alone, as the thesis's
     holds_field: ClassVar[bool] = False  # an occupancy field, for figures of fields
     has_shader: ClassVar[bool] = False  # in workflow/report/viewer/shaders

@@ -18,7 +18,7 @@ from neural_shadows.representations.packed_bits import pack_integers, unpack_int
 from neural_shadows.scenes.tracing import Tracer
 
 # Memory of Embree 4: its own copy of the mesh, 16 bytes a vertex and 12 a triangle, and its tree.
-# The tree is measured: `held_bytes` before and after building, after malloc_trim, less the copy.
+# The tree is measured: resident bytes before and after building, after malloc_trim, less the copy.
 # For the Stanford dragon with 9,203, 20,139, 86,698 and 201,031 triangles it took 72, 71, 69 and 69
 # bytes a triangle.
 VERTEX_BYTES, FACE_BYTES, TREE_BYTES = 16, 12, 70

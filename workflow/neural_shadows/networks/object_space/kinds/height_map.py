@@ -16,6 +16,9 @@ class Settings(NetworkModel):
     encoding: Literal["height_map"] = Field(description="`height_map`: heights, not trained")
     resolution: int = Field(257, ge=2, le=4097, description="heights along a side")
     bits: int = Field(16, ge=8, le=16, multiple_of=8, description="of a height")
+    up: Literal["x", "y", "z"] | None = Field(
+        None, description="axis of the heights; default: the scene's `up`"
+    )
 
 
 def network_class() -> type:

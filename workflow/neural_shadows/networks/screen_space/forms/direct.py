@@ -1,6 +1,5 @@
 """Visibility by the network of kernels (Hu et al. 2025)."""
 
-from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import Field
@@ -17,12 +16,12 @@ class Settings(UnetOfSums):
     form: Literal["direct"] = Field(description="`direct`: visibility instead of kernels")
 
 
-def convolutions(settings: Mapping[str, Any]) -> list[Convolution]:
-    channels = channels_of(settings["features"])
-    return kernel_convolutions("direct", settings["widths"], channels, filters=0)
+def convolutions(settings: Settings) -> list[Convolution]:
+    channels = channels_of(settings.features)
+    return kernel_convolutions("direct", settings.widths, channels, filters=0)
 
 
-def network(settings: Mapping[str, Any]) -> Any:
+def network(settings: Settings) -> Any:
     from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 
-    return KernelUnet(**settings)
+    return KernelUnet(**settings.model_dump())

@@ -1,6 +1,5 @@
 """Neural Shadow Mapping's trimmed network, full size (Datta et al. 2022, 3.5)."""
 
-from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import Field
@@ -21,12 +20,12 @@ class Settings(Trimmed):
     )
 
 
-def convolutions(settings: Mapping[str, Any]) -> list[counts.Convolution]:
-    channels = channels_of(settings["features"])
-    return counts.convolutions("full", settings["widths"], channels, settings.get("extraction"))
+def convolutions(settings: Settings) -> list[counts.Convolution]:
+    channels = channels_of(settings.features)
+    return counts.convolutions("full", settings.widths, channels, settings.extraction)
 
 
-def network(settings: Mapping[str, Any]) -> Any:
+def network(settings: Settings) -> Any:
     from neural_shadows.networks.screen_space.exponent_unet import trimmed_network
 
-    return trimmed_network(**settings)
+    return trimmed_network(**settings.model_dump())

@@ -1,6 +1,5 @@
 """Kernel Predicting Neural Shadow Maps (Hu et al. 2025)."""
 
-from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import Field, field_validator
@@ -33,14 +32,12 @@ class Settings(UnetOfSums):
         return features
 
 
-def convolutions(settings: Mapping[str, Any]) -> list[Convolution]:
-    channels, ends = channels_of(settings["features"]), settings.get("ends", "half")
-    return kernel_convolutions(
-        "kernels", settings["widths"], channels, settings.get("filters", 4), ends
-    )
+def convolutions(settings: Settings) -> list[Convolution]:
+    channels, ends = channels_of(settings.features), settings.ends
+    return kernel_convolutions("kernels", settings.widths, channels, settings.filters, ends)
 
 
-def network(settings: Mapping[str, Any]) -> Any:
+def network(settings: Settings) -> Any:
     from neural_shadows.networks.screen_space.kernel_unet import KernelUnet
 
-    return KernelUnet(**settings)
+    return KernelUnet(**settings.model_dump())

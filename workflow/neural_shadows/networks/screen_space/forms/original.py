@@ -1,6 +1,5 @@
 """Neural Shadow Mapping's network before trimming (Datta et al. 2022, S4.1)."""
 
-from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import Field
@@ -19,12 +18,12 @@ class Settings(AnyScreenNetwork):
     )
 
 
-def convolutions(settings: Mapping[str, Any]) -> list[counts.Convolution]:
-    channels = channels_of(settings["features"])
-    return counts.convolutions("original", settings["widths"], channels)
+def convolutions(settings: Settings) -> list[counts.Convolution]:
+    channels = channels_of(settings.features)
+    return counts.convolutions("original", settings.widths, channels)
 
 
-def network(settings: Mapping[str, Any]) -> Any:
+def network(settings: Settings) -> Any:
     from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
 
-    return ShadowUnet(**settings)
+    return ShadowUnet(**settings.model_dump())

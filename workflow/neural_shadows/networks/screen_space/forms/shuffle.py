@@ -1,6 +1,5 @@
 """The trimmed network over pixel squares (Datta et al. 2022, 3.5)."""
 
-from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import Field
@@ -16,12 +15,12 @@ class Settings(Trimmed):
     form: Literal["shuffle"] = Field(description="`shuffle`, the paper's fast form")
 
 
-def convolutions(settings: Mapping[str, Any]) -> list[counts.Convolution]:
-    channels = channels_of(settings["features"])
-    return counts.convolutions("shuffle", settings["widths"], channels)
+def convolutions(settings: Settings) -> list[counts.Convolution]:
+    channels = channels_of(settings.features)
+    return counts.convolutions("shuffle", settings.widths, channels)
 
 
-def network(settings: Mapping[str, Any]) -> Any:
+def network(settings: Settings) -> Any:
     from neural_shadows.networks.screen_space.exponent_unet import trimmed_network
 
-    return trimmed_network(**settings)
+    return trimmed_network(**settings.model_dump())

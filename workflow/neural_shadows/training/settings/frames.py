@@ -1,4 +1,4 @@
-"""`screen_trainings`: trainings of screen-space networks (Datta et al. 2022, 3.3)."""
+"""Trainings on frames (Datta et al. 2022, 3.3)."""
 
 from typing import Annotated, Literal
 

@@ -4,7 +4,7 @@ Resumable and reproducible from the seed. An untrained one, such as a decimated 
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -17,29 +17,31 @@ from neural_shadows.networks.kind_module import kind_module
 from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.mesh_surface import is_unfit, with_surface
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
+from neural_shadows.networks.settings.networks import RayNetwork
 from neural_shadows.networks.weight_file import save_network
 from neural_shadows.rays.ray_set import RaySet
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
-from neural_shadows.settings.records import TrainingSettings
+from neural_shadows.settings.records import WeightsHeader
 from neural_shadows.training.batches import DeviceRays, batch_indices, batch_source
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
 from neural_shadows.training.cuda_graph import recorded
 from neural_shadows.training.loss_curve import COLUMNS
 from neural_shadows.training.no_shadow import no_shadow_loss
+from neural_shadows.training.settings.rays import RayTraining
 from neural_shadows.training.steps import curve_points, train_to_end
 from neural_shadows.training.training_run import TrainingRun
 from neural_shadows.training.training_state import gradient_pool
 
 
-def train(
+def train_on_rays(
     *,
     mesh_ply: Path | None,
     weights: Path,
     loss_csv: Path,
     training_json: Path,
-    network: Mapping[str, Any],
-    training: TrainingSettings | None,
+    network: RayNetwork,
+    training: RayTraining | None,
     seed: int,
     experiment: str,
     directions_npy: Path | None = None,
@@ -66,10 +68,8 @@ def train(
         training_json: for the settings and their results: `samples`, `seconds` (with the layout),
             `final_loss`, `died_at_step`, `no_shadow_loss` of the null predictor without shadow; and
             `unfit`, see `is_unfit`.
-        network: settings for `make_network`; `surface: auto` is the mesh's.
-        training: `optimiser` and its rates (`learning_rate`, and muon's `adam_rate`), `steps`,
-            `batch_size`, `schedule` (`constant` or `cosine`) and `loss`, the weights of
-            `DeadZone`; None for an untrained network, which needs no rays.
+        network: its `surface: auto` is the mesh's.
+        training: None for an untrained network, which needs no rays.
         directions_npy, origins, bounds, rays_json: of the ray set; the weights' header has its
             description.
         precision: of the matrix products, see `choose_dtype`.
@@ -86,12 +86,13 @@ def train(
         # DAG of 1024³ voxels 8.3 s instead of 0.73.
         make_network(network).prepare(mesh_ply)
     started = time.monotonic()  # includes the layout before training
-    header = {"name": experiment, "network": network, "training": None, "data": None}
+    header = {"name": experiment, "network": network.model_dump()}
+    header |= {"training": None, "data": None}
     if training is not None:
         torch_device = choose_device(device)
         dtype = str(choose_dtype(precision, torch_device)).removeprefix("torch.")
         platform = {"seed": seed, "device": torch_device.type, "precision": dtype}
-        header |= {"training": {**training, **platform}, "data": read_json(rays_json)}
+        header |= {"training": {**training.model_dump(), **platform}, "data": read_json(rays_json)}
     model = make_network(network)
     if mesh_ply is not None:
         model.prepare(mesh_ply)
@@ -113,7 +114,7 @@ def train(
 
 def _train(
     model: ShadowNetwork,
-    header: Mapping[str, Any],
+    header: WeightsHeader,
     rays: RaySet,
     weights: Path,
     threads: int,
@@ -121,7 +122,7 @@ def _train(
 ) -> tuple[dict[str, Any], str]:
     """Train a network; return its results and the loss curve as CSV."""
     run = TrainingRun(model, header["training"])
-    code = (STAGES / "train.py", kind_module(header["network"]["encoding"]))
+    code = (STAGES / "train_on_rays.py", kind_module(header["network"]["encoding"]))
     checkpoint = checkpoint_folder(weights, header, code)
     if (checkpoint / STATE).exists():
         run.restore(checkpoint / STATE)
@@ -157,4 +158,4 @@ def _points(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, train)
+    run_stage(snakemake, train_on_rays)

@@ -1,4 +1,4 @@
-"""`rendering`: hard frames and their viewpoints."""
+"""`frame_sets.views`: views of meshes under a sun."""
 
 from typing import Literal
 
@@ -7,8 +7,8 @@ from pydantic import Field
 from neural_shadows.settings.base import Model
 
 
-class Rendering(Model):
-    """Frames and viewpoints of all evaluations on scenes [4.1]."""
+class Views(Model):
+    """Views of meshes under a sun, of all evaluations on meshes [4.1]."""
 
     width: int = Field(ge=64, le=8192, description="pixels")
     height: int = Field(ge=64, le=8192, description="pixels")

@@ -17,9 +17,11 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
     PUSHES,
     OccupancyFieldNetwork,
 )
+from neural_shadows.networks.settings.networks import ray_network
 from neural_shadows.networks.weight_file import load_network
+from neural_shadows.running.stage import converted
 from neural_shadows.training import cuda_graph, steps
-from neural_shadows.training import train as stage
+from neural_shadows.training import train_on_rays as stage
 from neural_shadows.training.batches import HostRays
 from neural_shadows.training.loss_curve import read_loss
 
@@ -71,13 +73,13 @@ def run_training(folder: Path, *, stop_after=None, interval=steps.CHECKPOINT_SEC
         mock.patch.object(HostRays, "gather", gather),
         mock.patch.object(steps, "CHECKPOINT_SECONDS", interval),
     ):
-        stage.train(
-            **rays,
-            weights=results / "weights.safetensors",
-            loss_csv=results / "loss.csv",
-            training_json=results / "training.json",
-            **SETTINGS | changes,
-        )
+        files = {
+            "weights": results / "weights.safetensors",
+            "loss_csv": results / "loss.csv",
+            "training_json": results / "training.json",
+        }
+        settings = converted(stage.train_on_rays, SETTINGS | changes)
+        stage.train_on_rays(**rays, **files, **settings)
     return done
 
 
@@ -157,7 +159,8 @@ def test_kinds_resume_and_do_not_depend_on_threads(tmp_path, network, optimiser)
     trimesh.creation.icosphere(3, radius=0.5).export(tmp_path / "mesh.ply")
     settings = TINY | {"network": network, "training": TINY["training"] | {"batch_size": 128}}
     if network["encoding"] == "frequency":  # each optimiser has a state of its own
-        settings["training"] |= {"optimiser": optimiser, "adam_rate": 1e-3}
+        rates = {"adam_rate": 1e-3} if optimiser == "muon" else {}
+        settings["training"] |= {"optimiser": optimiser, **rates}
     else:
         settings["mesh_ply"] = tmp_path / "mesh.ply"
     run_training(tmp_path / "whole", **settings)
@@ -203,12 +206,13 @@ def test_a_diverged_run_is_a_result(tmp_path, monkeypatch, capsys, value, layer)
 def test_untrained_networks_are_only_built(tmp_path, monkeypatch):
     """What `make_network` and `initialise` give is written; no rays are needed."""
     folder = tmp_path / "ball"
-    stage.train(
+    stage.train_on_rays(
         mesh_ply=None,
         weights=folder / "weights.safetensors",
         loss_csv=folder / "loss.csv",
         training_json=folder / "training.json",
-        **{key: SETTINGS[key] for key in ("network", "seed", "experiment", "device")},
+        **{key: SETTINGS[key] for key in ("seed", "experiment", "device")},
+        network=ray_network(SETTINGS["network"]),
         training=None,
     )
     network, header = load_network(folder / "weights.safetensors")
@@ -237,12 +241,12 @@ def test_seconds_exclude_compilation(tmp_path, monkeypatch):
     monkeypatch.setattr(stage.time, "monotonic", lambda: clock[0])
     trimesh.creation.icosphere(2, radius=0.5).export(tmp_path / "mesh.ply")
     settings = {key: SETTINGS[key] for key in ("seed", "experiment")}
-    stage.train(
+    stage.train_on_rays(
         mesh_ply=tmp_path / "mesh.ply",
         weights=tmp_path / "weights.safetensors",
         loss_csv=tmp_path / "loss.csv",
         training_json=tmp_path / "training.json",
-        network=KINDS[1] | {"start": "distances"},
+        network=ray_network(KINDS[1] | {"start": "distances"}),
         training=None,
         # It takes no GPU, and is none the worse where there is none.
         device="cuda",

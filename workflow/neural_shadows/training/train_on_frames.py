@@ -6,10 +6,9 @@ Resumable and reproducible from the seed.
 import hashlib
 import json
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import torch
 
@@ -21,9 +20,9 @@ from neural_shadows.networks.screen_space.screen_networks import (
     make_screen_network,
     save_screen_network,
 )
+from neural_shadows.networks.settings.networks import ScreenNetwork
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
-from neural_shadows.settings.records import TrainingSettings
 from neural_shadows.training.checkpoints import STAGES, STATE, checkpoint_folder
 from neural_shadows.training.perceptual import Perceptual
 from neural_shadows.training.screen_batches import ScreenFrames
@@ -34,6 +33,7 @@ from neural_shadows.training.screen_validation import (
     network_predictor,
     null_predictors,
 )
+from neural_shadows.training.settings.frames import ScreenTraining
 from neural_shadows.training.steps import curve_points, train_to_end
 from neural_shadows.training.training_state import gradient_pool
 
@@ -43,7 +43,7 @@ VALIDATIONS = 10
 EVERY = 3
 
 
-def train_screen(
+def train_on_frames(
     *,
     train: list[Path],
     validation: list[Path],
@@ -51,9 +51,10 @@ def train_screen(
     weights: Path,
     loss_csv: Path,
     training_json: Path,
-    network: Mapping[str, Any],
-    training: TrainingSettings,
+    network: ScreenNetwork,
+    training: ScreenTraining,
     scenes: Sequence[str],
+    lights: list[int] | None,
     seed: int,
     experiment: str,
     device: str = "auto",
@@ -75,9 +76,7 @@ def train_screen(
             as many training frames as validation has, `validation_mse`, `null_mse` of null
             predictors (`no_shadow`, `hard_map`, and the network's own base); `validations` on the
             way; `perceptual` (`none` for L1 alone), `perceptual_factor`.
-        network: settings for `make_screen_network`.
-        training: see the config's `screen_trainings`; `perceptual` of this run.
-        scenes: of the parts.
+        scenes: of the parts. lights: indices of the radii to train for; None for all.
         threads: crops of a batch computed side by side; the weights do not depend on it.
 
     Raises:
@@ -92,24 +91,30 @@ def train_screen(
     frames, held_out = (ScreenFrames(paths, model.features) for paths in (train, validation))
     model.normalise(frames.ranges)
     _check_perturbed(frames, train, training)
-    net = training["perceptual"]["net"]
+    net = "none" if trunk is None else training.perceptual.net
     perceptual = None if trunk is None else Perceptual(net, trunk, torch_device, dtype)
     dtype_name = str(dtype).removeprefix("torch.")
     platform = {"seed": seed, "device": torch_device.type, "precision": dtype_name}
     header = {
         "name": experiment,
-        "network": dict(network),
-        "training": {**training, **platform},
+        "network": network.model_dump(),
+        "training": {
+            **training.model_dump(),
+            "perceptual": {"net": net},
+            "lights": lights,
+            **platform,
+        },
         "features": list(model.features),
         "radii": frames.about.get("given_radii", frames.about["radii"]),
         "radius_unit": frames.about.get("radius_unit", "metres"),
+        "light": frames.about.get("light"),
         "scenes": list(scenes),
-        "perceptual": "none" if perceptual is None else net,
+        "perceptual": net,
     }
-    loss = ScreenLoss(training["alpha"], training["perturbation"], perceptual)
+    loss = ScreenLoss(training.alpha, training.perturbation, perceptual)
     run = ScreenRun(model, header["training"], frames, loss)
     identity = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
-    code = (STAGES / "train_screen.py", form_module(network["form"]))
+    code = (STAGES / "train_on_frames.py", form_module(network.form))
     checkpoint = checkpoint_folder(weights, identity, code)
     with gradient_pool(threads) as pool:
         if perceptual is not None:
@@ -135,10 +140,8 @@ def train_screen(
     write_json(training_json, {**header, **result, **describe_origin(), "threads": threads})
 
 
-def _check_perturbed(
-    frames: ScreenFrames, train: Sequence[Path], training: TrainingSettings
-) -> None:
-    if training["perturbation"] > 0 and frames.twins == 0:
+def _check_perturbed(frames: ScreenFrames, train: Sequence[Path], training: ScreenTraining) -> None:
+    if training.perturbation > 0 and frames.twins == 0:
         raise InputError(
             f"{train[0].parent}: no perturbed frames for `perturbation`. Give the frame set "
             "`twins: {count: 3}`, or set `perturbation: 0`."
@@ -173,4 +176,4 @@ def _points(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, train_screen)
+    run_stage(snakemake, train_on_frames)

@@ -15,12 +15,13 @@ from neural_shadows.frames.buffers import CHANNELS
 from neural_shadows.frames.setting import setting_of
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.rendering.gbuffer import axis_cosines
+from neural_shadows.running.stage import converted
 from neural_shadows.training import steps
 from neural_shadows.training.crop_samples import crop_samples
 from neural_shadows.training.screen_batches import ScreenFrames
 from neural_shadows.training.screen_crops import CropSample
 from neural_shadows.training.screen_run import ScreenRun
-from neural_shadows.training.train_screen import train_screen
+from neural_shadows.training.train_on_frames import train_on_frames
 
 FEATURES = ["c_e", "view", "ratio", "difference"]
 TRAINING = {
@@ -44,7 +45,7 @@ TRAINING = {
 SETTINGS = {
     "network": {"form": "shuffle", "widths": [4, 8], "features": FEATURES},
     "training": TRAINING,
-    **{"scenes": ["wall"], "seed": 1, "experiment": "nsm", "trunk": None},
+    **{"scenes": ["wall"], "lights": None, "seed": 1, "experiment": "nsm", "trunk": None},
     **{"device": "cpu", "precision": "float32", "threads": 1},
 }
 EXPONENT = {"form": "shuffle", "widths": [4, 8], "features": [*FEATURES, "behind"]}
@@ -75,7 +76,8 @@ def run(folder: Path, part: Path, *, stop_after=None, **changes) -> dict:
         mock.patch.object(ScreenRun, "train_step", step),
         mock.patch.object(steps, "CHECKPOINT_SECONDS", seconds),
     ):
-        train_screen(**dict(zip(("weights", "loss_csv", "training_json"), paths)), **arguments)
+        files = dict(zip(("weights", "loss_csv", "training_json"), paths))
+        train_on_frames(**files, **converted(train_on_frames, arguments))
     return json.loads(paths[2].read_text())
 
 

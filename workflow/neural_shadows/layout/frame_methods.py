@@ -1,0 +1,86 @@
+"""Methods of frames: their weights, constants and labels."""
+
+from collections.abc import Iterable
+
+from neural_shadows.evaluation.registry import (
+    FORMATS,
+    LABELS,
+    in_format,
+    is_network,
+    is_tuned,
+    needs_fields,
+    tuned_as,
+)
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.paths import ALL
+
+
+def chosen(layout: Layout, frame_set: str, method: str) -> list[str]:
+    """File of a method's constants, if it has some."""
+    if not is_tuned(method):
+        return []
+    return [layout.paths.constants(frame_set, tuned_as(method), ALL)]
+
+
+def fields(layout: Layout, frame_set: str, method: str) -> list[str]:
+    """File of a method's fields, if needed and available."""
+    own = layout.frames(frame_set)["path"] is not None
+    return [layout.paths.soft_fields(frame_set)] if needs_fields(method) and not own else []
+
+
+def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:
+    """Occluders of test frames, for networks on rendered frames only."""
+    if not is_network(method) or layout.frames(frame_set)["path"] is not None:
+        return []
+    return [layout.paths.frame_measure("occluders.npy", frame_set)]
+
+
+def label(layout: Layout, method: str) -> str:
+    """Label of a method."""
+    if not is_network(method):
+        return LABELS[method]
+    by_scene = layout.settings["networks_by_scene"]
+    networks = by_scene if method in by_scene else layout.settings["experiments"]
+    return networks[method]["label"]
+
+
+def weights(layout: Layout, method: str) -> list[str]:
+    """Weight files of a method; none without networks."""
+    file = "weights.safetensors"
+    return [layout.paths.network(file, name) for name in experiments(layout, method)]
+
+
+def experiments(layout: Layout, method: str) -> list[str]:
+    """Experiments of a method: one, one per scene, or none."""
+    if not is_network(method):
+        return []
+    by_scene = layout.settings["networks_by_scene"]
+    if method in by_scene:
+        return by_scene[method]["experiments"]
+    return [_of_formats(layout).get(method, (method, "auto"))[0]]
+
+
+def forms(layout: Layout, methods: Iterable[str]) -> set[str]:
+    """Forms of the networks among methods."""
+    names = [name for method in methods for name in experiments(layout, method)]
+    return layout.forms(names)
+
+
+def by_scene(layout: Layout, method: str) -> bool:
+    """Check for one network per scene."""
+    return method in layout.settings["networks_by_scene"]
+
+
+def precision(layout: Layout, method: str) -> str:
+    """Number format of a method's network."""
+    return _of_formats(layout).get(method, (method, "auto"))[1]
+
+
+def _of_formats(layout: Layout) -> dict[str, tuple[str, str]]:
+    """Experiment and number format by method key."""
+    return {
+        in_format(name, number_format): (name, number_format)
+        for name, entry in layout.settings["experiments"].items()
+        if "frame_set" in entry
+        for number_format in FORMATS
+    }

@@ -1,0 +1,58 @@
+"""Pictures of scenes before anything is computed: files and settings."""
+
+from typing import Any
+
+from neural_shadows.layout import frame_sets
+from neural_shadows.layout.layout import Layout
+
+_MESH, _ARRANGEMENT = "preview", "preview_arrangement"
+
+
+def kind(layout: Layout, scene: str) -> str:
+    """Stage that draws a scene: of a mesh, or of an arrangement in metres."""
+    layout.entry("scenes", scene)
+    return _MESH if scene in layout.mesh_scenes else _ARRANGEMENT
+
+
+def files(layout: Layout, scene: str) -> dict[str, Any]:
+    """Mesh of a scene, or meshes inserted into it."""
+    if kind(layout, scene) == _MESH:
+        return {f"mesh_{e}": layout.paths.scene(f"mesh.{e}", scene) for e in ("ply", "json")}
+    inserted = layout.entry("scenes", scene)["arrangement"]["inserted"]
+    return {"meshes": [layout.paths.scene("mesh.ply", name) for name in inserted]}
+
+
+def generators(layout: Layout, scene: str) -> list[str]:
+    """Generator of an arrangement; none of a mesh."""
+    if kind(layout, scene) == _MESH:
+        return []
+    return [layout.entry("scenes", scene)["arrangement"]["generate"]]
+
+
+def settings(layout: Layout, scene: str) -> dict[str, Any]:
+    """Arguments of a scene's stage beside files."""
+    entry = layout.entry("scenes", scene)
+    if kind(layout, scene) == _MESH:
+        return {"scene": entry["scene"], "advice": _advice(layout, scene)}
+    return {
+        "name": scene,
+        "scene": entry["arrangement"],
+        "seed": layout.settings["seed"],
+        "advice": _advice(layout, scene),
+    }
+
+
+def _advice(layout: Layout, scene: str) -> str:
+    """The next command: the last table with the scene, which an overlay's is."""
+    tables = [name for name in layout.settings["tables"] if _has(layout, name, scene)]
+    if not tables:
+        return f"Next: a table (`tables`) with {scene} in its rows or its frame set."
+    return f"Next: snakemake {layout.paths.report(f'{tables[-1]}.csv')}, with the same options."
+
+
+def _has(layout: Layout, table: str, scene: str) -> bool:
+    entry = layout.entry("tables", table)
+    if any(row.get("scene") == scene for row in entry.get("rows", ())):
+        return True
+    frame_set = entry.get("frame_set")
+    return frame_set is not None and scene in frame_sets.measured_scenes(layout, frame_set)

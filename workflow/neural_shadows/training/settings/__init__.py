@@ -1,0 +1,1 @@
+"""Settings of trainings; in no digest of code."""
