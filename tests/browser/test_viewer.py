@@ -7,7 +7,8 @@ import trimesh
 from shapes import sheet
 from viewer_page import FIELD, make_viewer
 
-from neural_shadows.evaluation.shadow_methods import classic_method, network_method
+from neural_shadows.evaluation.ray_network import network_method
+from neural_shadows.evaluation.registry import classic_method
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 

@@ -31,12 +31,6 @@ def test_of_the_middling_views_the_one_that_tells_methods_apart():
     assert choose_views(metrics_of(FLIP)) == {"shadow": ("shadow", 3)}
 
 
-def test_the_order_of_methods_and_views_does_not_matter():
-    metrics = metrics_of(FLIP)
-    for seed in range(5):
-        assert choose_views(metrics.sample(frac=1, random_state=seed)) == choose_views(metrics)
-
-
 @pytest.mark.parametrize("blank", [1, 5, 20])
 def test_a_view_without_differences_is_not_shown(blank):
     flip = dict.fromkeys(range(blank), (0.0, 0.0, 0.0)) | {blank: (0.02, 0.01, 0.03)}
@@ -45,10 +39,12 @@ def test_a_view_without_differences_is_not_shown(blank):
     assert choose_views(metrics_of({7: (0.0, 0.0, 0.0)})) == {"shadow": ("shadow", 7)}
 
 
-def test_no_shadow_has_no_say():
+def test_neither_order_nor_no_shadow_has_a_say():
     metrics = metrics_of(FLIP)
     null = metrics_of({v: (0.9 - v / 10,) for v in FLIP}, ["no_shadow"])
-    assert choose_views(pd.concat([metrics, null])) == choose_views(metrics)
+    both = pd.concat([metrics, null])
+    for seed in range(5):
+        assert choose_views(both.sample(frac=1, random_state=seed)) == choose_views(metrics)
 
 
 def test_of_a_half_finished_run_a_view_that_most_methods_have():
@@ -62,8 +58,5 @@ def test_of_a_half_finished_run_a_view_that_most_methods_have():
 def test_one_method_and_each_view_set():
     two = [metrics_of({v: (v / 10,) for v in range(5)}, ["a"], s) for s in ("surface", "shadow")]
     found = choose_views(pd.concat(two))
-    assert {key: view[0] for key, view in found.items()} == {
-        "surface": "surface",
-        "shadow": "shadow",
-    }
+    assert [found[key][0] for key in ("surface", "shadow")] == ["surface", "shadow"]
     assert found["shadow"][1] in (2, 3)

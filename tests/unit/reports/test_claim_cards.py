@@ -20,10 +20,11 @@ def test_a_card_has_its_number_whole(given, said):
 def test_cards_and_their_counts(tmp_path):
     csv = tmp_path / "claims.csv"
     lines = [
-        f'c{i},4.3,S,{verdict},R,"a; of its b\nc"'
+        f'c{i},thesis,better,,,4.3,S,{verdict},R,"a; of its b\nc"'
         for i, verdict in enumerate([TOO_SMALL, SUPPORTED] * 2)
     ]
-    csv.write_text("\n".join(["claim,section,statement,verdict,reason,evidence", *lines]))
+    columns = "claim,text,kind,number_of,number,section,statement,verdict,reason,evidence"
+    csv.write_text("\n".join([columns, *lines]))
     cards = read_cards(csv)
     assert cards[0].evidence == ["a; of its b", "c"] and cards[0].verdict.style == "undecided-scale"
     assert [(one.name, one.count) for one in counted(cards)] == [(SUPPORTED, 2), (TOO_SMALL, 2)]

@@ -36,19 +36,16 @@ PCSS has 33.6 in five scenes, and took 50 ms. <!-- numbers: soft.csv --> Times a
 BAD = {
     "PCSS is better than moments.": "names no claim",
     "**It carries over.**": "names no claim",
-    "**Rays cost 12 ms**": "names no claim",
     "Four rays are ahead. <!-- claim: ahead supported --> They beat moments, too.": "no claim: They",
     "They beat moments. Four rays are ahead. <!-- claim: ahead supported -->": "no claim: They",
     "Kernels are better. <!-- claim: open supported -->": "open: is undecided, and not supported",
     "Kernels are better. <!-- claim: open undecided -->": "open: is undecided, and the sentence",
-    "Kernels are better. <!-- claim: small undecided (scale) -->": "small: is undecided (scale), and",
     "It is calmer. <!-- claim: calmer contradicted -->": "calmer: is contradicted, and the sentence",
     "It is calmer. <!-- claim: calmer supported -->": "calmer: is contradicted, and not supported",
     "Rays are ahead. <!-- claim: ahead -->": "ahead: is supported, and not without verdict",
     "Rays are ahead. <!-- claim: gone supported -->": "gone: is no claim of the reference",
     "Rays are ahead. <!-- claim: twice supported -->": "twice: is supported and undecided",
     "Rays are ahead, and it is calmer. <!-- claim: ahead supported, calmer supported -->": "calmer:",
-    "Denoised, they have half of the error.": "names no claim",
     "At 25 cm the map errs 1.5 times as much.": "names no claim",
 }
 
@@ -58,11 +55,8 @@ def test_sentences_that_are_right_pass():
 
 
 @pytest.mark.parametrize("sentence", BAD)
-@pytest.mark.parametrize(
-    "form", ["## Soft shadows\n\n{}", "### Neural Shadow Mapping\n- One.\n- {}"]
-)
-def test_sentences_that_are_wrong_are_named(sentence, form):
-    (found,) = mistakes(form.format(sentence), VERDICTS)
+def test_sentences_that_are_wrong_are_named(sentence):
+    (found,) = mistakes(f"### Neural Shadow Mapping\n- One.\n- {sentence}", VERDICTS)
     assert BAD[sentence] in found
 
 

@@ -20,10 +20,11 @@ from report_samples import row
 
 from neural_shadows.metrics.intervals import t_interval
 from neural_shadows.metrics.pooled_psnr import mse_of, psnr_of
+from neural_shadows.reports.claims import losses
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.kinds import lower_loss, violations
-from neural_shadows.reports.claims.kinds.better import comparisons
+from neural_shadows.reports.claims.kinds import violations
 from neural_shadows.reports.claims.kinds.violations import LOWER, UPPER
+from neural_shadows.reports.claims.views import comparisons
 from neural_shadows.reports.data import verdicts
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
 
@@ -81,13 +82,6 @@ def test_flip_takes_the_place_of_missing_lpips():
     assert (outcome["metric"], outcome["verdict"]) == ("flip", "supported")
 
 
-def test_few_views_decide_nothing():
-    frames = scene({"good": {"lpips": 0.1}, "bad": {"lpips": 0.2}})[:9]
-    outcome = judge(better(("good", "bad"), built=BUILT), measured({"dragon": frames}))
-    assert (outcome["verdict"], outcome["reason"]) == (verdicts.TOO_SMALL, "9 views are too few")
-    assert "9 views are too few" in outcome["evidence"]
-
-
 @pytest.mark.parametrize(
     ("gaps", "expected"), [((0.01, 0.05, 0.09), "undecided"), ((0.04, 0.05, 0.06), "supported")]
 )
@@ -122,7 +116,7 @@ def test_a_bias_found_on_held_out_views_is_that_of_each_training():
     methods = {f"{point['experiment']}_biased": {"lpips": 0.1} for point in curve}
     methods["shadow_map_256"] = {"lpips": 0.2}
     claim = better(("net_biased", "shadow_map_256"))
-    assert claim["pairs"][0][0]["experiment"] == "net"
+    assert claim["rows"][0][0]["experiment"] == "net"
     assert verdict(claim, measured({"dragon": scene(methods)}, {"net": curve})) == "supported"
 
 
@@ -133,39 +127,25 @@ def test_a_bias_found_on_held_out_views_is_that_of_each_training():
         (record(1000, seed=7), "trained from no common seed"),
     ],
 )
-@pytest.mark.parametrize("kind", ["better", "lower_loss"])
-def test_networks_that_share_no_budget_are_not_compared(kind, other, why):
+@pytest.mark.parametrize("metric", ["lpips", "loss"])
+def test_networks_that_share_no_budget_are_not_compared(metric, other, why):
     trainings = {"a": record(1000), "b": other}
     scenes = {"dragon": scene({"a": {"lpips": 0.1}, "b": {"lpips": 0.2}})}
-    losses = {"a": loss_curve(0.1), "b": loss_curve(0.2)}
-    data = measured(scenes, trainings=trainings, losses=losses)
-    outcome = judge(better(("a", "b")) | {"kind": kind}, data)
+    ends = {"a": loss_curve(0.1), "b": loss_curve(0.2)}
+    data = measured(scenes, trainings=trainings, losses=ends)
+    outcome = judge(better(("a", "b"), metrics=[metric]), data)
     assert (outcome["verdict"], outcome["reason"]) == ("not comparable", f"a against b: {why}")
 
 
 def test_a_training_that_died_early_was_one_of_its_whole_length():
     trainings = {"a": record(5000), "b": record(5000, died_at_step=1) | {"samples": 1000}}
     data = measured(losses={"a": loss_curve(0.1), "b": loss_curve(0.2)}, trainings=trainings)
-    (comparison,) = lower_loss.comparisons(better(("a", "b")), data)
+    (comparison,) = losses.comparisons(better(("a", "b")), data)
     assert (comparison.samples, comparison.text) == (5000, "loss of a 0.1 against b 0.5")
 
 
-@pytest.mark.parametrize("spread", [0.01, 0.03])
-def test_losses_of_three_seeds_are_wrong_about_nothing_in_one_of_twenty(spread):
-    rng = np.random.default_rng(1)
-    curves = {name: points(name, [THESIS_SAMPLES], 3) for name in ("a", "b")}
-    claim = {"kind": "lower_loss", "pairs": pairs(("a", "b"))}
-    decided = 0
-    for _ in range(400):
-        ends = {
-            p["experiment"]: rng.normal(0.2, spread) for curve in curves.values() for p in curve
-        }
-        losses = {run: pd.DataFrame({"loss": [end] * 10}) for run, end in ends.items()}
-        decided += verdict(claim, measured(curves=curves, losses=losses)) != "undecided"
-    assert 8 <= decided <= 32  # 20 expected, 4.4 their standard deviation
-
-
-def timed(devices=("cpu", "cpu"), frames=15):
+def timed(devices=("cpu", "cpu"), frames=15, needed=None, **changes):
+    """The outcome of a claim on times of about 20 and 10 ms."""
     rng = np.random.default_rng(2)
     own = 20 + rng.normal(0, 0.3, frames), 10 + rng.normal(0, 0.1, frames)
     own[0][3] = 400.0  # a disturbance, which a median does not see
@@ -174,62 +154,37 @@ def timed(devices=("cpu", "cpu"), frames=15):
         for name, ms, device in zip(("slower", "faster"), own, devices)
     }
     times = {("t", "dragon"): {"methods": methods}}
-    return measured(trainings=dict.fromkeys(methods, record()), times=times)
+    claim = {"kind": "frame_time", "table": "t", "rows": pairs(("slower", "faster"))}
+    claim |= {"at_least": None, "at_most": None, "overhead_ms": 0.0, "needs": {"device": needed}}
+    return judge(claim | changes, measured(trainings=dict.fromkeys(methods, record()), times=times))
 
 
 @pytest.mark.parametrize(
-    ("lower", "upper", "expected"),
+    ("changes", "verdict"),
     [
-        (None, 2.5, "supported"),
-        (None, 1.5, "contradicted"),
-        (3, None, "contradicted"),
-        (1.5, 2.5, "supported"),
-        (2, 3, "undecided"),
+        ({"at_most": 2.5}, "supported"),
+        ({"at_most": 1.5}, "contradicted"),
+        ({"at_least": 3}, "contradicted"),
+        ({"at_least": 1.5, "at_most": 2.5}, "supported"),
+        ({"at_least": 2, "at_most": 3}, "undecided"),
+        ({"at_least": 1, "devices": ("cuda", "cuda"), "needed": "cuda"}, "supported"),
+        ({"at_least": 1, "devices": ("cuda", "cpu")}, verdicts.NOT_COMPARABLE),
+        ({"at_least": 1, "needed": "cuda"}, verdicts.NOT_COMPARABLE),
     ],
 )
-def test_own_times_are_compared_as_ratios_of_frames(lower, upper, expected):
-    claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
-    claim |= {"at_least": lower, "at_most": upper, "overhead_ms": 0.0}
-    outcome = judge(claim, timed())
-    assert outcome["verdict"] == expected
+def test_own_times_are_compared_as_ratios_of_frames(changes, verdict):
+    outcome = timed(**changes)
+    assert outcome["verdict"] == verdict
     assert (outcome["number_of"], outcome["number"][:7]) == ("own milliseconds", "ratio 2")
     assert outcome["evidence"].startswith("own time of slower 20.1 ms (frame 120 ms) against ")
 
 
-@pytest.mark.parametrize(
-    ("devices", "needed", "reason"),
-    [
-        (("cuda", "cpu"), None, "one device are needed: slower on cuda, faster on cpu"),
-        (("cpu", "cpu"), "cuda", "cuda are needed: slower on cpu, faster on cpu"),
-        (("cuda", "cuda"), "cuda", ""),
-    ],
-)
-def test_times_of_another_class_of_device_are_not_comparable(devices, needed, reason):
-    claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
-    claim |= {"at_least": 1, "at_most": None, "overhead_ms": 0.0, "needs": {"device": needed}}
-    outcome = judge(claim, timed(devices))
-    assert (outcome["verdict"] == verdicts.NOT_COMPARABLE) == bool(reason)
-    assert outcome["reason"].endswith(reason)
-
-
-def test_few_frames_decide_nothing():
-    claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
-    claim |= {"at_least": 1, "at_most": None, "overhead_ms": 0.0}
-    outcome = judge(claim, timed(frames=5))
-    assert (outcome["verdict"], outcome["reason"]) == (verdicts.TOO_SMALL, "5 frames are too few")
-
-
-@pytest.mark.parametrize(
-    ("overhead", "ratio", "expected"), [(0, 2, "contradicted"), (30, 1.25, "supported")]
-)
-def test_what_a_frame_takes_beside_the_method_is_added_to_both(overhead, ratio, expected):
-    claim = {"kind": "frame_time", "table": "t", "pairs": pairs(("slower", "faster"))}
-    claim |= {"at_least": None, "at_most": 1.3, "overhead_ms": overhead}
-    outcome = judge(claim, timed())
-    assert outcome["verdict"] == expected
+def test_what_a_frame_takes_beside_the_method_is_added_to_both():
+    outcome = timed(at_most=1.3, overhead_ms=30)
+    assert outcome["verdict"] == "supported"
     numbers = outcome["evidence"].split("ratio ")[1]
-    assert float(numbers.split(" ")[0]) == pytest.approx(ratio, rel=0.02)
-    assert (", with 30 ms beside the method (at most 1.3)" in numbers) == bool(overhead)
+    assert float(numbers.split(" ")[0]) == pytest.approx(1.25, rel=0.02)
+    assert ", with 30 ms beside the method (at most 1.3)" in numbers
 
 
 def counted(false, leak, count=VIEWS):
@@ -245,7 +200,7 @@ def counted(false, leak, count=VIEWS):
 def test_violations_are_judged_by_what_each_costs_where_it_can_be_seen(false, leak, expected):
     # Of all violations of the upper bound a tenth is in shadow, of the lower a half is lit: as
     # shares of all, 20 would be more than 20 of the other.
-    outcome = judge({"kind": "violations", "methods": [row("net")]}, counted(false, leak))
+    outcome = judge({"kind": "violations", "rows": [[row("net")]]}, counted(false, leak))
     assert outcome["verdict"] == expected
     lower = f"false shadow at {false} % of the 2,400 points that are lit, of 4,800 with a violated"
     upper = f"light leak at {leak} % of the 12,000 in shadow, of 120,000 with a violated upper one"
@@ -253,15 +208,30 @@ def test_violations_are_judged_by_what_each_costs_where_it_can_be_seen(false, le
     assert ("of one training" in outcome["reason"]) and outcome["seeds"] == 1
 
 
-def test_violations_of_few_views_decide_nothing():
-    outcome = judge({"kind": "violations", "methods": [row("net")]}, counted(40, 15, count=9))
-    assert (outcome["verdict"], outcome["reason"]) == (verdicts.TOO_SMALL, "9 views are too few")
+def test_violations_are_those_of_the_largest_budget():
+    curve = points("net", [1000, 2000], 2)
+    costs = {1000: (10, 30), 2000: (40, 15)}
+    methods = {point["experiment"]: violated(*costs[point["samples"]]) for point in curve}
+    data = measured({"dragon": scene(methods)}, {"net": curve})
+    assert verdict({"kind": "violations", "rows": [[row("net")]]}, data) == "supported"
+
+
+def test_few_views_or_frames_decide_nothing():
+    frames = scene({"good": {"lpips": 0.1}, "bad": {"lpips": 0.2}})[:9]
+    outcomes = [
+        judge(better(("good", "bad"), built=BUILT), measured({"dragon": frames})),
+        judge({"kind": "violations", "rows": [[row("net")]]}, counted(40, 15, count=9)),
+        timed(frames=5, at_least=1),
+    ]
+    assert {outcome["verdict"] for outcome in outcomes} == {verdicts.TOO_SMALL}
+    reasons = [outcome["reason"] for outcome in outcomes]
+    assert reasons == ["9 views are too few"] * 2 + ["5 frames are too few"]
 
 
 def test_violations_of_a_network_that_draws_no_shadow_decide_nothing():
     counts = dict.fromkeys((*LOWER, *UPPER), np.zeros(VIEWS)) | {"lower_violations": np.ones(VIEWS)}
     data = measured({"dragon": scene({"net": counts})}, trainings={"net": record()})
-    (comparison,) = violations.comparisons({"methods": [row("net")]}, data)
+    (comparison,) = violations.comparisons({"rows": [[row("net")]]}, data)
     assert (comparison.supports, comparison.evidence) == (
         False,
         "net: the lower bound is violated at no lit point",

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from claim_samples import VIEWS, better, loss_curve, measured, pairs, points, scene, views
+from claim_samples import VIEWS, WORST, better, loss_curve, measured, points, scene, views
 
 from neural_shadows.reports.claims.comparison import Comparison
 from neural_shadows.reports.claims.gates import direction_of, judge, trend_of
@@ -29,13 +29,14 @@ def outcome_of(a, b, largest, *, seeds=3, noise=0.002, metric="lpips", as_loss=F
     }
     if as_loss:
         losses = {name: loss_curve(error) for name, error in errors.items()}
-        claim = {"kind": "lower_loss", "pairs": pairs(("a", "b")), "needs": {"budget": 0.1}}
+        claim = better(("a", "b"), metrics=["loss"], budget=0.1)
         return judge(claim, measured(curves=curves, losses=losses))
     if metric == "psnr":
         errors = {name: np.full(VIEWS, -10 * np.log10(error)) for name, error in errors.items()}
     methods = {name: {metric: views(e) if np.ndim(e) == 0 else e} for name, e in errors.items()}
     claim = better(("a", "b"), metrics=[metric], budget=0.1)
-    return judge(claim, measured({"dragon": scene(methods)}, curves))
+    frames = scene(methods, WORST | {metric: WORST.get(metric, 0.5)})
+    return judge(claim, measured({"dragon": frames}, curves))
 
 
 def power_law(floor, fall, exponent=0.5):
@@ -57,6 +58,19 @@ def test_a_licensed_extrapolation_decides(as_loss):
     assert at == pytest.approx(0.04 + 0.005 / 20**0.5 - 0.0112 - 0.0388 / 20**0.5, abs=0.002)
     ahead_no_more = outcome_of(*AHEAD_LATER[::-1], largest=0.05, as_loss=as_loss)
     assert (ahead_no_more["verdict"], ahead_no_more["direction"]) == ("contradicted", "away")
+
+
+def test_a_trend_has_the_unit_of_its_metric():
+    """Of a share in per cent, as the advantage beside it."""
+    share, percent = (
+        outcome_of(*AHEAD_LATER, largest=0.05, metric=name) for name in ("lpips", "shadow_error")
+    )
+    assert percent["trend"] == pytest.approx(100 * share["trend"])
+    at = [
+        float(outcome["evidence"].split("at the thesis's samples ")[1].split(" ")[0])
+        for outcome in (share, percent)
+    ]
+    assert at[1] == pytest.approx(100 * at[0], rel=0.01)
 
 
 def test_an_extrapolation_of_psnr_is_one_of_squared_errors():

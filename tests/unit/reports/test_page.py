@@ -73,17 +73,21 @@ def test_nothing_of_the_machine_s_paths_enters_the_page(tmp_path):
     assert str(tmp_path) not in make_page(tmp_path).read_text()
 
 
-def test_what_is_asked_for_and_not_there_is_named_once_where_it_would_stand(tmp_path):
-    names = {"found": "viewer.html", "compare": "frames of 1", "tables": "table_4_1.md"}
-    names |= {"figures": "figure_4_4.svg", "extensions": "figure_front.svg"}
+def test_what_is_not_made_yet_is_folded_at_the_end(tmp_path):
+    names = ["viewer", "table_4_1", "frames of 1 of 2 methods on dragon"]
     none = dict.fromkeys(("tables", "figures", "references", "viewers"), [])
-    missing = {section: [name] for section, name in names.items()}
-    text = make_page(tmp_path, **none, missing=missing).read_text()
-    for section, name in names.items():
-        assert text.count(f"Not made yet: {name}.") == 1
-        assert text.index(f'id="{section}"') < text.index(name) < text.index('<section id="run"')
-        assert f'href="#{section}"' in text
+    text = make_page(tmp_path, **none, missing=names).read_text()
+    end = text[text.index('<section id="run">') :]
+    assert "<summary>Not made yet: 3 of this configuration</summary>" in end
+    assert text.count(", ".join(names)) == 1 and ", ".join(names) in end
     assert "Drag the divider" not in text and "A dot is our number" not in text
+
+
+def test_a_run_of_ones_own_is_no_reproduction(tmp_path, text):
+    none = {"claims_json": None, "front": None, "tables": [], "trainings": []}
+    own = make_page(tmp_path, **none).read_text()
+    assert "A reproduction of" in text and "a diamond the thesis" in text
+    assert "A reproduction of" not in own and "<h1>Neural shadows: wyrm, " in own
 
 
 def test_the_first_viewer_is_in_the_page_and_the_others_are_named(text):

@@ -12,7 +12,7 @@ NAN = math.nan
 
 
 def block_of(folder, columns, notes=()):
-    return written(folder, Table("A table", pd.DataFrame({"a": [1]}), columns, notes))
+    return written(folder, Table(pd.DataFrame({"a": [1]}), columns, notes, "A table"))
 
 
 def written(folder, table):

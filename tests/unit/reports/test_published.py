@@ -1,9 +1,7 @@
 import numpy as np
-import pandas as pd
-import pytest
-from report_samples import PUBLISHED, row
+from report_samples import PUBLISHED
 
-from neural_shadows.reports.data.published import add_printed, read_published
+from neural_shadows.reports.data.published import read_published
 
 # rows x columns of each table in the thesis
 SIZES = {"4.1": (3, 3), "4.2": (4, 3), "4.3": (6, 3), "4.4": (6, 3), "4.5": (7, 3), "4.6": (6, 3)}
@@ -33,15 +31,3 @@ def test_tables_are_complete_and_as_printed():
     for table, part in frame.groupby("table"):
         size = part["row"].nunique(), part["column"].nunique()
         assert size == SIZES.get(table, (6, 1)) and len(part) == np.prod(size), table
-
-
-def test_printed_numbers_stand_beside_ours_of_the_same_mesh():
-    rows = [row("dragon", published="network"), row("dragon_field")]
-    rows.append(row("fence", scene="fence", published="network"))
-    frame = pd.DataFrame({"psnr": [30.0, 40.0, 30.0]})
-    meshes = {"dragon": {"thesis_mesh": True}, "fence": {"thesis_mesh": False}}
-    beside = add_printed(frame, rows, ["psnr"], "4.3", PUBLISHED, meshes)
-    assert beside["thesis_psnr"][0] == 27.39
-    assert beside["psnr_minus_thesis"][0] == pytest.approx(2.61)
-    assert beside.loc[1:, ["thesis_psnr", "psnr_minus_thesis"]].isna().all(axis=None)
-    assert add_printed(frame, rows, ["psnr"], None, PUBLISHED, meshes)["thesis_psnr"].isna().all()

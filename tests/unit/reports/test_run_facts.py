@@ -39,16 +39,3 @@ def test_facts(tmp_path, monkeypatch):
     )
     assert said.endswith("; networks made on a CPU, 2 cores and on a CPU, 2 cores, A GPU.")
     assert facts["versions"].startswith(f"Python {python_version()}, snakemake ")
-
-
-def test_a_run_of_little_is_told_in_the_singular(tmp_path):
-    scene = {"dragon": SCENES["dragon"]}
-    facts = run_facts(RUN, {}, [], None, tmp_path)
-    said = run_sentence(RUN, scene, facts)
-    assert said.startswith("No network yet beside shadow maps, on the mesh wyrm (test scale, ")
-    assert said.endswith("60 × 40).")
-    # Two scenes may have one mesh.
-    assert "on the mesh wyrm (" in run_sentence(RUN, scene | {"other": SCENES["dragon"]}, facts)
-    built = write_record(tmp_path / "built.json", {**TRAINING, "training": None, "samples": 0})
-    said = run_sentence(RUN, scene, run_facts(RUN, {}, [built], None, tmp_path))
-    assert said.startswith("1 network beside shadow maps")

@@ -3,39 +3,35 @@ import pytest
 import report_samples as samples
 from frame_samples import write_frames
 
-from neural_shadows.evaluation.per_view_metrics import write_metrics
+from neural_shadows.evaluation.metric_files import write_metrics
 from neural_shadows.reports.figures import contact_sheet
 
 
 @pytest.mark.parametrize(("views", "shown"), [(3, [0, 1, 2]), (47, list(range(0, 48, 2)))])
-def test_every_method_has_a_row_of_numbered_views(tmp_path, monkeypatch, views, shown):
-    drawn = []
-    monkeypatch.setattr(contact_sheet, "write_figure", lambda figure, *paths: drawn.append(figure))
+def test_every_method_has_a_row_of_numbered_views(tmp_path, views, shown):
     lit = np.ones((8, 12))
     lit[2:4] = 0
     frames = {m: {("shadow", i): lit for i in range(views)} for m in ("reference", "same", "none")}
     frames["none"] = dict.fromkeys(frames["none"], np.ones_like(lit))
     references, visibilities = write_frames(tmp_path, frames)
-    key = {"view_set": "shadow", "metric": "psnr"}
+    key = {"scene": "dragon", "part": "shadow", "radius": 0, "metric": "psnr"}
     psnr = {"same": 100.0, "none": 10.0}
     rows = [
-        {"view": i, "method": m, "value": value + i / 100} | key
+        {"frame": i, "method": m, "value": value + i / 100} | key
         for m, value in psnr.items()
         for i in range(views)
     ]
     write_metrics(tmp_path / "metrics.csv", rows)
-    contact_sheet.draw(
+    figure = contact_sheet.draw(
         metrics=[tmp_path / "metrics.csv"],
         references=references,
         visibilities=visibilities,
         mesh_json=samples.write_mesh(tmp_path),
-        png=tmp_path / "f.png",
-        svg=tmp_path / "f.svg",
         title="All views",
         rows=[samples.row("same", "Same"), samples.row("none", "None")],
         run=samples.RUN,
     )
-    panels = [axes for axes in drawn[0].axes if axes.images]
+    panels = [axes for axes in figure.axes if axes.images]
     texts = [axes.get_xlabel() for axes in panels]
     assert sorted(texts) == sorted(
         text for i in shown for text in (f"{i}: equal", f"{i}: {10 + i / 100:.1f}")

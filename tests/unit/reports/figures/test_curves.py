@@ -41,8 +41,8 @@ def test_a_curve_ends_where_its_training_diverged():
     dead = pd.DataFrame({"samples": [64, 128, 192], "loss": [1.0, 2.0, NAN]})
     never = pd.DataFrame({"samples": [64], "loss": [NAN]})
     curves = {"alive": alive, "dead": dead, "never": never}
-    died = {"alive": None, "dead": 1300, "never": 1}
-    (axes,) = loss.loss_figure(curves, died, title="Losses").axes
+    diverged = {"alive": None, "dead": 1300, "never": 1}
+    (axes,) = loss.loss_figure(curves, diverged, title="Losses").axes
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
     assert labels[0] == "alive (at the end 0.25)"
     assert labels[1:] == ["dead (diverged at step 1,300)", "never (diverged at step 1)"]
@@ -91,15 +91,17 @@ def test_lines_of_each_scene_over_width_and_the_thesis_on_axes_of_its_own():
     assert [line.get_xydata().tolist() for line in hollow] == [[[64, 0.03]]]
 
 
-def test_widths_of_another_mesh_have_no_axes_for_the_thesis():
-    nothing = dict.fromkeys(["thesis_lpips", "thesis_frame_ms"], NAN)
-    figure = widths.width_figure(widths_table(**nothing), WIDTHS, title="Widths")
-    assert len(figure.axes) == 2
-
-
-def test_widths_without_lpips_have_times_alone():
-    figure = widths.width_figure(widths_table(lpips=[NAN] * 5), WIDTHS, title="Widths")
-    assert [axes.get_ylabel()[:10] for axes in figure.axes] == ["LPIPS as t", "frame time"]
+@pytest.mark.parametrize(
+    ("missing", "shown"),
+    [
+        (["thesis_lpips", "thesis_frame_ms"], ["LPIPS (squ", "frame time"]),  # another mesh
+        (["lpips"], ["LPIPS as t", "frame time"]),
+    ],
+)
+def test_widths_of_what_is_there(missing, shown):
+    table = widths_table(**dict.fromkeys(missing, [NAN] * 5))
+    figure = widths.width_figure(table, WIDTHS, title="Widths")
+    assert [axes.get_ylabel()[:10] for axes in figure.axes] == shown
 
 
 def test_the_front_has_all_optimal_points():
@@ -129,16 +131,8 @@ PRINTED = ("Thesis's network, as printed", None, NAN, 0.0379, 27.39, NAN, NAN, N
 
 def written_fronts(folder):
     """The CSV of a table of networks for `pareto.draw`."""
-    names = (
-        "method",
-        "encoding",
-        "samples",
-        "lpips",
-        "psnr",
-        "stored_bytes",
-        "own_ms",
-        "build_seconds",
-    )
+    names = ["method", "encoding", "samples", "lpips", "psnr"]
+    names += ["stored_bytes", "own_ms", "build_seconds"]
     table = pd.DataFrame([*METHODS.values(), PRINTED], columns=names)
     table = table.assign(
         scene="dragon", psnr_pooled=table["psnr"], resident_bytes=table["stored_bytes"]
@@ -154,23 +148,14 @@ def written_fronts(folder):
 
 
 @pytest.fixture
-def drawn(tmp_path, monkeypatch):
+def drawn(tmp_path):
     """The fronts of `METHODS` over some costs, as a figure."""
-    figures = []
-    monkeypatch.setattr(pareto, "write_chart", lambda figure, *paths: figures.append(figure))
     table = written_fronts(tmp_path)
     rows = [
         row(key, values[0]) | {"encoding": values[1], "trained": values[2] > 0}
         for key, values in METHODS.items()
     ]
-
-    def drawn(costs):
-        settings = {"title": "Dragon", "scene": "dragon", "rows": rows, "run": {"scale": "test"}}
-        paths = tmp_path / "p.png", tmp_path / "p.svg"
-        pareto.draw(table, *paths, costs=costs, **settings)
-        return figures[-1]
-
-    return drawn
+    return lambda costs: pareto.draw(table, "Dragon", costs, rows)
 
 
 def test_panels_name_points_and_methods_without_a_cost(drawn):
@@ -190,11 +175,8 @@ def test_panels_name_points_and_methods_without_a_cost(drawn):
     assert " ray traced: exact" in named[2][0] and own.get_xlabel().startswith("own time")
     # A map needs no building, and is a line to come below.
     assert {"512²", "256²"} <= named[3][0] and len(build.containers) == 4
-    hollow = [
-        line
-        for line in stored.lines
-        if line.get_markerfacecolor() == "none" and line.get_marker() == "o"
-    ]
+    circles = [line for line in stored.lines if line.get_marker() == "o"]
+    hollow = [line for line in circles if line.get_markerfacecolor() == "none"]
     assert [line.get_xdata().tolist() for line in hollow] == [[2e6 / 1024]]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend[0] == "shadow map" and legend[-2:] == ["not learned", "coded"]

@@ -7,6 +7,7 @@ import pytest
 import trimesh
 from matplotlib.colors import to_rgb
 from matplotlib.image import imread
+from report_samples import written_figure
 from scipy.ndimage import binary_opening
 from scipy.special import sph_harm_y
 from shapes import SPHERE_OF_LIGHTS, box, bumpy_sphere, scene_of, sheet
@@ -16,6 +17,7 @@ from neural_shadows.files.whole_files import write_json
 from neural_shadows.rays.poisson_disk import sphere_directions
 from neural_shadows.reports.drawing.mesh_slice import slice_mesh, slice_rays
 from neural_shadows.reports.drawing.preview import draw as draw_preview
+from neural_shadows.reports.drawing.style import write_figure
 from neural_shadows.reports.figures import view_directions
 
 SAMPLING = {"silhouette_resolution": 32, "min_quad": 1}
@@ -24,14 +26,15 @@ RADIUS = 0.5
 
 
 def draw(shape, kind, folder, up="y"):
-    files = [folder / name for name in ("mesh.ply", "mesh.json", "f.png", "f.svg")]
-    shape.export(files[0])
-    write_json(files[1], {"name": "a mesh"})
-    settings = {} if kind in SLICES else {"sampling": SAMPLING, "seed": 1}
+    files = {"mesh_ply": folder / "mesh.ply", "mesh_json": folder / "mesh.json"}
+    shape.export(files["mesh_ply"])
+    write_json(files["mesh_json"], {"name": "a mesh"})
+    settings = {"sampling": SAMPLING, "scene_seed": 1}
     settings["scene"] = {"up": up, "ground": True, "light": SPHERE_OF_LIGHTS}
-    import_module(f"neural_shadows.reports.figures.{kind}").draw(*files, title="How", **settings)
-    assert files[3].stat().st_size < 600_000
-    return imread(files[2])[..., :3]
+    module = import_module(f"neural_shadows.reports.figures.{kind}")
+    svg = written_figure(module.draw, folder, write_figure, **files, **settings)
+    assert len(svg) < 600_000
+    return imread(folder / "figure.png")[..., :3]
 
 
 @pytest.mark.parametrize("kind", [*SLICES, "overview", "quadtree"])
@@ -78,9 +81,11 @@ def test_the_preview_names_the_up_axis_and_a_sheet(tmp_path, capsys):
     box(1, 0.4, 0.6).export(tmp_path / "mesh.ply")
     files = [tmp_path / name for name in ("mesh.ply", "mesh.json", "a.png", "a.svg")]
     write_json(files[1], {"name": "a mesh", "faces": 12, "watertight": False, "sheet": True})
-    draw_preview(*files, scene={"up": "z", "ground": True, "light": SPHERE_OF_LIGHTS})
+    scene = {"up": "z", "ground": True, "light": SPHERE_OF_LIGHTS}
+    draw_preview(*files, scene=scene, advice="Next: a table.")
     notes = capsys.readouterr().out
     assert "Up is z:" in notes and "so are its occupancy fields" in notes
+    assert "Next: a table." in notes
     assert imread(files[2])[..., :3].std() > 0.05
 
 
@@ -98,5 +103,5 @@ def test_poisson_disks_are_blue(tmp_path):
     power = view_directions.angular_power_spectrum(sphere_directions(500, 1)[0], 50)
     assert power[:20].max() < 0.25
     assert power[-10:].mean() > 1
-    view_directions.draw(tmp_path / "f.png", tmp_path / "f.svg", title="Directions", seed=1)
-    assert (tmp_path / "f.svg").stat().st_size < 600_000
+    svg = written_figure(view_directions.draw, tmp_path, write_figure, seed=1)
+    assert len(svg) < 600_000

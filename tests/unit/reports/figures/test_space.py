@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 import torch
 import trimesh
+from built_networks import make_network
 from matplotlib.image import imread
+from report_samples import constants_of, written_figure
 from shapes import SPHERE_OF_LIGHTS, Y_UP, scene_of
 
 from neural_shadows.evaluation.references import References, write_references
 from neural_shadows.files.whole_files import write_json
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.occupancy_field_network import LIMIT
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.rays.labels import dual_bounds
@@ -19,6 +20,7 @@ from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.reports.drawing import hero_view, opengl
 from neural_shadows.reports.drawing.mesh_slice import slice_mesh
+from neural_shadows.reports.drawing.style import write_figure
 from neural_shadows.reports.figures import (
     depth_sheets_3d,
     errors_3d,
@@ -70,27 +72,22 @@ def test_each_kind_is_drawn(files, tmp_path, kind):
     if kind is not field_slice and not opengl.available():
         pytest.skip("no OpenGL")
     weights, bias_json = files / "field" / "weights.safetensors", tmp_path / "field.json"
-    write_json(bias_json, {"depth_bias": 0.01, "push": 0.0})
-    arguments = {
-        "mesh_ply": files / "mesh.ply",
-        "png": tmp_path / "f.png",
-        "svg": tmp_path / "f.svg",
-    }
-    arguments |= {"title": "Title", "scene": SCENE}
+    write_json(bias_json, constants_of(0.01, 0.0, False))
+    arguments = {"mesh_ply": files / "mesh.ply", "scene": SCENE}
     if kind is scene_3d:
         arguments |= {"mesh_json": files / "mesh.json", "directions_npy": files / "directions.npy"}
         arguments |= {key: [files / f"{key}.000.npy"] for key in ("origins", "bounds")}
     elif kind is errors_3d:
-        arguments |= {"references": files / "000.safetensors", "run": {"scale": "test"}}
+        arguments |= {"references": files / "000.safetensors"}
         arguments |= {"weights": [weights], "depth_biases": [bias_json]}
         map_ = {"method": "shadow_map_16", "label": "a map", "experiment": None, "bias": None}
         field = {"method": "field", "label": "a field", "experiment": "field", "bias": "held_out"}
         arguments["rows"] = [map_, field]
     else:
         arguments["weights"] = weights
-    kind.draw(**arguments)
-    assert imread(arguments["png"])[..., :3].std() > 0.04
-    assert arguments["svg"].stat().st_size < 1_500_000
+    svg = written_figure(kind.draw, tmp_path, write_figure, **arguments)
+    assert imread(tmp_path / "figure.png")[..., :3].std() > 0.04
+    assert len(svg) < 1_500_000
 
 
 def test_the_slice_of_a_ball_is_held_at_its_surface_and_enclosed_inside(files):

@@ -11,9 +11,8 @@ from neural_shadows.reports.tables import penumbra_feature
 @pytest.fixture
 def table(tmp_path):
     def made():
-        parts, run = [tmp_path / "train_000.json"], {"scale": "test"}
-        made = penumbra_feature.table(parts=parts, title="Widths", run=run)
-        data, md = samples.written(made, tmp_path)
+        parts = [tmp_path / "train_000.json"]
+        data, md = samples.written_table(penumbra_feature.table, tmp_path, test_parts=parts)
         return data.set_index("light"), md.read_text(encoding="utf-8")
 
     return made

@@ -16,10 +16,8 @@ def test_widths_as_measured_and_as_modelled():
     }
     table = widths_table(pairs).set_index("scene")
     assert table["light"].tolist() == [1, 1, 1] and table["pixels"].tolist() == [101, 101, 0]
-    assert table["measured"].tolist()[:2] == [50, 50] and table["modelled"].tolist()[:2] == [
-        100,
-        25,
-    ]
+    assert table["measured"].tolist()[:2] == [50, 50]
+    assert table["modelled"].tolist()[:2] == [100, 25]
     assert table["measured_wide"].tolist()[:2] == pytest.approx([95, 95])
     assert table["modelled_wide"].tolist()[:2] == pytest.approx([190, 47.5])
     assert table["within"].tolist()[:2] == pytest.approx([1, 48 / 101])

@@ -1,33 +1,24 @@
 """The table of methods for soft shadows, and its figures, from made numbers."""
 
-import json
-
 import numpy as np
 import pandas as pd
 import pytest
 import report_samples as samples
 
-from neural_shadows.evaluation.soft_metrics import write_soft_metrics
-from neural_shadows.reports.drawing.shown_errors import COLUMNS
+from neural_shadows.evaluation.metric_files import write_metrics
+from neural_shadows.reports.data.frame_means import ERROR_COLUMNS
+from neural_shadows.reports.data.soft_frames import SoftFrames
 from neural_shadows.reports.figures import soft_equal_time, soft_pictures
 from neural_shadows.reports.tables import soft_methods
 
 LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "pcss_post": "PCSS, filtered"}
 LABELS |= {"no_shadow": "No shadow"}
 MSE = {"hard": 0.02, "rt_4": 0.01, "pcss_post": 0.005, "no_shadow": 0.1}
-ABOUT = {"width": 8, "height": 4, "radii": [0, 0.5], "given_radii": [0, 0.25]}
-ABOUT |= {"radius_unit": "scene_sizes"}
+BY_NONE = {"map": None, "texel_floats": 0, "held_bytes": 0}
 TIMES = {
-    **{"frames": 2, "repeats": 3, "once_above_ms": 100},
-    **{"maps": {"8": {"ms": 10.0, "texels": 64}}, "map_share": 1.0, "machine": {"cpu": "a CPU"}},
-    "methods": {
-        "hard": {"ms": [1.0, 1.0], "map": "8", "texel_floats": 1, "held_bytes": 0},
-        "rt_4": {"ms": [4.0, 16.0], "map": None, "texel_floats": 0, "held_bytes": 0},
-        "pcss_post": {"ms": [1.0, 1.0], "map": "8", "texel_floats": 1, "held_bytes": 0},
-        "no_shadow": {"ms": [0.1, 0.1], "map": None, "texel_floats": 0, "held_bytes": 0},
-    },
+    **dict.fromkeys(("hard", "pcss_post"), {"ms": [1.0, 1.0]} | samples.BY_MAP),
+    **{"rt_4": {"ms": [4.0, 16.0]} | BY_NONE, "no_shadow": {"ms": [0.1, 0.1]} | BY_NONE},
 }
-RUN = {"scale": "test", "seed": 1}
 
 
 @pytest.fixture
@@ -51,30 +42,29 @@ def written(tmp_path):
         rows.append({**key, "metric": "instability", "value": mse})
         rows.append({**key, "metric": "instability_reference", "value": 0.5})
         paths.append(tmp_path / f"{method}.csv")
-        write_soft_metrics(paths[-1], rows)
-    times, lpips, frames = (tmp_path / f"{name}.json" for name in ("times", "lpips", "frames"))
-    times.write_text(json.dumps(TIMES))
-    frames.write_text(json.dumps(ABOUT))
-    lpips.write_text(json.dumps({"available": False}))
-    constants = tmp_path / "pcss_post.json"
+        write_metrics(paths[-1], [row | {"method": method} for row in rows])
     chosen = {"constants": {"bias": 3}, "at_end": ["bias"], "mse": 0.1}
-    constants.write_text(
-        json.dumps({"method": "pcss_post", "tried": {"bias": [1, 3]}, "radii": [chosen, chosen]})
+    records = {
+        "times": samples.SOFT_TIMES | {"methods": TIMES},
+        **{"lpips": {"available": False}, "frames": samples.SOFT_FRAMES},
+        "pcss_post": {"method": "pcss_post", "candidates": {"bias": [1, 3]}, "radii": [chosen] * 2},
+    }
+    times, lpips, frames, constants = (
+        samples.write_record(tmp_path / f"{name}.json", record) for name, record in records.items()
     )
-    table = soft_methods.table(
+    return samples.written_table(
+        soft_methods.table,
+        tmp_path,
         frames_json=frames,
         soft_metrics=paths,
         soft_times=times,
         widths_json=None,
         soft_constants=[constants],
         lpips_json=lpips,
-        title="Soft shadows",
         labels=LABELS,
         left_out=["1 ray, OIDN"],
         unseen=["tree"],
-        run=RUN,
     )
-    return samples.written(table, tmp_path)
 
 
 def test_means_over_frames_of_all_scenes(written):
@@ -88,9 +78,8 @@ def test_means_over_frames_of_all_scenes(written):
     assert row["mse_off_edges"] == 0.01 and row["mse_off_edges_low"] == 0.01
     assert row["psnr_pooled"] == pytest.approx(-10 * np.log10(row["mse"]), abs=1e-3)
     assert row["mse_umbra"] == pytest.approx(0.02)
-    assert row["instability"] == row["instability_light"] == 0.02 and np.isnan(
-        table.loc["hard", 0]["instability"]
-    )
+    assert row["instability"] == row["instability_light"] == 0.02
+    assert np.isnan(table.loc["hard", 0]["instability"])
 
 
 def test_what_looks_at_a_map_waits_for_it(written):
@@ -102,20 +91,24 @@ def test_what_looks_at_a_map_waits_for_it(written):
 def test_notes_say_constants_and_where_they_end(written):
     text = written[1].read_text()
     assert "PCSS, filtered, by radius: bias 3, 3 (bias at an end of the range tried)." in text
-    assert (
-        "Not available on this machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text
-    )
+    assert "machine: 1 ray, OIDN." in text and "light of 0.25 S radius" in text
     assert "[95 % over 12 frames in 2 scenes, room, tree; not valid for others]" in text
-    assert "Off edges: of pixels" in text and "off edges |" in text
     assert "unseen scenes: tree" in text and "FLIP ↓" not in text  # of which there is none here
 
 
+@pytest.mark.parametrize("unit", ["metres", "degrees"])
+def test_a_light_without_extent_has_no_width(tmp_path, unit):
+    record = {"radii": [0, 0.25], "radius_unit": unit, "scenes": {"room": [[2, 3], [8, 9]]}}
+    widths_json = samples.write_record(tmp_path / "widths.json", record | {"widest": 192})
+    soft = SoftFrames(soft_metrics=[], labels={}, frames_json=widths_json, widths_json=widths_json)
+    (note,) = soft.describe_widths()
+    light = {"metres": "light of 0.25 m radius", "degrees": "sun of 0.25° radius"}[unit]
+    assert f"(least to most): {light} 8 (8 to 8) and 9. Wider" in note
+
+
 def test_error_over_time(written, tmp_path):
-    outputs = tmp_path / "figure.png", tmp_path / "figure.svg"
-    soft_equal_time.draw(
-        written[1].with_suffix(".csv"), *outputs, title="Equal time", radii=None, run=RUN
-    )
-    text = outputs[1].read_text()
+    table_csv = written[1].with_suffix(".csv")
+    text = samples.written_figure(soft_equal_time.draw, tmp_path, table_csv=table_csv, radii=None)
     assert "4 rays: MSE 300" not in text and "4 rays: MSE" in text and "16.0 ms" in text
     assert "light of 0.25 S radius" in text and "point light" not in text
 
@@ -125,7 +118,7 @@ def test_the_legend_is_as_wide_as_the_figure(radii):
     methods = ["hard", "pcf_3", "pcss", "msm_9", "rt_1", "rt_4_svgf", "no_shadow"]
     rows = [
         {"method": method, "label": method, "number": number, "radius": number, "unit": "m"}
-        | {"ms": 1 + k, **dict.fromkeys(COLUMNS, 0.1)}
+        | {"ms": 1 + k, **dict.fromkeys(ERROR_COLUMNS, 0.1)}
         for k, method in enumerate(methods)
         for number in (0, 1)
     ]

@@ -1,24 +1,16 @@
 """Summaries of methods for soft shadows beside printed numbers, and their figure, from made numbers."""
 
-import json
-
 import numpy as np
 import pytest
 import report_samples as samples
 from report_samples import PUBLISHED as THESIS_CSV
 
-from neural_shadows.evaluation.soft_metrics import write_soft_metrics
+from neural_shadows.evaluation.metric_files import write_metrics
 from neural_shadows.reports.figures import soft_radii
 from neural_shadows.reports.tables import soft_summary
 
 PUBLISHED = THESIS_CSV.with_name("published_kpnsm.csv")
-ABOUT = {"width": 8, "height": 4, "radii": [0, 0.5], "given_radii": [0, 0.25]}
-ABOUT |= {"radius_unit": "scene_sizes"}
-TIMES = {
-    **{"frames": 2, "repeats": 3, "once_above_ms": 100},
-    **{"maps": {"8": {"ms": 10.0, "texels": 64}}, "map_share": 1.0, "machine": {"cpu": "a CPU"}},
-    "methods": {"pcss": {"ms": [1.0, 3.0], "map": "8", "texel_floats": 1, "held_bytes": 0}},
-}
+TIMES = samples.SOFT_TIMES | {"methods": {"pcss": {"ms": [1.0, 3.0]} | samples.BY_MAP}}
 MSE = {"mine": 0.001, "pcss": 0.002}
 ROWS = [
     {"method": "mine", "label": "Mine", "published": "ours_enhanced", "column": None},
@@ -45,24 +37,24 @@ def files(tmp_path):
             rows.append({**key, "metric": "temporal_error_reference", "value": value / 2})
             rows.append({**key, "metric": "mse_sequence", "value": mse})
         paths.append(tmp_path / f"{method}.csv")
-        write_soft_metrics(paths[-1], rows)
-    for name, content in {"times": TIMES, "frames": ABOUT}.items():
-        (tmp_path / f"{name}.json").write_text(json.dumps(content))
+        write_metrics(paths[-1], [row | {"method": method} for row in rows])
+    for name, content in {"times": TIMES, "frames": samples.SOFT_FRAMES}.items():
+        samples.write_record(tmp_path / f"{name}.json", content)
     return paths
 
 
 def summary(folder, files, **told):
     given = {"published": "kpnsm.1", "methods": ROWS, "by": None, "metrics": ["mse", "ssim"]}
-    table = soft_summary.table(
+    given |= {"soft_times": None, "widths_json": None, "measured": ["room", "tree"]}
+    data, md = samples.written_table(
+        soft_summary.table,
+        folder,
         frames_json=folder / "frames.json",
         soft_metrics=files,
-        trainings=[],
+        labels={},
         published_kpnsm_csv=PUBLISHED,
-        title="Title",
-        run={"scale": "test", "seed": 1},
-        **{"soft_times": None, "widths_json": None, "measured": ["room", "tree"], **given, **told},
+        **{**given, **told},
     )
-    data, md = samples.written(table, folder)
     return data.set_index("method"), md.read_text(encoding="utf-8")
 
 
@@ -95,9 +87,9 @@ def test_parts_by_scene_and_by_light(tmp_path, files):
     by_light, text = summary(tmp_path, files, published=None, by="radius")
     assert by_light.loc["pcss", "mse"].to_numpy() == pytest.approx([0.003, 0.006])
     assert "light of 0.25 S radius" in text
-    outputs = tmp_path / "figure.png", tmp_path / "figure.svg"
-    soft_radii.draw(tmp_path / "table.csv", *outputs, title="Radii", run={"scale": "test"})
-    assert "PCSS: MSE 30.0, 60.0 × 10⁻⁴ by radius" in outputs[1].read_text(encoding="utf-8")
+    table_csv = tmp_path / "table.csv"
+    text = samples.written_figure(soft_radii.draw, tmp_path, table_csv=table_csv)
+    assert "PCSS: MSE 30.0, 60.0 × 10⁻⁴ by radius" in text
 
 
 def test_the_temporal_error_is_that_of_light_and_eye_together(tmp_path, files):

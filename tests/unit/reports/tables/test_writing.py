@@ -13,7 +13,7 @@ def test_a_bar_or_a_line_s_end_in_a_label_shifts_no_cell(tmp_path):
         "a|b": ["1", "2"],
     }
     csv, md, json = (tmp_path / f"table.{ending}" for ending in ("csv", "md", "json"))
-    write_table(Table("A table", pd.DataFrame({"a": [1]}), columns, ["A note."]), csv, md, json)
+    write_table(Table(pd.DataFrame({"a": [1]}), columns, ["A note."], "A table"), csv, md, json)
     rows = [line for line in md.read_text().splitlines() if line.startswith("|")]
     assert [line.replace("\\|", "").count("|") for line in rows] == [4] * 4
     (part,) = table_block(json, {}).parts

@@ -1,24 +1,32 @@
 """Visibility, pictures and errors of test frames by one method."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from PIL import Image
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.frame_answers import all_radii, constants_of, errors_of
-from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames
-from neural_shadows.evaluation.soft_registry import METHODS, soft_methods_by_scene
+from neural_shadows.evaluation.frame import Inputs, constants_of
+from neural_shadows.evaluation.frame_metrics import image_errors
+from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames, open_methods
 from neural_shadows.files.frame_images import write_images
 from neural_shadows.files.whole_files import whole_file
+from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import shown_radii
-from neural_shadows.metrics.psnr_ssim import ssim
+from neural_shadows.metrics.registry import image_metrics
 from neural_shadows.reports.data.lights import light_names
 from neural_shadows.reports.figures.soft_pictures import answers_alone, strips
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+CROP = 256  # pixels along both sides of a crop
+COUNTS = ["frame_width", "frame_height", "pixels"]
 
 
 def answer_frames(
@@ -36,20 +44,21 @@ def answer_frames(
     """Evaluate each frame for all radii of its light.
 
     `SCENE/FRAME.exr` or `.npz` (as an engine's frames came; npz of others) has the visibility of each
-    radius, `visibility_K` (H, W) half floats, 1 without a surface; `SCENE/FRAME.png` shows it.
-    The errors have a row for each frame and radius; of a frame without targets they are empty.
+    radius, `visibility_K` (H, W) half floats, 1 without a surface; `SCENE/FRAME*.png` show it.
+    The errors have a row for each frame and radius, and the means by radius; of a frame without targets
+    they are empty. `mse_of_hard` and the like are those of the frame's base shadows.
 
     Args:
         parts: of test frames. meshes: see `measured_frames`.
-        constants_json: of `tune_soft_method`; None for a method without constants.
+        constants_json: of `tune`; None for a method without constants.
         weights: of a network, or of one for each scene; none of any other method.
         answers: the folder of the answers.
-        label: of the method; by_scene: see `evaluate_soft`.
+        label: of the method; by_scene: see `evaluate`.
 
     Raises:
         InputError: an input file cannot be read, or the method cannot evaluate a frame.
     """
-    method_of = soft_methods_by_scene(method, weights, by_scene=by_scene)
+    method_of = open_methods(method, Inputs(parts, meshes, weights, by_scene=by_scene))
     constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
     rows: list[Mapping[str, Any]] = []
     total = sum(len(FrameSetPart(path)) for path in parts)
@@ -60,12 +69,12 @@ def answer_frames(
                 raise InputError(
                     f"{method}: none of its networks is trained on {measured.scene_name}"
                 )
-            visibility = np.stack([*all_radii(measured, evaluate, constants)])
+            visibility = np.stack([*measured.visibilities(evaluate, constants)])
             form = measured.part.about.get("form", "npz")
             stem = answers / measured.scene_name / _name(measured)
             images = {f"visibility_{k}": image for k, image in enumerate(visibility)}
             write_images(stem.with_name(f"{stem.name}.{form}"), images)
-            _draw(measured, visibility, label, stem.with_name(f"{stem.name}.png"))
+            _draw(measured, visibility, label, stem)
             rows += _rows(measured, visibility)
             bar.update()
     _write_rows(errors_csv, rows)
@@ -81,39 +90,88 @@ def _name(measured: MeasuredFrame) -> str:
 
 def _rows(measured: MeasuredFrame, visibility: np.ndarray) -> list[dict[str, Any]]:
     about = measured.part.about
-    given = about.get("given_radii", about["radii"])
+    radii = about.get("given_radii", about["radii"])
     key = {"scene": measured.scene_name, "frame": _name(measured)}
-    key |= {"width": about["width"], "height": about["height"], "pixels": measured.valid.sum()}
-    rows = []
-    for k, radius in enumerate(given):
+    key |= {"frame_width": about["width"], "frame_height": about["height"]}
+    key |= {"pixels": measured.valid.sum()}
+    rows, images = [], image_metrics("soft", slow=False)
+    for k, radius in enumerate(radii):
         row = {**key, "radius": radius, "radius_unit": about.get("radius_unit", "metres")}
-        exact = measured.part.has_targets
-        rows.append(row | (errors_of(measured, visibility[k], k, {"ssim": ssim}) if exact else {}))
+        if measured.part.has_targets:
+            row |= image_errors(measured, visibility[k], k, images)
+            for base in _bases(measured):
+                errors = image_errors(measured, measured.picture(base), k, images)
+                row[f"mse_of_{base}"] = errors["mse"]
+        rows.append(row)
     return rows
 
 
+def _bases(measured: MeasuredFrame) -> list[str]:
+    """Channels of a frame that are visibilities: its base shadows."""
+    return [channel for channel in LIT if channel in measured.part.about["channels"]]
+
+
 def _write_rows(path: Path, rows: list[Mapping[str, Any]]) -> None:
+    """Write rows, and below them the means over all frames by radius."""
     import pandas as pd
 
+    table = pd.DataFrame(rows)
+    measured = [*table.columns[table.columns.get_loc("radius_unit") + 1 :]]
+    if measured:
+        means = table.groupby(["radius", "radius_unit"], sort=False)[measured].mean()
+        means = means.reset_index().assign(scene="all", frame="mean")
+        table = pd.concat([table, means])[table.columns]
+        table[COUNTS] = table[COUNTS].astype("Int64")
     with whole_file(path) as part:
-        pd.DataFrame(rows).to_csv(part, index=False, lineterminator="\n")
+        table.to_csv(part, index=False, lineterminator="\n")
 
 
-def _draw(measured: MeasuredFrame, visibility: np.ndarray, label: str, png: Path) -> None:
-    about = measured.part.about
+def _draw(measured: MeasuredFrame, visibility: np.ndarray, label: str, stem: Path) -> None:
+    """Draw a frame's visibility whole, beside its bases, and a crop where it differs from them.
+
+    `FRAME_visibility_K.png` has a pixel for each of the frame's, `FRAME.png` and `FRAME_crop.png` several radii.
+    """
+    for k, image in enumerate(visibility):
+        with whole_file(stem.with_name(f"{stem.name}_visibility_{k}.png")) as part:
+            Image.fromarray(np.round(255 * image).astype(np.uint8)).save(part, format="png")
     shown = shown_radii(len(visibility))
-    lights = [light_names(about)[k] for k in shown]
-    bases = [one for one in METHODS.values() if one.channel in about["channels"]]
-    pictures = {one.label: [measured.picture(one.channel)] * len(shown) for one in bases}
+    pictures = {f"its {base}": [measured.picture(base)] * len(shown) for base in _bases(measured)}
     pictures[label] = [visibility[k] for k in shown]
-    title = f"{label}: {measured.scene_name}, {_name(measured)}"
-    if measured.part.has_targets:
-        targets = [measured.target[k] for k in shown]
-        figure = strips(pictures, targets, measured.valid, lights, title)
-    else:
-        figure = answers_alone(pictures, lights, title)
-    with whole_file(png) as part:
-        figure.savefig(part)
+    whole = (slice(None), slice(None))
+    windows = {"": whole}
+    if min(measured.valid.shape) > CROP:
+        first, *_ = pictures.values()
+        windows["_crop"] = _window(np.abs(visibility[shown[-1]] - first[-1]))
+    for ending, window in windows.items():
+        figure = _compared(measured, pictures, shown, window, f"{label}: {_name(measured)}")
+        with whole_file(stem.with_name(f"{stem.name}{ending}.png")) as part:
+            figure.savefig(part)
+
+
+def _compared(
+    measured: MeasuredFrame,
+    pictures: Mapping[str, Sequence[np.ndarray]],
+    shown: Sequence[int],
+    window: tuple[slice, slice],
+    title: str,
+) -> "Figure":
+    about = measured.part.about
+    lights = [light_names(about)[k] for k in shown]
+    crops = {label: [image[window] for image in images] for label, images in pictures.items()}
+    if not measured.part.has_targets:
+        return answers_alone(crops, lights, title)
+    targets = [measured.target[k][window] for k in shown]
+    return strips(crops, targets, measured.valid[window], lights, title)
+
+
+def _window(difference: np.ndarray) -> tuple[slice, slice]:
+    """The square of `CROP` pixels with the largest sum of differences (H, W)."""
+    from scipy.ndimage import uniform_filter
+
+    half = CROP // 2
+    inner = uniform_filter(difference, CROP, mode="constant")[half:-half, half:-half]
+    row, column = np.unravel_index(inner.argmax(), inner.shape)
+    return slice(row, row + CROP), slice(column, column + CROP)
 
 
 if "snakemake" in globals():

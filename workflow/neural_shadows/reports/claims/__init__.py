@@ -7,7 +7,7 @@ inputs        the files and parameters of that stage
 gates         the tests in their order, of which the first that fails is the verdict
 comparison    one comparison of a claim, and the verdict of all comparisons together
 measured      the measured values, by method, budget and seed
+views, losses, frames   the units of paired differences: viewpoints, trainings, frames of soft shadows
 learning      the trend over learning curves, and the extrapolation that they license
-unlearned     the tests of whether networks have learned
-setting_types, row_claims, network_claims, soft_claims   shared by several kinds
+screen_networks, setting_types   shared by several kinds
 """

@@ -4,24 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from neural_shadows.metrics.holm import holm
+from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.claims.learning import Learning
 from neural_shadows.reports.data.frame_means import OFF_EDGES
 from neural_shadows.reports.data.verdicts import CONTRADICTED, SUPPORTED, UNDECIDED
 
 LEVEL = 0.05
-NAMES = {
-    "lpips": "LPIPS",
-    "psnr": "PSNR",
-    "ssim": "SSIM",
-    "flip": "FLIP",
-    "shadow_error": "shadow error",
-    "loss": "loss",
-    "mse": "MSE × 10⁻⁴",
-    "mse_off_edges": "MSE × 10⁻⁴ off edges",
-    "l1": "L1 in %",
-    "light_leak": "light leak in %",
-    "false_shadow": "false shadow in %",
-}
 
 
 @dataclass(frozen=True)
@@ -44,9 +32,9 @@ class Comparison:
     metric: str
     methods: str
     text: str
-    number: str
-    supports: bool
-    against: float
+    number: str = ""
+    supports: bool = False
+    against: float = 1.0
     seeds: int | None = None
     samples: int | None = None
     learning: Learning | None = None
@@ -55,10 +43,17 @@ class Comparison:
     remark: str = ""
 
     @property
+    def metric_name(self) -> str:
+        """The metric in words, or the column of a table."""
+        metric = metrics().get(self.metric)
+        return metric.text if metric else self.metric
+
+    @property
     def evidence(self) -> str:
         """The comparison in words and numbers."""
         trend = f", {self.learning.text}" if self.learning else ""
-        return f"{self.text}: {self.number}{self.remark}{trend}"
+        number = self.number or self.untested or self.incomparable
+        return f"{self.text}: {number}{self.remark}{trend}"
 
     @property
     def extrapolated(self) -> "Comparison | None":
@@ -67,11 +62,9 @@ class Comparison:
             return None
         return replace(self, **judged(*self.learning.extrapolated))
 
-
-def unjudged(**reason: str) -> dict[str, object]:
-    """Fields of an undecided `Comparison` for a reason."""
-    (text,) = reason.values()
-    return {"number": "", "remark": text, "supports": False, "against": 1.0, **reason}
+    def without(self, missing: str) -> "Comparison":
+        """The same undecided for missing data."""
+        return replace(self, supports=False, against=1.0, untested=missing)
 
 
 def judged(value: float, low: float, high: float, p: float) -> dict[str, object]:

@@ -9,7 +9,6 @@ import numpy as np
 from neural_shadows.metrics.power_law import LARGEST_STEP
 from neural_shadows.reports.claims.claim_kinds import by_kind, kind_of, methods
 from neural_shadows.reports.claims.comparison import (
-    NAMES,
     Comparison,
     against,
     most_against,
@@ -18,7 +17,6 @@ from neural_shadows.reports.claims.comparison import (
 )
 from neural_shadows.reports.claims.learning import AWAY, NEITHER, TOWARDS
 from neural_shadows.reports.claims.measured import TEXT_SAMPLES, Claim, Measured, needs
-from neural_shadows.reports.claims.unlearned import not_learned
 from neural_shadows.reports.data import verdicts
 from neural_shadows.reports.data.phrases import TEXTS, is_own_mesh
 
@@ -50,7 +48,7 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
     judged_comparisons = extrapolated or comparisons
     gates = {
         verdicts.NOT_COMPARABLE: not_comparable(claim, comparisons, data),
-        verdicts.NOT_LEARNED: not_learned(claim, data),
+        verdicts.NOT_LEARNED: by_kind(claim, "not_learned", data, default=""),
         verdicts.VACUOUS: vacuous(claim, judged_comparisons, passing),
         verdicts.TOO_SMALL: too_small(claim, comparisons, extrapolated),
         verdict_of(judged_comparisons): decided(claim, judged_comparisons, bool(extrapolated)),
@@ -71,7 +69,7 @@ def judge(claim: Claim, data: Measured) -> dict[str, Any]:
         "budget_fraction": min(samples, default=np.nan) / samples_of_text(claim),
         **trend_of(comparisons),
         "null_verdict": null,
-        "number_of": NAMES.get(shown.metric, shown.metric) if shown else "",
+        "number_of": shown.metric_name if shown else "",
         "number": shown.number if shown else "",
         "evidence": evidence,
         "samples": min(samples, default=np.nan),
@@ -90,8 +88,6 @@ def not_comparable(claim: Claim, comparisons: Sequence[Comparison], data: Measur
         scenes = dict.fromkeys(row["scene"] for row in methods(claim))
         if stand_ins := [s for s in scenes if not is_own_mesh(data.meshes[s], data.scenes[s])]:
             return f"not the thesis's mesh: {', '.join(stand_ins)}"
-    if reason := by_kind(claim, "not_comparable", data, default=""):
-        return reason
     reasons = {each.methods: each.incomparable for each in comparisons if each.incomparable}
     return "; ".join(f"{compared}: {reason}" for compared, reason in reasons.items())
 
@@ -155,7 +151,7 @@ def too_small(
     claim: Claim, comparisons: Sequence[Comparison], extrapolated: Sequence[Comparison]
 ) -> str:
     """Missing seeds, views or samples, and the difference's direction."""
-    least_seeds = LEAST_SEEDS * getattr(kind_of(claim), "NEEDS_SEEDS", False)
+    least_seeds = by_kind(claim, "LEAST_SEEDS", default=LEAST_SEEDS)
     needed = max(needs(claim, "seeds") or 0, least_seeds)
     learning = deciding(comparisons).learning
     opposing = against(extrapolated or comparisons)

@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.layout import soft_methods, tables
+from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.claims.claim_kinds import kind_of, methods
-from neural_shadows.reports.claims.measured import Claim
+from neural_shadows.reports.claims.claim_kinds import by_kind, kind_of, methods
+from neural_shadows.settings.kinds import kinds
 
 FILES = (
     *("metrics", "losses", "trainings", "times", "meshes"),
@@ -26,18 +26,20 @@ def files(layout: Layout) -> dict[str, Any]:
 
 def arguments(layout: Layout) -> dict[str, Any]:
     """The parameters of `write_claims.claims` beside its files."""
-    rows = [row for claim in layout.settings["claims"].values() for row in methods(claim)]
+    claims = layout.settings["claims"]
+    rows = [row for claim in claims.values() for row in methods(claim)]
+    soft_tables = {by_kind(claim, "soft_table", default=None) for claim in claims.values()}
     return {
-        "claims": layout.settings["claims"],
+        "claims": claims,
         "learning_curves": tables.curves(layout, rows),
         "soft_tables": {
-            claim["table"]: {
-                "frame_set": soft_methods.frame_set(layout, claim["table"]),
-                "labels": soft_methods.labels(layout, claim["table"]),
-                "scenes": soft_methods.shown_scenes(layout, claim["table"]),
-                "radii": soft_methods.radii(layout, claim["table"]),
+            table: {
+                "frame_set": tables.frame_set(layout, table),
+                "labels": tables.labels(layout, table),
+                "scenes": tables.shown_scenes(layout, table),
+                "radii": tables.radii(layout, table),
             }
-            for claim in _claims_with(layout, "OF_SOFT_METHODS")
+            for table in sorted(soft_tables - {None})
         },
         "run": layout.run(),
         "scenes": layout.scenes(row["scene"] for row in rows),
@@ -46,16 +48,13 @@ def arguments(layout: Layout) -> dict[str, Any]:
 
 def modules(layout: Layout) -> list[Path]:
     """The modules of the claims' kinds, imported by name."""
-    return [Path(kind_of(claim).__file__) for claim in layout.settings["claims"].values()]
+    names = [claim["kind"] for claim in layout.settings["claims"].values()]
+    return [Path(kinds("reports/claims/kinds")[name].__file__) for name in names]
 
 
 def counts_violations(layout: Layout, method: str) -> bool:
     """Check for a claim on a method's violated bounds."""
-    rows = [row for claim in _claims_with(layout, "COUNTS_VIOLATIONS") for row in methods(claim)]
-    return method in (row["method"] for row in tables.with_curves(layout, rows))
-
-
-def _claims_with(layout: Layout, constant: str) -> list[Claim]:
-    """The claims of kinds with a constant."""
     claims = layout.settings["claims"].values()
-    return [claim for claim in claims if getattr(kind_of(claim), constant, False)]
+    counting = [claim for claim in claims if by_kind(claim, "COUNTS_VIOLATIONS", default=False)]
+    rows = [row for claim in counting for row in methods(claim)]
+    return method in (row["method"] for row in tables.with_curves(layout, rows))

@@ -93,8 +93,8 @@ def follow(
     relative = power_law.trend(samples, ratios)
     steps = THESIS_SAMPLES / samples[-1], samples[-1] / samples[-2]
     curves = [curve for curve, row in zip((a, b), pair) if row["trained"]]
-    died = any(data.died(row, budgets) for row in pair)
-    licensed, reason = power_law.licensed(curves, THESIS_SAMPLES, data.seed, died)
+    diverged = any(data.diverged(row, budgets) for row in pair)
+    licensed, reason = power_law.licensed(curves, THESIS_SAMPLES, data.seed, diverged)
     if not licensed:
         return Learning(trend, relative, None, reason, steps)
     # A map's errors are the same at all budgets.

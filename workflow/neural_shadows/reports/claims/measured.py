@@ -8,7 +8,7 @@ import pandas as pd
 
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
-from neural_shadows.settings.records import SceneInfo
+from neural_shadows.settings.records import FrameTimes, SceneInfo, TrainingRecord
 
 # Training samples of networks by text: rays of the thesis, pixels of the papers. Own claims are
 # about methods without training.
@@ -28,6 +28,19 @@ NO_SHADOW_ROW = {
 }
 
 
+class ResolvedRatio(TypedDict):
+    """A ratio of a claim, see `kinds.ratio.Ratio`."""
+
+    table: str
+    column: str
+    of: dict[str, Any]
+    to: dict[str, Any] | list[dict[str, Any]] | float | None
+    per: str | None
+    null_predictor: float | None
+    at_least: float | None
+    at_most: float | None
+
+
 class Claim(TypedDict, total=False):
     """A resolved claim, with some of these keys by kind."""
 
@@ -36,21 +49,21 @@ class Claim(TypedDict, total=False):
     section: str
     statement: str
     needs: dict[str, Any]
-    pairs: list[Any]  # of rows, or of keys of screen-space methods
-    methods: list[Any]
+    pairs: list[list[str]]
+    methods: list[str]
+    rows: list[list[Row]]  # of methods on scenes' viewpoints, by comparison
     metrics: list[str]
     table: str
     radii: list[int] | None
     again: dict[str, list[str]]
     networks: list[str]
     bases: dict[str, str]
-    null: str  # in the networks' place
     at_least: float | None
     at_most: float | None
     overhead_ms: float
     row: str | None
     equivalent_to: int | None
-    ratios: list[dict[str, Any]]
+    ratios: list[ResolvedRatio]
     column: str
     to: str
     rather_than: str
@@ -61,7 +74,7 @@ class Measured(Trained):
     """All measured values.
 
     Args:
-        times: of `measure_frame_times`, by table and scene.
+        times: of `time_methods`, by table and scene.
         published: the thesis's numbers as config/published.csv has them; margins: of each metric
             the difference between the thesis's own trainings.
         scenes: `procedural` marks stand-ins made to the thesis's description.
@@ -69,13 +82,13 @@ class Measured(Trained):
         tables: CSVs of tables, by name; screen_trainings: training.json of screen-space networks.
     """
 
-    times: Mapping[tuple[str, str], Mapping[str, Any]]
+    times: Mapping[tuple[str, str], FrameTimes]
     scenes: Mapping[str, SceneInfo]
     published: pd.DataFrame
     margins: Mapping[str, float]
     soft: Mapping[str, Any] = field(default_factory=dict)
     tables: Mapping[str, pd.DataFrame] = field(default_factory=dict)
-    screen_trainings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    screen_trainings: Mapping[str, TrainingRecord] = field(default_factory=dict)
 
     def pixels(self, claim: Claim) -> int | None:
         """The fewest training pixels of screen-space networks, if any."""

@@ -23,6 +23,16 @@ def _check_each_once(counterparts: dict[str, list[str]]) -> dict[str, list[str]]
     return counterparts
 
 
+def _check_unlike(pair: list[str]) -> list[str]:
+    if pair[0] == pair[1]:
+        raise ValueError(f"{pair[0]!r} is compared with itself. Name two methods")
+    return pair
+
+
+_Pair = Annotated[list[str], Field(min_length=2, max_length=2), AfterValidator(_check_unlike)]
+Pairs = Annotated[list[_Pair], Field(min_length=1)]
+
+
 def metrics(*names: str) -> Any:
     """A list of these metrics, each at most once."""
     return Annotated[list[Literal[names]], Field(min_length=1), AfterValidator(_check_once)]
@@ -31,12 +41,6 @@ def metrics(*names: str) -> Any:
 def again(name: Any) -> Any:
     """Counterparts from other seeds by name, each once."""
     return Annotated[dict[Name, list[name]], AfterValidator(_check_each_once)]
-
-
-def pairs(name: Any = str) -> Any:
-    """Pairs of names."""
-    pair = Annotated[list[name], Field(min_length=2, max_length=2)]
-    return Annotated[list[pair], Field(min_length=1)]
 
 
 class Bounded(Model):

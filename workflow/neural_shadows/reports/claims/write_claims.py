@@ -3,17 +3,15 @@
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import pandas as pd
 
-from neural_shadows.evaluation.per_view_metrics import read_metrics
-from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.metric_files import read_metrics, read_view_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.claims.claim_kinds import kind_of
+from neural_shadows.reports.claims.frames import SoftTable, TableSettings, soft_values
 from neural_shadows.reports.claims.gates import judge
-from neural_shadows.reports.claims.measured import TEXT_SAMPLES, Measured
-from neural_shadows.reports.claims.soft_claims import SoftTable, soft_values
+from neural_shadows.reports.claims.measured import TEXT_SAMPLES, Claim, Measured
 from neural_shadows.reports.data import phrases
 from neural_shadows.reports.data.inputs import by_folder, read_meshes
 from neural_shadows.reports.data.learned import margins
@@ -47,9 +45,9 @@ def claims(
     tables: list[Path],
     screen_trainings: list[Path],
     published_csv: Path,
-    claims: Mapping[str, Mapping[str, Any]],
+    claims: Mapping[str, Claim],
     learning_curves: Mapping[str, Sequence[CurvePoint]],
-    soft_tables: Mapping[str, Mapping[str, Any]],
+    soft_tables: Mapping[str, TableSettings],
     run: Run,
     scenes: Mapping[str, SceneInfo],
 ) -> Table:
@@ -63,14 +61,12 @@ def claims(
             a table.
         claims: by name, see `judge`, with `section` and `statement`.
         learning_curves: the points of each experiment's curve, the budgets growing.
-        soft_tables: of each its `frame_set`, the `labels` of its methods, its `scenes`, and its
-            `radii` as texts.
 
     Raises:
         InputError: a file is missing, or a method is without a value of another's view.
     """
     published = read_rows(published_csv)
-    kinds = {claim["kind"]: kind_of(claim) for claim in claims.values()}.values()
+    kinds = [*dict.fromkeys(map(kind_of, claims.values()))]
     data = Measured(
         metrics={scene: _by_view(paths, kinds) for scene, paths in by_folder(metrics).items()},
         losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
@@ -110,21 +106,21 @@ def claims(
 
 def _by_view(paths: Sequence[Path], kinds: Iterable[ModuleType]) -> pd.DataFrame:
     """A scene's values, a row a view."""
-    metrics = read_metrics(paths)
+    metrics = read_view_metrics(paths)
     quality = values_by_view(metrics, metrics["method"].unique())
     counts = [kind.counts_by_view(metrics) for kind in kinds if hasattr(kind, "counts_by_view")]
     return pd.concat([quality, *counts], axis=1)
 
 
 def _soft(
-    metrics: Sequence[Path], times: Sequence[Path], tables: Mapping[str, Mapping[str, Any]]
+    metrics: Sequence[Path], times: Sequence[Path], tables: Mapping[str, TableSettings]
 ) -> dict[str, SoftTable]:
     """Measured values of soft shadows by table."""
-    timed = {path.stem: read_json(path) for path in times}
+    timed = {path.parent.name: read_json(path) for path in times}
     soft = {}
     for table, about in tables.items():
-        of_frames = [path for path in metrics if path.parent.name == about["frame_set"]]
-        measured = read_soft_metrics(of_frames)
+        of_frames = [path for path in metrics if path.parents[1].name == about["frame_set"]]
+        measured = read_metrics(of_frames)
         values = soft_values(measured[measured["scene"].isin(about["scenes"])])
         soft[table] = SoftTable(values, about["labels"], timed.get(table), about["radii"])
     return soft

@@ -1,6 +1,7 @@
 """The size of the equally good shadow map.
 
-It depends less on mesh, views and LPIPS network than the quality itself: the thesis's network on the dragon equals its shadow map of 386² by LPIPS, of 191² by PSNR.
+It depends less on mesh, views and LPIPS network than the quality itself: the thesis's network on
+the dragon equals its shadow map of 386² by LPIPS, of 191² by PSNR.
 """
 
 from collections.abc import Sequence
@@ -8,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from neural_shadows.evaluation.method_names import family_and_size
+from neural_shadows.evaluation.registry import family_and_size
 from neural_shadows.metrics.equivalent_resolution import equivalent_resolution
 from neural_shadows.metrics.pooled_psnr import mse_of
 

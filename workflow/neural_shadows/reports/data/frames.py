@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from neural_shadows.evaluation.answers import read_view
 from neural_shadows.evaluation.references import References
-from neural_shadows.evaluation.visibilities import read_visibility
 from neural_shadows.rendering.shading import shade
 from neural_shadows.reports.data.method_look import REFERENCE
 from neural_shadows.scenes.cameras import VIEW_SETS
@@ -39,8 +39,8 @@ def read_frames(
 
     Args:
         references: batches of the scene, as BATCH.safetensors; visibilities: of its methods, as
-            METHOD.BATCH.npz, in the order of the images.
-        metrics: of the methods, of `read_metrics`.
+            SCENE.BATCH/METHOD.npz, in the order of the images.
+        metrics: of the methods, of `read_view_metrics`.
 
     Raises:
         InputError: a file cannot be read.
@@ -50,8 +50,8 @@ def read_frames(
     frames = {}
     for path in references:
         batch = References(path)
-        # Of another batch the key is METHOD.BATCH, of which there are no scores.
-        answered = {file.stem.removesuffix(f".{path.stem}"): file for file in visibilities}
+        group = f"{path.parent.name}.{path.stem}"
+        answered = {file.stem: file for file in visibilities if file.parent.name == group}
         for number, view in enumerate((v.view_set, v.index) for v in batch.views):
             if view not in views:
                 continue
@@ -59,7 +59,7 @@ def read_frames(
             picture = Frame(view, _caption(view, counts[view[0]]), {REFERENCE: shade(frame, truth)})
             for method, file in answered.items():
                 if (*view, method) in scores.index:
-                    visibility = read_visibility(file, number, frame)
+                    visibility = read_view(file, number, frame)
                     picture.images[method] = shade(frame, visibility)
                     picture.scores[method] = scores.loc[*view, method].dropna().to_dict()
             frames[view] = picture

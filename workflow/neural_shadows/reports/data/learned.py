@@ -10,13 +10,12 @@ from neural_shadows.metrics.intervals import (
     paired_difference,
     pooled_psnr_difference,
 )
+from neural_shadows.metrics.registry import metrics
 from neural_shadows.settings.records import Row
 
 Advantage = tuple[float, float, float]  # a value and the ends of its 95 % interval
 
 THESIS_METRICS = ("lpips", "psnr", "ssim")  # of its tables
-
-HIGHER_IS_BETTER = ("psnr", "ssim")
 # The configuration that the thesis prints twice, trained anew: the difference is by chance.
 SAME = (("4.1", "poisson_quadtree"), ("4.2", "frequencies_10"))
 
@@ -37,7 +36,7 @@ def advantage(a: pd.Series, b: pd.Series, metric: str, seed: int) -> Advantage:
     """
     if metric == "psnr":
         return pooled_psnr_difference(a.to_numpy(), b.to_numpy(), seed)
-    better, worse = (a, b) if metric in HIGHER_IS_BETTER else (b, a)
+    better, worse = (a, b) if metrics()[metric].better == "high" else (b, a)
     return paired_difference(better.to_numpy(), worse.to_numpy(), seed)
 
 
@@ -78,7 +77,7 @@ def learned_methods(
 
     Args:
         wide: of `values_by_view`, with `NO_SHADOW`.
-        rows: of `config.rows_of`; untrained ones are left out.
+        rows: of `sections.rows`; untrained ones are left out.
     """
     if len(wide) < FEWEST_VIEWS:
         return {}

@@ -1,16 +1,26 @@
 """Names of the lights of soft shadows, by their radii."""
 
+from neural_shadows.rendering.light_shape import UNITS
 from neural_shadows.settings.records import PartRecord
-
-UNITS = {"metres": "m", "scene_sizes": "S"}
 
 
 def light_names(about: PartRecord) -> list[str]:
     """Names of the lights of a part of a frame set, in order; `about`: its JSON."""
-    unit = UNITS[about.get("radius_unit", "metres")]
-    return [light_name(radius, unit) for radius in about.get("given_radii", about["radii"])]
+    return [light_name(radius, unit_of(about)) for radius in radii_of(about)]
+
+
+def radii_of(about: PartRecord) -> list[float]:
+    """Radii of a part's lights, as they are configured, in `unit_of`."""
+    return about.get("given_radii", about["radii"])
+
+
+def unit_of(about: PartRecord) -> str:
+    """Unit of the radii: m, S for sizes of the scene, or °."""
+    return UNITS[about.get("radius_unit", "metres")]
 
 
 def light_name(radius: float, unit: str) -> str:
-    """Name of a light of a radius; `unit`: m, or S for sizes of the scene."""
+    """Name of a light of a radius; `unit`: see `unit_of`."""
+    if unit == UNITS["degrees"]:
+        return f"sun of {radius:.3g}° radius" if radius else "sun of no extent"
     return f"light of {radius:.3g} {unit} radius" if radius else "point light"

@@ -1,8 +1,14 @@
 """The look of each kind of method for hard shadows, and of networks of one object."""
 
 from neural_shadows.evaluation.look import BLACK, BLUE, GREEN, ORANGE, PINK, YELLOW, Look
-from neural_shadows.evaluation.method_names import METHODS, family_and_size, unbiased
 from neural_shadows.evaluation.null_predictors import NULL
+from neural_shadows.evaluation.registry import (
+    RAY_TRACED,
+    VIEW_METHODS,
+    family_and_size,
+    family_look,
+    unbiased,
+)
 from neural_shadows.settings.records import Row
 
 REFERENCE = "reference"
@@ -16,7 +22,7 @@ LOOKS = {
         "★",
         "Traces a ray from each pixel to the light: exact, and the reference of all others.",
     ),
-    **{key: method.look for key, method in METHODS.items() if key not in NULL},
+    **{key: family_look(key) for key in VIEW_METHODS if key not in NULL},
     "frequency": Look(
         "thesis's network",
         ORANGE,
@@ -83,12 +89,12 @@ LOOKS = {
         "►",
         "The height of a terrain over its ground plan, marched. No training.",
     ),
-    **{key: METHODS[key].look for key in NULL},
+    **{key: family_look(key) for key in NULL},
 }
 
 
 def kind_of(row: Row) -> str:
-    """The key in `LOOKS` of the method of a row of `config.rows_of`.
+    """The key in `LOOKS` of the method of a row of `sections.rows`.
 
     Other kinds of networks are keys, too (see `look_of_kind`).
     """
@@ -96,11 +102,11 @@ def kind_of(row: Row) -> str:
     if encoding is not None:
         built = encoding == "occupancy_field" and not row["trained"]
         return "distances" if built else encoding
-    return family_and_size(method)[0] or REFERENCE  # `ray_traced` is the same
+    return REFERENCE if method == RAY_TRACED else family_and_size(method)[0] or REFERENCE
 
 
 def look_of(row: Row) -> Look:
-    """The look of the method of a row of `config.rows_of`."""
+    """The look of the method of a row of `sections.rows`."""
     return look_of_kind(kind_of(row))
 
 

@@ -61,7 +61,8 @@ def describe_frames(run: Run) -> str:
 def is_own_mesh(mesh: MeshReport, scene: SceneInfo) -> bool:
     """Test for the thesis's own mesh.
 
-    `thesis_mesh` is true also of procedural meshes made to its description: its numbers may stand beside them.
+    `thesis_mesh` is true also of procedural meshes made to its description: its numbers may stand
+    beside them.
     """
     return mesh["thesis_mesh"] and not scene["procedural"]
 

@@ -1,14 +1,15 @@
 """Printed numbers of the thesis and of two papers (config/published*.csv)."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import repeat
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.data.equivalent_maps import equivalent_maps
-from neural_shadows.reports.data.phrases import TEXTS
-from neural_shadows.settings.records import MeshReport, Profile, Row
+from neural_shadows.settings.records import MeshReport, Row
 
 OF_ANY_MESH = ("size_kib", "memory_mib")
 
@@ -20,8 +21,6 @@ NETWORKS = {
     "network_single_axis": "Thesis's network, single axis, as printed",
 }
 SIZE = ("4.6", "dragon_256", "size_kib")  # of each of these networks
-# Factors from the units of published_kpnsm.csv to ours.
-KPNSM_UNITS: Mapping[str, float] = {"mse": 1e-4, "ssim": 1, "time": 1, "temporal_error": 1e-2}
 
 
 def read_published(path: Path) -> pd.Series:
@@ -86,10 +85,29 @@ def add_printed(
 
 
 def printed_column(
-    published: pd.Series, table: str | None, rows: Iterable[str], column: str
+    published: pd.Series, table: str | None, rows: Iterable[str], columns: str | Iterable[str]
 ) -> np.ndarray:
-    """A printed column of some rows, (n,) float64; NaN without a printed number."""
-    return np.array([published.get((table, row, column), np.nan) for row in rows], dtype=float)
+    """A printed column of some rows, (n,) float64; NaN without a printed number.
+
+    Args:
+        columns: the column's name, or one for each row.
+    """
+    names = repeat(columns) if isinstance(columns, str) else columns
+    keys = ((table, row, column) for row, column in zip(rows, names))
+    return np.array([published.get(key, np.nan) for key in keys], dtype=float)
+
+
+def with_printed(
+    table: pd.DataFrame, name: str, printed: Sequence[float], comparable: bool = True
+) -> pd.DataFrame:
+    """Add `printed_NAME` and `NAME_minus_printed`.
+
+    Args:
+        comparable: false if the difference has no meaning, and is NaN.
+    """
+    table = table.assign(**{f"printed_{name}": printed})
+    difference = table[name] - table[f"printed_{name}"]
+    return table.assign(**{f"{name}_minus_printed": difference if comparable else np.nan})
 
 
 def printed_value(
@@ -99,22 +117,11 @@ def printed_value(
     if table is None or row is None:
         return np.nan
     key = (f"T{table.removeprefix('kpnsm.')}", row, column)
-    return KPNSM_UNITS[metric] * published.get(key, np.nan)
+    factor = metrics()[metric].factor if metric in metrics() else 1  # the paper's units are ours
+    return 1 / factor * published.get(key, np.nan)
 
 
 def printed_size(published: pd.Series) -> tuple[int, int]:
     """Width and height of the frames of Datta et al. 2022, in pixels."""
     width, height = (published[("nsm.data", "frame", side)] for side in ("width", "height"))
     return int(width), int(height)
-
-
-def describe_printed_times(profile: Profile, published: pd.Series) -> str:
-    """Describe the frames and the GPU of printed times."""
-    width, height = printed_size(published)
-    note = (
-        f"Printed: {TEXTS['nsm']}, frames of {width} × {height}, 16-bit floats on an RTX 2080 Ti. "
-        "Milliseconds are of another machine."
-    )
-    if (profile["width"], profile["height"]) == (width, height):
-        return note
-    return f"{note} Our frames have another size, so only weights have differences."

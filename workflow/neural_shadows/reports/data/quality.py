@@ -8,22 +8,20 @@ import numpy as np
 import pandas as pd
 
 from neural_shadows.errors import InputError
-from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
-from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.evaluation.registry import RAY_TRACED
 from neural_shadows.metrics.intervals import mean_interval, pooled_psnr_interval
 from neural_shadows.metrics.pooled_psnr import identical
+from neural_shadows.metrics.registry import frame_metrics
 from neural_shadows.reports.data.equivalent_maps import equivalent_maps
 from neural_shadows.reports.data.inputs import by_folder
-from neural_shadows.reports.data.learned import advantage, learned_methods
+from neural_shadows.reports.data.learned import THESIS_METRICS, advantage, learned_methods
+from neural_shadows.reports.data.table import with_ends
 from neural_shadows.settings.records import Lpips, MeshReport, Row, Run
 
-METRICS = ("lpips", "psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak")
-
-
-def with_ends(metric: str) -> list[str]:
-    """The columns of a metric: its mean and the ends of its interval."""
-    return [metric, f"{metric}_low", f"{metric}_high"]
+# The thesis's first.
+METRICS = tuple(dict.fromkeys([*THESIS_METRICS, *frame_metrics("hard")]))
 
 
 def scene_quality(
@@ -35,7 +33,8 @@ def scene_quality(
 ) -> pd.DataFrame:
     """Tabulate the quality of a scene's methods.
 
-    Without ray tracing, the reference itself. Columns: those of `quality_table`, `learned`, those of `differences` and of `equivalent_maps`.
+    Without ray tracing, the reference itself. Columns: those of `quality_table`, `learned`, those
+    of `differences` and of `equivalent_maps`.
 
     Args:
         metrics: of all methods of the rows.
@@ -46,7 +45,7 @@ def scene_quality(
         InputError: a file cannot be read, or a method lacks a value of a view that others have.
     """
     rows = [row for row in rows if row["method"] != RAY_TRACED]
-    wide = values_by_view(read_metrics(metrics), [row["method"] for row in rows])
+    wide = values_by_view(read_view_metrics(metrics), [row["method"] for row in rows])
     table = quality_table(wide, rows, seed)
     learned = learned_methods(wide, rows, margins, seed)
     table["learned"] = pd.Series([learned.get(row["method"]) for row in rows], dtype=object)

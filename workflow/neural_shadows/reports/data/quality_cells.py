@@ -4,20 +4,8 @@ from dataclasses import replace
 
 import pandas as pd
 
-from neural_shadows.reports.data.quality import with_ends
-from neural_shadows.reports.data.table import Column, intervals
-
-# Markdown: heading, factor, decimals. The thesis prints LPIPS and SSIM with four, PSNR with two.
-READING = {
-    "lpips": ("LPIPS ↓", 1, 4),
-    "psnr": ("PSNR ↑", 1, 2),
-    "psnr_pooled": ("pooled PSNR ↑", 1, 2),
-    "ssim": ("SSIM ↑", 1, 4),
-    "flip": ("FLIP ↓", 1, 4),
-    "shadow_error": ("shadow error % ↓", 100, 2),
-    "false_shadow": ("false shadow % ↓", 100, 2),
-    "light_leak": ("light leak % ↓", 100, 2),
-}
+from neural_shadows.metrics.registry import metrics
+from neural_shadows.reports.data.table import Column, intervals, numbers, with_ends
 
 
 def describe_quality(table: pd.DataFrame, against: str | None) -> list[str]:
@@ -85,7 +73,27 @@ def map_cells(lpips: pd.Series, psnr: pd.Series) -> list[str]:
 
 
 def quality_column(table: pd.DataFrame, metric: str) -> Column:
-    """A metric: mean [low, high]. LPIPS is not comparable with the thesis's, of another network."""
-    _, factor, decimals = READING[metric]
-    column = intervals(table, with_ends(metric), decimals, factor)
-    return replace(column, comparable=metric != "lpips")
+    """A metric of hard shadows: mean [low, high]."""
+    column = metric_column(table, metric, interval=True)
+    return replace(column, comparable=metrics()[metric].comparable)
+
+
+def metric_column(
+    table: pd.DataFrame,
+    metric: str,
+    name: str | None = None,
+    *,
+    interval: bool = False,
+    digits: int | None = None,
+) -> Column:
+    """A metric in its unit, with its digits or others.
+
+    Args:
+        name: of the table's column, if another than the metric's.
+        interval: with its ends, see `with_ends`.
+    """
+    described, name = metrics()[metric], name or metric
+    digits = described.digits if digits is None else digits
+    if interval:
+        return intervals(table, with_ends(name), digits, described.factor)
+    return numbers(table[name], f"{{:.{digits}f}}", described.factor)

@@ -1,11 +1,14 @@
 """Tables of times from `profile_screen_network`."""
 
-from collections.abc import Mapping
-from typing import Any
+from functools import partial
 
 import pandas as pd
 
-from neural_shadows.evaluation.soft_registry import FORMATS
+from neural_shadows.evaluation.registry import FORMATS
+from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.phrases import TEXTS
+from neural_shadows.reports.data.published import printed_size
+from neural_shadows.reports.data.table import Column, numbers
 from neural_shadows.settings.records import Profile, ProfileRun
 
 
@@ -21,7 +24,7 @@ def run_name(run: ProfileRun) -> str:
     return f"{run['precision']}, {'GPU' if run['device'] == 'cuda' else threads}"
 
 
-def compared(profile: Profile) -> Mapping[str, Any]:
+def compared(profile: Profile) -> ProfileRun:
     """The run beside printed times: all threads or the GPU, 16 bits if possible."""
     return profile["runs"][-1]
 
@@ -33,6 +36,19 @@ def part_times(profile: Profile) -> pd.DataFrame:
         for run in profile["runs"]
     }
     return pd.DataFrame(times).sort_index(level="level", sort_remaining=False, kind="stable")
+
+
+def of_printed_size(profile: Profile, published: pd.Series) -> bool:
+    """Check for frames of the size of Datta et al. 2022."""
+    return (profile["width"], profile["height"]) == printed_size(published)
+
+
+def run_columns(profile: Profile, table: pd.DataFrame) -> dict[str, Column]:
+    """Columns of each run's milliseconds, of `ms_RUN`."""
+    return {
+        f"ms, {run_name(run)}": numbers(table[f"ms_{run_key(run)}"], partial(short, digits=4))
+        for run in profile["runs"]
+    }
 
 
 def product_share(profile: Profile, run: ProfileRun) -> float:
@@ -57,6 +73,18 @@ def not_timed(profile: Profile) -> str:
     return (
         f" Not timed: {', '.join(lacking)}, which has no instructions for it and would emulate it."
     )
+
+
+def describe_printed_times(profile: Profile, published: pd.Series) -> str:
+    """Describe the frames and the GPU of printed times."""
+    width, height = printed_size(published)
+    note = (
+        f"Printed: {TEXTS['nsm']}, frames of {width} × {height}, 16-bit floats on an RTX 2080 Ti. "
+        "Milliseconds are of another machine."
+    )
+    if of_printed_size(profile, published):
+        return note
+    return f"{note} Our frames have another size, so only weights have differences."
 
 
 def describe(profile: Profile) -> str:

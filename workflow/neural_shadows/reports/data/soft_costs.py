@@ -1,4 +1,4 @@
-"""Costs of soft-shadow methods, from `time_soft_methods`."""
+"""Costs of soft-shadow methods, from `time_methods`."""
 
 import numpy as np
 

@@ -2,7 +2,7 @@
 
 import json as json_text
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,10 @@ from tabulate import tabulate
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_text
+from neural_shadows.reports.data.phrases import describe_run, titled
+from neural_shadows.running.bundles import argument_types, call
 from neural_shadows.running.origin import describe_origin
+from neural_shadows.running.stage import run_stage
 
 PARTING = ("scene", "light")  # first columns that part a table
 BETTER = {"↑": "high", "↓": "low"}  # by the end of a heading
@@ -53,14 +56,15 @@ class Table:
         data: the CSV, all digits.
         columns: formatted, by heading; plain texts are a `Column` of text.
         notes: one a line, below the table; of inline Markdown.
+        title: by default the configured one, with the number in its text.
         lead: Markdown between the title and the table.
         text_columns: number of text columns from the left; the others are aligned right.
     """
 
-    title: str
     data: pd.DataFrame
     columns: Mapping[str, Column | Iterable[str]]
     notes: Sequence[str]
+    title: str = ""
     lead: str = ""
     text_columns: int = 1
 
@@ -70,6 +74,33 @@ class Table:
             heading: column if isinstance(column, Column) else Column([*column])
             for heading, column in self.columns.items()
         }
+
+
+def run_table(job: Any, function: Callable[..., Table]) -> None:
+    """Write a job's table.
+
+    Args:
+        function: takes the files and settings that its arguments name (`layout.report_inputs`, and
+            the settings of the table's entry).
+    """
+    run_stage(job, whole_table(function), write_table)
+
+
+def whole_table(function: Callable[..., Table]) -> Callable[..., Table]:
+    """A function of a table with title, scale and its note."""
+
+    def table(**arguments: Any) -> Table:
+        result, run = call(function, arguments), arguments["run"]
+        scaled = result.data if "scale" in result.data else result.data.assign(scale=run["scale"])
+        return replace(
+            result,
+            title=result.title or titled(arguments["title"], arguments["published"]),
+            data=scaled,
+            notes=[*result.notes, describe_run(run)],
+        )
+
+    table.__annotations__ = argument_types(function)
+    return table
 
 
 def write_table(table: Table, csv: Path, md: Path, json: Path) -> None:
@@ -171,6 +202,11 @@ def numbers(
     values = np.asarray([*values], float)
     texts = number_cells(values, form, factor)
     return Column(texts, values * factor, printed_of=printed_of)
+
+
+def with_ends(name: str) -> list[str]:
+    """The columns of a value and of the ends of its interval."""
+    return [name, f"{name}_low", f"{name}_high"]
 
 
 def intervals(

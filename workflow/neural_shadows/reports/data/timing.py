@@ -19,7 +19,7 @@ def timing_table(
     rows: Sequence[Row],
     weights: Sequence[Path],
 ) -> pd.DataFrame:
-    """Tabulate times and bytes by row; `times`: of `measure_frame_times`, by scene.
+    """Tabulate times and bytes by row; `times`: of `time_methods`, by scene.
 
     Columns `scene`, `method` (the label), `FRAME_MS`, `OWN_MS`, `repeats`, `device`,
     `stored_bytes`, `resident_bytes`: what a file of the method holds, and what is in memory while

@@ -2,13 +2,12 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from neural_shadows.metrics.error_scale import error_of
-from neural_shadows.settings.records import CurvePoint, MeshReport, Row
+from neural_shadows.metrics.registry import error_of
+from neural_shadows.settings.records import CurvePoint, MeshReport, Row, TrainingRecord
 
 THESIS_SAMPLES = 1_000_000 * 65_536  # steps of batches [4.1]
 LOSS_SHARE = 0.1  # the end of a loss curve
@@ -45,7 +44,7 @@ class Trained:
 
     metrics: Mapping[str, pd.DataFrame]
     losses: Mapping[str, pd.DataFrame]
-    trainings: Mapping[str, Mapping[str, Any]]
+    trainings: Mapping[str, TrainingRecord]
     meshes: Mapping[str, MeshReport]
     curves: Mapping[str, Sequence[CurvePoint]]
     seed: int
@@ -79,7 +78,7 @@ class Trained:
             return "trained from no common seed"
         return f"trained on {' and '.join(f'{samples:,}' for samples in most)} samples"
 
-    def died(self, row: Row, budgets: Iterable[Budget]) -> bool:
+    def diverged(self, row: Row, budgets: Iterable[Budget]) -> bool:
         """Check for diverged trainings of a method."""
         runs = [run for budget in budgets for run in budget.runs.get(row["experiment"], ())]
         return any(self.trainings[run]["died_at_step"] is not None for run in runs)
@@ -122,7 +121,7 @@ class Trained:
         finite = len(end) and np.isfinite(end).all()
         return float(max(end.mean() if finite else 0.0, record["no_shadow_loss"]))
 
-    def _points(self, experiment: str) -> Sequence[Mapping[str, Any]]:
+    def _points(self, experiment: str) -> Sequence[CurvePoint]:
         """The trainings of an experiment's curve, or its own."""
         if points := self.curves.get(experiment):
             return points

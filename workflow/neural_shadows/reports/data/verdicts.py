@@ -12,13 +12,13 @@ CONTRADICTED = "contradicted"
 MEANINGS = {
     NOT_COMPARABLE: "what was measured is not what the claim is about: another mesh than the "
     "thesis's, or times of another class of device.",
-    NOT_LEARNED: "a network of the claim is not better than what knows nothing (no shadow at all, in "
-    "every metric; for a network of frames the best of no shadow, the hard map and its own base, in "
-    "squared error on validation frames), or died, so that it says nothing of networks that have "
+    NOT_LEARNED: "a network of the claim is not better than the null predictors (no shadow, in every "
+    "metric; for a screen-space network the best of no shadow, the hard map and its own base, in "
+    "squared error on validation frames), or diverged, so that it says nothing of networks that have "
     "learned.",
-    VACUOUS: "supported, and what learns nothing (no shadow, all dark, the light's map as it is, the "
-    "base that a network is given) passes the same test in the networks' place; where others are to "
-    "beat a network, only below a thirtieth of its text's samples.",
+    VACUOUS: "supported, and a null predictor (no shadow, all dark, the light's map as it is, a "
+    "network's base) passes the same test in the networks' place; where others are to beat a network, "
+    "only below a thirtieth of its text's samples.",
     TOO_SMALL: "too few training samples, seeds, views, frames or scenes for what is claimed, and no "
     "learning curves license an extrapolation to the samples of its text; or against the claim below a "
     "thirtieth of these, which says nothing of more.",

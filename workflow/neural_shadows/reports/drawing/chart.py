@@ -1,6 +1,6 @@
 """Charts with text as text, and tooltips at their points."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -8,12 +8,10 @@ from xml.etree import ElementTree
 import pandas as pd
 
 from neural_shadows.files.whole_files import whole_file
-from neural_shadows.reports.drawing.style import write_figure
+from neural_shadows.reports.drawing.style import Axes, Figure, run_figure, write_figure
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 SVG = "http://www.w3.org/2000/svg"
 DATA = "data"
@@ -27,7 +25,7 @@ def add_tooltip(artist: "Artist", text: str) -> None:
 
 
 def points_with_tooltips(
-    axes: "Axes", x: Iterable[float], y: Iterable[float], texts: Iterable[str], **look: Any
+    axes: Axes, x: Iterable[float], y: Iterable[float], texts: Iterable[str], **look: Any
 ) -> None:
     """Draw points with a tooltip each."""
     look = {"linestyle": "", "marker": "o"} | look
@@ -36,7 +34,30 @@ def points_with_tooltips(
         add_tooltip(point, text)
 
 
-def write_chart(figure: "Figure", png: Path, svg: Path, data: pd.DataFrame | None = None) -> None:
+def point_with_interval(
+    axes: Axes, x: float, value: float, ends: Sequence[float], text: str, **look: Any
+) -> None:
+    """Draw a point with its interval and a tooltip."""
+    spread = [[value - ends[0]], [ends[1] - value]]
+    bar = axes.errorbar(x, value, spread, **{"capsize": 2, "linestyle": ""} | look)
+    add_tooltip(bar.lines[0], text)
+
+
+def run_chart(job: Any, draw: Callable[..., Any]) -> None:
+    """Draw and write a job's chart.
+
+    Args:
+        draw: see `run_figure`; returns the figure, or also its data, see `write_chart`.
+    """
+
+    def write(drawn: Any, png: Path, svg: Path) -> None:
+        figure, data = drawn if isinstance(drawn, tuple) else (drawn, None)
+        write_chart(figure, png, svg, data)
+
+    run_figure(job, draw, write)
+
+
+def write_chart(figure: Figure, png: Path, svg: Path, data: pd.DataFrame | None = None) -> None:
     """Write a figure with tooltips in its SVG.
 
     These are `<title>` elements, shown by browsers at the points.

@@ -18,9 +18,8 @@ class MeshSlice:
 
     across: np.ndarray  # (3,) unit vector, drawn to the right
     up: np.ndarray  # (3,) unit vector, drawn upwards
-    outline: (
-        np.ndarray
-    )  # (k, 2, 2) float64, segments (x, y) in the upright plane through the origin
+    # (k, 2, 2) float64, segments (x, y) in the upright plane through the origin
+    outline: np.ndarray
     direction: np.ndarray  # (3,) d = −l, down to the right
     tracer: Tracer
 

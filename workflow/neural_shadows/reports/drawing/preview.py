@@ -14,6 +14,7 @@ from neural_shadows.rendering.shading import shade
 from neural_shadows.reports.drawing.drawing import SilhouetteDrawing, draw_disk
 from neural_shadows.reports.drawing.hero_view import DISTANCE, FOV, hero_view
 from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import Viewpoint, camera_axes
 from neural_shadows.scenes.scene import Scene, open_scene
@@ -25,8 +26,13 @@ CORNERS = 1.3  # radii: the quadtree is rotated with the view, and wider than th
 AXIS_COLOURS = dict(zip("xyz", (COLOURS[1], COLOURS[2], COLOURS[0])))
 
 
-def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: SceneSettings) -> None:
+def draw(
+    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: SceneSettings, advice: str
+) -> None:
     """Draw an object in its bounding sphere, and its quadtree.
+
+    Args:
+        advice: what to do next.
 
     Raises:
         InputError: an input file is missing or not whole.
@@ -47,10 +53,13 @@ def draw(mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, scene: SceneS
     closed = "The mesh is watertight." if report["watertight"] else "The mesh is open."
     if report["sheet"]:
         closed += " It is a sheet, without an inside, and so are its occupancy fields."
-    up = f"Up is {scene['up']}: if the object is not upright, change the scene's `up`."
-    notes = f"{up}\n{closed} Orange: its bounding sphere, whose radius is the unit of all lengths."
+    notes = (
+        f"Up is {scene['up']}: if the object is not upright, set the scene's `up` to another axis "
+        f"(of the dragon `--config up=z`).\n{closed} Orange: its bounding sphere, whose radius is "
+        f"the unit of all lengths.\n{advice}"
+    )
     note_below(figure, notes)
-    print(notes)
+    print(notes, file=progress.TERMINAL)
     write_figure(figure, png, svg)
 
 

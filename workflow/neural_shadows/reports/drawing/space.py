@@ -2,13 +2,14 @@
 
 import os
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from neural_shadows.errors import InputError
 from neural_shadows.reports.drawing import opengl, style
+from neural_shadows.reports.drawing.hero_view import hero_view
+from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.scenes.cameras import Viewpoint
 
 if TYPE_CHECKING:
@@ -46,39 +47,36 @@ def new_plotter(view: Viewpoint) -> "pyvista.Plotter":
     return plotter
 
 
-def add_object(
-    plotter: "pyvista.Plotter", scene: "Scene", opacity: float = 1.0
-) -> "pyvista.PolyData":
-    """Add and return a scene's object with smooth normals."""
+def object_plotter(
+    scene: "Scene", distance: float, *, opacity: float = 1.0, ground: bool = False
+) -> "tuple[pyvista.Plotter, pyvista.PolyData]":
+    """A window with a scene's object, smooth, and a disk of its ground.
+
+    Args:
+        distance: of the camera, in sphere radii. ground: drawn if the scene has one.
+    """
     import pyvista
 
+    plotter = new_plotter(hero_view(scene.up, distance))
     (mesh,) = scene.objects
     shape = pyvista.PolyData.from_regular_faces(mesh.vertices, mesh.faces)
     shape.point_data.active_normals = mesh.vertex_normals
     plotter.add_mesh(shape, color=OBJECT_COLOUR, smooth_shading=True, opacity=opacity)
-    return shape
-
-
-def add_ground(plotter: "pyvista.Plotter", scene: "Scene") -> None:
-    """Add a disk of a scene's ground, if any."""
-    import pyvista
-
-    if scene.ground is not None:
+    if ground and scene.ground is not None:
         centre = scene.ground * scene.up
         disk = pyvista.Disc(center=centre, inner=0, outer=REACH, normal=scene.up, c_res=90)
         plotter.add_mesh(disk, color="#f1eee6", lighting=False)
+    return plotter, shape
 
 
-def write_pictures(
+def pictures(
     shown: Mapping[str, "pyvista.Plotter"],
-    png: Path,
-    svg: Path,
     *,
     title: str,
     colours: Mapping[str, str] | None = None,
     scale: "tuple[str, ScalarMappable] | None" = None,
-) -> None:
-    """Write windows with headings beside each other, with one legend.
+) -> Figure:
+    """Draw windows with headings beside each other, with one legend.
 
     Args:
         colours: of the legend, by label.
@@ -86,13 +84,13 @@ def write_pictures(
     """
     from matplotlib.patches import Patch
 
-    pictures = [plotter.screenshot(return_img=True) for plotter in shown.values()]
-    rows = np.flatnonzero(np.min(pictures, axis=(0, 2, 3)) < WHITE)
+    images = [plotter.screenshot(return_img=True) for plotter in shown.values()]
+    rows = np.flatnonzero(np.min(images, axis=(0, 2, 3)) < WHITE)
     width = min(6.2, 13.5 / len(shown))  # with three, names on a page of 1168 px are 13 px high
     height = width * (np.ptp(rows) + 1) / WIDTH
     figure = style.new_figure(title, width * len(shown), height + 1.2)
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
-    for axes, heading, plotter, picture in zip(panels, shown, shown.values(), pictures):
+    for axes, heading, plotter, picture in zip(panels, shown, shown.values(), images):
         axes.imshow(picture[rows[0] : rows[-1] + 1])
         plotter.close()
         axes.set_title(heading, fontsize=11)
@@ -101,4 +99,4 @@ def write_pictures(
         figure.colorbar(scale[1], ax=panels, label=scale[0], shrink=0.7)
     if colours:
         style.legend_below(figure, [Patch(color=c, label=label) for label, c in colours.items()])
-    style.write_figure(figure, png, svg)
+    return figure

@@ -1,51 +1,92 @@
 """Style of all figures: resolution, title, legend, writing."""
 
-from collections.abc import Iterable
-from math import ceil
+import textwrap
+from collections.abc import Callable, Iterable
+from math import ceil, log10
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pandas as pd
 
 from neural_shadows.files.whole_files import whole_file
+from neural_shadows.running.bundles import argument_types, call
+from neural_shadows.running.stage import run_stage
 
 if TYPE_CHECKING:
+    import matplotlib.axes
+    import matplotlib.figure
     from matplotlib.artist import Artist
     from matplotlib.axis import Axis
-    from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
+
+# Types of kinds of figures, which the planning of the graph imports without matplotlib.
+Figure: TypeAlias = "matplotlib.figure.Figure"
+Axes: TypeAlias = "matplotlib.axes.Axes"
 
 DPI = 150
 MOST_IN_LINE = 8  # entries of a legend below panels
+TITLE_LETTERS, NOTE_LETTERS = 9.5, 12.5  # an inch
+MOST_DECADES = 2.2  # of a logarithmic axis with labels between powers of ten
 GRID = {"linewidth": 0.4, "alpha": 0.4}
 
 
-def new_figure(title: str, width: float, height: float) -> "Figure":
-    """An empty figure with a title; sizes in inches."""
+def new_figure(title: str, width: float, height: float) -> Figure:
+    """An empty figure with a title, wrapped; sizes in inches."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
     figure.get_layout_engine().set(h_pad=0.08)  # keeps panels' titles off the figure's
+    title = textwrap.fill(title, int(TITLE_LETTERS * width))
     figure.suptitle(title, x=0.01, ha="left", weight="bold")
     return figure
 
 
-def note_below(figure: "Figure", text: str) -> None:
-    """Write a note below a figure."""
-    figure.supxlabel(text, x=0.01, ha="left", fontsize=10)
+def note_below(figure: Figure, text: str) -> None:
+    """Write a note below a figure, each line wrapped."""
+    letters = int(NOTE_LETTERS * figure.get_figwidth())
+    lines = [textwrap.fill(line, letters) for line in text.splitlines()]
+    figure.supxlabel("\n".join(lines), x=0.01, ha="left", fontsize=10)
 
 
 def plain_numbers(axis: "Axis") -> None:
-    """Label a logarithmic axis with plain numbers such as 0.5."""
+    """Label a logarithmic axis, with its data, by 0.5, 20, 5k, 2M."""
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))  # less than a decade: no power of ten
-    axis.set_major_formatter("{x:g}")
+    low, high = axis.get_view_interval()
+    subs = (1, 2, 5) if high < 10**MOST_DECADES * low else (1,)
+    axis.set_major_locator(LogLocator(subs=subs, numticks=12))  # a single decade: no power of ten
+    axis.set_major_formatter(lambda number, _: _short(number))
     axis.set_minor_formatter(NullFormatter())
 
 
+def _short(number: float) -> str:
+    size = min(max(int(log10(number)) // 3, 0), 2)
+    return f"{number / 1000**size:g}{('', 'k', 'M')[size]}"
+
+
+def frame_picture(axes: Axes, colour: str = "#bbbbbb", width: float = 0.5) -> None:
+    """Replace a picture's axes by a thin frame."""
+    axes.set(xticks=[], yticks=[])
+    axes.spines[:].set(visible=colour != "none", edgecolor=colour, linewidth=width)
+
+
+def label_panels(panels: Iterable[tuple[Axes, pd.DataFrame]], size: float) -> None:
+    """Write points' names beside them, when the layout is done.
+
+    Args:
+        panels: axes of one figure, and their points: x, y and name, in the order to place them.
+    """
+    from neural_shadows.reports.drawing.point_labels import label_points
+
+    panels = [*panels]
+    panels[0][0].get_figure(root=True).draw_without_rendering()
+    for axes, points in panels:
+        names, places = points.iloc[:, 2], points.iloc[:, :2].to_numpy(float)
+        label_points(axes, places, [*names], fontsize=size)
+
+
 def legend_below(
-    figure: "Figure", entries: Iterable["Artist"] = (), columns: int = MOST_IN_LINE
+    figure: Figure, entries: Iterable["Artist"] = (), columns: int = MOST_IN_LINE
 ) -> None:
     """Draw one legend of all panels' labels and entries below."""
     labelled = [handle for axes in figure.axes for handle in axes.get_legend_handles_labels()[0]]
@@ -63,7 +104,32 @@ def hollow(table: pd.DataFrame) -> list["Line2D"]:
     return [Line2D([], [], label="not learned", **look)] if any_hollow else []
 
 
-def write_figure(figure: "Figure", png: Path, svg: Path) -> None:
+def run_figure(
+    job: Any, draw: Callable[..., Any], write: Callable[..., None] | None = None
+) -> None:
+    """Draw and write a job's figure.
+
+    Args:
+        draw: takes the files and settings that its arguments name (`layout.report_inputs`, and the
+            settings of the figure's entry), and `heading`, the title with the scale.
+        write: takes the figure, `png` and `svg`; by default `write_figure`.
+    """
+
+    run_stage(job, whole_figure(draw), write or write_figure)
+
+
+def whole_figure(draw: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of a figure with its heading."""
+
+    def figure(**arguments: Any) -> Any:
+        heading = f"{arguments['title']} ({arguments['run']['scale']} scale)"
+        return call(draw, {**arguments, "heading": heading})
+
+    figure.__annotations__ = argument_types(draw)
+    return figure
+
+
+def write_figure(figure: Figure, png: Path, svg: Path) -> None:
     """Write a figure as PNG and as SVG.
 
     Each is written whole or not at all, with pictures embedded. The same figure gives the same

@@ -4,28 +4,28 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.evaluation.per_view_metrics import read_metrics
-from neural_shadows.layout import tables
-from neural_shadows.layout.layout import Layout
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.metrics.pooled_psnr import identical
 from neural_shadows.reports.data.method_look import REFERENCE
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.reports.drawing.style import (
+    Figure,
+    frame_picture,
+    new_figure,
+    note_below,
+    run_figure,
+)
 from neural_shadows.reports.tables import comparison, networks
-from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.cameras import VIEW_SETS
 from neural_shadows.sections.table_figures import MethodsFigure
 from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from neural_shadows.reports.data.frames import Frame
 
 MOST_VIEWS = 24  # of a view set; of more, so many at even steps
@@ -47,43 +47,23 @@ class Settings(MethodsFigure):
     kind: Literal["contact_sheet"] = Field(description="`contact_sheet`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    rows, scene = settings["rows"], settings["scene"]
-    return {
-        "metrics": tables.metrics(layout, rows),
-        "references": tables.references(layout, [scene]),
-        "visibilities": tables.visibilities(layout, rows),
-        "mesh_json": layout.paths.scene("mesh.json", scene),
-    }
-
-
-params = figure_inputs.rows_and_run
-
-
 def draw(
     metrics: list[Path],
     references: list[Path],
     visibilities: list[Path],
     mesh_json: Path,
-    png: Path,
-    svg: Path,
-    *,
     title: str,
     rows: Sequence[Row],
     run: Run,
-) -> None:
+) -> Figure:
     """Draw the views of each view set by each method.
 
     Args:
         metrics, references, visibilities: of all batches, see `read_frames`.
-
-    Raises:
-        InputError: a file is missing or not whole.
     """
     from neural_shadows.reports.data.frames import read_frames
 
-    values = read_metrics(metrics)
+    values = read_view_metrics(metrics)
     frames = {}
     for view_set, numbers in values.groupby("view_set")["view"].unique().items():
         numbers = np.sort(numbers)
@@ -94,12 +74,12 @@ def draw(
     mesh = read_mesh_report(mesh_json)["name"]
     heading = f"{title} ({mesh}, {run['scale']} scale)"
     labels = {row["method"]: row["label"] for row in rows}
-    write_figure(contact_sheet(frames, labels, heading), png, svg)
+    return contact_sheet(frames, labels, heading)
 
 
 def contact_sheet(
     frames: Mapping[str, Sequence["Frame"]], labels: Mapping[str, str], title: str
-) -> "Figure":
+) -> Figure:
     """Draw the view sets' small views, rows alternating by method.
 
     Args:
@@ -124,8 +104,7 @@ def contact_sheet(
         part.suptitle(heading, x=0.005, ha="left", fontsize=11, weight="bold")
         panels = part.subplots(count, columns, squeeze=False)
         for axes in panels.flat:
-            axes.set(xticks=[], yticks=[])
-            axes.spines[:].set_visible(False)
+            frame_picture(axes, "none")
         for j, (method, label) in enumerate(labels.items()):
             lines = panels[j :: len(labels)]
             for line in lines:
@@ -140,4 +119,4 @@ def contact_sheet(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

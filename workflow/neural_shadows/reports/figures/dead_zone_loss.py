@@ -1,17 +1,15 @@
 """The dead-zone loss over the predicted depth (figure 3.6)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import GRID, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import GRID, Figure, run_figure
 from neural_shadows.sections.scene_figures import SceneFigure
+from neural_shadows.settings.records import SceneSettings
 
 
 class Settings(SceneFigure):
@@ -20,13 +18,7 @@ class Settings(SceneFigure):
     kind: Literal["dead_zone_loss"] = Field(description="`dead_zone_loss`")
 
 
-files = figure_inputs.scene_files
-params = figure_inputs.scene
-
-
-def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
-) -> None:
+def draw(mesh_ply: Path, mesh_json: Path, title: str, scene: SceneSettings) -> Figure:
     """Draw the loss of the thickest hit and longest miss."""
     import torch
 
@@ -53,8 +45,8 @@ def draw(
     axes.set_title("shaded: between its bounds any depth is right and costs nothing", fontsize=11)
     axes.grid(**GRID)
     axes.legend()
-    write_figure(figure, png, svg)
+    return figure
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

@@ -1,19 +1,19 @@
 """A network's depths and their bounds, in 3D [figure 3.2]."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
-from neural_shadows.reports.drawing import figure_inputs, space
+from neural_shadows.reports.drawing import space
 from neural_shadows.reports.drawing.hero_view import hero_view
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import Figure, run_figure
 from neural_shadows.sections.any_report import AnyFigure
-from neural_shadows.settings.base import name_in
+from neural_shadows.sections.experiments import RayExperimentName
+from neural_shadows.settings.records import SceneSettings
 
 if TYPE_CHECKING:
     import pyvista
@@ -34,22 +34,11 @@ class Settings(AnyFigure):
     needs_opengl: ClassVar[bool] = True
 
     kind: Literal["depth_sheets_3d"] = Field(description="`depth_sheets_3d`")
-    experiment: name_in("experiments") = Field(description="a name in `experiments`")
+    experiment: RayExperimentName = Field(description="an experiment on rays")
 
 
-files = figure_inputs.experiment_files
-params = figure_inputs.experiment_scene
-encodings = figure_inputs.experiment_encodings
-
-
-def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
-) -> None:
-    """Draw t_lb, t_pred and t_ub of hitting rays as sheets.
-
-    Raises:
-        InputError: an input file is missing or not whole, or there is no OpenGL.
-    """
+def draw(mesh_ply: Path, weights: Path, title: str, scene: SceneSettings) -> Figure:
+    """Draw t_lb, t_pred and t_ub of hitting rays as sheets."""
     import torch
 
     from neural_shadows.networks.weight_file import load_network
@@ -92,7 +81,7 @@ def draw(
             diffuse=0.7,
             show_scalar_bar=False,
         )
-    space.write_pictures(shown, png, svg, title=title, colours=COLOURS)
+    return space.pictures(shown, title=title, colours=COLOURS)
 
 
 def sheet_of(depths: np.ndarray, points: np.ndarray, error: np.ndarray) -> "pyvista.PolyData":
@@ -113,4 +102,4 @@ def sheet_of(depths: np.ndarray, points: np.ndarray, error: np.ndarray) -> "pyvi
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

@@ -1,15 +1,13 @@
 """The two bounds of a label (figure 3.5)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import legend_below, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import Figure, legend_below, run_figure
 from neural_shadows.sections.scene_figures import SceneFigure
+from neural_shadows.settings.records import SceneSettings
 
 
 class Settings(SceneFigure):
@@ -18,13 +16,7 @@ class Settings(SceneFigure):
     kind: Literal["dual_bounds"] = Field(description="`dual_bounds`")
 
 
-files = figure_inputs.scene_files
-params = figure_inputs.scene
-
-
-def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
-) -> None:
+def draw(mesh_ply: Path, mesh_json: Path, title: str, scene: SceneSettings) -> Figure:
     """Draw rays of a slice, coloured by their bounds."""
     from neural_shadows.reports.drawing import drawing
     from neural_shadows.reports.drawing.mesh_slice import slice_rays
@@ -38,8 +30,8 @@ def draw(
         drawing.draw_bounded_rays(axes, slice_rays(cut, count), 1.2)
         drawing.draw_outline(axes, cut)
     legend_below(figure)
-    write_figure(figure, png, svg)
+    return figure
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

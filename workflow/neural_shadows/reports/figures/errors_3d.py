@@ -1,6 +1,6 @@
 """False shadow and light leaks as points, in 3D."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -9,20 +9,17 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
-from neural_shadows.evaluation.method_names import unbiased
-from neural_shadows.files.whole_files import read_json
-from neural_shadows.layout import tables
+from neural_shadows.evaluation.registry import unbiased
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.drawing import space
-from neural_shadows.reports.drawing.hero_view import hero_view
+from neural_shadows.reports.drawing.style import Figure, run_figure
 from neural_shadows.reports.tables import comparison, networks
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.table_figures import MethodsFigure
-from neural_shadows.settings.records import Row, Run
+from neural_shadows.settings.records import Row, SceneSettings
 
 if TYPE_CHECKING:
+    from neural_shadows.evaluation.method import ShadowMethod
     from neural_shadows.evaluation.references import References
-    from neural_shadows.evaluation.shadow_methods import ShadowMethod
 
 USES_GPU = True
 MOST_VIEWS = 12  # of a batch; a network is evaluated for each
@@ -40,30 +37,8 @@ class Settings(MethodsFigure):
 
 
 def files(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    rows, scene = settings["rows"], settings["scene"]
-    return {
-        "mesh_ply": layout.paths.scene("mesh.ply", scene),
-        "references": layout.paths.reference(scene, "000"),
-        "weights": tables.networks(layout, rows, "weights.safetensors"),
-        "depth_biases": tables.depth_biases(layout, rows),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    settings, compute = layout.entry("figures", figure), layout.settings["compute"]
-    return {
-        "scene": layout.entry("scenes", settings["scene"])["scene"],
-        "rows": settings["rows"],
-        "run": layout.run(),
-        "device": compute["device"],
-        "precision": compute["precision"],
-    }
-
-
-def encodings(layout: Layout, figure: str) -> set[str]:
-    rows = layout.entry("figures", figure)["rows"]
-    return layout.encodings(tables.experiments_of(rows))
+    scene = layout.entry("figures", figure)["scene"]
+    return {"references": layout.paths.reference(scene, "000")}
 
 
 def draw(
@@ -71,29 +46,24 @@ def draw(
     references: Path,
     weights: list[Path],
     depth_biases: list[Path],
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    scene: Mapping[str, Any],
+    heading: str,
+    scene: SceneSettings,
     rows: Sequence[Row],
-    run: Run,
     device: str = "auto",
     precision: str = "auto",
     threads: int = 1,
-) -> None:
+) -> Figure:
     """Draw each method's wrong points in a batch of viewpoints.
 
     Args:
         references: of the batch.
         weights, depth_biases: of the rows' experiments.
         device, precision: of networks, see `open_network`.
-
-    Raises:
-        InputError: an input file is missing or not whole, or there is no OpenGL.
     """
-    from neural_shadows.evaluation import shadow_methods
+    from neural_shadows.evaluation import ray_network
+    from neural_shadows.evaluation.frame import constants_of
     from neural_shadows.evaluation.references import References
+    from neural_shadows.evaluation.registry import classic_method
     from neural_shadows.scenes.scene import open_scene
 
     opened = open_scene(mesh_ply, **scene)
@@ -104,23 +74,20 @@ def draw(
         name = unbiased(row["method"])
         bias_path = bias_paths[name] if row["bias"] == "held_out" else None
         if row["experiment"] is None:
-            bias = read_json(bias_path)["depth_bias"] if bias_path else 0.0
-            method = shadow_methods.classic_method(name, opened)
+            bias = constants_of(bias_path)[0]["depth_bias"] if bias_path else 0.0
+            method = classic_method(name, opened)
         else:
             path = weight_paths[row["experiment"]]
-            network, dtype = shadow_methods.open_network(path, device, threads, precision)
-            bias = shadow_methods.take_found(network, bias_path) if bias_path else row["bias"]
-            method = shadow_methods.network_method(network, dtype)
+            network, dtype = ray_network.open_network(path, device, threads, precision)
+            bias = ray_network.take_constants(network, bias_path) if bias_path else row["bias"]
+            method = ray_network.network_method(network, dtype)
         p, error, share = wrong_points(method, bias, References(references))
-        plotter = space.new_plotter(hero_view(opened.up, 4.1))
-        space.add_object(plotter, opened)
-        space.add_ground(plotter, opened)
+        plotter, _ = space.object_plotter(opened, 4.1, ground=True)
         for sign, colour in zip((-1, 1), COLOURS.values()):
             if np.any(error == sign):
                 plotter.add_points(p[error == sign], color=colour, point_size=5, lighting=False)
         shown[f"{row['label']}\n{share:.2%} of the points wrong"] = plotter
-    title = f"{title} ({run['scale']} scale)"
-    space.write_pictures(shown, png, svg, title=title, colours=COLOURS)
+    return space.pictures(shown, title=heading, colours=COLOURS)
 
 
 def wrong_points(
@@ -142,4 +109,4 @@ def wrong_points(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

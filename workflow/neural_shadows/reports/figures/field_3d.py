@@ -1,16 +1,16 @@
 """The learned surface of an occupancy field, in 3D."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.reports.drawing import figure_inputs, space
+from neural_shadows.reports.drawing import space
 from neural_shadows.reports.drawing.hero_view import hero_view
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import Figure, run_figure
 from neural_shadows.sections.scene_figures import FieldFigure
+from neural_shadows.settings.records import SceneSettings
 
 if TYPE_CHECKING:
     import pyvista
@@ -28,21 +28,11 @@ class Settings(FieldFigure):
     kind: Literal["field_3d"] = Field(description="`field_3d`")
 
 
-files = figure_inputs.experiment_files
-params = figure_inputs.experiment_scene
-encodings = figure_inputs.experiment_encodings
-
-
-def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
-) -> None:
+def draw(mesh_ply: Path, weights: Path, title: str, scene: SceneSettings) -> Figure:
     """Draw the mesh, and the learned surface coloured by distance.
 
     Args:
         weights: of an occupancy field.
-
-    Raises:
-        InputError: an input file is missing or not whole, or there is no OpenGL.
     """
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
@@ -51,9 +41,8 @@ def draw(
     from neural_shadows.scenes.scene import open_scene
 
     opened = open_scene(mesh_ply, **scene)
-    view = hero_view(opened.up, 3.0)
-    left, right = space.new_plotter(view), space.new_plotter(view)
-    shape = space.add_object(left, opened)
+    left, shape = space.object_plotter(opened, 3.0)
+    right = space.new_plotter(hero_view(opened.up, 3.0))
     field, _ = load_network(weights)
     learned = learned_surface(field).compute_implicit_distance(shape)
     distance = learned["implicit_distance"] * field.resolution / 2
@@ -67,7 +56,7 @@ def draw(
     }
     scale = "distance from the mesh, cells: outside > 0 > inside"
     colours = ScalarMappable(Normalize(-0.5, 0.5), COLOURS)
-    space.write_pictures(shown, png, svg, title=title, scale=(scale, colours))
+    return space.pictures(shown, title=title, scale=(scale, colours))
 
 
 def learned_surface(field: "OccupancyFieldNetwork") -> "pyvista.PolyData":
@@ -97,4 +86,4 @@ def learned_surface(field: "OccupancyFieldNetwork") -> "pyvista.PolyData":
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

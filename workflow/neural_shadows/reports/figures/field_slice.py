@@ -1,19 +1,16 @@
 """A slice of an occupancy field, beside the mesh [5.4.1]."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import legend_below, new_figure, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import Axes, Figure, legend_below, new_figure, run_figure
 from neural_shadows.sections.scene_figures import FieldFigure
+from neural_shadows.settings.records import SceneSettings
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.image import AxesImage
 
     from neural_shadows.networks.object_space.occupancy_field_network import OccupancyFieldNetwork
@@ -30,21 +27,11 @@ class Settings(FieldFigure):
     kind: Literal["field_slice"] = Field(description="`field_slice`")
 
 
-files = figure_inputs.experiment_files
-params = figure_inputs.experiment_scene
-encodings = figure_inputs.experiment_encodings
-
-
-def draw(
-    mesh_ply: Path, weights: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
-) -> None:
+def draw(mesh_ply: Path, weights: Path, title: str, scene: SceneSettings) -> Figure:
     """Draw the whole slice, and a detail of it.
 
     Args:
         weights: of an occupancy field.
-
-    Raises:
-        InputError: an input file is not whole.
     """
     from matplotlib.patches import Patch, Rectangle
 
@@ -67,7 +54,7 @@ def draw(
     empty = Patch(facecolor=EMPTY_COLOUR, edgecolor="#cccccc", label="empty: nothing stored")
     enclosed = Patch(color=ENCLOSED_COLOUR, label="enclosed: in shadow, nothing stored")
     legend_below(figure, [empty, enclosed])
-    write_figure(figure, png, svg)
+    return figure
 
 
 def choose_detail(logits: np.ndarray) -> np.ndarray:
@@ -117,7 +104,7 @@ def slice_logits(
 
 
 def _show(
-    axes: "Axes", field: "OccupancyFieldNetwork", cut: "MeshSlice", centre: np.ndarray, half: float
+    axes: Axes, field: "OccupancyFieldNetwork", cut: "MeshSlice", centre: np.ndarray, half: float
 ) -> "AxesImage":
     from matplotlib import colormaps
 
@@ -135,4 +122,4 @@ def _show(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

@@ -10,26 +10,28 @@ from pydantic import Field
 
 from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.metrics import power_law
-from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
+from neural_shadows.metrics.registry import error_of, metrics, value_of
 from neural_shadows.reports.data.table import read_table
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
-from neural_shadows.reports.drawing import figure_inputs, style
-from neural_shadows.reports.drawing.chart import add_tooltip, points_with_tooltips, write_chart
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import (
+    point_with_interval,
+    points_with_tooltips,
+    run_chart,
+)
+from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import learning_curves
-from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, READING, by_kind
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, by_kind
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import RowsFigure
-from neural_shadows.settings.records import Row, Run
+from neural_shadows.settings.records import Row
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from matplotlib.transforms import Transform
 
 GREY = "#777777"
-DECIBELS = "psnr"  # already a logarithm: its axis is linear
+DECIBELS = "dB"  # already a logarithm: its axis is linear
 NUMBERS = ("samples", "mean", *PREDICTED, "no_shadow", "thesis")
 
 
@@ -42,28 +44,19 @@ class Settings(RowsFigure):
     kind: Literal["learning_curves"] = Field(description="`learning_curves`")
 
 
-files = figure_inputs.table_csv
-params = figure_inputs.rows_and_run
-
-
-def draw(table: Path, png: Path, svg: Path, *, title: str, rows: Sequence[Row], run: Run) -> None:
+def draw(table_csv: Path, rows: Sequence[Row], heading: str) -> Figure:
     """Draw the learning curves of a scene.
 
     Args:
-        table: CSV of a table of learning curves.
         rows: of the table, all of one scene.
-
-    Raises:
-        InputError: the table is missing or not whole.
     """
-    curves = read_table(table, ("scene", "method", "metric", "kind", "by_seed"), NUMBERS)
+    curves = read_table(table_csv, ("scene", "method", "metric", "kind", "by_seed"), NUMBERS)
     labels = [row["label"] for row in rows]
     curves = curves[(curves["scene"] == rows[0]["scene"]) & curves["method"].isin(labels)]
-    figure = curves_figure(curves, labels, title=f"{title} ({run['scale']} scale)")
-    write_chart(figure, png, svg)
+    return curves_figure(curves, labels, title=heading)
 
 
-def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> "Figure":
+def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> Figure:
     """Draw a panel a metric, PSNR in dB, errors logarithmic.
 
     Args:
@@ -115,7 +108,7 @@ def curves_figure(table: pd.DataFrame, labels: Sequence[str], *, title: str) -> 
 
 
 def _draw_curve(
-    axes: "Axes", metric: str, part: pd.DataFrame, colour: str, transform: "Transform"
+    axes: Axes, metric: str, part: pd.DataFrame, colour: str, transform: "Transform"
 ) -> None:
     """Draw a method's trainings, power law and predictions.
 
@@ -126,7 +119,7 @@ def _draw_curve(
     samples = measured["samples"].to_numpy()
     values = np.array([[float(value) for value in seeds.split()] for seeds in measured["by_seed"]])
     budgets = np.repeat(samples[:, None], values.shape[1], axis=1)
-    name, method = READING[metric][0], part["method"].iloc[0]
+    name, method = metrics()[metric].heading, part["method"].iloc[0]
     texts = [
         f"{method}: {name} {value:.4g} at {count:,.0f} samples"
         for value, count in zip(values.flat, budgets.flat)
@@ -148,38 +141,29 @@ def _draw_curve(
         axes.plot(THESIS_SAMPLES, _height(metric, extrapolated["thesis"]), "*", color=colour, ms=11)
 
 
-def _draw_prediction(axes: "Axes", metric: str, row: pd.Series, **look: Any) -> None:
+def _draw_prediction(axes: Axes, metric: str, row: pd.Series, **look: Any) -> None:
     value, *ends = _height(metric, row[PREDICTED].to_numpy(float))
-    spread = np.abs(np.array(ends) - value)[:, None]
-    spread = spread if metric != "ssim" else spread[::-1]  # 1 − SSIM: the ends swap
     look |= {"markerfacecolor": "white", "markersize": 6, "capsize": 3, "zorder": 4}
-    bar = axes.errorbar(row["samples"], value, spread, **look)
     text, low, high = (f"{number:.4g}" for number in row[PREDICTED])
-    add_tooltip(
-        bar.lines[0], f"{row['method']}, predicted: {READING[metric][0]} {text} [{low}, {high}]"
-    )
+    text = f"{row['method']}, predicted: {metrics()[metric].heading} {text} [{low}, {high}]"
+    # The ends of a complement's error swap.
+    point_with_interval(axes, row["samples"], value, sorted(ends), text, **look)
 
 
 def _height(metric: str, values: float | np.ndarray) -> float | np.ndarray:
     """The drawn height: PSNR in dB, other metrics as errors."""
-    return values if metric == DECIBELS else error_of(metric, values)
+    return values if metrics()[metric].unit == DECIBELS else error_of(metric, values)
 
 
-def _format_axes(axes: "Axes", metric: str) -> None:
+def _format_axes(axes: Axes, metric: str) -> None:
     """Set a panel's scales, names and grid."""
-    from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
-
-    name, _ = READING[metric]
-    name = "1 − SSIM ↓" if metric == "ssim" else name
+    described = metrics()[metric]
+    name = f"1 − {described.name} ↓" if described.is_complement else described.heading
     axes.set(xscale="log", xlabel="training samples", title=name)
     axes.margins(x=0.12)  # room for the predictions at the right
-    axes.xaxis.set(
-        major_locator=LogLocator(numticks=12),
-        major_formatter=EngFormatter(sep=" "),
-        minor_formatter=NullFormatter(),
-    )
-    if metric == DECIBELS:
-        axes.set_ylabel("dB")
+    style.plain_numbers(axes.xaxis)
+    if described.unit == DECIBELS:
+        axes.set_ylabel(DECIBELS)
     else:
         axes.set_yscale("log")
         style.plain_numbers(axes.yaxis)
@@ -187,4 +171,4 @@ def _format_axes(axes: "Axes", metric: str) -> None:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_chart(snakemake, draw)

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal, TypedDict
 
 import numpy as np
 import pandas as pd
@@ -14,16 +14,13 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import networks
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.drawing import style
-from neural_shadows.reports.drawing.chart import points_with_tooltips, write_chart
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.chart import points_with_tooltips, run_chart
+from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.sections.any_report import AnyFigure
+from neural_shadows.sections.experiments import RayExperimentName
 from neural_shadows.sections.sections import Sections
-from neural_shadows.settings.base import Model, Text, name_in, section_or
-from neural_shadows.settings.records import Run
+from neural_shadows.settings.base import Model, Text, section_or
 from neural_shadows.training.loss_curve import read_loss
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 PARTS = 60  # of a curve, each drawn as its mean
 POINTS = ["samples", "loss"]
@@ -33,8 +30,15 @@ SAYING = 6  # every so many of them has a tooltip
 class Curve(Model):
     """A curve with a label of its own."""
 
-    experiment: name_in("experiments") = Field(description="a name in `experiments`")
+    experiment: RayExperimentName = Field(description="an experiment on rays")
     label: Text | None = Field(None, description="without it the experiment's label")
+
+
+class CurveSettings(TypedDict):
+    """A curve, see `Curve`."""
+
+    experiment: str
+    label: str
 
 
 class Settings(AnyFigure):
@@ -48,7 +52,7 @@ class Settings(AnyFigure):
     def check(self, config: Sections, key: str) -> None:
         for curve in self.curves:
             config.label_of(curve.experiment, curve.label)
-            if config.experiments[curve.experiment].training is None:
+            if config.ray_experiments[curve.experiment].training is None:
                 raise ValueError(
                     f"{key}.curves: {curve.experiment!r} is built without training and has no loss. "
                     "Leave it out"
@@ -70,39 +74,28 @@ def files(layout: Layout, figure: str) -> dict[str, Any]:
     }
 
 
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"curves": layout.entry("figures", figure)["curves"], "run": layout.run()}
-
-
 def draw(
     losses: list[Path],
     trainings: list[Path],
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    curves: Sequence[Mapping[str, str]],
-    run: Run,
-) -> None:
+    heading: str,
+    curves: Sequence[CurveSettings],
+) -> tuple[Figure, pd.DataFrame]:
     """Draw the loss curves of experiments.
 
     Args:
         losses: `loss.csv` of each experiment, in a folder of its name.
         trainings: `training.json` of each.
-        curves: `experiment` and `label`, in the legend's order.
-
-    Raises:
-        InputError: a loss curve is missing or not whole.
+        curves: in the legend's order.
     """
     paths = {path.parent.name: path for path in losses}
-    died = {record["name"]: record["died_at_step"] for record in map(read_json, trainings)}
+    diverged = {record["name"]: record["died_at_step"] for record in map(read_json, trainings)}
     tables, ends = {}, {}
     for curve in curves:
         tables[curve["label"]] = read_loss(paths[curve["experiment"]])
-        ends[curve["label"]] = died[curve["experiment"]]
-    figure = loss_figure(tables, ends, title=f"{title} ({run['scale']} scale)")
+        ends[curve["label"]] = diverged[curve["experiment"]]
+    figure = loss_figure(tables, ends, title=heading)
     data = [means_of(frame).assign(curve=label) for label, frame in tables.items()]
-    write_chart(figure, png, svg, pd.concat(data))
+    return figure, pd.concat(data)
 
 
 def smoothed(values: np.ndarray) -> np.ndarray:
@@ -119,13 +112,13 @@ def means_of(curve: pd.DataFrame) -> pd.DataFrame:
 
 
 def loss_figure(
-    curves: Mapping[str, pd.DataFrame], died: Mapping[str, int | None], *, title: str
-) -> "Figure":
+    curves: Mapping[str, pd.DataFrame], diverged: Mapping[str, int | None], *, title: str
+) -> Figure:
     """Draw loss over samples, both logarithmic, with means.
 
     Args:
         curves: see `read_loss`, by label in the legend's order.
-        died: the step of divergence, by label; the curve ends there with a cross.
+        diverged: the step of divergence, by label; the curve ends there with a cross.
     """
     figure = style.new_figure(title, 9, 5.4)
     axes = figure.subplots()
@@ -133,7 +126,7 @@ def loss_figure(
     for i, (label, curve) in enumerate(drawn.items()):
         points = curve[POINTS].to_numpy(float).T
         colour = COLOURS[i % len(COLOURS)]
-        step = died[label]
+        step = diverged[label]
         end = f"at the end {short(points[1, -1])}" if step is None else f"diverged at step {step:,}"
         if not len(curve):  # diverged before the first point
             axes.plot([], [], color=colour, label=f"{label} ({end})")
@@ -158,4 +151,4 @@ def loss_figure(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_chart(snakemake, draw)

@@ -1,22 +1,18 @@
 """The method in one picture (figure 3.1)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
 from neural_shadows.rays.streams import DIRECTIONS
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import legend_below, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import Axes, Figure, legend_below, run_figure
 from neural_shadows.sections.scene_figures import SamplingFigure
+from neural_shadows.settings.records import SamplingSettings, SceneSettings
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from neural_shadows.reports.drawing.mesh_slice import MeshSlice
 
 
@@ -26,21 +22,14 @@ class Settings(SamplingFigure):
     kind: Literal["overview"] = Field(description="`overview`")
 
 
-files = figure_inputs.scene_files
-params = figure_inputs.scene_and_sampling
-
-
 def draw(
     mesh_ply: Path,
     mesh_json: Path,
-    png: Path,
-    svg: Path,
-    *,
     title: str,
-    scene: Mapping[str, Any],
-    sampling: Mapping[str, Any],
-    seed: int,
-) -> None:
+    scene: SceneSettings,
+    sampling: SamplingSettings,
+    scene_seed: int,
+) -> Figure:
     """Draw directions, silhouette points, labels and a query."""
     from neural_shadows.rays.poisson_disk import sphere_directions
     from neural_shadows.reports.drawing import drawing
@@ -48,21 +37,21 @@ def draw(
 
     cut, figure = drawing.open_figure(mesh_ply, mesh_json, scene, title, 13.3, 4.4)
     directions, points, labels, query = figure.subplots(1, 4)
-    pattern = sphere_directions(drawing.SHOWN_DIRECTIONS, (seed, DIRECTIONS))[0]
+    pattern = sphere_directions(drawing.SHOWN_DIRECTIONS, (scene_seed, DIRECTIONS))[0]
     drawing.draw_hemisphere(directions, pattern, "a  view directions")
     drawing.draw_disk(points, "b  rays through a silhouette's quadtree")
     shown = drawing.slice_silhouette(cut, sampling)
     shown.draw(points)
-    shown.draw_points(points, drawing.SHOWN_POINTS // 3, seed, 2)
+    shown.draw_points(points, drawing.SHOWN_POINTS // 3, scene_seed, 2)
     drawing.draw_disk(labels, "c  labels: bounds along the rays")
     drawing.draw_bounded_rays(labels, slice_rays(cut, drawing.FEW_RAYS), 1.0)
     drawing.draw_outline(labels, cut)
     _draw_query(query, cut)
     legend_below(figure)
-    write_figure(figure, png, svg)
+    return figure
 
 
-def _draw_query(axes: "Axes", cut: "MeshSlice") -> None:
+def _draw_query(axes: Axes, cut: "MeshSlice") -> None:
     """Draw a ray with a point in shadow on it."""
     from neural_shadows.reports.drawing import drawing
     from neural_shadows.reports.drawing.mesh_slice import slice_rays
@@ -88,4 +77,4 @@ def _draw_query(axes: "Axes", cut: "MeshSlice") -> None:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

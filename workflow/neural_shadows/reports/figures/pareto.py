@@ -2,43 +2,33 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.look import Look
-from neural_shadows.evaluation.method_names import RAY_TRACED
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
-from neural_shadows.layout.layout import Layout
+from neural_shadows.evaluation.registry import RAY_TRACED
+from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.method_look import LOOKS, look_of
 from neural_shadows.reports.data.published import NETWORKS
-from neural_shadows.reports.data.quality import with_ends
-from neural_shadows.reports.data.table import read_table
-from neural_shadows.reports.drawing import figure_inputs, style
-from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
+from neural_shadows.reports.data.table import read_table, with_ends
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import point_with_interval, run_chart
+from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import networks
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.table_figures import RowsFigure
 from neural_shadows.settings.base import Name
-from neural_shadows.settings.records import Row, Run
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from neural_shadows.settings.records import Row
 
 COSTS = {
     "stored_bytes": ("stored, KiB", 1 / 1024),
     "resident_bytes": ("resident, KiB", 1 / 1024),
     "own_ms": ("own time a frame, ms", 1),
     "build_seconds": ("from mesh file to network, s", 1),
-}
-HEADINGS = {
-    "lpips": "LPIPS, lower is better\n(bars: 95 % intervals)",
-    "flip": "FLIP, lower is better\n(bars: 95 % intervals)",
-    "psnr_pooled": "pooled PSNR in dB, higher is better\n(bars: 95 % intervals)",
 }
 PRINTED = "printed"  # the key of the thesis's own values
 LINES = {NO_SHADOW: ":", PRINTED: "--"}  # methods with a quality and no cost
@@ -67,44 +57,21 @@ class Settings(RowsFigure):
     )
 
 
-files = figure_inputs.table_csv
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    return {key: settings[key] for key in ("scene", "costs", "rows")} | {"run": layout.run()}
-
-
-def draw(
-    table: Path,
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    scene: str,
-    costs: Sequence[str],
-    rows: Sequence[Row],
-    run: Run,
-) -> None:
+def draw(table_csv: Path, heading: str, costs: Sequence[str], rows: Sequence[Row]) -> Figure:
     """Draw a scene of a table of networks.
 
     Args:
-        table: its CSV.
         costs: of `COSTS`; over `stored_bytes` alone only PSNR is drawn, for the page's head.
         rows: the table's rows of that scene.
-
-    Raises:
-        InputError: the table is missing or not whole.
     """
     numbers = (*with_ends("lpips"), *with_ends("flip"), "psnr", *with_ends("psnr_pooled"))
-    csv = read_table(table, ("scene", "method", "learned", "coded"), (*numbers, *COSTS))
-    csv = csv[csv["scene"] == scene].set_index("method", drop=False)
+    csv = read_table(table_csv, ("scene", "method", "learned", "coded"), (*numbers, *COSTS))
+    csv = csv[csv["scene"] == rows[0]["scene"]].set_index("method", drop=False)
     methods = csv.loc[[row["label"] for row in rows]]
     methods = methods.assign(key=[row["method"] for row in rows], look=[*map(look_of, rows)])
     printed = csv[csv["method"].isin(NETWORKS.values())].assign(key=PRINTED, look=None)
     shown = pd.concat([methods[methods["key"] != NOT_SHOWN], printed], ignore_index=True)
-    figure = pareto_figure(shown, costs, title=f"{title} ({run['scale']} scale)")
-    write_chart(figure, png, svg)
+    return pareto_figure(shown, costs, title=heading)
 
 
 def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
@@ -114,7 +81,7 @@ def front(cost: np.ndarray, error: np.ndarray) -> np.ndarray:
     return order[np.r_[True, best[1:] < best[:-1]][: len(order)]]
 
 
-def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "Figure":
+def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> Figure:
     """Draw a scene's methods, a row of panels a cost.
 
     On the left LPIPS, or FLIP where there is none; on the right pooled PSNR, upwards better.
@@ -126,8 +93,6 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "
             the thesis's own values is `PRINTED`.
     """
     from matplotlib.lines import Line2D
-
-    from neural_shadows.reports.drawing.point_labels import label_points
 
     measured = table["lpips_low"].notna().any()  # printed values have no interval
     perceived = "lpips" if measured else "flip"
@@ -150,31 +115,30 @@ def pareto_figure(table: pd.DataFrame, costs: Sequence[str], *, title: str) -> "
         for axes, metric in zip(row, metrics):
             points = table.rename(columns=dict(zip(with_ends(metric), ("value", "low", "high"))))
             points = points.assign(cost=points[cost] * COSTS[cost][1])
-            axes.set(xscale="log", xlabel=COSTS[cost][0], ylabel=HEADINGS[metric])
+            axes.set(xscale="log", xlabel=COSTS[cost][0], ylabel=_heading(metric))
+            axes.margins(x=0.1)
+            axes.grid(**style.GRID)
+            drawn = _draw_panel(axes, points, metric)
+            panel_points.append((axes, drawn[["cost", "value", "method"]]))
             if metric == perceived:
                 axes.set_yscale("log")
                 style.plain_numbers(axes.yaxis)
             style.plain_numbers(axes.xaxis)
-            axes.xaxis.set_major_formatter(_short)
-            axes.margins(x=0.1)
-            axes.grid(**style.GRID)
-            panel_points.append((axes, _draw_panel(axes, points, metric)))
-    figure.draw_without_rendering()  # names are placed when the layout is done
-    for axes, points in panel_points:
-        label_points(axes, points[["cost", "value"]].to_numpy(), [*points["method"]], fontsize=8)
+    style.label_panels(panel_points, 8)
     return figure
 
 
-def _short(cost: float, _: int) -> str:
-    """A short label of a tick: 0.5, 20, 5k."""
-    return f"{cost:g}" if cost < 1000 else f"{cost / 1000:g}k"
+def _heading(metric: str) -> str:
+    described = metrics_by_key()[metric]
+    unit = f" in {described.unit}" if described.unit else ""
+    return f"{described.name}{unit}, {described.better}er is better\n(bars: 95 % intervals)"
 
 
 def _marker(look: Look) -> dict[str, Any]:
     return {"color": look.colour, "marker": look.marker, "linestyle": "", "markersize": 7}
 
 
-def _draw_panel(axes: "Axes", points: pd.DataFrame, metric: str) -> pd.DataFrame:
+def _draw_panel(axes: Axes, points: pd.DataFrame, metric: str) -> pd.DataFrame:
     """Draw the methods at their costs, and lines for others.
 
     Returns: the methods with a cost, the Pareto-optimal ones first.
@@ -183,12 +147,11 @@ def _draw_panel(axes: "Axes", points: pd.DataFrame, metric: str) -> pd.DataFrame
     methods = points[~points["key"].isin([*LINES, RAY_TRACED])]
     measured = methods.dropna(subset="cost")
     for row in measured.itertuples():
-        spread = [[row.value - row.low], [row.high - row.value]]
         look = _marker(row.look) | ({"markerfacecolor": "none"} if row.learned == "False" else {})
         look |= HALF if row.coded == "True" else {}
-        bar = axes.errorbar(row.cost, row.value, spread, capsize=2, **look)
         value = f"{short(row.value)} [{short(row.low)}, {short(row.high)}]{'' if errors else ' dB'}"
-        add_tooltip(bar.lines[0], f"{row.method}: {value}; {axes.get_xlabel()}: {short(row.cost)}")
+        text = f"{row.method}: {value}; {axes.get_xlabel()}: {short(row.cost)}"
+        point_with_interval(axes, row.cost, row.value, (row.low, row.high), text, **look)
     _draw_lines(axes, points, methods, errors)
     error = measured["value"].to_numpy() * (1 if errors else -1)
     first = measured.iloc[front(measured["cost"].to_numpy(), error)]
@@ -196,7 +159,7 @@ def _draw_panel(axes: "Axes", points: pd.DataFrame, metric: str) -> pd.DataFrame
     return pd.concat([first, measured.drop(first.index)])
 
 
-def _draw_lines(axes: "Axes", points: pd.DataFrame, methods: pd.DataFrame, errors: bool) -> None:
+def _draw_lines(axes: Axes, points: pd.DataFrame, methods: pd.DataFrame, errors: bool) -> None:
     """Draw qualities without a cost, and ray tracing's cost."""
     lines, maps = points[points["key"].isin(LINES)], methods["look"].eq(LOOKS["shadow_map"])
     if methods["cost"][maps].isna().all():  # maps are rendered anew in each frame
@@ -220,4 +183,4 @@ def _draw_lines(axes: "Axes", points: pd.DataFrame, methods: pd.DataFrame, error
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_chart(snakemake, draw)

@@ -1,28 +1,30 @@
 """Modelled over measured widths of penumbrae [Datta et al., 3.6]."""
 
-from collections.abc import Sequence
+from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.evaluation.look import COLOURS
-from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.soft_methods import all_generators, all_meshes, first_tests
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import GRID, new_figure, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.evaluation.look import ORANGE
+from neural_shadows.reports.data.lights import light_names
+from neural_shadows.reports.drawing.style import (
+    GRID,
+    Figure,
+    legend_below,
+    new_figure,
+    plain_numbers,
+    run_figure,
+)
 from neural_shadows.sections.any_report import AnyFigure, Chapter
+from neural_shadows.sections.frame_sets import FrameSetName
 from neural_shadows.sections.own_frames import OwnFrames
 from neural_shadows.sections.sections import Sections
-from neural_shadows.settings.base import name_in
-from neural_shadows.settings.records import Run
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-SHOWN = 4000  # points a radius
+PANEL, MOST_COLUMNS = 4.0, 3  # inches of a light's histogram, and histograms in a line
+CELLS, MEDIANS = 60, 15  # along an axis; FEWEST: pixels of a median
+FEWEST = 10
 
 
 class Settings(AnyFigure):
@@ -31,7 +33,7 @@ class Settings(AnyFigure):
     chapter: ClassVar[Chapter] = "soft"
 
     kind: Literal["penumbra_model"] = Field(description="`penumbra_model`")
-    frame_set: name_in("frame_sets") = Field(description="a name in `frame_sets`")
+    frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")
 
     def check(self, config: Sections, key: str) -> None:
         if isinstance(config.frame_sets[self.frame_set], OwnFrames):
@@ -41,82 +43,76 @@ class Settings(AnyFigure):
             )
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    frame_set = layout.entry("figures", figure)["frame_set"]
-    return {"parts": first_tests(layout, frame_set), "meshes": all_meshes(layout, frame_set)}
-
-
-params = figure_inputs.run
-
-
-def generators(layout: Layout, figure: str) -> list[str]:
-    return all_generators(layout, layout.entry("figures", figure)["frame_set"])
-
-
-def draw(
-    parts: list[Path], meshes: list[Path], png: Path, svg: Path, *, title: str, run: Run
-) -> None:
+def draw(first_parts: list[Path], soft_meshes: list[Path], heading: str) -> Figure:
     """Draw modelled over measured widths of penumbra pixels.
 
     Args:
-        parts: of test frames; the first of each is used. meshes: see `measured_frames`.
-
-    Raises:
-        InputError: a file is missing or not whole.
+        first_parts: of test frames; the first of each is used. soft_meshes: see `measured_frames`.
     """
     from neural_shadows.evaluation.measured_frames import measured_frames
     from neural_shadows.evaluation.measured_penumbrae import widths
 
-    frames = [frame for frame in measured_frames(parts, meshes) if frame.number == 0]
-    radii = frames[0].part.radii
-    pairs_by_radius = {
-        radius: np.concatenate([widths(frame, k) for frame in frames], axis=1)
-        for k, radius in enumerate(radii)
+    frames = [frame for frame in measured_frames(first_parts, soft_meshes) if frame.number == 0]
+    names = light_names(frames[0].part.about)
+    pairs_by_light = {
+        names[k]: np.concatenate([widths(frame, k) for frame in frames], axis=1)
+        for k, radius in enumerate(frames[0].part.radii)
         if radius > 0
     }
-    title = f"{title} ({run['scale']} scale)"
-    figure = model_figure(pairs_by_radius, title=title, seed=run["seed"])
-    write_figure(figure, png, svg)
+    return model_figure(pairs_by_light, title=heading)
 
 
-def model_figure(pairs_by_radius: dict[float, np.ndarray], *, title: str, seed: int) -> "Figure":
-    """Draw a cloud of points for each radius.
+def model_figure(pairs_by_light: dict[str, np.ndarray], *, title: str) -> Figure:
+    """Draw a histogram for each light, with medians of the model.
 
     Args:
-        pairs_by_radius: measured and modelled widths (2, n), pixels.
+        pairs_by_light: measured and modelled widths (2, n), pixels.
     """
     from neural_shadows.evaluation.measured_penumbrae import NARROWEST
 
-    figure = new_figure(title, 6.5, 6.2)
-    axes = figure.subplots()
-    rng = np.random.default_rng(seed)
-    for (radius, pairs), colour in zip(pairs_by_radius.items(), COLOURS):
+    rows = ceil(len(pairs_by_light) / MOST_COLUMNS)
+    columns = ceil(len(pairs_by_light) / rows)
+    figure = new_figure(title, max(PANEL * columns, 6.5), 1.3 + (PANEL + 0.4) * rows)
+    panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    largest = max(pairs.max(initial=10.0) for pairs in pairs_by_light.values())
+    ends = 1.0, float(largest)
+    edges = np.geomspace(*ends, CELLS + 1)
+    for axes, (light, pairs) in zip(panels, pairs_by_light.items()):
+        axes.plot(ends, ends, color="#777777", linewidth=0.8, label="equal")
+        axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, aspect="equal")
+        axes.set(xlabel="measured width, pixels", ylabel="width by the model, pixels")
+        axes.grid(**GRID)
+        for axis in (axes.xaxis, axes.yaxis):
+            plain_numbers(axis)
         if not pairs.size:
+            axes.set_title(light, fontsize=10)
+            none = f"No penumbra of these frames\nis {NARROWEST:g} pixels wide."
+            axes.text(0.05, 0.9, none, transform=axes.transAxes, va="top")
             continue
-        shown = pairs[:, rng.permutation(pairs.shape[1])[:SHOWN]]
-        largest = np.percentile(pairs[1], 95)
-        label = (
-            f"{radius:.3g} m: model ≥ measured in {100 * np.mean(pairs[1] >= pairs[0]):.0f} % of "
-            f"pixels, ratio {np.median(pairs[1] / pairs[0]):.2g}, 95 % of widths ≤ {largest:.0f} px"
+        counts = np.histogram2d(*pairs, [edges, edges])[0].T
+        look = {"cmap": "Blues", "norm": "log", "rasterized": True}
+        axes.pcolormesh(edges, edges, np.ma.masked_equal(counts, 0), **look)
+        axes.plot(*_medians(pairs, edges), color=ORANGE, linewidth=2, label="median of the model")
+        above, ratio = np.mean(pairs[1] >= pairs[0]), np.median(pairs[1] / pairs[0])
+        axes.set_title(
+            f"{light}\nmodel ≥ measured in {100 * above:.0f} % of pixels,\nmedian ratio {ratio:.2g}, "
+            f"95 % of its widths ≤ {np.percentile(pairs[1], 95):.0f} px",
+            fontsize=9,
         )
-        axes.plot(*shown, ".", color=colour, markersize=1.5, alpha=0.5, rasterized=True)
-        axes.plot([], [], "o", color=colour, label=label)
-    ends = _ends(pairs_by_radius.values())
-    axes.plot(ends, ends, color="#777777", linewidth=0.8, label="equal")
-    axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, aspect="equal")
-    axes.set(xlabel="measured width, pixels", ylabel="width by the model, pixels")
-    axes.grid(**GRID)
-    if not any(pairs.size for pairs in pairs_by_radius.values()):
-        none = f"No penumbra of these frames\nis {NARROWEST:g} pixels wide."
-        axes.text(0.05, 0.9, none, transform=axes.transAxes, va="top")
-    figure.legend(loc="outside lower left", fontsize=8)
+    for axes in panels[len(pairs_by_light) :]:
+        axes.set_axis_off()
+    legend_below(figure)
     return figure
 
 
-def _ends(widths: Sequence[np.ndarray]) -> tuple[float, float]:
-    values = np.concatenate([pairs.ravel() for pairs in widths] or [np.ones(1)])
-    return (1.0, float(max(values.max(initial=10.0), 10.0)))
+def _medians(pairs: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Modelled width's median by measured width, of well filled bins."""
+    edges = edges[:: CELLS // MEDIANS]
+    bins = np.digitize(pairs[0], edges)
+    filled = [k for k in range(1, len(edges)) if (bins == k).sum() >= FEWEST]
+    middles = np.sqrt(edges[:-1] * edges[1:])[[k - 1 for k in filled]]
+    return middles, np.array([np.median(pairs[1][bins == k]) for k in filled])
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

@@ -9,19 +9,26 @@ from typing import TYPE_CHECKING, Any, Literal
 from pydantic import Field
 
 from neural_shadows.evaluation.look import YELLOW, Look
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
-from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data.chosen_views import RULE, choose_views
 from neural_shadows.reports.data.learned import learned_methods, margins
 from neural_shadows.reports.data.method_look import LOOKS, REFERENCE, look_of
 from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.quality import values_by_view
-from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.reports.drawing.style import (
+    Axes,
+    Figure,
+    frame_picture,
+    new_figure,
+    note_below,
+    run_figure,
+)
 from neural_shadows.reports.tables import comparison, networks
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.scenes import ViewSet
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import MethodsFigure
@@ -29,10 +36,6 @@ from neural_shadows.settings.base import check_among
 from neural_shadows.settings.records import Row, Run
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
-    from matplotlib.gridspec import SubplotSpec
-
     from neural_shadows.reports.data.frame_errors import Window
     from neural_shadows.reports.data.frames import Frame
 
@@ -42,7 +45,7 @@ LETTERS = 120  # of the bold names, across the figure
 HEAD = 0.6  # inches of a line's names and scores
 
 NOT_LEARNED = "\n(not learned)"  # under the name
-SCORES = {"psnr": "PSNR {:.1f} dB", "lpips": "LPIPS {:.4f}"}
+SCORES = {"psnr": 1, "lpips": 4}  # digits
 
 
 class Settings(MethodsFigure):
@@ -62,20 +65,9 @@ class Settings(MethodsFigure):
 
 def files(layout: Layout, figure: str) -> dict[str, Any]:
     settings = layout.entry("figures", figure)
-    rows, scene = settings["rows"], settings["scene"]
-    return {
-        # No shadow's decide whether a network has learned.
-        "metrics": tables.metrics(layout, [*rows, *tables.unshadowed([scene])]),
-        "references": tables.references(layout, [scene]),
-        "visibilities": tables.visibilities(layout, rows),
-        "mesh_json": layout.paths.scene("mesh.json", scene),
-        "published_csv": layout.source("config/published.csv"),
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    return {"rows": settings["rows"], "view_sets": settings["view_sets"], "run": layout.run()}
+    # No shadow's decide whether a network has learned.
+    rows = [*settings["rows"], *tables.unshadowed([settings["scene"]])]
+    return {"metrics": tables.metrics(layout, rows)}
 
 
 def draw(
@@ -84,27 +76,21 @@ def draw(
     visibilities: list[Path],
     mesh_json: Path,
     published_csv: Path,
-    png: Path,
-    svg: Path,
-    *,
     title: str,
     rows: Sequence[Row],
     view_sets: Sequence[str],
     run: Run,
-) -> None:
+) -> Figure:
     """Draw a frame of each view set by every method.
 
     Args:
         metrics: of all batches of each method and of no shadow.
         references, visibilities: of all batches, see `read_frames`.
-
-    Raises:
-        InputError: a file is missing or not frame_axes.
     """
     from neural_shadows.reports.data.frames import read_frames
 
     measured = dict.fromkeys([NO_SHADOW, *(row["method"] for row in rows)])
-    values = read_metrics(metrics)
+    values = read_view_metrics(metrics)
     by_view = values_by_view(values, [*measured])
     run_margins = margins(read_published(published_csv))
     learned = learned_methods(by_view, rows, run_margins, run["seed"])
@@ -115,12 +101,12 @@ def draw(
     frames = read_frames(references, visibilities, values, [chosen[name] for name in view_sets])
     mesh = read_mesh_report(mesh_json)["name"]
     heading = f"{title} ({mesh}, {run['scale']} scale)"
-    write_figure(picture_strip(frames, heads, heading), png, svg)
+    return picture_strip(frames, heads, heading)
 
 
 def picture_strip(
     frames: Sequence["Frame"], heads: Mapping[str, tuple[str, Look]], title: str
-) -> "Figure":
+) -> Figure:
     """Draw whole frames, and below each its crops with errors.
 
     Args:
@@ -134,14 +120,12 @@ def picture_strip(
     lines = ceil(len(heads) / MOST_COLUMNS)
     columns = ceil(len(heads) / lines)
     rows, across = frames[0].images[REFERENCE].shape
-    pictures = (
-        1.5 * WIDTH / columns * rows / across
-    )  # a frame_axes frame, and crops of half its width
+    # A frame, and crops of half its width.
+    pictures = 1.5 * WIDTH / columns * rows / across
     height = 1.1 + len(frames) * (0.35 + lines * (pictures + HEAD))
     figure = new_figure(title, WIDTH, height)
     figure.get_layout_engine().set(w_pad=0.03, hspace=0, wspace=0)
-    note = textwrap.fill(f"Scores are of the whole frames. {RULE}", 4 * LETTERS // 3)
-    note_below(figure, note)
+    note_below(figure, f"Scores are of the whole frames. {RULE}")
     figure.legend(handles=error_legend(), loc="outside upper right", ncols=2)
     for part, frame in zip(figure.subfigures(len(frames), squeeze=False).flat, frames):
         part.suptitle(frame.caption, x=0.005, ha="left", fontsize=11)
@@ -150,34 +134,33 @@ def picture_strip(
         for i, (method, (name, look)) in enumerate(heads.items()):
             line, column = 2 * (i // columns), 2 * (i % columns)
             image = frame.images[method]
-            frame_axes = _panel(part, grid[line, column : column + 2], "S")
+            frame_axes = part.add_subplot(grid[line, column : column + 2], anchor="S")
+            frame_picture(frame_axes, "none")
             frame_axes.imshow(image, cmap="gray", vmin=0, vmax=1)
             scores = frame.scores.get(method, {})
-            texts = [text.format(scores[key]) for key, text in SCORES.items() if key in scores]
+            texts = [
+                metrics_by_key()[key].score(scores[key], digits)
+                for key, digits in SCORES.items()
+                if key in scores
+            ]
             _write_head(frame_axes, name, look, "   ".join(texts), LETTERS // columns)
             coloured, panel = with_errors(image, frame.images[REFERENCE]), frame_axes
             for k, crop in enumerate(crops):
                 _mark(panel, crop)
-                panel = _panel(part, grid[line + 1, column + k], "N")
-                panel.spines[:].set(visible=True, edgecolor=YELLOW, linewidth=1.5)
+                panel = part.add_subplot(grid[line + 1, column + k], anchor="N")
+                frame_picture(panel, YELLOW, 1.5)
                 panel.imshow(crop.of(coloured), extent=crop.extent, interpolation="none")
     return figure
 
 
-def _panel(part: "SubFigure", spec: "SubplotSpec", anchor: str) -> "Axes":
-    axes = part.add_subplot(spec, xticks=[], yticks=[], anchor=anchor)
-    axes.spines[:].set_visible(False)
-    return axes
-
-
-def _mark(axes: "Axes", crop: "Window") -> None:
+def _mark(axes: Axes, crop: "Window") -> None:
     from matplotlib.patches import Rectangle
 
     corner = crop.column - 0.5, crop.row - 0.5
     axes.add_patch(Rectangle(corner, crop.width, crop.height, fill=False, color=YELLOW))
 
 
-def _write_head(axes: "Axes", name: str, look: Look, scores: str, letters: int) -> None:
+def _write_head(axes: Axes, name: str, look: Look, scores: str, letters: int) -> None:
     """Write a method's mark, name and scores above its frame."""
     from matplotlib.transforms import ScaledTranslation
 
@@ -187,8 +170,9 @@ def _write_head(axes: "Axes", name: str, look: Look, scores: str, letters: int) 
     axes.set_title(text, loc="left", x=0.06, pad=18, fontsize=10, weight="bold")
     up = ScaledTranslation(0, (22 + 12 * text.count("\n")) / 72, axes.figure.dpi_scale_trans)
     transform = axes.transAxes + up
-    axes.plot(0.025, 1, look.marker, color=look.colour, ms=8, transform=transform, clip_on=False)
+    style = {"color": look.colour, "markersize": 8, "clip_on": False}
+    axes.plot(0.025, 1, marker=look.marker, transform=transform, **style)
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

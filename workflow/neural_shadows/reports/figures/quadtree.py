@@ -1,15 +1,13 @@
 """A silhouette with its quadtree (figure 3.4)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import note_below, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import Figure, note_below, run_figure
 from neural_shadows.sections.scene_figures import SamplingFigure
+from neural_shadows.settings.records import SamplingSettings, SceneSettings
 
 
 class Settings(SamplingFigure):
@@ -18,21 +16,14 @@ class Settings(SamplingFigure):
     kind: Literal["quadtree"] = Field(description="`quadtree`")
 
 
-files = figure_inputs.scene_files
-params = figure_inputs.scene_and_sampling
-
-
 def draw(
     mesh_ply: Path,
     mesh_json: Path,
-    png: Path,
-    svg: Path,
-    *,
     title: str,
-    scene: Mapping[str, Any],
-    sampling: Mapping[str, Any],
-    seed: int,
-) -> None:
+    scene: SceneSettings,
+    sampling: SamplingSettings,
+    scene_seed: int,
+) -> Figure:
     """Draw a silhouette's quadtree, and points divided over its quads."""
     from neural_shadows.reports.drawing import drawing
 
@@ -44,14 +35,14 @@ def draw(
     shown.draw(left)
     drawing.draw_disk(right, f"{drawing.SHOWN_POINTS:,} points, divided evenly over the quads")
     shown.draw(right, quads=False)
-    shown.draw_points(right, drawing.SHOWN_POINTS, seed, 3)
+    shown.draw_points(right, drawing.SHOWN_POINTS, scene_seed, 3)
     note_below(
         figure,
         "Grey: the object's silhouette, seen across the slice. Blue: squares, divided along its "
         "outline.\nOrange: the bounding sphere. So most rays start near the shadow's boundary.",
     )
-    write_figure(figure, png, svg)
+    return figure
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

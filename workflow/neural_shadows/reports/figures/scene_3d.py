@@ -1,6 +1,5 @@
 """A scene, its light and its training rays, in 3D."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -10,11 +9,11 @@ from pydantic import Field
 from neural_shadows.evaluation.look import BLUE, COLOURS, ORANGE
 from neural_shadows.layout.layout import Layout
 from neural_shadows.meshes.mesh_report import read_mesh_report
-from neural_shadows.reports.drawing import figure_inputs, space
-from neural_shadows.reports.drawing.hero_view import hero_view
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing import space
+from neural_shadows.reports.drawing.style import Figure, run_figure
 from neural_shadows.scenes.lights import arc_directions, lowest_elevation
 from neural_shadows.sections.scene_figures import SamplingFigure
+from neural_shadows.settings.records import SceneSettings
 
 if TYPE_CHECKING:
     import pyvista
@@ -40,17 +39,9 @@ class Settings(SamplingFigure):
 
 
 def files(layout: Layout, figure: str) -> dict[str, Any]:
-    settings, paths = layout.entry("figures", figure), layout.paths
-    scene, sampling = settings["scene"], settings["sampling"]
-    return {
-        "mesh_ply": paths.scene("mesh.ply", scene),
-        "mesh_json": paths.scene("mesh.json", scene),
-        "directions_npy": paths.rays("directions.npy", scene, sampling),
-        **layout.shards(scene, sampling),
-    }
-
-
-params = figure_inputs.scene
+    settings = layout.entry("figures", figure)
+    names = settings["scene"], settings["sampling"]
+    return {"directions_npy": layout.paths.rays("directions.npy", *names)} | layout.shards(*names)
 
 
 def draw(
@@ -59,17 +50,10 @@ def draw(
     directions_npy: Path,
     origins: list[Path],
     bounds: list[Path],
-    png: Path,
-    svg: Path,
-    *,
     title: str,
-    scene: Mapping[str, Any],
-) -> None:
-    """Draw a scene's light, view directions and training rays.
-
-    Raises:
-        InputError: an input file is missing or not whole, or there is no OpenGL.
-    """
+    scene: SceneSettings,
+) -> Figure:
+    """Draw a scene's light, view directions and training rays."""
     import pyvista
 
     from neural_shadows.rays.labels import chord_lengths
@@ -78,13 +62,11 @@ def draw(
 
     rays = RaySet(directions_npy, sorted(origins), sorted(bounds))
     opened = open_scene(mesh_ply, **scene)
-    view = hero_view(opened.up, 4.1)
-    left, right = space.new_plotter(view), space.new_plotter(view)
+    left, _ = space.object_plotter(opened, 4.1, ground=True)
+    right, _ = space.object_plotter(opened, 4.1, opacity=0.35)  # rays go on inside the object
     sphere = pyvista.Sphere(radius=1, theta_resolution=36, phi_resolution=18)
-    for plotter, opacity in ((left, 1.0), (right, 0.35)):  # rays go on inside the object
-        space.add_object(plotter, opened, opacity)
+    for plotter in (left, right):
         plotter.add_mesh(sphere, style="wireframe", color=ORANGE, opacity=0.2, lighting=False)
-    space.add_ground(left, opened)
     light, away, lit, between, shade = COLOURS.values()
     left.add_mesh(light_domain(opened), color=light, opacity=0.2, lighting=False)
     towards = -rays.directions.astype(np.float32)
@@ -108,7 +90,7 @@ def draw(
         f"{RAYS} of {rays.count:,} training rays": right,
     }
     name = read_mesh_report(mesh_json)["name"]
-    space.write_pictures(shown, png, svg, title=f"{title} ({name})", colours=COLOURS)
+    return space.pictures(shown, title=f"{title} ({name})", colours=COLOURS)
 
 
 def light_domain(scene: "Scene") -> "pyvista.DataSet":
@@ -127,4 +109,4 @@ def light_domain(scene: "Scene") -> "pyvista.DataSet":
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

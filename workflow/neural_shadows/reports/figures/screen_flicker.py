@@ -2,24 +2,16 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from neural_shadows.evaluation.soft_answers import flicker_name, read_answer
-from neural_shadows.evaluation.soft_registry import available
-from neural_shadows.layout import soft_methods
-from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.evaluation.answers import flicker_name, read_answer
+from neural_shadows.reports.drawing.style import Figure, new_figure, note_below, run_figure
 from neural_shadows.reports.tables import screen_temporal
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
-from neural_shadows.settings.records import Run
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 # As in the paper: purple is stable, gold flickers.
 COLOURS = ["#2d0b59", "#8c2981", "#e69f00", "#fff7bc"]
@@ -37,54 +29,27 @@ class Settings(TableFigure):
     methods: list[str] = Field(min_length=1, description="methods of the table")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    frame_set = soft_methods.frame_set(layout, settings["table"])
-    return {
-        "parts": soft_methods.sequences(layout, frame_set),
-        "answers": [
-            layout.paths.soft_evaluation("npz", frame_set, method) for method in settings["methods"]
-        ],
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    methods = filter(available, layout.entry("figures", figure)["methods"])
-    labels = {method: soft_methods.label(layout, method) for method in methods}
-    return {"labels": labels, "run": layout.run()}
-
-
 def draw(
-    parts: list[Path],
-    answers: list[Path],
-    png: Path,
-    svg: Path,
-    *,
-    title: str,
-    labels: Mapping[str, str],
-    run: Run,
-) -> None:
+    sequences: list[Path], soft_answers: list[Path], heading: str, labels: Mapping[str, str]
+) -> Figure:
     """Draw flicker by method, exact shadows first, and sequence.
 
     Args:
-        parts: sequences of a frame set; answers: of each method, by file name.
+        sequences: parts of a frame set; soft_answers: of each method, by file name.
         labels: of the methods, in the order to draw them.
-
-    Raises:
-        InputError: a file is missing or not whole.
     """
-    paths = {path.stem: path for path in answers}
+    paths = {path.stem: path for path in soft_answers}
     first = next(iter(paths.values()))
-    maps = {"exact": [read_answer(first, flicker_name(part, exact=True)) for part in parts]}
+    maps = {"exact": [read_answer(first, flicker_name(part, exact=True)) for part in sequences]}
     for method, label in labels.items():
-        maps[label] = [read_answer(paths[method], flicker_name(part)) for part in parts]
-    moving = [part.stem.rsplit("_", 1)[0] for part in parts]
-    write_figure(flicker_figure(maps, moving, f"{title} ({run['scale']} scale)"), png, svg)
+        maps[label] = [read_answer(paths[method], flicker_name(part)) for part in sequences]
+    moving = [part.stem.rsplit("_", 1)[0] for part in sequences]
+    return flicker_figure(maps, moving, heading)
 
 
 def flicker_figure(
     maps: Mapping[str, Sequence[np.ndarray]], moving: Sequence[str], title: str
-) -> "Figure":
+) -> Figure:
     """Draw maps of flicker by method and sequence.
 
     Args:
@@ -114,4 +79,4 @@ def flicker_figure(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

@@ -1,7 +1,7 @@
 """Time of a screen-space network by level and part."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import pandas as pd
 from pydantic import Field
@@ -10,19 +10,12 @@ from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.phrases import TEXTS
 from neural_shadows.reports.data.table import read_table
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
-from neural_shadows.reports.drawing.style import GRID, legend_below, new_figure
+from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
+from neural_shadows.reports.drawing.style import GRID, Axes, Figure, legend_below, new_figure
 from neural_shadows.reports.tables import screen_parts
 from neural_shadows.reports.tables.screen_parts import NAMES, PRINTED
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
-from neural_shadows.settings.records import Run
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 NUMBERS = ("level", "ms", "share", "printed_ms", "printed_share")
 PARTS = (*PRINTED, "extraction", "entrance", "exit")  # in the order of their colours
@@ -37,21 +30,13 @@ class Settings(TableFigure):
     kind: Literal["screen_level_time"] = Field(description="`screen_level_time`")
 
 
-files = figure_inputs.table_csv
-params = figure_inputs.run
+def draw(table_csv: Path, heading: str) -> Figure:
+    """Draw the CSV of a table of `screen_parts`."""
+    parts = read_table(table_csv, ("part", "run"), NUMBERS)
+    return level_figure(parts, title=heading)
 
 
-def draw(table: Path, png: Path, svg: Path, *, title: str, run: Run) -> None:
-    """Draw the CSV of a table of `screen_parts`.
-
-    Raises:
-        InputError: it is missing or not whole.
-    """
-    parts = read_table(table, ("part", "run"), NUMBERS)
-    write_chart(level_figure(parts, title=f"{title} ({run['scale']} scale)"), png, svg)
-
-
-def level_figure(table: pd.DataFrame, *, title: str) -> "Figure":
+def level_figure(table: pd.DataFrame, *, title: str) -> Figure:
     """Draw shares of time by level, ours and the paper's."""
     panels = {f"ours, {table['run'].iloc[0]}": ("share", "ms")}
     if table["printed_ms"].notna().any():
@@ -67,7 +52,7 @@ def level_figure(table: pd.DataFrame, *, title: str) -> "Figure":
     return figure
 
 
-def _draw_levels(axes: "Axes", table: pd.DataFrame, share: str, ms: str) -> None:
+def _draw_levels(axes: Axes, table: pd.DataFrame, share: str, ms: str) -> None:
     levels = sorted(table["level"].unique())
     bottom = pd.Series(0.0, index=levels)
     for part, colour in zip(PARTS, (*COLOURS, "#999999")):
@@ -97,4 +82,4 @@ def _draw_levels(axes: "Axes", table: pd.DataFrame, share: str, ms: str) -> None
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_chart(snakemake, draw)

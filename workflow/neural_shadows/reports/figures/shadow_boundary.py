@@ -1,17 +1,15 @@
 """The boundary of the shadow along a ray (figure 3.2)."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
-from neural_shadows.reports.drawing import figure_inputs
-from neural_shadows.reports.drawing.style import GRID, legend_below, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import GRID, Figure, legend_below, run_figure
 from neural_shadows.sections.scene_figures import SceneFigure
+from neural_shadows.settings.records import SceneSettings
 
 
 class Settings(SceneFigure):
@@ -20,13 +18,7 @@ class Settings(SceneFigure):
     kind: Literal["shadow_boundary"] = Field(description="`shadow_boundary`")
 
 
-files = figure_inputs.scene_files
-params = figure_inputs.scene
-
-
-def draw(
-    mesh_ply: Path, mesh_json: Path, png: Path, svg: Path, *, title: str, scene: Mapping[str, Any]
-) -> None:
+def draw(mesh_ply: Path, mesh_json: Path, title: str, scene: SceneSettings) -> Figure:
     """Draw a light's rays, and their bounds over the offset."""
     from neural_shadows.reports.drawing import drawing
     from neural_shadows.reports.drawing.mesh_slice import slice_rays
@@ -53,8 +45,8 @@ def draw(
     graph.set_title("the same by depth: a boundary t$_s$ within the blue is correct", fontsize=11)
     graph.grid(**GRID)
     legend_below(figure)
-    write_figure(figure, png, svg)
+    return figure
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

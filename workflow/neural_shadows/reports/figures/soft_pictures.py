@@ -1,27 +1,31 @@
 """A frame by methods for soft shadows, with their errors."""
 
 import sys
+import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
+from neural_shadows.evaluation.answers import name_of, read_answer
 from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
-from neural_shadows.evaluation.soft_answers import name_of, read_answer
-from neural_shadows.evaluation.soft_registry import available
 from neural_shadows.frames.light_size import shown_radii
-from neural_shadows.layout import frame_sets
-from neural_shadows.layout.kinds import kind_of
+from neural_shadows.layout import frame_sets, kinds
 from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.soft_methods import frame_set
-from neural_shadows.layout.soft_methods import label as label_of
-from neural_shadows.layout.tables import unique
+from neural_shadows.layout.tables import frame_set, unique
+from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.data.lights import light_names
-from neural_shadows.reports.drawing.style import new_figure, note_below, write_figure
+from neural_shadows.reports.drawing.style import (
+    Axes,
+    Figure,
+    frame_picture,
+    new_figure,
+    note_below,
+    run_figure,
+)
 from neural_shadows.reports.tables import soft_methods, soft_summary
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.frame_sets import measured_scenes
 from neural_shadows.sections.sections import Sections
@@ -29,13 +33,14 @@ from neural_shadows.sections.table_figures import RadiiFigure
 from neural_shadows.settings.base import check_among, name_in
 from neural_shadows.settings.records import Run
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 NUMBER = 0  # of the shown frame in its part
-WIDTH = 12.0  # inches
-WIDEST = 4.0  # of a picture
+WIDTH, NARROWEST = 12.0, 5.2  # inches
+WIDEST, HIGHEST = 4.0, 2.4  # of a picture
+MARGIN = 0.5  # of the methods' names
+NOTE = (
+    "Visibility, and its errors: orange is too dark (false shadow), blue too bright (light leak), "
+    "white none; errors from half of the light on have the full colour."
+)
 
 
 class Settings(RadiiFigure):
@@ -48,7 +53,7 @@ class Settings(RadiiFigure):
     chapter: ClassVar[Chapter] = "soft"
 
     kind: Literal["soft_pictures"] = Field(description="`soft_pictures`")
-    soft_scene: name_in("soft_scenes") = Field(description="its first test frame is shown")
+    scene: name_in("scenes") = Field(description="its first test frame is shown")
     methods: list[str] = Field(min_length=1, description="methods of the table")
     radii: list[int] | None = Field(
         None,
@@ -61,7 +66,7 @@ class Settings(RadiiFigure):
         super().check(config, key)
         table = config.tables[self.table]
         scenes = measured_scenes(config.frame_sets[table.frame_set])
-        check_among(f"{key}.soft_scene", self.soft_scene, scenes)
+        check_among(f"{key}.scene", self.scene, scenes)
         for method in self.methods:
             check_among(f"{key}.methods", method, table.methods_shown())
 
@@ -73,23 +78,7 @@ class Settings(RadiiFigure):
 def files(layout: Layout, figure: str) -> dict[str, Any]:
     settings = layout.entry("figures", figure)
     frames = frame_set(layout, settings["table"])
-    return {
-        "part": frame_sets.parts(layout, settings["soft_scene"], frames, "test")[0],
-        "answers": [
-            layout.paths.soft_evaluation("npz", frames, method)
-            for method in filter(available, settings["methods"])
-        ],
-    }
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    settings = layout.entry("figures", figure)
-    methods = filter(available, settings["methods"])
-    return {
-        "labels": {method: label_of(layout, method) for method in methods},
-        "radii": settings["radii"],
-        "run": layout.run(),
-    }
+    return {"part": frame_sets.parts(layout, settings["scene"], frames, "test")[0]}
 
 
 def shown(layout: Layout) -> list[dict[str, Any]]:
@@ -103,8 +92,8 @@ def shown(layout: Layout) -> list[dict[str, Any]]:
                 "table": table,
                 "title": layout.entry("tables", table)["title"],
                 "frame_set": frame_set(layout, table),
-                "scene": settings["soft_scene"],
-                "labels": params(layout, name)["labels"],
+                "scene": settings["scene"],
+                "labels": kinds.params(layout, "figures", name)["labels"],
                 "radii": settings["radii"],
             }
         )
@@ -113,52 +102,45 @@ def shown(layout: Layout) -> list[dict[str, Any]]:
 
 def shown_files(layout: Layout, figures: Iterable[str]) -> dict[str, list[str]]:
     """The files of this kind's figures, each once."""
-    inputs = [files(layout, name) for name in _of_this_kind(layout, figures)]
+    inputs = [kinds.files(layout, "figures", name) for name in _of_this_kind(layout, figures)]
     return {
         "soft_parts": unique(paths["part"] for paths in inputs),
-        "soft_answers": unique(path for paths in inputs for path in paths["answers"]),
+        "soft_answers": unique(path for paths in inputs for path in paths["soft_answers"]),
     }
 
 
 def _of_this_kind(layout: Layout, figures: Iterable[str]) -> list[str]:
     this = sys.modules[__name__]
-    return [name for name in figures if kind_of(layout, "figures", name) is this]
+    return [name for name in figures if kinds.kind_of(layout, "figures", name) is this]
 
 
 def draw(
     part: Path,
-    answers: list[Path],
-    png: Path,
-    svg: Path,
-    *,
+    soft_answers: list[Path],
     title: str,
     labels: Mapping[str, str],
     radii: Sequence[int],
     run: Run,
-) -> None:
+) -> Figure:
     """Draw a part's first frame by each method and radius.
 
     Args:
-        part: of a frame set, see `FrameSetPart`; answers: of each method, by file name.
+        part: of a frame set, see `FrameSetPart`; soft_answers: of each method, by file name.
         labels: of the methods, in the order to draw them; radii: their numbers, counted from 0.
-
-    Raises:
-        InputError: a file is missing or not whole.
     """
     from neural_shadows.frames.frame_set import FrameSetPart
 
     opened = FrameSetPart(part)
     targets = opened.targets[NUMBER].astype(np.float32)
     valid = np.asarray(opened.valid[NUMBER, 0])
-    paths = {path.stem: path for path in answers}
+    paths = {path.stem: path for path in soft_answers}
     pictures = {
         label: [read_answer(paths[method], name_of(part, k)) for k in radii]
         for method, label in labels.items()
     }
     lights = [light_names(opened.about)[k] for k in radii]
     heading = f"{title} ({part.parent.name}, {run['scale']} scale)"
-    figure = strips(pictures, [targets[k] for k in radii], valid, lights, heading)
-    write_figure(figure, png, svg)
+    return strips(pictures, [targets[k] for k in radii], valid, lights, heading)
 
 
 def strips(
@@ -167,7 +149,7 @@ def strips(
     valid: np.ndarray,
     lights: Sequence[str],
     title: str,
-) -> "Figure":
+) -> Figure:
     """Draw exact soft shadows, and below each method's, with errors.
 
     Args:
@@ -175,55 +157,55 @@ def strips(
             pixels.
         lights: their sizes in words.
     """
-    rows, columns = 1 + len(pictures), 2 * len(targets)
-    height, width = valid.shape
-    figure, grid = _grid(title, rows, columns, height / width, note=0.5)
+    labels, columns = ["Exact", *pictures], 2 * len(targets)
+    figure, grid = _grid(title, labels, columns, valid.shape, NOTE)
     for k, (target, light) in enumerate(zip(targets, lights)):
-        _show(grid[0, 2 * k], target, f"exact, {light}")
-        _show(grid[0, 2 * k + 1], None, "")
-        for row, (label, images) in enumerate(pictures.items(), 1):
+        _show(grid[0, 2 * k], target, light)
+        grid[0, 2 * k + 1].set_axis_off()
+        for axes, images in zip(grid[1:], pictures.values()):
             error = np.where(valid, images[k] - target, 0)
             square = np.square(error[valid]).mean()
-            _show(grid[row, 2 * k], images[k], label)
-            _show(grid[row, 2 * k + 1], coloured(error), f"MSE {1e4 * square:.1f} × 10⁻⁴")
-    note_below(
-        figure,
-        "Errors: orange is too dark (false shadow), blue too bright (light leak), white none; errors "
-        "from half of the light on have the full colour.",
-    )
+            _show(axes[2 * k], images[k], light)
+            _show(axes[2 * k + 1], coloured(error), f"error, {metrics()['mse'].score(square)}")
     return figure
 
 
 def answers_alone(
     pictures: Mapping[str, Sequence[np.ndarray]], lights: Sequence[str], title: str
-) -> "Figure":
+) -> Figure:
     """Draw each method's visibility by radius, without a reference.
 
     Args:
         pictures, lights: see `strips`.
     """
-    height, width = next(iter(pictures.values()))[0].shape
-    figure, grid = _grid(title, len(pictures), len(lights), height / width)
-    for row, (label, images) in enumerate(pictures.items()):
-        for axes, picture, light in zip(grid[row], images, lights):
-            _show(axes, picture, label if row else f"{light}: {label}")
+    shape = next(iter(pictures.values()))[0].shape
+    figure, grid = _grid(title, [*pictures], len(lights), shape)
+    for row, images in zip(grid, pictures.values()):
+        for axes, picture, light in zip(row, images, lights):
+            _show(axes, picture, light)
     return figure
 
 
 def _grid(
-    title: str, rows: int, columns: int, shape: float, note: float = 0.0
-) -> "tuple[Figure, np.ndarray]":
-    """A figure with a grid of pictures, and its axes.
+    title: str, labels: Sequence[str], columns: int, shape: tuple[int, int], note: str = ""
+) -> tuple[Figure, np.ndarray]:
+    """A figure with a row of pictures a label, and its axes.
 
     Args:
-        shape: a picture's height over its width. note: inches for a note below.
+        shape: a picture's height and width.
     """
-    side = min(WIDTH / columns, WIDEST)
-    figure = new_figure(
-        title, max(columns * side, 2 * WIDEST), 0.6 + note + rows * (side * shape + 0.2)
-    )
+    height, width = shape
+    side = min((WIDTH - MARGIN) / columns, WIDEST, HIGHEST * width / height)
+    tall = side * height / width
+    across = max(MARGIN + columns * side, NARROWEST)
+    figure = new_figure(title, across, (1.3 if note else 0.6) + len(labels) * (tall + 0.25))
     figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
-    return figure, figure.subplots(rows, columns, squeeze=False)
+    grid = figure.subplots(len(labels), columns, squeeze=False)
+    for axes, label in zip(grid[:, 0], labels):
+        axes.set_ylabel(textwrap.fill(label, max(10, int(14 * tall))), fontsize=9)
+    if note:
+        note_below(figure, note)
+    return figure, grid
 
 
 def coloured(error: np.ndarray) -> np.ndarray:
@@ -237,12 +219,12 @@ def coloured(error: np.ndarray) -> np.ndarray:
     return 1 - share * (1 - colour)  # orange below 0, blue above, white at 0
 
 
-def _show(axes: "Axes", image: np.ndarray | None, text: str) -> None:
-    axes.set_axis_off()
-    if image is not None:
-        axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation="none")
+def _show(axes: Axes, image: np.ndarray, text: str) -> None:
+    # Of a larger frame not every n-th pixel.
+    axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation="antialiased")
+    frame_picture(axes)  # much of most pictures is white
     axes.set_title(text, loc="left", fontsize=8, pad=2)
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

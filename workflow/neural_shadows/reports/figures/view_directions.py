@@ -1,17 +1,14 @@
 """View directions of each sampler, with their spectra (figure 3.3)."""
 
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
-from neural_shadows.layout.layout import Layout
 from neural_shadows.rays.streams import DIRECTIONS
-from neural_shadows.reports.drawing.style import GRID, new_figure, write_figure
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.drawing.style import GRID, Figure, new_figure, run_figure
 from neural_shadows.sections.any_report import AnyFigure
 
 DEGREES = 80  # of the spectra: 1000 Poisson-disk directions have their ring near degree 50
@@ -23,15 +20,7 @@ class Settings(AnyFigure):
     kind: Literal["view_directions"] = Field(description="`view_directions`")
 
 
-def files(layout: Layout, figure: str) -> dict[str, Any]:
-    return {}
-
-
-def params(layout: Layout, figure: str) -> dict[str, Any]:
-    return {"seed": layout.settings["seed"]}
-
-
-def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
+def draw(title: str, seed: int) -> Figure:
     """Draw each sampler's directions, and below their spectra."""
     from neural_shadows.rays.poisson_disk import sphere_directions
     from neural_shadows.reports.drawing.drawing import SHOWN_DIRECTIONS, draw_hemisphere
@@ -57,7 +46,7 @@ def draw(png: Path, svg: Path, *, title: str, seed: int) -> None:
     spectrum.set_title("little power at low degrees: neither clusters nor gaps", fontsize=11)
     spectrum.grid(**GRID)
     spectrum.legend()
-    write_figure(figure, png, svg)
+    return figure
 
 
 def angular_power_spectrum(directions: np.ndarray, degrees: int) -> np.ndarray:
@@ -81,4 +70,4 @@ def angular_power_spectrum(directions: np.ndarray, degrees: int) -> np.ndarray:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_figure(snakemake, draw)

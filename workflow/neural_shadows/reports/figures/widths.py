@@ -2,27 +2,22 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.quality import with_ends
-from neural_shadows.reports.data.table import read_table
+from neural_shadows.reports.data.table import read_table, with_ends
 from neural_shadows.reports.data.timing import FRAME_MS, OWN_MS
-from neural_shadows.reports.drawing import figure_inputs, style
-from neural_shadows.reports.drawing.chart import add_tooltip, write_chart
+from neural_shadows.reports.drawing import style
+from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
+from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import frame_times
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import TableFigure
-from neural_shadows.settings.records import Row, Run
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from neural_shadows.settings.records import Row
 
 THEIRS = ("thesis_lpips", "thesis_frame_ms")
 GREY, MARKERS = "#777777", "os^v"
@@ -45,30 +40,21 @@ class Settings(TableFigure):
         return self.model_dump() | {"rows": rows}
 
 
-files = figure_inputs.table_csv
-params = figure_inputs.rows_and_run
-
-
-def draw(table: Path, png: Path, svg: Path, *, title: str, rows: Sequence[Row], run: Run) -> None:
+def draw(table_csv: Path, rows: Sequence[Row], heading: str) -> Figure:
     """Draw the networks of a table of frame times.
 
     Args:
-        table: its CSV.
         rows: the table's rows; those with a `width` (neurons per layer) are drawn.
-
-    Raises:
-        InputError: the table is missing or not whole.
     """
     numbers = (*with_ends("lpips"), *FRAME_MS, *OWN_MS, *THEIRS)
-    times = read_table(table, ("method", "scene", "lpips_net", "learned"), numbers)
+    times = read_table(table_csv, ("method", "scene", "lpips_net", "learned"), numbers)
     widths = {(row["scene"], row["label"]): row["width"] for row in rows if row["width"]}
-    figure = width_figure(times, widths, title=f"{title} ({run['scale']} scale)")
-    write_chart(figure, png, svg)
+    return width_figure(times, widths, title=heading)
 
 
 def width_figure(
     table: pd.DataFrame, widths: Mapping[tuple[str, str], int], *, title: str
-) -> "Figure":
+) -> Figure:
     """Draw LPIPS and times over width, a line per scene.
 
     The thesis's numbers are dashed and grey. Its LPIPS is of another network, with axes
@@ -117,7 +103,7 @@ def width_figure(
     return figure
 
 
-def _draw_line(axes: "Axes", rows: pd.DataFrame, columns: Sequence[str], **look: str) -> None:
+def _draw_line(axes: Axes, rows: pd.DataFrame, columns: Sequence[str], **look: str) -> None:
     """Draw a value's interval over width, hollow if not learned."""
     value, low, high = (rows[column] for column in columns)
     axes.errorbar(rows["width"], value, [value - low, high - value], capsize=3, **look)
@@ -130,4 +116,4 @@ def _draw_line(axes: "Axes", rows: pd.DataFrame, columns: Sequence[str], **look:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, draw)
+    run_chart(snakemake, draw)

@@ -7,19 +7,7 @@ import pandas as pd
 
 from neural_shadows.reports.data.phrases import describe_samples, section_of
 from neural_shadows.reports.data.verdicts import MEANINGS, SYMBOLS, css_class
-
-COLUMNS = [
-    "claim",
-    "text",
-    "statement",
-    "section",
-    "kind",
-    "verdict",
-    "reason",
-    "number_of",
-    "number",
-    "evidence",
-]
+from neural_shadows.settings.kinds import kinds
 
 
 @dataclass(frozen=True)
@@ -66,16 +54,20 @@ class Card:
 def read_cards(csv: Path) -> list[Card]:
     """Read the claims of claims.csv, in its order."""
     claims = pd.read_csv(csv, dtype=str, keep_default_na=False)
-    claims = claims.reindex(columns=COLUMNS, fill_value="")
     cards = []
     for claim in claims.itertuples():
         evidence = claim.evidence.split("\n")
         number = number_text(claim.number_of, claim.number, len(evidence))
         section = section_of({"text": claim.text, "section": claim.section})
         texts = claim.claim, claim.statement, section
-        judgement = Verdict(claim.verdict), claim.reason, number, evidence, claim.kind == "printed"
+        judgement = Verdict(claim.verdict), claim.reason, number, evidence, _without_run(claim.kind)
         cards.append(Card(*texts, *judgement))
     return cards
+
+
+def _without_run(kind: str) -> bool:
+    """Check for a kind that judges a text by itself."""
+    return getattr(kinds("reports/claims/kinds").get(kind), "WITHOUT_RUN", False)
 
 
 def number_text(metric: str, number: str, comparisons: int) -> str:
@@ -99,8 +91,7 @@ def counted(cards: list[Card]) -> list[Verdict]:
 
 def budget(csv: Path) -> str:
     """Compare training samples with the thesis's; empty without training."""
-    claims = pd.read_csv(csv)
-    claims = claims[claims["text"] == "thesis"] if "text" in claims else claims
-    theirs = claims.get("text_samples", claims.get("thesis_samples")).max()
+    claims = pd.read_csv(csv).query("text == 'thesis'")
+    theirs = claims["text_samples"].max()
     seen = claims["samples"].max()
     return "" if pd.isna(seen) else describe_samples(seen, theirs)

@@ -1,15 +1,14 @@
 """The page of a run: claims, frames, tables, figures and facts."""
 
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import jinja2
 from markupsafe import Markup
 
-from neural_shadows.evaluation.look import Look
-from neural_shadows.evaluation.soft_registry import LABELS, NETWORK_LOOK, look_of
+from neural_shadows.evaluation.registry import LABELS, NETWORK_LOOK, look_of
 from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.data.inputs import read_meshes
 from neural_shadows.reports.data.method_look import LOOKS, look_of_kind
@@ -17,10 +16,9 @@ from neural_shadows.reports.data.phrases import describe_mesh
 from neural_shadows.reports.page.blocks import Block, data_uri
 from neural_shadows.reports.page.claim_cards import budget, counted, read_cards
 from neural_shadows.reports.page.figure_blocks import figure_blocks, themed
-from neural_shadows.reports.page.frame_comparison import frame_comparisons
+from neural_shadows.reports.page.frame_comparison import frame_comparisons, soft_comparisons
 from neural_shadows.reports.page.run_facts import run_facts, run_sentence
-from neural_shadows.reports.page.soft_comparison import soft_comparisons
-from neural_shadows.reports.page.table_blocks import table_block
+from neural_shadows.reports.page.table_blocks import has_printed, shown_looks, table_block
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
@@ -50,7 +48,7 @@ def write_page(
     networks: Sequence[str],
     soft_pictures: Sequence[Mapping[str, Any]],
     folded: Sequence[str],
-    missing: Mapping[str, Sequence[str]],
+    missing: Sequence[str],
     rows: Sequence[Row],
     kinds: Mapping[str, str],
     run: Run,
@@ -74,7 +72,7 @@ def write_page(
         chapters: of the tables and figures, by name: `thesis`, `extensions` or `soft`.
         networks: labels of screen-space networks.
         folded: names of collapsed figures: contact sheets.
-        missing: missing reports, by their section.
+        missing: reports and frames of a whole run that are not made yet.
         rows: `method`, `scene` and `label` of the methods with pictures.
         kinds: of methods (`method_look.kind_of`), by label.
         benchmarks: Snakemake's, a folder for each rule.
@@ -83,6 +81,7 @@ def write_page(
         InputError: a file is missing or not whole.
     """
     described = {s: describe_mesh(mesh, scenes[s]) for s, mesh in read_meshes(meshes).items()}
+    scenes = {scene: scenes[scene] for scene in described}
     looks = {label: look_of_kind(kind) for label, kind in kinds.items()}
     claims = table_block(claims_json, looks) if claims_json else None
     claims_csv = claims_json.with_suffix(".csv") if claims_json else None
@@ -94,10 +93,13 @@ def write_page(
     shown = {figure: csvs[table] for figure, table in data.items() if table in csvs}
     drawings = figure_blocks(figures, titles, shown)
     figures = [block for block in drawings if block.name != front]
+    first = next((block for block in drawings if block.name == front), None)
+    meshes_text = f"{[*scenes.values()][0]['mesh_name']}, " if scenes else ""
 
     def of_chapter(candidates: Sequence[Block], chapter: str) -> list[Block]:
         return [block for block in candidates if chapters[block.name] == chapter]
 
+    hard = [block for block in blocks if chapters[block.name] != "soft"]
     # Notes of several tables are shown once.
     notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
     facts = run_facts(run, described, trainings, lpips_json, benchmarks)
@@ -112,14 +114,15 @@ def write_page(
     environment.filters["themed"] = themed
     scripts = [(folder / name).read_text(encoding="utf-8") for name in SCRIPTS]
     page = environment.get_template("template.html").render(
-        title=f"Neural shadows: {[*scenes.values()][0]['mesh_name']}, {run['scale']} scale",
+        title=f"Neural shadows: {meshes_text}{run['scale']} scale",
+        reproduction=bool(claims or first or any(map(has_printed, blocks))),
         style=Markup((folder / "style.css").read_text(encoding="utf-8")),
         script=Markup("\n".join(scripts)),
         sentence=run_sentence(run, scenes, facts),
         facts=facts,
         folded=folded,
-        legend=[look for look in dict.fromkeys(LOOKS.values()) if look in looks.values()],
-        soft_legend=_shown(of_chapter(blocks, "soft"), soft_looks.values()),
+        legend=[look for look in dict.fromkeys(LOOKS.values()) if look in shown_looks(hard)],
+        soft_legend=shown_looks(of_chapter(blocks, "soft")),
         claims=claims,
         cards=cards,
         verdicts=counted(cards),
@@ -127,7 +130,7 @@ def write_page(
         viewer=_viewer(viewers[0]) if viewers else None,
         other_viewers=[path.name for path in viewers[1:]],
         missing=missing,
-        front=next((block for block in drawings if block.name == front), None),
+        front=first,
         comparisons=[
             *frame_comparisons(references, visibilities, metrics, rows, described),
             *soft_comparisons(soft_parts, soft_answers, soft_pictures),
@@ -139,12 +142,6 @@ def write_page(
         shared_notes=[note for note, count in notes.items() if count > 1],
     )
     write_text(html, page)
-
-
-def _shown(blocks: Sequence[Block], looks: Collection[Look]) -> list[Look]:
-    """Looks used by tables, each once, in the tables' order."""
-    used = [look for block in blocks for part in block.parts for look in part.looks]
-    return [look for look in dict.fromkeys(used) if look in looks]
 
 
 def _viewer(html: Path) -> dict[str, str]:

@@ -47,13 +47,16 @@ def run_facts(
 
 
 def run_sentence(run: Run, scenes: Mapping[str, SceneInfo], facts: Mapping[str, str]) -> str:
-    """Describe a run in one sentence; `facts`: of `run_facts`."""
+    """Describe a run in one sentence; `facts`: of `run_facts`, `scenes`: those with a mesh."""
+    if not scenes:
+        return ""
     *first, last = dict.fromkeys(scene["mesh_name"] for scene in scenes.values())
     meshes = f"meshes {', '.join(first)} and {last}" if first else f"mesh {last}"
-    networks = facts.get("networks", "No network yet").split(",")[0]
+    networks = facts.get("networks", "").split(",")[0]
+    methods = f"{networks} beside shadow maps" if networks else "Shadows without a network"
     machines = facts.get("networks made on", "").replace("; ", " and on ")
     return (
-        f"{networks} beside shadow maps, on the {meshes} ({run['scale']} scale, frames of "
+        f"{methods}, on the {meshes} ({run['scale']} scale, frames of "
         f"{facts['frames']}){machines and f'; networks made on {machines}'}."
     )
 

@@ -1,6 +1,6 @@
 """Tables of the page: cells with printed numbers, best values and dots."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -82,6 +82,17 @@ def table_block(path: Path, looks: Mapping[str, Look]) -> Block:
         notes=tuple(map(inline, table["notes"])),
         files=csv_file(path.with_suffix(".csv")),
     )
+
+
+def shown_looks(blocks: Iterable[Block]) -> list[Look]:
+    """Looks used by tables, each once, in the tables' order."""
+    looks = (look for block in blocks for part in block.parts for look in part.looks)
+    return [*filter(None, dict.fromkeys(looks))]
+
+
+def has_printed(block: Block) -> bool:
+    """Check a table for printed numbers beside ours."""
+    return any(cell.theirs for part in block.parts for row in part.rows for cell in row)
 
 
 def inline(text: str) -> Markup:

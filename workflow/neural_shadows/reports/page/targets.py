@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.registry import RAY_TRACED
 from neural_shadows.layout import kinds, tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.claims import inputs as claims
@@ -23,11 +23,7 @@ def all_reports(layout: Layout) -> list[str]:
             for ending in (".csv", ".md", ".json")
         ),
         *(f"{name}{ending}" for name in default_figures(layout) for ending in (".png", ".svg")),
-        *(
-            f"scenes/{one}{ending}"
-            for one in layout.settings["scenes"]
-            for ending in (".png", ".svg")
-        ),
+        *(f"scenes/{one}{ending}" for one in layout.mesh_scenes for ending in (".png", ".svg")),
         *(f"{name}.html" for name in layout.settings["viewers"]),
         *(f"claims{ending}" for ending in (".csv", ".md", ".json") if layout.settings["claims"]),
         "index.html",
@@ -52,6 +48,18 @@ def default_figures(layout: Layout) -> list[str]:
     ]
 
 
+def page_inputs(layout: Layout, page: str) -> dict[str, Any]:
+    """Files that a page waits for."""
+    return page_files(layout) if page == "index" else {}
+
+
+def page_settings(layout: Layout, page: str) -> dict[str, Any]:
+    """Arguments of `write_page` beside what the page waits for."""
+    if page == "index":
+        return page_arguments(layout)
+    return page_arguments(layout) | available(layout) | {"missing": missing(layout)}
+
+
 def page_files(layout: Layout) -> dict[str, Any]:
     """Files of a whole run's page."""
     settings, paths = layout.settings, layout.paths
@@ -67,7 +75,7 @@ def page_files(layout: Layout) -> dict[str, Any]:
         "references": tables.references(layout, scenes),
         "visibilities": tables.visibilities(layout, rows),
         "metrics": tables.metrics(layout, rows),
-        "meshes": [paths.scene("mesh.json", scene) for scene in settings["scenes"]],
+        "meshes": [paths.scene("mesh.json", scene) for scene in layout.mesh_scenes],
         "trainings": tables.networks(layout, rows, "training.json"),
         "lpips_json": [paths.lpips],
     }
@@ -109,12 +117,13 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
         "chapters": chapters(layout),
         "networks": [
             one["label"]
-            for section in ("screen_experiments", "networks_by_scene")
+            for section in ("experiments", "networks_by_scene")
             for one in layout.settings[section].values()
+            if "scene" not in one
         ],
         "soft_pictures": soft_pictures.shown(layout),
         "folded": [name for name, one in figures.items() if one["folded"]],
-        "missing": {},
+        "missing": [],
         "rows": pictured(layout),
         "kinds": {
             row["label"]: kind_of(row)
@@ -122,7 +131,7 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
             for row in table.get("rows", ())
         },
         "run": layout.run(),
-        "scenes": layout.scenes(layout.settings["scenes"]),
+        "scenes": layout.scenes(layout.mesh_scenes),
         "benchmarks": layout.paths.benchmarks,
     }
 
@@ -139,47 +148,33 @@ def available(layout: Layout) -> dict[str, Any]:
     return {name: [path for path in paths if Path(path).exists()] for name, paths in files.items()}
 
 
-def available_arguments(layout: Layout) -> dict[str, Any]:
-    """Arguments of `write_page` for the available files."""
-    return page_arguments(layout) | available(layout) | {"missing": missing(layout)}
-
-
-def missing(layout: Layout) -> dict[str, list[str]]:
-    """Missing reports of a whole run's page, by section."""
-    first, chapter = front(layout), chapters(layout)
-    tables = default_tables(layout)
-    figures = [name for name in default_figures(layout) if name != first]
-    reports = {
-        "found": [f"{name}.html" for name in layout.settings["viewers"]],
-        "tables": [f"{name}.json" for name in tables if chapter[name] == "thesis"],
-        "figures": [f"{name}.svg" for name in figures if chapter[name] == "thesis"],
+def missing(layout: Layout) -> list[str]:
+    """Names of a whole run's reports, and frames of methods, that are not made yet."""
+    names = {
+        "json": [*default_tables(layout), *(["claims"] if layout.settings["claims"] else [])],
+        "svg": default_figures(layout),
+        "html": layout.settings["viewers"],
     }
-    reports["found"] += [f"{first}.svg"] if first else []
-    for one in ("extensions", "soft"):
-        reports[one] = [f"{name}.json" for name in tables if chapter[name] == one]
-        reports[one] += [f"{name}.svg" for name in figures if chapter[name] == one]
-    absent = {
-        section: [name for name in names if not Path(layout.paths.report(name)).exists()]
-        for section, names in reports.items()
-    }
-    return absent | {"compare": _missing_frames(layout)}
+    paths = {name: layout.paths.report(f"{name}.{end}") for end in names for name in names[end]}
+    return [name for name, path in paths.items() if not Path(path).exists()] + [
+        text for scene in layout.mesh_scenes for text in _missing_frames(layout, scene)
+    ]
 
 
-def _missing_frames(layout: Layout) -> list[str]:
-    """Count methods with missing frames by scene."""
-    rows, texts = pictured(layout), []
-    for scene in tables.unique(row["scene"] for row in rows):
-        shared = tables.references(layout, [scene])
-        methods = [row for row in rows if row["scene"] == scene]
-        paths = [[*shared, *tables.visibilities(layout, [row])] for row in methods]
-        count = sum(not all(Path(path).exists() for path in files) for files in paths)
-        if count:
-            texts.append(f"frames of {count} of {len(methods)} methods on {scene}")
-    return texts
+def _missing_frames(layout: Layout, scene: str) -> list[str]:
+    """Count a rendered scene's methods with missing frames."""
+    if not all(Path(path).exists() for path in tables.references(layout, [scene])):
+        return []
+    methods = [row for row in pictured(layout) if row["scene"] == scene]
+    files = [tables.visibilities(layout, [row]) for row in methods]
+    count = sum(not all(Path(path).exists() for path in paths) for paths in files)
+    return [f"frames of {count} of {len(methods)} methods on {scene}"] if count else []
 
 
-def newest(layout: Layout) -> float:
-    """Time of the newest available file, in seconds."""
+def newest(layout: Layout, page: str) -> float:
+    """Time of the newest file available to a page without inputs, in seconds."""
+    if page == "index":
+        return 0.0
     paths = [Path(path) for paths in available(layout).values() for path in paths]
     return max((path.stat().st_mtime for path in paths), default=0.0)
 

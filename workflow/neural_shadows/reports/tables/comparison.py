@@ -1,31 +1,30 @@
 """Quality of methods on the same views, beside printed numbers [4.2, 4.3]."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
 import pandas as pd
 from pydantic import Field
 
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.null_predictors import NULL, is_null
-from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.tables import depth_biases as depth_biases_of
-from neural_shadows.layout.tables import metrics as metrics_of
-from neural_shadows.layout.tables import networks
+from neural_shadows.metrics.registry import metric_in
+from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data import phrases, quality, quality_cells
 from neural_shadows.reports.data.equivalent_maps import equivalent_maps
 from neural_shadows.reports.data.inputs import read_biases
-from neural_shadows.reports.data.learned import margins
+from neural_shadows.reports.data.learned import THESIS_METRICS, margins
 from neural_shadows.reports.data.published import add_printed, printed_table, read_published
-from neural_shadows.reports.data.table import Column, Table, numbers, write_table
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.data.table import Column, Table, run_table
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableOfOneScene
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
-PRINTED = ("lpips", "psnr", "ssim")  # columns of the thesis's tables, in its order
+PRINTED = THESIS_METRICS
 
 
 class Settings(TableOfOneScene):
@@ -37,40 +36,21 @@ class Settings(TableOfOneScene):
     against: str | None = Field(
         None, description="the row whose paired differences to all others are given"
     )
+    more_metrics: list[metric_in("hard")] = Field(
+        [], description="further metrics of `metrics/kinds`, as columns"
+    )
 
     def chapter_of(self) -> Chapter:
         return "thesis" if self.published else "extensions"
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
-    rows = layout.entry("tables", table)["rows"]
-    scene = rows[0]["scene"]
-    return {
-        "metrics": metrics_of(layout, rows),
-        "mesh_json": layout.paths.scene("mesh.json", scene),
-        "trainings": networks(layout, rows, "training.json"),
-        "depth_biases": depth_biases_of(layout, rows),
-        "lpips_json": layout.paths.lpips,
-        "published_csv": layout.source("config/published.csv"),
-        # Not read: a table makes the preview of its scene, too.
-        "beside": [layout.paths.report(f"scenes/{scene}.png")],
-    }
-
-
-def params(layout: Layout, table: str) -> dict[str, Any]:
-    settings = layout.entry("tables", table)
-    rows = settings["rows"]
-    return {
-        "published": settings["published"],
-        "against": settings["against"],
-        "rows": rows,
-        "run": layout.run(),
-        "scenes": layout.scenes(row["scene"] for row in rows),
-    }
+    # Not read: a table makes the preview of its scene, too.
+    scene = layout.entry("tables", table)["rows"][0]["scene"]
+    return {"beside": [layout.paths.report(f"scenes/{scene}.png")]}
 
 
 def table(
-    *,
     metrics: list[Path],
     mesh_json: Path,
     trainings: list[Path],
@@ -83,6 +63,7 @@ def table(
     rows: Sequence[Row],
     run: Run,
     scenes: Mapping[str, SceneInfo],
+    more_metrics: Sequence[str] = (),
 ) -> Table:
     """Compare methods on a scene, sorted by LPIPS or else FLIP.
 
@@ -91,6 +72,7 @@ def table(
 
     Args:
         against: the reference method of paired differences; None for no differences.
+        more_metrics: of the CSV, as further columns.
     """
     name = rows[0]["scene"]
     scene, mesh, lpips = scenes[name], read_json(mesh_json), read_json(lpips_json)
@@ -111,19 +93,18 @@ def table(
     if published and mesh["thesis_mesh"]:
         notes.append("*thesis*: its printed number.")
     elif published:
-        notes.append(f"*thesis*: empty, because it did not measure the mesh {mesh['name']}.")
+        notes.append(f"The thesis did not measure the mesh {mesh['name']}: none of its numbers.")
     notes += [
         *quality_cells.describe_quality(table, labels.get(against)),
-        phrases.describe_shadows(name, quality.null_leaks(read_metrics(metrics))),
+        phrases.describe_shadows(name, quality.null_leaks(read_view_metrics(metrics))),
         *phrases.describe_biases(rows, read_biases(rows, depth_biases)),
         phrases.describe_scene(name, mesh, scene),
         *map(phrases.describe_training, records),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),
-        phrases.describe_run(run),
     ]
     title = phrases.titled(title, published, mesh)
-    return Table(title, table, cells(table, published), notes)
+    return Table(table, cells(table, more_metrics), notes, title=title)
 
 
 def add_printed_maps(
@@ -148,18 +129,21 @@ def add_printed_maps(
     return frame.assign(**columns)
 
 
-def cells(table: pd.DataFrame, published: str | None) -> dict[str, Column | Iterable[str]]:
+def cells(
+    table: pd.DataFrame, more_metrics: Sequence[str] = ()
+) -> dict[str, Column | Iterable[str]]:
     """Format the thesis's columns, and measures of their reliability."""
     columns: dict[str, Column | Iterable[str]] = {"method": quality_cells.method_column(table)}
     measured = [metric for metric in PRINTED if table[metric].notna().any()]
     for metric in ["flip"] * ("lpips" not in measured) + measured:
-        heading, _, decimals = quality_cells.READING[metric]
+        heading = metrics_by_key()[metric].heading
         columns[heading] = quality_cells.quality_column(table, metric)
-        if published and metric in PRINTED:
-            form = f"{{:.{decimals}f}}"
-            printed = numbers(table[f"thesis_{metric}"], form, printed_of=heading)
-            columns[f"thesis {metric.upper()}"] = printed
-    columns["pooled PSNR ↑"] = numbers(table["psnr_pooled"], "{:.2f}")
+        if metric in PRINTED and table[f"thesis_{metric}"].notna().any():
+            printed = quality_cells.metric_column(table, metric, f"thesis_{metric}")
+            columns[f"thesis {metrics_by_key()[metric].name}"] = replace(
+                printed, printed_of=heading
+            )
+    columns["pooled PSNR ↑"] = quality_cells.metric_column(table, "psnr_pooled")
     if table["psnr_difference"].notna().any():
         columns["difference, dB"] = quality_cells.difference_column(table)
     for source in ("", "thesis "):
@@ -167,9 +151,11 @@ def cells(table: pd.DataFrame, published: str | None) -> dict[str, Column | Iter
         maps = quality_cells.map_cells(*(table[name] for name in names))
         if any(maps):
             columns[f"{source}equal map"] = Column(maps, printed_of="equal map" if source else "")
-    columns["shadow error % ↓"] = numbers(table["shadow_error"], "{:.2f}", 100)
+    columns["shadow error % ↓"] = quality_cells.metric_column(table, "shadow_error")
+    for metric in more_metrics:
+        columns[metrics_by_key()[metric].heading] = quality_cells.quality_column(table, metric)
     return columns
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

@@ -2,22 +2,18 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.tables import experiments_of, networks, unique
-from neural_shadows.layout.tables import metrics as metrics_of
 from neural_shadows.reports.data import phrases, quality_cells, timing
 from neural_shadows.reports.data.inputs import read_meshes
 from neural_shadows.reports.data.learned import margins
 from neural_shadows.reports.data.published import add_printed, read_published
-from neural_shadows.reports.data.quality import scenes_quality, with_ends
-from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.data.quality import scenes_quality
+from neural_shadows.reports.data.table import Table, intervals, numbers, run_table, with_ends
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.settings.records import Row, Run
 
@@ -33,30 +29,7 @@ class Settings(TableByScene):
     kind: Literal["frame_times"] = Field(description="`frame_times`")
 
 
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    rows = layout.entry("tables", table)["rows"]
-    scenes = unique(row["scene"] for row in rows)
-    return {
-        "times": [layout.paths.frame_times(table, scene) for scene in scenes],
-        "metrics": metrics_of(layout, rows),
-        "weights": networks(layout, rows, "weights.safetensors"),
-        "meshes": [layout.paths.scene("mesh.json", scene) for scene in scenes],
-        "lpips_json": layout.paths.lpips,
-        "published_csv": layout.source("config/published.csv"),
-    }
-
-
-def params(layout: Layout, table: str) -> dict[str, Any]:
-    settings = layout.entry("tables", table)
-    return {"published": settings["published"], "rows": settings["rows"], "run": layout.run()}
-
-
-def encodings(layout: Layout, table: str) -> set[str]:
-    return layout.encodings(experiments_of(layout.entry("tables", table)["rows"]))
-
-
 def table(
-    *,
     times: list[Path],
     metrics: list[Path],
     weights: list[Path],
@@ -88,7 +61,7 @@ def table(
     described, lpips = read_meshes(meshes), read_json(lpips_json)
     table = add_printed(table, rows, PRINTED, published, published_csv, described)
     network = lpips["net"] if lpips["available"] else None
-    table = table.assign(lpips_net=network, scale=run["scale"])
+    table = table.assign(lpips_net=network)
 
     columns = {
         "scene": table["scene"],
@@ -125,10 +98,10 @@ def table(
         "A shadow map is rendered whole in each frame; its size is 4 N² bytes. Ray tracing "
         "traces a shadow ray from each pixel facing the light.",
         phrases.describe_lpips(lpips),
-        phrases.describe_run(run),
     ]
-    return Table(phrases.titled(title, published), table, columns, notes, text_columns=2)
+    title = phrases.titled(title, published)
+    return Table(table, columns, notes, title, text_columns=2)
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

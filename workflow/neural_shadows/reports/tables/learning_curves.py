@@ -8,39 +8,31 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
-from neural_shadows.evaluation.per_view_metrics import read_metrics
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import curves as curves_of
 from neural_shadows.layout.tables import metrics as metrics_of
 from neural_shadows.layout.tables import networks, unique, unshadowed, with_curves
 from neural_shadows.metrics import power_law
-from neural_shadows.metrics.error_scale import error_of, value_of
 from neural_shadows.metrics.power_law import Curve
+from neural_shadows.metrics.registry import error_of, value_of
+from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data import phrases
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.inputs import by_folder, read_meshes
 from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.quality import values_by_view
-from neural_shadows.reports.data.table import Column, Table, number_cells, write_table
+from neural_shadows.reports.data.table import Column, Table, number_cells, run_table, with_ends
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.row_settings import RowSettings
 from neural_shadows.sections.rows import TableByScene
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.records import CurvePoint, Run, SceneInfo
 from neural_shadows.training.loss_curve import read_loss
 
-# Headings, and decimals as the thesis prints them.
-READING = {
-    "loss": ("loss ↓", 4),
-    "lpips": ("LPIPS ↓", 4),
-    "flip": ("FLIP ↓", 4),
-    "psnr": ("PSNR ↑", 2),
-    "ssim": ("SSIM ↑", 4),
-}
-PREDICTED = ["predicted", "predicted_low", "predicted_high"]
+PREDICTED = with_ends("predicted")
 COLUMNS = [
     *("scene", "method", "metric", "kind", "samples", "mean", "spread", "by_seed", "exponent"),
     *(*PREDICTED, "step", "error", "unlicensed", "no_shadow", "thesis"),
@@ -67,39 +59,25 @@ class Settings(TableByScene):
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
     rows = layout.entry("tables", table)["rows"]
-    scenes = unique(row["scene"] for row in rows)
-    rows = [*with_curves(layout, rows), *unshadowed(scenes)]
+    rows = [*with_curves(layout, rows), *unshadowed(unique(row["scene"] for row in rows))]
     return {
         "metrics": metrics_of(layout, rows),
         "losses": networks(layout, rows, "loss.csv"),
         "trainings": networks(layout, rows, "training.json"),
-        "meshes": [layout.paths.scene("mesh.json", scene) for scene in scenes],
-        "lpips_json": layout.paths.lpips,
-        "published_csv": layout.source("config/published.csv"),
     }
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:
-    settings = layout.entry("tables", table)
-    rows = settings["rows"]
-    return {
-        "published": settings["published"],
-        "rows": rows,
-        "curves": curves_of(layout, rows),
-        "run": layout.run(),
-        "scenes": layout.scenes(row["scene"] for row in rows),
-    }
+    return {"curves": curves_of(layout, layout.entry("tables", table)["rows"])}
 
 
 def table(
-    *,
     metrics: list[Path],
     losses: list[Path],
     trainings: list[Path],
     meshes: list[Path],
     lpips_json: Path,
     published_csv: Path,
-    title: str,
     published: str | None,
     rows: Sequence[Row],
     curves: Mapping[str, Sequence[CurvePoint]],
@@ -114,7 +92,7 @@ def table(
         curves: `experiment`, `seed` and `samples` of each point, by the rows' experiments.
     """
     lpips = read_json(lpips_json)
-    values = {scene: read_metrics(paths) for scene, paths in by_folder(metrics).items()}
+    values = {scene: read_view_metrics(paths) for scene, paths in by_folder(metrics).items()}
     data = Trained(
         metrics={
             name: values_by_view(part, part["method"].unique()) for name, part in values.items()
@@ -147,7 +125,6 @@ def table(
         *(phrases.describe_scene(name, mesh, scenes[name]) for name, mesh in data.meshes.items()),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),
-        phrases.describe_run(run),
     ]
     table = table.assign(scale=run["scale"], lpips_net=lpips["net"] if lpips["available"] else None)
     several = table["scene"].nunique() > 1
@@ -155,9 +132,7 @@ def table(
     columns = {name: cells for name, cells in columns.items() if name != "scene" or several}
     printed_of = "at the thesis's samples"
     columns["thesis"] = Column(columns["thesis"], printed_of=printed_of)
-    texts = 3 if several else 2
-    title = phrases.titled(title, published)
-    return Table(title, table, columns, notes, text_columns=texts)
+    return Table(table, columns, notes, text_columns=3 if several else 2)
 
 
 def curve_table(
@@ -190,7 +165,7 @@ def curve_table(
             errors_and_null[metric] = np.array(means), error_of(metric, null).mean()
         for metric, (errors, null) in errors_and_null.items():
             curve = Curve(samples, errors)
-            lines = _metric_lines(metric, curve, data.seed, data.died(row, budgets))
+            lines = _metric_lines(metric, curve, data.seed, data.diverged(row, budgets))
             if data.meshes[row["scene"]]["thesis_mesh"]:
                 lines[-1]["thesis"] = printed.get((row["published"], metric), np.nan)
             key = method | {"metric": metric, "no_shadow": value_of(metric, null)}
@@ -257,8 +232,8 @@ def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
     budgets = sorted(table.loc[table["kind"] == MEASURED, "samples"].unique())
     lines = []
     for (scene, method, metric), part in table.groupby(["scene", "method", "metric"], sort=False):
-        heading, decimals = READING[metric]
-        form = f"{{:.{decimals}f}}"
+        described = metrics_by_key()[metric]
+        form = f"{{:.{described.digits}f}}"
         measured, extrapolated = by_kind(part)
         last = measured.iloc[-1]
         exponents = measured["exponent"].dropna()
@@ -268,7 +243,7 @@ def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
         means = number_cells(reached["mean"], form)
         error = "" if np.isnan(last["error"]) else f"{100 * last['error']:+.1f} %"
         lines.append(
-            {"scene": scene, "method": method, "metric": heading}
+            {"scene": scene, "method": method, "metric": described.heading}
             | {f"{short(n / 1e6)} M samples": a + b for n, a, b in zip(budgets, means, spreads)}
             | {
                 "exponent": " → ".join(f"{exponent:.2f}" for exponent in ends),
@@ -300,4 +275,4 @@ def _interval(line: pd.Series, form: str) -> str:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

@@ -9,14 +9,13 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.evaluation.method_names import RAY_TRACED
+from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.null_predictors import NULL, is_null
-from neural_shadows.evaluation.per_view_metrics import read_metrics
+from neural_shadows.evaluation.registry import RAY_TRACED
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
-from neural_shadows.layout.tables import before_training, experiments_of, networks, unique
-from neural_shadows.layout.tables import depth_biases as depth_biases_of
-from neural_shadows.layout.tables import metrics as metrics_of
+from neural_shadows.layout.tables import before_training, experiments_of
+from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data import phrases, quality, quality_cells, timing
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.inputs import by_folder, read_biases, read_meshes, read_seconds
@@ -28,12 +27,11 @@ from neural_shadows.reports.data.table import (
     filled,
     number_cells,
     numbers,
-    write_table,
+    run_table,
 )
-from neural_shadows.running.stage import run_stage
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.rows import TableByScene
-from neural_shadows.settings.base import name_in
+from neural_shadows.sections.scenes import MeshName
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
 # Facts of a method beside its quality; empty where they do not apply.
@@ -50,44 +48,17 @@ class Settings(TableByScene):
     chapter: ClassVar[Chapter] = "extensions"
 
     kind: Literal["networks"] = Field(description="`networks`")
-    against: dict[name_in("scenes"), str] = Field(
+    against: dict[MeshName, str] = Field(
         {}, description="the row whose paired differences to all others are given, by scene"
     )
 
 
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    rows = layout.entry("tables", table)["rows"]
-    scenes = unique(row["scene"] for row in rows)
-    return {
-        "times": [layout.paths.frame_times(table, scene) for scene in scenes],
-        "metrics": metrics_of(layout, rows),
-        "weights": networks(layout, rows, "weights.safetensors"),
-        "trainings": networks(layout, rows, "training.json"),
-        "depth_biases": depth_biases_of(layout, rows),
-        "meshes": [layout.paths.scene("mesh.json", scene) for scene in scenes],
-        "lpips_json": layout.paths.lpips,
-        "published_csv": layout.source("config/published.csv"),
-    }
-
-
 def params(layout: Layout, table: str) -> dict[str, Any]:
-    settings = layout.entry("tables", table)
-    rows = settings["rows"]
-    return {
-        "against": settings["against"],
-        "durations": {name: before_training(layout, name) for name in experiments_of(rows)},
-        "rows": rows,
-        "run": layout.run(),
-        "scenes": layout.scenes(row["scene"] for row in rows),
-    }
-
-
-def encodings(layout: Layout, table: str) -> set[str]:
-    return layout.encodings(experiments_of(layout.entry("tables", table)["rows"]))
+    names = experiments_of(layout.entry("tables", table)["rows"])
+    return {"durations": {name: before_training(layout, name) for name in names}}
 
 
 def table(
-    *,
     times: list[Path],
     metrics: list[Path],
     weights: list[Path],
@@ -96,7 +67,6 @@ def table(
     meshes: list[Path],
     lpips_json: Path,
     published_csv: Path,
-    title: str,
     against: Mapping[str, str],
     durations: Mapping[str, Sequence[str]],
     rows: Sequence[Row],
@@ -139,7 +109,9 @@ def table(
 
     labels = {(row["scene"], row["method"]): row["label"] for row in rows}
     others = [f"{labels[pair]} ({pair[0]})" for pair in against.items()]
-    leaks = {s: quality.null_leaks(read_metrics(files)) for s, files in by_folder(metrics).items()}
+    leaks = {
+        s: quality.null_leaks(read_view_metrics(files)) for s, files in by_folder(metrics).items()
+    }
     notes = [
         "Over a scene's views [95 % bootstrap interval]. stored: bytes of the weight file, 4 N² "
         "for a shadow map, 2 N² with 16 bits. coded: entropy-coded, a mesh by Draco, a field's "
@@ -160,9 +132,8 @@ def table(
         *(phrases.describe_training(record) for record in records.values()),
         phrases.describe_frames(run),
         phrases.describe_lpips(lpips),
-        phrases.describe_run(run),
     ]
-    return Table(title, table, cells(table), notes, text_columns=2)
+    return Table(table, cells(table), notes, text_columns=2)
 
 
 def facts_of(
@@ -223,7 +194,7 @@ def cells(table: pd.DataFrame) -> dict[str, Column | Iterable[str]]:
         "method": quality_cells.method_column(table),
         "pooled PSNR ↑": pooled,
         "difference, dB": quality_cells.difference_column(table),
-        quality_cells.READING[perceived][0]: quality_cells.quality_column(table, perceived),
+        metrics_by_key()[perceived].heading: quality_cells.quality_column(table, perceived),
         "equal map": quality_cells.map_cells(table["map_lpips"], table["map_psnr"]),
         "stored KiB ↓": numbers(table["stored_bytes"], "{:,.0f}", 1 / 1024),
         "coded": ["yes" if coded is True else "" for coded in table["coded"]],
@@ -239,4 +210,4 @@ def cells(table: pd.DataFrame) -> dict[str, Column | Iterable[str]]:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

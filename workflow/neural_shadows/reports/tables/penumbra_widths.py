@@ -2,20 +2,15 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.layout import soft_methods
-from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.intervals import t_interval
-from neural_shadows.reports.data import phrases
-from neural_shadows.reports.data.table import Table, intervals, numbers, write_table
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.data.table import Table, intervals, numbers, run_table, with_ends
 from neural_shadows.sections.frame_tables import FramesTable
-from neural_shadows.settings.records import Run
 
 WIDE = 95  # percentile of widths: the paper chooses the network's levels by it
 
@@ -26,50 +21,24 @@ class Settings(FramesTable):
     kind: Literal["penumbra_widths"] = Field(description="`penumbra_widths`")
 
 
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    frame_set = soft_methods.frame_set(layout, table)
-    return {
-        "parts": soft_methods.first_tests(layout, frame_set),
-        "meshes": soft_methods.all_meshes(layout, frame_set),
-    }
-
-
-def params(layout: Layout, table: str) -> dict[str, Any]:
-    return {"run": layout.run()}
-
-
-def generators(layout: Layout, table: str) -> list[str]:
-    return soft_methods.all_generators(layout, soft_methods.frame_set(layout, table))
-
-
-def table(
-    *,
-    parts: list[Path],
-    meshes: list[Path],
-    title: str,
-    run: Run,
-) -> Table:
+def table(first_parts: list[Path], soft_meshes: list[Path]) -> Table:
     """Tabulate measured and modelled widths by scene and light.
 
     CSV: those of `widths_table`, and the scale.
 
     Args:
-        parts: of test frames. meshes: see `measured_frames`.
-
-    Raises:
-        InputError: a file is missing or not whole.
+        first_parts: of test frames, one a scene. soft_meshes: see `measured_frames`.
     """
     from neural_shadows.evaluation.measured_frames import measured_frames
     from neural_shadows.evaluation.measured_penumbrae import NARROWEST, widths
 
     pairs = {}
-    for frame in measured_frames(parts, meshes):
+    for frame in measured_frames(first_parts, soft_meshes):
         for light, radius in enumerate(frame.part.radii):
             if radius > 0:
                 key = frame.scene_name, light, radius
                 pairs.setdefault(key, []).append(widths(frame, light))
     table = widths_table(pairs)
-    table = table.assign(scale=run["scale"])
     columns = {
         "scene": table["scene"],
         "light, m": numbers(table["radius"], "{:g}"),
@@ -78,7 +47,7 @@ def table(
         f"{WIDE} % of them": numbers(table["measured_wide"], "≤ {:.1f}"),
         "by the model, px": numbers(table["modelled"], "{:.1f}"),
         f"{WIDE} % of these": numbers(table["modelled_wide"], "≤ {:.1f}"),
-        "their ratio": intervals(table, ["wide_ratio", "wide_ratio_low", "wide_ratio_high"], 2),
+        "their ratio": intervals(table, with_ends("wide_ratio"), 2),
         "measured within, %": numbers(table["within"], "{:.1f}", 100),
     }
     notes = [
@@ -91,17 +60,17 @@ def table(
         "[95 % over a scene's frames, Student's t].",
         f"Within: share of pixels not wider than the {WIDE} % quantile of the model, by which "
         "the paper chooses the network's levels.",
-        phrases.describe_run(run),
     ]
-    return Table(title, table, columns, notes)
+    return Table(table, columns, notes)
 
 
 def widths_table(pairs: Mapping[tuple[str, int, float], Sequence[np.ndarray]]) -> pd.DataFrame:
     """Tabulate widths by scene and light.
 
-    Columns: `scene`, `light`, the radius's number from 0, `radius`, `pixels`; of these `measured` and
-    `modelled`, medians in pixels, `measured_wide` and `modelled_wide`, which `WIDE` percent do not
-    exceed; `wide_ratio` of these with the ends of its interval over frames; `within`, the share of measured widths up to `modelled_wide`. NaN without pixels.
+    Columns: `scene`, `light`, the radius's number from 0, `radius`, `pixels`; of these `measured`
+    and `modelled`, medians in pixels, `measured_wide` and `modelled_wide`, which `WIDE` percent do
+    not exceed; `wide_ratio` of these with the ends of its interval over frames; `within`, the share
+    of measured widths up to `modelled_wide`. NaN without pixels.
 
     Args:
         pairs: measured widths and the model's, (2, n) pixels of each frame, by scene, light and radius.
@@ -125,7 +94,7 @@ def _wide_ratio(frames: Sequence[np.ndarray]) -> dict[str, float]:
     The geometric mean over frames, with its interval by Student's t, NaN of fewer than two. (The ratio
     of all frames' percentiles has none that covers: simulated over eight frames 89 %.)
     """
-    names = ("wide_ratio", "wide_ratio_low", "wide_ratio_high")
+    names = with_ends("wide_ratio")
     if not frames:
         return dict.fromkeys(names, np.nan)
     ratios = [np.divide(*np.percentile(frame, WIDE, axis=1)) for frame in frames]
@@ -134,4 +103,4 @@ def _wide_ratio(frames: Sequence[np.ndarray]) -> dict[str, float]:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

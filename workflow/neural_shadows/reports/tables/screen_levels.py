@@ -1,27 +1,17 @@
 """Costs of a screen-space network by level (NSM, table S2)."""
 
-from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
-import numpy as np
 import pandas as pd
 from pydantic import Field
 
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.data import phrases, screen_profiles
-from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.published import (
-    describe_printed_times,
-    printed_column,
-    printed_size,
-    read_published,
-)
-from neural_shadows.reports.data.table import Table, filled, numbers, write_table
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.data import screen_profiles
+from neural_shadows.reports.data.published import printed_column, read_published, with_printed
+from neural_shadows.reports.data.table import Table, filled, numbers, run_table
 from neural_shadows.sections.frame_tables import ProfileTable
-from neural_shadows.settings.records import Run
+from neural_shadows.settings.records import Profile
 
 # Column, its unit, and the digits that the paper prints.
 COLUMNS = {
@@ -39,38 +29,12 @@ class Settings(ProfileTable):
     kind: Literal["screen_levels"] = Field(description="`screen_levels`")
 
 
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    return {
-        "profile_json": layout.paths.screen_profile(layout.entry("tables", table)["network"]),
-        "published_nsm_csv": layout.source("config/published_nsm.csv"),
-    }
-
-
-def params(layout: Layout, table: str) -> dict[str, Any]:
-    return {"published": layout.entry("tables", table)["published"], "run": layout.run()}
-
-
-def table(
-    *,
-    profile_json: Path,
-    published_nsm_csv: Path,
-    title: str,
-    published: str | None,
-    run: Run,
-) -> Table:
-    """Tabulate `level_table`; `profile_json`: of `profile_screen_network`.
-
-    Raises:
-        InputError: a file is missing or damaged.
-    """
+def table(profile_json: Path, published_nsm_csv: Path, published: str | None) -> Table:
+    """Tabulate `level_table`; `profile_json`: of `profile_screen_network`."""
     profile, printed_numbers = read_json(profile_json), read_published(published_nsm_csv)
-    table = level_table(profile, printed_numbers, published).assign(scale=run["scale"])
+    table = level_table(profile, printed_numbers, published)
     shown = {"level": [*map(str, table["level"])]}
-    for run_record in profile["runs"]:
-        key = screen_profiles.run_key(run_record)
-        shown[f"ms, {screen_profiles.run_name(run_record)}"] = numbers(
-            table[f"ms_{key}"], partial(short, digits=4)
-        )
+    shown |= screen_profiles.run_columns(profile, table)
     shown["% of the product's rate"] = numbers(table["product_share"], "{:.0f}", 100)
     for name, (unit, form) in COLUMNS.items():
         if name != "runtime":
@@ -84,20 +48,19 @@ def table(
         "Weights without biases, each multiply-add once. Storage: channels read and written by each "
         "convolution, over all pixels.",
         screen_profiles.describe(profile),
-        describe_printed_times(profile, printed_numbers),
-        phrases.describe_run(run),
+        screen_profiles.describe_printed_times(profile, printed_numbers),
     ]
-    shown = filled(shown)
-    return Table(phrases.titled(title, published), table, shown, notes)
+    return Table(table, filled(shown), notes)
 
 
 def level_table(
-    profile: screen_profiles.Profile, printed_numbers: pd.Series, published: str | None
+    profile: Profile, printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
     """Tabulate costs by level.
 
-    Columns `level`, `of_printed_size`, true for frames of the paper's size, `ms_RUN` of each run, and of `COLUMNS` ours, `printed_`, `_minus_printed` (of
-    times, multiply-adds and storage in frames of the paper's size alone), `product_share`.
+    Columns `level`, `of_printed_size`, true for frames of the paper's size, `ms_RUN` of each run,
+    and of `COLUMNS` ours, `printed_`, `_minus_printed` (of times, multiply-adds and storage in
+    frames of the paper's size alone), `product_share`.
     """
     levels = pd.DataFrame(profile["levels"])
     times = screen_profiles.part_times(profile).groupby("level").sum()
@@ -112,16 +75,14 @@ def level_table(
     table["storage_io"] = levels["storage"] * pixels / 1e6
     rate = 1e12 * table["compute"] / table["runtime"]
     table["product_share"] = rate / run["product_macs"]
-    same = (profile["width"], profile["height"]) == printed_size(printed_numbers)
+    same = screen_profiles.of_printed_size(profile, printed_numbers)
     table["of_printed_size"] = same
     rows = [f"level_{level}" for level in table["level"]]
     for name in COLUMNS:
-        table[f"printed_{name}"] = printed_column(printed_numbers, published, rows, name)
-        difference = table[name] - table[f"printed_{name}"]
-        comparable = same or name in OF_ANY_SIZE
-        table[f"{name}_minus_printed"] = difference if comparable else np.nan
+        printed = printed_column(printed_numbers, published, rows, name)
+        table = with_printed(table, name, printed, comparable=same or name in OF_ANY_SIZE)
     return table
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

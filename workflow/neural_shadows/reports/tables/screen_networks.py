@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict
 
 import pandas as pd
 from pydantic import Field
@@ -10,19 +10,26 @@ from pydantic import Field
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.networks.screen_space.widths import total
-from neural_shadows.reports.data import phrases
-from neural_shadows.reports.data.published import printed_column, read_published
-from neural_shadows.reports.data.table import Table, filled, numbers, write_table
-from neural_shadows.running.stage import run_stage
+from neural_shadows.networks.settings.networks import screen_network
+from neural_shadows.reports.data.published import printed_column, read_published, with_printed
+from neural_shadows.reports.data.table import Table, filled, numbers, run_table
 from neural_shadows.sections.frame_tables import NsmTable
-from neural_shadows.settings.base import Model, Name, name_in, section_or
-from neural_shadows.settings.records import Run
+from neural_shadows.sections.networks import ScreenNetworkName
+from neural_shadows.settings.base import Model, Name, section_or
+
+
+class Network(TypedDict):
+    """A network in the table's order."""
+
+    name: str
+    published: str  # its row in the paper
+    settings: Mapping[str, Any]  # its entry
 
 
 class NetworkRow(Model):
     """A row with its own settings."""
 
-    network: name_in("screen_networks") = Field(description="a name in `screen_networks`")
+    network: ScreenNetworkName = Field(description="a screen-space network of `networks`")
     published: Name | None = Field(
         None, description="its row in published_nsm.csv, if not of `network`'s name"
     )
@@ -37,39 +44,28 @@ class Settings(NsmTable):
     )
 
 
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    return {"published_nsm_csv": layout.source("config/published_nsm.csv")}
-
-
 def params(layout: Layout, table: str) -> dict[str, Any]:
     settings = layout.entry("tables", table)
     rows = [
         {
             "name": row["network"],
             "published": row["published"] or row["network"],
-            "settings": layout.entry("screen_networks", row["network"]),
+            "settings": layout.entry("networks", row["network"]),
         }
         for row in settings["networks"]
     ]
-    return {"published": settings["published"], "networks": rows, "run": layout.run()}
+    return {"networks": rows}
 
 
 def forms(layout: Layout, table: str) -> set[str]:
     rows = layout.entry("tables", table)["networks"]
-    return {layout.entry("screen_networks", row["network"])["form"] for row in rows}
+    return {layout.entry("networks", row["network"])["form"] for row in rows}
 
 
-def table(
-    *,
-    published_nsm_csv: Path,
-    title: str,
-    published: str | None,
-    networks: Sequence[Mapping[str, Any]],
-    run: Run,
-) -> Table:
+def table(published_nsm_csv: Path, published: str | None, networks: Sequence[Network]) -> Table:
     """Tabulate `network_table`."""
     printed_numbers = read_published(published_nsm_csv)
-    table = network_table(networks, printed_numbers, published).assign(scale=run["scale"])
+    table = network_table(networks, printed_numbers, published)
     shown = {
         "network": table["network"],
         "widths": table["widths"],
@@ -85,27 +81,22 @@ def table(
     notes = [
         "Of each network's convolutions, without biases. Widths: channels of each level from the "
         "finest, of both convolutions if they differ. Levels: from the frame's own size to the deepest.",
-        phrases.describe_run(run),
     ]
-    heading = phrases.titled(title, published)
-    shown = filled(shown)
-    return Table(heading, table, shown, notes, text_columns=2)
+    return Table(table, filled(shown), notes, text_columns=2)
 
 
 def network_table(
-    networks: Sequence[Mapping[str, Any]], printed_numbers: pd.Series, published: str | None
+    networks: Sequence[Network], printed_numbers: pd.Series, published: str | None
 ) -> pd.DataFrame:
     """Tabulate multiply-adds and weights by network.
-
-    `networks`: `name`, the row in the paper (`published`) and `settings` of each.
 
     Columns `network`, `widths`, `levels`, `mac_per_pixel`, `parameters` (thousands), both `printed_`
     and `_minus_printed`, `mib` of weights at 16 bits.
     """
     records = []
     for network in networks:
-        settings = network["settings"]
-        widths, layers = settings["widths"], layers_of(settings)
+        settings = screen_network(network["settings"])
+        widths, layers = settings.widths, layers_of(settings)
         records.append(
             {
                 "network": network["name"],
@@ -118,10 +109,10 @@ def network_table(
         )
     table, rows = pd.DataFrame(records), [network["published"] for network in networks]
     for name in ("mac_per_pixel", "parameters"):
-        table[f"printed_{name}"] = printed_column(printed_numbers, published, rows, name)
-        table[f"{name}_minus_printed"] = table[name] - table[f"printed_{name}"]
+        printed = printed_column(printed_numbers, published, rows, name)
+        table = with_printed(table, name, printed)
     return table
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

@@ -5,52 +5,46 @@ Datta et al. 2022, 3.5, figure 8; Hu et al. 2025, 4.2.1.
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict
 
 import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from neural_shadows.evaluation.soft_metrics import read_soft_metrics
-from neural_shadows.evaluation.soft_registry import in_format
+from neural_shadows.evaluation.registry import UNLEARNED, in_format
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.layout import screen_tables
+from neural_shadows.layout import frame_methods, tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.paths import ALL
 from neural_shadows.layout.tables import unique
-from neural_shadows.reports.data import phrases
-from neural_shadows.reports.data.frame_means import (
-    OFF_EDGES,
-    by_frame,
-    describe_units,
-    mean_with_interval,
+from neural_shadows.reports.data.frame_means import by_frame, describe_units, squared_errors
+from neural_shadows.reports.data.phrases import TEXTS
+from neural_shadows.reports.data.published import printed_column, read_published, with_printed
+from neural_shadows.reports.data.screen_profiles import (
+    describe,
+    of_printed_size,
+    product_share,
+    run_name,
 )
-from neural_shadows.reports.data.published import printed_size, read_published
-from neural_shadows.reports.data.screen_profiles import describe, product_share, run_name
-from neural_shadows.reports.data.screen_rows import (
-    ABOUT_NULLS,
-    describe_trainings,
-    learned_rows,
-    nulls_in,
-    with_printed,
-)
+from neural_shadows.reports.data.soft_frames import ABOUT_NULLS, TrainedFrames, learned_rows
 from neural_shadows.reports.data.table import (
     Table,
     filled,
     intervals,
     number_cells,
     numbers,
-    write_table,
+    run_table,
+    with_ends,
 )
-from neural_shadows.reports.data.width_notes import describe_widths
-from neural_shadows.running.stage import run_stage
+from neural_shadows.sections.experiments import ScreenExperimentName
 from neural_shadows.sections.frame_tables import FramesTable
-from neural_shadows.settings.base import Model, Name, name_in
-from neural_shadows.settings.records import Profile, Run
+from neural_shadows.sections.networks import ScreenNetworkName
+from neural_shadows.settings.base import Model, Name
+from neural_shadows.settings.records import Profile
 
 COLUMNS = (
     *("row", "null", "network", "precision", "run", "device", "runtime", "share", "size"),
-    *("error", "error_low", "error_high"),
-    *("error_off_edges", "error_off_edges_low", "error_off_edges_high"),
+    *(*with_ends("error"), *with_ends("error_off_edges")),
 )
 BYTES = {"float32": 4, "bfloat16": 2}
 
@@ -58,13 +52,21 @@ BYTES = {"float32": 4, "bfloat16": 2}
 class Step(Model):
     """A step on the way to a fast network."""
 
-    network: name_in("screen_networks") = Field(description="a name in `screen_networks`: timed")
+    network: ScreenNetworkName = Field(description="a screen-space network of `networks`: timed")
     precision: Literal["float32", "bfloat16"] = Field(
         description="of its weights, its time and its error"
     )
-    experiment: name_in("screen_experiments") | None = Field(
-        None, description="a name in `screen_experiments`: its error, in this precision"
+    experiment: ScreenExperimentName | None = Field(
+        None, description="an experiment on frames: its error, in this precision"
     )
+
+
+class StepSettings(TypedDict):
+    """A step, see `Step`."""
+
+    network: str
+    precision: str
+    experiment: str | None
 
 
 class Settings(FramesTable):
@@ -81,39 +83,35 @@ class Settings(FramesTable):
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
-    steps = layout.entry("tables", table)["steps"].values()
+    settings = layout.entry("tables", table)
+    steps, frame_set, paths = settings["steps"].values(), settings["frame_set"], layout.paths
     trained = [step for step in steps if step["experiment"]]
-    evaluated = [in_format(step["experiment"], step["precision"]) for step in trained]
-    experiments = [step["experiment"] for step in trained]
-    profiled = unique(step["network"] for step in steps)
-    return screen_tables.files(layout, table, experiments, evaluated) | {
-        "profiles": [layout.paths.screen_profile(name) for name in profiled],
-        "published_nsm_csv": layout.source("config/published_nsm.csv"),
+    keys = unique(in_format(step["experiment"], step["precision"]) for step in trained)
+    experiments = unique(step["experiment"] for step in trained)
+    nulls = UNLEARNED if trained else ()
+    return {
+        "soft_metrics": [paths.evaluation("csv", frame_set, key, ALL) for key in keys],
+        "null_metrics": [paths.evaluation("csv", frame_set, key, ALL) for key in nulls],
+        "screen_trainings": [paths.network("training.json", name) for name in experiments],
+        "frames_json": [],
+        "widths_json": tables.widths(layout, frame_set) if trained else [],
+        "profiles": [paths.screen_profile(name) for name in unique(s["network"] for s in steps)],
     }
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:
-    settings = layout.entry("tables", table)
-    experiments = [step["experiment"] for step in settings["steps"].values() if step["experiment"]]
-    return {
-        **{key: settings[key] for key in ("published", "steps")},
-        "labels": screen_tables.labels(layout, experiments),
-        "run": layout.run(),
-    }
+    steps = layout.entry("tables", table)["steps"].values()
+    names = unique(step["experiment"] for step in steps if step["experiment"])
+    return {"labels": {name: frame_methods.label(layout, name) for name in names}}
 
 
 def table(
-    *,
+    soft: TrainedFrames,
     profiles: list[Path],
-    soft_metrics: list[Path],
-    trainings: list[Path],
     published_nsm_csv: Path,
-    widths_json: Path | None = None,
     title: str,
     published: str | None,
-    steps: Mapping[str, Mapping[str, Any]],
-    labels: Mapping[str, str],
-    run: Run,
+    steps: Mapping[str, StepSettings],
 ) -> Table:
     """Tabulate time, size and error by step, beside printed numbers.
 
@@ -121,29 +119,24 @@ def table(
     timed that have the paper's, and the scale.
 
     Args:
-        widths_json: of `measure_widths`, for a note.
+        soft: the steps' experiments in their number formats, without frames.
         profiles: of `profile_screen_network`, of the steps' networks.
-        soft_metrics: of the steps' experiments in their number formats; trainings: theirs.
         published: `nsm.steps`; None for steps that the paper does not print.
-        steps: of each, by its name in the paper, `network`, `precision` and `experiment`, which may
-            be None.
-        labels: by experiment.
+        steps: by its name in the paper.
     """
     profiled = {path.stem: read_json(path) for path in profiles}
-    records = {path.parent.name: read_json(path) for path in trainings}
-    errors = read_soft_metrics(soft_metrics) if soft_metrics else None
-    table = steps_table(steps, profiled, errors)
+    table = steps_table(steps, profiled, soft)
     printed_numbers = read_published(published_nsm_csv)
-    sizes = [(profile["width"], profile["height"]) for profile in profiled.values()]
-    table["of_printed_size"] = all(size == printed_size(printed_numbers) for size in sizes)
+    table["of_printed_size"] = all(
+        of_printed_size(profile, printed_numbers) for profile in profiled.values()
+    )
     for name in ("runtime", "size", "error"):
-        table = with_printed(table, published, name, name, printed_numbers)
-        bounds = [
-            printed_numbers.get((published, row, f"{name}_above"), np.nan) for row in table["row"]
-        ]
-        table[f"printed_{name}_above"] = bounds
-    whole = table.assign(scale=run["scale"])
-    table = learned_rows(whole)
+        printed, above = (
+            printed_column(printed_numbers, published, table["row"], column)
+            for column in (name, f"{name}_above")
+        )
+        table = with_printed(table, name, printed).assign(**{f"printed_{name}_above": above})
+    whole, table = table, learned_rows(table)
     cells = {
         "step": table["row"],
         "format": table["precision"],
@@ -152,39 +145,35 @@ def table(
         "share of the products' rate, %": numbers(table["share"], "{:.0f}", 100),
         "MiB": numbers(table["size"], "{:.2f}"),
         "printed, MB": _printed(table, "size", "{:g}"),
-        "MSE × 10⁻³": intervals(table, ["error", "error_low", "error_high"], 2, 1e3),
+        "MSE × 10⁻³": intervals(table, with_ends("error"), 2, 1e3),
         "off edges × 10⁻³": numbers(table["error_off_edges"], "{:.2f}", 1e3),
         "printed × 10⁻³": numbers(table["printed_error"], "{:.2f}", 1e3),
     }
-    cells = filled(cells)
     printed = (
-        f"Printed: {phrases.TEXTS['nsm']}, on an RTX 2080 Ti: milliseconds are of another "
+        f"Printed: {TEXTS['nsm']}, on an RTX 2080 Ti: milliseconds are of another "
         "machine. `original`: its width is not printed; ours gives the printed size, above 25 MB."
     )
     notes = [
         *([printed] if published else []),
-        *_describe_errors(errors),
+        *_describe_errors(soft),
         *(describe(profile) for profile in list(profiled.values())[:1]),
         *_without_errors(table, steps),
-        *describe_trainings(records, labels),
-        *describe_widths(widths_json),
-        phrases.describe_run(run),
+        *soft.notes()[1:],
     ]
-    heading = f"{title} ({phrases.TEXTS['nsm']}, 3.5)" if published else title
-    return Table(heading, whole, cells, notes, text_columns=2)
+    heading = f"{title} ({TEXTS['nsm']}, 3.5)" if published else title
+    return Table(whole, filled(cells), notes, heading, text_columns=2)
 
 
 def steps_table(
-    steps: Mapping[str, Mapping[str, Any]],
-    profiles: Mapping[str, Profile],
-    errors: pd.DataFrame | None,
+    steps: Mapping[str, StepSettings], profiles: Mapping[str, Profile], soft: TrainedFrames
 ) -> pd.DataFrame:
     """Tabulate time, size and error by step, and errors of null predictors.
 
-    Columns: `row`, `null` (see `nulls_in`), `network`, `precision`, `runtime` (ms of a frame on all of the machine's threads, or
-    its GPU, see `run` and `device`), `share` of a matrix product's rate, `size` (MiB of weights and biases not
-    counted), `error` (mean squared) and `error_off_edges` with the ends of their intervals, NaN of what is not
-    trained. Times and errors are NaN, too, in a number format that the machine would emulate.
+    Columns: `row`, `null` (see `TrainedFrames.nulls`), `network`, `precision`, `runtime` (ms of a
+    frame on all of the machine's threads, or its GPU, see `run` and `device`), `share` of a matrix
+    product's rate, `size` (MiB of weights and biases not counted), `error` (mean squared) and
+    `error_off_edges` with the ends of their intervals, NaN of what is not trained. Times and errors
+    are NaN, too, in a number format that the machine would emulate.
     """
     rows = []
     for name, step in steps.items():
@@ -198,25 +187,22 @@ def steps_table(
             row |= {"run": run_name(last), "device": last["device"], "runtime": last["whole_ms"]}
             row |= {"share": product_share(profile, last)}
         row |= {"size": weights * BYTES[step["precision"]] / 2**20}
-        row |= dict.fromkeys(("error", "error_low", "error_high"), np.nan)
-        if step["experiment"]:
-            row |= _errors(errors, in_format(step["experiment"], step["precision"]))
-        rows.append(row | {"null": None})
-    for null in nulls_in(errors) if errors is not None else ():
-        rows.append({"row": null, "null": null} | _errors(errors, null))
+        key = step["experiment"] and in_format(step["experiment"], step["precision"])
+        rows.append(row | _errors(soft, key) | {"null": None})
+    rows += [{"row": null, "null": null} | _errors(soft, null) for null in soft.nulls]
     return pd.DataFrame(rows).reindex(columns=COLUMNS)
 
 
-def _errors(errors: pd.DataFrame, method: str) -> dict[str, float]:
-    own = errors[errors["method"] == method]
-    means = mean_with_interval(by_frame(own, "mse"), "error")
-    return means | mean_with_interval(by_frame(own, OFF_EDGES), "error_off_edges")
+def _errors(soft: TrainedFrames, method: str | None) -> dict[str, float]:
+    if method is None:
+        return {}
+    return squared_errors(soft.errors[soft.errors["method"] == method], "error")
 
 
-def _describe_errors(errors: pd.DataFrame | None) -> list[str]:
-    if errors is None:
+def _describe_errors(soft: TrainedFrames) -> list[str]:
+    if not soft.soft_metrics:
         return []
-    frames = by_frame(errors, "mse")
+    frames = by_frame(soft.errors, "mse")
     units = describe_units([*frames.index.unique("scene")], len(frames))
     return [
         f"Errors: mean over test frames and all lights, in the step's number format [{units}].",
@@ -224,7 +210,7 @@ def _describe_errors(errors: pd.DataFrame | None) -> list[str]:
     ]
 
 
-def _without_errors(table: pd.DataFrame, steps: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def _without_errors(table: pd.DataFrame, steps: Mapping[str, StepSettings]) -> list[str]:
     """Describe trained steps without an error; nothing without such steps."""
     trained = table["row"].map(lambda name: bool(steps.get(name, {}).get("experiment")))
     lacking = table[table["error"].isna() & trained]
@@ -245,4 +231,4 @@ def _printed(table: pd.DataFrame, name: str, form: str) -> list[str]:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

@@ -9,12 +9,12 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.evaluation.null_predictors import NULL
-from neural_shadows.evaluation.soft_metrics import read_soft_metrics
-from neural_shadows.evaluation.soft_registry import tuned_as
+from neural_shadows.evaluation.registry import tuned_as
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.layout import soft_methods
+from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.pooled_psnr import psnr_of
+from neural_shadows.metrics.registry import metric_in, metrics
 from neural_shadows.reports.data import phrases
 from neural_shadows.reports.data.frame_means import (
     ABOUT_EDGES,
@@ -23,22 +23,22 @@ from neural_shadows.reports.data.frame_means import (
     mean_over_scenes,
     mean_with_interval,
 )
-from neural_shadows.reports.data.lights import UNITS, light_name
+from neural_shadows.reports.data.lights import light_name
+from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_bytes, describe_times
-from neural_shadows.reports.data.table import Table, filled, intervals, numbers, write_table
-from neural_shadows.reports.data.width_notes import describe_widths
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.data.soft_frames import SoftFrames
+from neural_shadows.reports.data.table import Table, filled, numbers, run_table
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name
-from neural_shadows.settings.records import Run, SoftTimes
+from neural_shadows.settings.records import SoftTimes, Tuned
 
 WITH_INTERVALS = ("mse", OFF_EDGES, "l1")
 ERRORS = ("mse", OFF_EDGES)
-MEANS = (
-    *("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge", "false_shadow", "light_leak"),
-    *("ssim", "flip", "lpips"),
-)
+PARTS = ("mse_umbra", "mse_penumbra", "mse_lit", "mse_edge")
+SHARES = ("false_shadow", "light_leak")
+IMAGES = {"ssim": 3, "flip": 4, "lpips": 4}  # digits
+MEANS = (*PARTS, *SHARES, *IMAGES)
 FLICKER = (
     *("instability", "instability_reference", "instability_taa"),
     *("temporal_error", "temporal_error_reference", "temporal_error_taa"),
@@ -52,8 +52,11 @@ class Settings(MethodsTable):
     kind: Literal["soft_methods"] = Field(description="`soft_methods`")
     methods: list[Name] = Field(
         min_length=1,
-        description="keys of `METHODS` in evaluation/soft_methods/, or networks, in the table's "
+        description="keys of `METHODS` in evaluation/methods/, or networks, in the table's "
         "order; `no_shadow` and `all_dark` are always added",
+    )
+    more_metrics: list[metric_in("soft")] = Field(
+        [], description="further metrics of `metrics/kinds`, as columns"
     )
 
     def methods_shown(self) -> list[str]:
@@ -64,83 +67,57 @@ class Settings(MethodsTable):
         return self.model_dump() | {"methods": [*self.methods, *missing]}
 
 
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    frame_set = soft_methods.frame_set(layout, table)
-    return {
-        "frames_json": soft_methods.tests(layout, frame_set)[0],
-        "soft_metrics": soft_methods.evaluations(layout, table, "csv"),
-        "soft_times": soft_methods.times(layout, table),
-        "soft_constants": soft_methods.constants(layout, table),
-        "widths_json": soft_methods.widths(layout, frame_set),
-        "lpips_json": layout.paths.lpips,
-    }
-
-
 def params(layout: Layout, table: str) -> dict[str, Any]:
-    frames = layout.entry("frame_sets", soft_methods.frame_set(layout, table))
+    frames = layout.entry("frame_sets", tables.frame_set(layout, table))
     return {
-        "labels": soft_methods.labels(layout, table),
-        "left_out": soft_methods.left_out(layout, table),
+        "left_out": tables.left_out(layout, table),
         "unseen": frames.get("unseen", []),
-        "run": layout.run(),
     }
 
 
 def table(
-    *,
-    frames_json: Path,
-    soft_metrics: list[Path],
+    soft: SoftFrames,
     soft_times: Path | None,
     soft_constants: list[Path],
-    widths_json: Path | None,
     lpips_json: Path,
-    title: str,
-    labels: Mapping[str, str],
     left_out: Sequence[str],
     unseen: Sequence[str],
-    run: Run,
+    more_metrics: Sequence[str] = (),
 ) -> Table:
     """Tabulate errors and costs by radius and method, in the order of `labels`.
 
     CSV: all columns of `soft_table`, and the scale.
 
     Args:
-        frames_json: a part of the frame set's test frames.
-        soft_metrics: of each method; soft_times: of `time_soft_methods`, None for frames
-            without a scene; soft_constants: of `tune_soft_method`.
-        widths_json: of `measure_widths`; None for frames without targets.
-        labels: of methods; left_out: labels of methods not available on this machine.
+        soft_times: of `time_methods`, None for frames without a scene.
+        soft_constants: of `tune`.
+        left_out: labels of methods not available on this machine.
         unseen: scenes that no network trains on.
+        more_metrics: further columns.
     """
-    about, lpips = read_json(frames_json), read_json(lpips_json)
+    about, labels, lpips = soft.about, soft.labels, read_json(lpips_json)
     times = read_json(soft_times) if soft_times else {"methods": {}}
-    errors = read_soft_metrics(soft_metrics)
-    unit = UNITS[about.get("radius_unit", "metres")]
-    radii = about.get("given_radii", about["radii"])
-    table = soft_table(errors, radii, times, labels, unseen)
-    table = table.assign(unit=unit, scale=run["scale"])
+    errors, radii, unit = soft.errors, soft.radii, soft.unit
+    table = soft_table(errors, radii, times, labels, unseen, more_metrics).assign(unit=unit)
+    known = metrics()
     columns = {
         "light": [light_name(radius, unit) for radius in table["radius"]],
         "method": table["label"],
-        "MSE × 10⁻⁴ ↓": intervals(table, ["mse", "mse_low", "mse_high"], 1, 1e4),
-        "off edges": intervals(table, [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"], 1, 1e4),
-        "unseen scenes": numbers(table["mse_unseen"], "{:.1f}", 1e4),
-        "unseen, off edges": numbers(table["off_edges_unseen"], "{:.1f}", 1e4),
-        "umbra": numbers(table["mse_umbra"], "{:.1f}", 1e4),
-        "penumbra": numbers(table["mse_penumbra"], "{:.1f}", 1e4),
-        "lit": numbers(table["mse_lit"], "{:.1f}", 1e4),
-        "edge": numbers(table["mse_edge"], "{:.1f}", 1e4),
-        "PSNR dB ↑": numbers(table["psnr_pooled"], "{:.1f}"),
-        "SSIM ↑": numbers(table["ssim"], "{:.3f}"),
-        "FLIP ↓": numbers(table["flip"], "{:.4f}"),
-        "LPIPS ↓": numbers(table["lpips"], "{:.4f}"),
-        "false shadow %": numbers(table["false_shadow"], "{:.2f}", 100),
-        "light leak %": numbers(table["light_leak"], "{:.2f}", 100),
-        "flicker E": numbers(table["instability"], "{:.3f}"),
+        known["mse"].heading: metric_column(table, "mse", interval=True),
+        known[OFF_EDGES].part: metric_column(table, OFF_EDGES, interval=True),
+        "unseen scenes": metric_column(table, "mse", "mse_unseen"),
+        "unseen, off edges": metric_column(table, OFF_EDGES, "off_edges_unseen"),
+        **{known[name].part: metric_column(table, name) for name in PARTS},
+        "PSNR dB ↑": metric_column(table, "psnr_pooled", digits=1),
+        **{
+            known[name].heading: metric_column(table, name, digits=digits)
+            for name, digits in IMAGES.items()
+        },
+        **{known[name].label: metric_column(table, name) for name in (*SHARES, "instability")},
+        **{known[name].heading: metric_column(table, name) for name in more_metrics},
         "ms": numbers(table["ms"], "{:.1f}"),
         "KiB": numbers(table["bytes"] / 1024, "{:,.0f}"),
     }
-    columns = filled(columns)
     records = {record["method"]: record for record in map(read_json, soft_constants)}
     chosen = {name: records[tuned_as(name)] for name in labels if tuned_as(name) in records}
     scenes, frames = [*errors["scene"].unique()], table["frames"].iloc[0]
@@ -151,7 +128,7 @@ def table(
     notes = [
         f"{parts}unseen scenes: {', '.join(unseen) or 'none'}. The reference is traced with rays from "
         "eight points of each pixel.",
-        *describe_widths(widths_json, scenes),
+        *soft.describe_widths(scenes),
         "Squared errors: umbra, penumbra and lit by the reference's visibility (below 2 %, between, "
         "above 98 %); edge: within 3 pixels of a point light's shadow edges. A pixel counts if it shows "
         "a surface inside the light map. Surfaces facing away from the light's centre are dark for all "
@@ -164,9 +141,8 @@ def table(
         *_describe_flicker(table, errors, radii, unit),
         *([f"Not available on this machine: {', '.join(left_out)}."] if left_out else []),
         phrases.describe_lpips(lpips),
-        phrases.describe_run(run),
     ]
-    return Table(title, table, columns, notes)
+    return Table(table, filled(columns), notes)
 
 
 def soft_table(
@@ -175,6 +151,7 @@ def soft_table(
     times: SoftTimes,
     labels: Mapping[str, str],
     unseen: Sequence[str],
+    more_metrics: Sequence[str] = (),
 ) -> pd.DataFrame:
     """Tabulate errors and costs by radius and method.
 
@@ -183,6 +160,7 @@ def soft_table(
     `off_edges_unseen`, `own_ms`, `map_ms`, `ms`, `bytes`, those of `_flicker`.
     """
     frames = errors[~errors["metric"].isin(FLICKER)]
+    means = dict.fromkeys([*MEANS, *(n for n in more_metrics if n not in WITH_INTERVALS)])
     rows = []
     for number, radius in enumerate(radii):
         of_light = frames[frames["radius"] == number]
@@ -192,7 +170,7 @@ def soft_table(
             row["frames"] = int((own["metric"] == "mse").sum())
             for name in WITH_INTERVALS:
                 row |= mean_with_interval(own[own["metric"] == name]["value"], name)
-            row |= {n: mean_over_scenes(own[own["metric"] == n]["value"]) for n in MEANS}
+            row |= {n: mean_over_scenes(own[own["metric"] == n]["value"]) for n in means}
             row["psnr_pooled"] = float(psnr_of(max(row["mse"], 1e-10)))
             new = own[own.index.isin(unseen)]
             row["mse_unseen"] = mean_over_scenes(new[new["metric"] == "mse"]["value"])
@@ -245,15 +223,13 @@ def _describe_flicker(
     ]
 
 
-def _describe_constants(
-    chosen: Mapping[str, Mapping[str, Any]], labels: Mapping[str, str]
-) -> list[str]:
+def _describe_constants(chosen: Mapping[str, Tuned], labels: Mapping[str, str]) -> list[str]:
     """Describe each method's constants, and those at an end of their range."""
     sentences = []
     for method, record in chosen.items():
         parts = [
             f"{name} " + ", ".join(f"{choice['constants'][name]:g}" for choice in record["radii"])
-            for name in record["tried"]
+            for name in record["candidates"]
         ]
         ends = sorted({name for choice in record["radii"] for name in choice["at_end"]})
         end = f" ({' and '.join(ends)} at an end of the range tried)" if ends else ""
@@ -264,4 +240,4 @@ def _describe_constants(
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

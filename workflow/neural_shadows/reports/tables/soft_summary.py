@@ -3,38 +3,53 @@
 Hu et al. 2025, tables 1 to 4, figures 7 and 9.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict
 
+import numpy as np
 import pandas as pd
 from pydantic import Field, model_validator
 
-from neural_shadows.evaluation.soft_metrics import read_soft_metrics
+from neural_shadows.evaluation.registry import UNLEARNED
 from neural_shadows.files.whole_files import read_json
-from neural_shadows.layout import soft_methods
+from neural_shadows.layout import frame_methods, tables
 from neural_shadows.layout.layout import Layout
+from neural_shadows.metrics.registry import frame_metrics, metric_in
+from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data import phrases
-from neural_shadows.reports.data.frame_means import ABOUT_EDGES, OFF_EDGES, describe_units
-from neural_shadows.reports.data.lights import UNITS, light_name
-from neural_shadows.reports.data.published import read_published
-from neural_shadows.reports.data.screen_rows import describe_trainings
-from neural_shadows.reports.data.soft_costs import describe_times
-from neural_shadows.reports.data.soft_summary_rows import MOVES, Row, summary_table, with_printed
-from neural_shadows.reports.data.table import Column, Table, filled, intervals, numbers, write_table
-from neural_shadows.reports.data.width_notes import describe_widths
-from neural_shadows.running.stage import run_stage
+from neural_shadows.reports.data.frame_means import (
+    ABOUT_EDGES,
+    OFF_EDGES,
+    by_frame,
+    describe_units,
+    mean_with_interval,
+)
+from neural_shadows.reports.data.lights import light_name
+from neural_shadows.reports.data.published import printed_value, read_published, with_printed
+from neural_shadows.reports.data.quality_cells import metric_column
+from neural_shadows.reports.data.soft_costs import cost, describe_times
+from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings, read_trainings
+from neural_shadows.reports.data.table import Column, Table, filled, numbers, run_table
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Model, Name, Text, section_or
-from neural_shadows.settings.records import PartRecord, Run
+from neural_shadows.settings.records import SoftTimes
 
-HEADS = {
-    "mse": ("MSE × 10⁻⁴ ↓", "{:.2f}", 1e4),
-    "ssim": ("SSIM ↑", "{:.3f}", 1),
-    "time": ("ms", "{:.1f}", 1),
-    "temporal_error": ("temporal error × 10⁻² ↓", "{:.2f}", 100),
-}
+DIGITS = {"mse": 2, OFF_EDGES: 2, "ssim": 3}  # as the paper prints them
+
+
+MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
+
+
+class Row(TypedDict):
+    """A row, see `SummaryRow`; None if nothing is printed."""
+
+    method: str
+    label: str
+    published: str | None
+    column: str | None
 
 
 class SummaryRow(Model):
@@ -65,7 +80,7 @@ class Settings(MethodsTable):
     by: Literal["scene", "radius"] | None = Field(
         None, description="a part of the table for each; without it one row a method"
     )
-    metrics: list[Literal["mse", "ssim", "time", "temporal_error"]] = Field(
+    metrics: list[metric_in("soft", "time", "temporal_error")] = Field(
         ["mse", "ssim"],
         min_length=1,
         description="`temporal_error` is of sequences, of the set's first scene",
@@ -89,89 +104,150 @@ class Settings(MethodsTable):
             raise ValueError(f"{key}.over: frame_sets.{self.frame_set} has no `unseen`")
 
 
-def files(layout: Layout, table: str) -> dict[str, Any]:
-    frame_set = soft_methods.frame_set(layout, table)
-    return {
-        "frames_json": soft_methods.tests(layout, frame_set)[0],
-        "soft_metrics": soft_methods.evaluations(layout, table, "csv"),
-        "soft_times": soft_methods.times(layout, table),
-        "widths_json": soft_methods.widths(layout, frame_set),
-        "trainings": soft_methods.trainings(layout, table),
-        "published_kpnsm_csv": layout.source("config/published_kpnsm.csv"),
-    }
-
-
 def params(layout: Layout, table: str) -> dict[str, Any]:
     settings = layout.entry("tables", table)
-    available = soft_methods.methods(layout, table)
+    available = tables.methods(layout, table)
     labelled = [
-        row | {"label": row["label"] or soft_methods.label(layout, row["method"])}
+        row | {"label": row["label"] or frame_methods.label(layout, row["method"])}
         for row in settings["methods"]
         if row["method"] in available
     ]
     return {
-        **{key: settings[key] for key in ("published", "by", "metrics")},
+        "metrics": settings["metrics"],  # and no files of hard shadows
         "methods": labelled,
-        "measured": soft_methods.shown_scenes(layout, table),
-        "run": layout.run(),
+        "measured": tables.shown_scenes(layout, table),
     }
 
 
 def table(
-    *,
-    frames_json: Path,
-    soft_metrics: list[Path],
+    soft: SoftFrames,
+    screen_trainings: list[Path],
     soft_times: Path | None,
-    widths_json: Path | None,
-    trainings: list[Path],
     published_kpnsm_csv: Path,
-    title: str,
     published: str | None,
     methods: Sequence[Row],
     by: str | None,
     metrics: Sequence[str],
     measured: Sequence[str],
-    run: Run,
 ) -> Table:
     """Tabulate methods, for each scene or radius if `by` names one.
 
-    CSV: those of `summary_table` and `with_printed`, the radii's unit, and the scale.
+    CSV: those of `summary_table`, printed numbers and differences, the radii's unit, and the scale.
 
     Args:
-        frames_json: a part of the frame set's test frames.
-        soft_metrics: of each method; trainings: training.json of the networks.
-        soft_times: of `time_soft_methods`; None where `metrics` has no time.
-        widths_json: of `measure_widths`; None for frames without targets.
+        screen_trainings: training.json of the networks.
+        soft_times: of `time_methods`; None where `metrics` has no time.
         published: `kpnsm.` and the paper's number of the table; None without printed numbers.
-        methods: `method`, `label` and, None if nothing is printed, `published` and `column`.
-        by: `scene`, `radius`, or None; metrics: of `HEADS`.
+        by: `scene`, `radius`, or None; metrics: of `Settings`.
         measured: the scenes whose frames count.
     """
-    about = read_json(frames_json)
-    errors = read_soft_metrics(soft_metrics)
     times = read_json(soft_times) if soft_times else {"methods": {}}
-    unit = UNITS[about.get("radius_unit", "metres")]
-    radii = about.get("given_radii", about["radii"])
     printed_numbers = read_published(published_kpnsm_csv)
-    rows = {"methods": methods, "by": by, "metrics": metrics, "measured": measured}
-    table = summary_table(errors, times, radii, **rows)
+    table = summary_table(soft, times, methods, by, metrics, measured)
     for metric in metrics:
         first = metric == metrics[0]  # the metric of `column`
-        table = with_printed(table, metric, first, published, methods, printed_numbers)
-    table = table.assign(unit=unit, scale=run["scale"])
+        printed = [
+            printed_value(
+                printed_numbers, published, row["published"], row["column"] or metric, metric
+            )
+            if first or not row["column"]
+            else np.nan
+            for row in methods
+        ]
+        table = with_printed(table, metric, printed * (len(table) // len(methods)))
+    table = table.assign(unit=soft.unit)
     notes = [
-        *_describe_frames(
-            errors[errors["scene"].isin(measured)], metrics, about, radii, unit, by == "scene"
-        ),
-        *describe_widths(widths_json, measured),
-        *([_describe_sequences(errors)] if "temporal_error" in metrics else []),
+        *_describe_frames(soft, metrics, measured, by),
+        *soft.describe_widths(measured),
+        *([_describe_sequences(soft.errors)] if "temporal_error" in metrics else []),
         *([_describe_printed(metrics)] if published else []),
         *describe_times(times),
-        *describe_trainings(_records(trainings), {row["method"]: row["label"] for row in methods}),
-        phrases.describe_run(run),
+        *describe_trainings(
+            read_trainings(screen_trainings), {row["method"]: row["label"] for row in methods}
+        ),
     ]
-    heading, cells = phrases.titled(title, published), _cells(table, by, metrics, unit)
-    return Table(heading, table, cells, notes, text_columns=1 + bool(by))
+    return Table(table, _cells(table, by, metrics, soft.unit), notes, text_columns=1 + bool(by))
+
+
+def summary_table(
+    soft: SoftFrames,
+    times: SoftTimes,
+    methods: Sequence[Row],
+    by: str | None,
+    metrics: Sequence[str],
+    measured: Sequence[str],
+) -> pd.DataFrame:
+    """Tabulate methods, for each scene or radius if `by` names one.
+
+    Columns: `scene`, or `number` and `radius` of the light, where rows are by these; `method`, `label`;
+    `null`, the method if it is a null predictor; of `metrics`: those of frames with the ends of their
+    intervals, `mse_off_edges` beside `mse`; `time` (ms), and those of `_in_sequences`.
+
+    Args:
+        times: of `time_methods`; the others: as of `table`.
+    """
+    errors, radii = soft.errors, soft.radii
+    frames = errors[errors["scene"].isin(measured)]
+    return pd.DataFrame(
+        [
+            group | _row(group_frames, errors, times, row, metrics, len(radii))
+            for group, group_frames in _groups(frames, by, measured, radii)
+            for row in methods
+        ]
+    )
+
+
+def _groups(
+    frames: pd.DataFrame, by: str | None, scenes: Sequence[str], radii: Sequence[float]
+) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
+    """Key columns and frames of each part of the table."""
+    match by:
+        case "scene":
+            for scene in scenes:
+                yield {"scene": scene}, frames[frames["scene"] == scene]
+        case "radius":
+            for number, radius in enumerate(radii):
+                yield {"number": number, "radius": radius}, frames[frames["radius"] == number]
+        case _:
+            yield {}, frames
+
+
+def _row(
+    frames: pd.DataFrame,
+    errors: pd.DataFrame,
+    times: SoftTimes,
+    row: Row,
+    metrics: Sequence[str],
+    radii: int,
+) -> dict[str, Any]:
+    """A method's row: `method`, `label` and `metrics`."""
+    own = frames[frames["method"] == row["method"]]
+    values: dict[str, Any] = {"method": row["method"], "label": row["label"]}
+    values["null"] = row["method"] if row["method"] in UNLEARNED else None
+    for metric in (name for name in metrics if name in frame_metrics("soft")):
+        values |= mean_with_interval(by_frame(own, metric), metric)
+    if "mse" in metrics:
+        values |= mean_with_interval(by_frame(own, OFF_EDGES), OFF_EDGES)
+    if "time" in metrics:
+        values["time"] = float(np.mean([cost(times, row["method"], k)["ms"] for k in range(radii)]))
+    if "temporal_error" in metrics:
+        values |= _in_sequences(errors[errors["method"] == row["method"]])
+    return values
+
+
+def _in_sequences(own: pd.DataFrame) -> dict[str, float]:
+    """Temporal errors by mover, the exact shadow's, and the squared error."""
+    moves = own["part"].str.rsplit("_", n=1).str[0]
+
+    def mean(metric: str, mover: str) -> float:
+        return float(own[(own["metric"] == metric) & (moves == mover)]["value"].mean())
+
+    return {
+        "temporal_error": mean("temporal_error", MOVES[0]),
+        **{f"temporal_error_{mover}": mean("temporal_error", mover) for mover in MOVES[1:]},
+        "temporal_error_reference": mean("temporal_error_reference", MOVES[0]),
+        "mse_sequence": mean("mse_sequence", MOVES[0]),
+    }
 
 
 def _cells(
@@ -185,43 +261,38 @@ def _cells(
         cells["light"] = [light_name(radius, unit) for radius in table["radius"]]
     cells["method"] = table["label"]
     for metric in metrics:
-        head, form, factor = HEADS[metric]
-        cells[head] = numbers(table[metric], form, factor)
+        if metric == "time":
+            cells["ms"] = numbers(table["time"], "{:.1f}")
+            cells["ms, printed"] = numbers(table["printed_time"], "{:.1f}")
+            continue
+        column = partial(metric_column, table, metric, digits=DIGITS.get(metric))
+        cells[metrics_by_key()[metric].heading] = column(interval=metric == "mse")
         if metric == "mse":
-            cells[head] = intervals(table, ["mse", "mse_low", "mse_high"], 2, factor)
-            ends = [OFF_EDGES, f"{OFF_EDGES}_low", f"{OFF_EDGES}_high"]
-            cells["off edges"] = intervals(table, ends, 2, factor)
-        printed = table[f"printed_{metric}"]
-        cells[f"{head.split(' ×')[0].strip(' ↓↑')}, printed"] = numbers(printed, form, factor)
+            cells["off edges"] = metric_column(table, OFF_EDGES, interval=True, digits=2)
+        cells[f"{metrics_by_key()[metric].name}, printed"] = column(f"printed_{metric}")
         if metric == "temporal_error":
             for mover in MOVES[1:]:
-                cells[f"{mover} alone"] = numbers(table[f"{metric}_{mover}"], form, factor)
-            cells["exact shadow's"] = numbers(table[f"{metric}_reference"], form, factor)
-            cells["MSE × 10⁻⁴ in sequence"] = numbers(table["mse_sequence"], "{:.1f}", 1e4)
+                cells[f"{mover} alone"] = column(f"{metric}_{mover}")
+            cells["exact shadow's"] = column(f"{metric}_reference")
+            in_sequence = f"{metrics_by_key()['mse'].label} in sequence"
+            cells[in_sequence] = metric_column(table, "mse", "mse_sequence")
     return filled(cells)
 
 
-def _records(trainings: Sequence[Path]) -> dict[str, Any]:
-    return {path.parent.name: read_json(path) for path in trainings}
-
-
 def _describe_frames(
-    frames: pd.DataFrame,
-    metrics: Sequence[str],
-    about: PartRecord,
-    radii: Sequence[float],
-    unit: str,
-    by_scene: bool,
+    soft: SoftFrames, metrics: Sequence[str], measured: Sequence[str], by: str | None
 ) -> list[str]:
-    if not {"mse", "ssim"} & set(metrics):
+    if not {*frame_metrics("soft")} & {*metrics}:
         return []
+    about, radii = soft.about, soft.radii
+    frames = soft.errors[soft.errors["scene"].isin(measured)]
     first = frames[(frames["metric"] == "mse") & (frames["radius"] == 0)]
     count, scenes = first.groupby("method").size().max(), [*first["scene"].unique()]
-    units = "95 % over the frames of each scene" if by_scene else describe_units(scenes, count)
+    units = "95 % over the frames of each scene" if by == "scene" else describe_units(scenes, count)
     return [
         f"Mean over {count} frames of {about['width']} × {about['height']} of "
         f"{', '.join(scenes)}, and {len(radii)} radii of the light from {radii[0]:g} to "
-        f"{radii[-1]:g} {unit}, all of equal weight [{units}].",
+        f"{radii[-1]:g} {soft.unit}, all of equal weight [{units}].",
         *([ABOUT_EDGES] if (frames["metric"] == OFF_EDGES).any() else []),
     ]
 
@@ -242,4 +313,4 @@ def _describe_sequences(errors: pd.DataFrame) -> str:
 
 
 if "snakemake" in globals():
-    run_stage(snakemake, table, write_table)
+    run_table(snakemake, table)

@@ -1,123 +1,117 @@
-"""Pairs (better, worse) of methods by means of image metrics."""
+"""Pairs (better, worse) of methods by metrics."""
 
-from collections.abc import Callable, Sequence
-from typing import Literal
+from types import ModuleType
+from typing import Any, Literal
 
-import numpy as np
-import pandas as pd
 from pydantic import Field
 
-from neural_shadows.evaluation.null_predictors import NO_SHADOW
-from neural_shadows.metrics.error_scale import value_of
-from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
-from neural_shadows.metrics.pooled_psnr import psnr_of
-from neural_shadows.reports.claims import row_claims, setting_types, unlearned
-from neural_shadows.reports.claims.comparison import NAMES, Comparison, judged, unjudged
-from neural_shadows.reports.claims.learning import follow
-from neural_shadows.reports.claims.measured import NO_SHADOW_ROW, Claim, Measured, labels
-from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.trained import Row
+from neural_shadows.evaluation.registry import is_network
+from neural_shadows.reports.claims import frames, losses, screen_networks, setting_types, views
+from neural_shadows.reports.claims.measured import Claim
+from neural_shadows.reports.data.frame_means import OFF_EDGES
+from neural_shadows.reports.tables import soft_methods, soft_summary
+from neural_shadows.sections.any_report import AnyClaim
+from neural_shadows.sections.experiments import ScreenExperimentName
+from neural_shadows.sections.own_frames import OwnFrames
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.base import Name, check_among
 
-NEEDS_SEEDS = True
-# Both methods' errors for `two_way_interval`, the advantage of (S, …), and the views' groups.
-Arranged = tuple[np.ndarray, Callable[[np.ndarray], float], np.ndarray]
+ALL_METRICS = dict.fromkeys([*views.METRICS, *losses.METRICS, *frames.METRICS])
 
 
-class Settings(row_claims.RowsClaim):
-    """Methods compared by image metrics."""
+class Settings(AnyClaim):
+    """Methods with smaller errors than others, or networks with smaller losses.
+
+    On scenes' viewpoints, or on the frames of a table of methods for soft shadows.
+    """
 
     kind: Literal["better"] = Field(description="`better`")
-    pairs: setting_types.pairs() = Field(
-        description="methods, one of them a network; the claimed winner first"
+    pairs: setting_types.Pairs = Field(
+        description="methods, the claimed winner first: on viewpoints one of them a network, else "
+        f"those of `table`; `{frames.EQUAL_TIME}` wins by the most rays that take no longer"
     )
-    metrics: setting_types.metrics("lpips", "psnr", "ssim", "flip", "shadow_error") = Field(
-        ["lpips"],
-        description="image metrics; the claim must hold in all of them; FLIP replaces LPIPS "
-        "where its backbone is missing",
+    metrics: setting_types.metrics(*ALL_METRICS) | None = Field(
+        None,
+        description="the claim must hold in all of them. On viewpoints `lpips` by default, "
+        "or `loss` alone, the end of a training's; FLIP replaces LPIPS where its backbone is missing. "
+        "Of `table` `mse_off_edges` by default, of pixels without edges of surfaces (the evidence "
+        "names the verdict by `mse`, of all pixels, if it differs); `flip` and `lpips` are measured "
+        "for the middle light alone",
+    )
+    table: Name | None = Field(
+        None, description="a table of `soft_methods` or `soft_summary` in `tables`"
+    )
+    radii: list[setting_types.Radius] | None = Field(
+        None,
+        min_length=1,
+        description="of `table`: numbers of the frame set's radii, from 0; the claim must hold at all "
+        "of them; without it the mean over all is compared",
+    )
+    again: setting_types.again(ScreenExperimentName) = Field(
+        {}, description="of `table`: by network, its counterparts trained from other seeds"
     )
 
+    def check(self, config: Sections, key: str) -> None:
+        metrics = self.resolved_metrics()
+        units = source({"metrics": metrics, "table": self.table})
+        for metric in metrics:
+            check_among(f"{key}.metrics", metric, units.METRICS)
+        if self.table:
+            self._check_table(config, key)
+        elif self.radii or self.again:
+            unused = "radii" if self.radii else "again"
+            raise ValueError(f"{key}.{unused}: it needs `table`. Name one")
+        else:
+            units.check_methods(config, f"{key}.pairs", self.pairs)
 
-compared = row_claims.compared_in_pairs
-files = row_claims.picture_files
-not_learned = unlearned.by_frames
+    def _check_table(self, config: Sections, key: str) -> None:
+        kinds, equal_time = [soft_methods.Settings, soft_summary.Settings], False
+        if any(winner == frames.EQUAL_TIME for winner, _ in self.pairs):
+            equal_time, kinds = True, kinds[:1]  # have times by radius
+        tables = [n for n, table in config.tables.items() if isinstance(table, tuple(kinds))]
+        check_among(f"{key}.table", self.table, tables)
+        if equal_time and not self.radii:
+            raise ValueError(f"{key}.radii: `{frames.EQUAL_TIME}` needs radii. List some")
+        table = config.tables[self.table]
+        frame_set = config.frame_sets[table.frame_set]
+        if isinstance(frame_set, OwnFrames):
+            raise ValueError(
+                f"{key}.table: {self.table!r} is of a user's own frames. Choose another table"
+            )
+        for method in self._table_methods():
+            check_among(f"{key}: {self.table}.methods", method, table.methods_shown())
+        for method in self.again:
+            networks = [name for name in self._table_methods() if name in config.screen_experiments]
+            check_among(f"{key}.again", method, networks)
+        for k in self.radii or ():
+            if k >= len(frame_set.radii):
+                raise ValueError(
+                    f"{key}.radii: {k} is not below {len(frame_set.radii)}, the number of radii of "
+                    f"{table.frame_set!r}"
+                )
+        screen_networks.check_seeds(config, key, [*self.again.items()])
 
+    def resolved_metrics(self) -> list[str]:
+        """The metrics, or the default one."""
+        return self.metrics or [OFF_EDGES if self.table else "lpips"]
 
-def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
-    """A comparison for each pair and metric.
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        """The settings with `rows` of `pairs`, or with `networks` and by network `bases`."""
+        claim = self.model_dump() | {"metrics": self.resolved_metrics()}
+        if not self.table:
+            return claim | {"rows": [views.compared_rows(config, names) for names in self.pairs]}
+        named = filter(is_network, self._table_methods())
+        networks = screen_networks.all_seeds(config, named, [*self.again.items()])
+        return claim | {"networks": networks, "bases": frames.bases(config, networks)}
 
-    At the pair's largest common budget. Intervals are those of `two_way_interval`, views within
-    their view sets; the object is fixed, so that they do not cover other objects.
-    """
-    return [
-        _comparison(pair, data.metric(pair[0], metric), data)
-        for metric in claim["metrics"]
-        for pair in claim["pairs"]
-    ]
-
-
-def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
-    """The comparisons with no shadow for trained networks."""
-    if not any(row["trained"] for pair in claim["pairs"] for row in pair):
-        return {}
-    pairs = [
-        [NO_SHADOW_ROW | {"scene": row["scene"]} if row["trained"] else row for row in pair]
-        for pair in claim["pairs"]
-    ]
-    return {NO_SHADOW: comparisons({**claim, "pairs": pairs}, data)}
-
-
-def network_wins(claim: Claim) -> bool:
-    return any(winner["trained"] for winner, _ in claim["pairs"])
-
-
-def _comparison(pair: Sequence[Row], metric: str, data: Measured) -> Comparison:
-    fields = {"metric": metric, "methods": " against ".join(labels(pair))}
-    if reason := data.unshared(pair):
-        text = f"{NAMES[metric]} of {fields['methods']}"
-        return Comparison(**fields, text=text, **unjudged(incomparable=reason))
-    budgets = data.budgets(pair)
-    a, b = (data.errors(row, metric, budgets[-1]) for row in pair)
-    fewest, seeds = min(len(a), len(b)), budgets[-1].seeds
-    fields |= {
-        "text": _text(pair, metric, a, b),
-        "seeds": seeds if budgets[-1].runs else None,
-        "samples": budgets[-1].samples,
-    }
-    if fewest < FEWEST_VIEWS:
-        return Comparison(**fields, **unjudged(untested=f"{fewest} views are too few"))
-    values, advantage, groups = _arranged(pair, metric, a, b)
-    value, low, high, _ = two_way_interval(values.mean(0, keepdims=True), advantage, groups)
-    means = [[data.errors(row, metric, budget).mean() for budget in budgets] for row in pair]
-    views = value - low, high - value
-    learning = follow(pair, budgets, means, data, metric == "psnr", views)
-    interval = two_way_interval(values, advantage, groups)
-    return Comparison(**fields, **judged(*interval), learning=learning)
-
-
-def _arranged(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame) -> Arranged:
-    """Arrange the errors of a pair.
-
-    For one scene (S, V, 2), compared view by view; for two scenes the views concatenated.
-    """
-    sets = [frame.index.get_level_values("view_set") for frame in (a, b)]
-    first, second = a.to_numpy().T, b.to_numpy().T
-
-    def gain(x: np.ndarray, y: np.ndarray) -> float:
-        x, y = x.mean(), y.mean()
-        return psnr_of(x) - psnr_of(y) if metric == "psnr" else y - x
-
-    if pair[0]["scene"] == pair[1]["scene"]:
-        values = np.stack([first, second], axis=2)
-        return values, lambda v: gain(v[..., 0], v[..., 1]), np.array(sets[0])
-    groups = [f"{scene} {name}" for scene, names in enumerate(sets) for name in names]
-    count = len(a)
-    values = np.concatenate([first, second], axis=1)
-    return values, lambda v: gain(v[:, :count], v[:, count:]), np.array(groups)
+    def _table_methods(self) -> list[str]:
+        """The methods of all pairs but winners of equal time."""
+        pairs = [pair[pair[0] == frames.EQUAL_TIME :] for pair in self.pairs]
+        return [method for pair in pairs for method in pair]
 
 
-def _text(pair: Sequence[Row], metric: str, a: pd.DataFrame, b: pd.DataFrame) -> str:
-    """The methods and their means; PSNR is pooled."""
-    unit = " dB" if metric == "psnr" else ""
-    means = [value_of(metric, frame.to_numpy().mean()) for frame in (a, b)]
-    named = [f"{label} {short(mean)}{unit}" for label, mean in zip(labels(pair), means)]
-    return f"{NAMES[metric]} of {' against '.join(named)}"
+def source(claim: Claim) -> ModuleType:
+    """The module of a claim's units: frames, trainings or views."""
+    if claim.get("table"):
+        return frames
+    return losses if claim["metrics"] == [*losses.METRICS] else views

@@ -5,14 +5,13 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from neural_shadows.evaluation.method_names import shadow_map_key
+from neural_shadows.evaluation.registry import shadow_map_key
 from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.equivalent_resolution import equivalent_resolution
-from neural_shadows.metrics.error_scale import error_of
+from neural_shadows.metrics.registry import metrics
 from neural_shadows.reports.claims import setting_types
-from neural_shadows.reports.claims.comparison import NAMES, Comparison
+from neural_shadows.reports.claims.comparison import Comparison
 from neural_shadows.reports.claims.measured import Claim, Measured
-from neural_shadows.reports.data.learned import HIGHER_IS_BETTER
 from neural_shadows.reports.data.published import read_published
 from neural_shadows.sections.any_report import AnyClaim
 from neural_shadows.sections.sections import Sections
@@ -21,6 +20,7 @@ from neural_shadows.settings.kinds import PACKAGE
 
 PUBLISHED_CSV = PACKAGE.parents[1] / "config" / "published.csv"
 MAP = "shadow_map_"
+WITHOUT_RUN = True
 COUNTS_FROM = 2  # times the difference from run to run, of two trainings alone
 
 
@@ -29,7 +29,7 @@ class Settings(AnyClaim):
 
     kind: Literal["printed"] = Field(description="`printed`")
     table: str = Field(pattern=r"^4\.[1-7]$", description="the thesis's number of a table")
-    pairs: setting_types.pairs() | None = Field(
+    pairs: setting_types.Pairs | None = Field(
         None, description="rows of published.csv, the winner first"
     )
     row: str | None = Field(None, description="a row of published.csv, for `equivalent_to`")
@@ -86,13 +86,14 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
 
 def _pair(values: Any, labels: Any, pair: list[str], metric: str, margin: float) -> Comparison:
     a, b = (values[row, metric] for row in pair)
-    advantage = a - b if metric in HIGHER_IS_BETTER else b - a
+    measured = metrics()[metric]
+    advantage = a - b if measured.better == "high" else b - a
     named = " against ".join(f"{labels[row]} {value:.4g}" for row, value in zip(pair, (a, b)))
     times = advantage / margin
     return Comparison(
         metric=metric,
         methods=" against ".join(labels[row] for row in pair),
-        text=f"{NAMES[metric]} of {named}",
+        text=f"{measured.text} of {named}",
         number=f"{advantage:+.3g}",
         remark=f", {abs(times):.2g} times that from run to run ({margin:.3g})",
         supports=bool(times >= COUNTS_FROM),
@@ -105,23 +106,23 @@ def _equivalent(claim: Claim, values: Any, label: str, metric: str, margin: floa
 
     It must be nearer to that than to half and twice the size.
     """
-    row, texels = claim["row"], claim["equivalent_to"]
+    row, texels, measured = claim["row"], claim["equivalent_to"], metrics()[metric]
     maps = {
         int(name.removeprefix(MAP)): value
         for (name, column), value in values.items()
         if column == metric and name.startswith(MAP)
     }
-    sizes, errors = list(maps), [float(error_of(metric, value)) for value in maps.values()]
-    better = COUNTS_FROM * (margin if metric in HIGHER_IS_BETTER else -margin)
+    sizes, errors = list(maps), [float(measured.error(value)) for value in maps.values()]
+    better = COUNTS_FROM * (margin if measured.better == "high" else -margin)
     low, at, high = (
-        _map_size(sizes, errors, float(error_of(metric, values[row, metric] + change)))
+        _map_size(sizes, errors, float(measured.error(values[row, metric] + change)))
         for change in (-better, 0.0, better)
     )
     lower, upper = texels / np.sqrt(2), texels * np.sqrt(2)
     return Comparison(
         metric=metric,
         methods=label,
-        text=f"{NAMES[metric]} of {label} {values[row, metric]:.4g}",
+        text=f"{measured.text} of {label} {values[row, metric]:.4g}",
         number=f"as a map of {at:.0f}² [{low:.0f}², {high:.0f}²]",
         remark=f", with {COUNTS_FROM} times the difference from run to run ({margin:.3g}) either "
         f"way, where {texels}² is the nearest from {lower:.0f}² to {upper:.0f}²",

@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.layout.layout import Layout
-from neural_shadows.reports.claims.comparison import Comparison, unjudged
+from neural_shadows.reports.claims.comparison import Comparison
 from neural_shadows.reports.claims.kinds.ratio import of_another_size
 from neural_shadows.reports.claims.measured import Claim, Measured, needs
 from neural_shadows.sections.any_report import AnyClaim
@@ -42,9 +42,9 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     fields = {"metric": column, "methods": f"{over[0]} rather than {over[1]}"}
     fields["text"] = f"{column} as a line through the origin ({name})"
     if reason := of_another_size(table, column, needs(claim, "device")):
-        return [Comparison(**fields, **unjudged(incomparable=reason))]
+        return [Comparison(**fields, incomparable=reason)]
     if missing := [each for each in (column, *over) if each not in table]:
-        return [Comparison(**fields, **unjudged(untested=f"no {', '.join(missing)} in {name}"))]
+        return [Comparison(**fields, untested=f"no {', '.join(missing)} in {name}")]
     shares = [explained(table[column].to_numpy(), table[each].to_numpy()) for each in over]
     number = ", ".join(f"R² {share:.3f} over {each}" for share, each in zip(shares, over))
     holds = shares[0] > shares[1]

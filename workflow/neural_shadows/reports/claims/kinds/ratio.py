@@ -1,6 +1,6 @@
 """Numbers of tables over each other, within bounds."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -8,17 +8,18 @@ import pandas as pd
 import scipy
 from pydantic import Field, model_validator
 
-from neural_shadows.evaluation.soft_registry import UNLEARNED
+from neural_shadows.evaluation.registry import UNLEARNED
 from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.intervals import LEVEL, t_interval
-from neural_shadows.reports.claims import setting_types
-from neural_shadows.reports.claims.comparison import Comparison, of_all_pixels, seeds_of, unjudged
-from neural_shadows.reports.claims.measured import Claim, Measured, needs
-from neural_shadows.reports.claims.network_claims import NetworksClaim, training_files
+from neural_shadows.reports.claims import screen_networks, setting_types
+from neural_shadows.reports.claims.comparison import Comparison, of_all_pixels, seeds_of
+from neural_shadows.reports.claims.measured import Claim, Measured, ResolvedRatio, needs
 from neural_shadows.reports.data.digits import short
-from neural_shadows.reports.data.screen_rows import learned_rows
+from neural_shadows.reports.data.soft_frames import learned_rows
+from neural_shadows.sections.any_report import AnyClaim
+from neural_shadows.sections.experiments import ScreenExperimentName
 from neural_shadows.sections.sections import Sections
-from neural_shadows.settings.base import Name, check_among, name_in
+from neural_shadows.settings.base import Name, check_among
 
 WITHOUT_TRUNK = "no network with a perceptual loss: it needs a pretrained trunk"
 TIMES = ("runtime", "time")
@@ -43,7 +44,7 @@ class Ratio(setting_types.Bounded):
     per: str | None = Field(
         None, min_length=1, description="a column that divides both numbers first"
     )
-    unlearned: Size | None = Field(
+    null_predictor: Size | None = Field(
         None,
         description="the number of a null predictor, where the table has no row of it",
     )
@@ -55,12 +56,12 @@ class Ratio(setting_types.Bounded):
         return self
 
 
-class Settings(NetworksClaim):
+class Settings(AnyClaim):
     """Numbers of tables over each other, within bounds."""
 
     kind: Literal["ratio"] = Field(description="`ratio`")
     ratios: list[Ratio] = Field(min_length=1, description="all must hold")
-    networks: list[name_in("screen_experiments")] = Field(
+    networks: list[ScreenExperimentName] = Field(
         [], description="the trained networks of the claim"
     )
     again: setting_types.again(Name) = Field(
@@ -68,13 +69,12 @@ class Settings(NetworksClaim):
         description="by table, its counterparts of networks from other seeds",
     )
 
-    def named_networks(self) -> list[str]:
-        return self.networks
-
-    def other_seeds(self, config: Sections) -> Iterator[tuple[str, list[str]]]:
-        for table, others in self.again.items():
-            for network in self._networks_in(config, table):
-                yield network, [x for other in others for x in _same_in(config, network, other)]
+    def _other_seeds(self, config: Sections) -> list[tuple[str, list[str]]]:
+        return [
+            (network, [x for other in others for x in _same_in(config, network, other)])
+            for table, others in self.again.items()
+            for network in self._networks_in(config, table)
+        ]
 
     def _networks_in(self, config: Sections, table: str) -> list[str]:
         shown = config.tables[table].methods_shown()
@@ -93,7 +93,11 @@ class Settings(NetworksClaim):
                             f"{key}.again.{table}: {other!r} has no network that differs from "
                             f"{network!r} in `seed` and `label` alone"
                         )
-        super().check(config, key)
+        screen_networks.check_seeds(config, key, self._other_seeds(config))
+
+    def resolved(self, config: Sections) -> dict[str, Any]:
+        networks = screen_networks.all_seeds(config, self.networks, self._other_seeds(config))
+        return self.model_dump() | {"networks": networks}
 
 
 def _same_in(config: Sections, network: str, table: str) -> list[str]:
@@ -107,7 +111,7 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
     other_seeds = [table for others in claim["again"].values() for table in others]
     tables = [*(ratio["table"] for ratio in claim["ratios"]), *other_seeds]
     paths = [layout.paths.report(f"{table}.csv") for table in tables]
-    return {"tables": paths, **training_files(layout, claim)}
+    return {"tables": paths, **screen_networks.files(layout, claim)}
 
 
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
@@ -130,6 +134,9 @@ def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]
     return {null: [_of_null(ratio, data, null) for ratio in claim["ratios"]] for null in UNLEARNED}
 
 
+not_learned = screen_networks.not_learned
+
+
 def by_all_pixels(claim: Claim) -> Claim | None:
     ratios = [ratio | {"column": of_all_pixels(ratio["column"])} for ratio in claim["ratios"]]
     return {**claim, "ratios": ratios} if ratios != claim["ratios"] else None
@@ -148,28 +155,28 @@ def of_another_size(table: pd.DataFrame, column: str, device: str | None = None)
     return ""
 
 
-def _of_null(ratio: Mapping[str, Any], data: Measured, null: str) -> Comparison:
+def _of_null(ratio: ResolvedRatio, data: Measured, null: str) -> Comparison:
     """A null's ratio; supports only strictly within bounds."""
     value = _null_ratio(data.tables[ratio["table"]], ratio, null)
     inside = [SIDES[key] * (value - x) > 0 for key, x in setting_types.bounds_of(ratio).items()]
     fields = {"metric": ratio["column"], "methods": null, "text": null}
-    return Comparison(**fields, number=f"ratio {value:.3g}", supports=all(inside), against=1.0)
+    return Comparison(**fields, number=f"ratio {value:.3g}", supports=all(inside))
 
 
-def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> float:
+def _null_ratio(table: pd.DataFrame, ratio: ResolvedRatio, null: str) -> float:
     """The ratio with a null for networks, NaN without rows."""
     of, to = ratio["of"], ratio["to"]
-    if ratio.get("unlearned") is not None:
-        return ratio["unlearned"] / to
+    if ratio.get("null_predictor") is not None:
+        return ratio["null_predictor"] / to
     if "null" not in table or to is None:
         return float("nan")
-    unlearned, rows = table[table["null"] == null], to if isinstance(to, list) else [to]
+    nulls, rows = table[table["null"] == null], to if isinstance(to, list) else [to]
     # A null's rows have all columns but those that name a network.
     networks = [
         {
             key: value
             for key, value in where.items()
-            if key not in unlearned or not (unlearned[key].astype(str) == str(value)).any()
+            if key not in nulls or not (nulls[key].astype(str) == str(value)).any()
         }
         for where in (of, *rows)
         if isinstance(where, dict)
@@ -177,17 +184,17 @@ def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> flo
     both = all(network == networks[0] for network in networks)
     winner = of if ratio["at_least"] is None or not isinstance(to, dict) else to
 
-    def number(where: Mapping[str, Any] | float) -> float:
+    def number(where: Row | float) -> float:
         if isinstance(where, dict) and (both or where is winner):
             named = {key: value for key, value in where.items() if key not in networks[0]}
-            return _number_in(unlearned, ratio, named)
+            return _number_in(nulls, ratio, named)
         return _number_in(learned_rows(table), ratio, where)
 
     with np.errstate(divide="ignore", invalid="ignore"):
         return float(np.divide(number(of), np.mean([number(row) for row in rows])))
 
 
-def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Comparison:
+def _comparison(claim: Claim, ratio: ResolvedRatio, data: Measured) -> Comparison:
     names = (ratio["table"], *claim["again"].get(ratio["table"], ()))
     tables = [learned_rows(data.tables[name]) for name in names]
     column = f"{ratio['column']} per {ratio['per']}" if ratio["per"] else ratio["column"]
@@ -200,28 +207,27 @@ def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Compa
     fields = {"metric": column, "methods": " over ".join(sides)}
     fields["text"] = f"{column} of {named} ({ratio['table']})"
     if reason := of_another_size(tables[0], ratio["column"], needs(claim, "device")):
-        return Comparison(**fields, **unjudged(incomparable=reason))
+        return Comparison(**fields, incomparable=reason)
     if not np.isfinite(values).all():
-        return Comparison(**fields, **unjudged(untested=f"no {column} of one of them"))
+        return Comparison(**fields, untested=f"no {column} of one of them")
     networks = claim["networks"]
     if needs(claim, "trunk") and all(
         data.screen_trainings[name]["perceptual"] == "none" for name in networks
     ):
-        return Comparison(**fields, **unjudged(untested=WITHOUT_TRUNK))
+        return Comparison(**fields, untested=WITHOUT_TRUNK)
     ratios, needed = values[:, 0] / values[:, 1], needs(claim, "seeds") or 1
     bounds, ends = setting_types.bounds_of(ratio), _ends(tables, ratio)
     bounds_text = f" ({setting_types.in_words(bounds)})"
     if networks and len(tables) < needed:
         fields |= {"number": _number(ratios), "remark": bounds_text}
-        untested = seeds_of(len(tables), needed)
-        return Comparison(**fields, supports=False, against=1.0, untested=untested)
+        return Comparison(**fields, untested=seeds_of(len(tables), needed))
     if ends is not None and not np.isfinite(ends).all():
         reason = f"ratio {ratios[0]:.3g}{bounds_text} without an interval"
-        return Comparison(**fields, **unjudged(untested=reason))
+        return Comparison(**fields, untested=reason)
     return Comparison(**fields, remark=bounds_text, **_judged(ratios, ends, bounds))
 
 
-def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
+def _values(table: pd.DataFrame, ratio: ResolvedRatio) -> list[float]:
     value, to = _number_in(table, ratio, ratio["of"]), ratio["to"]
     if to is None:
         return [value, table[ratio["column"]].sum() - value]
@@ -229,9 +235,7 @@ def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
     return [value, float(np.mean([_number_in(table, ratio, row) for row in rows]))]
 
 
-def _number_in(
-    table: pd.DataFrame, ratio: Mapping[str, Any], where: Mapping[str, Any] | float
-) -> float:
+def _number_in(table: pd.DataFrame, ratio: ResolvedRatio, where: Row | float) -> float:
     """A row's number, divided by `per`; a given one."""
     if isinstance(where, float):
         return where
@@ -239,7 +243,7 @@ def _number_in(
     return value / _cell(table, ratio["per"], where) if ratio["per"] else value
 
 
-def _cell(table: pd.DataFrame, column: str, where: Mapping[str, Any]) -> float:
+def _cell(table: pd.DataFrame, column: str, where: Row) -> float:
     """A column's number in the only matching row, or NaN."""
     rows = table
     for name, value in where.items():
@@ -248,7 +252,7 @@ def _cell(table: pd.DataFrame, column: str, where: Mapping[str, Any]) -> float:
     return float(numbers.iloc[0]) if len(numbers) == 1 else float("nan")
 
 
-def _ends(tables: Sequence[pd.DataFrame], ratio: Mapping[str, Any]) -> np.ndarray | None:
+def _ends(tables: Sequence[pd.DataFrame], ratio: ResolvedRatio) -> np.ndarray | None:
     """Ends of a number's own interval over a given number."""
     columns = [f"{ratio['column']}_{end}" for end in ("low", "high")]
     alone = len(tables) == 1 and isinstance(ratio["to"], float) and not ratio["per"]
@@ -297,7 +301,7 @@ def _log(ratios: np.ndarray) -> np.ndarray:
         return np.log(ratios)
 
 
-def _name(where: Mapping[str, Any] | Sequence[Mapping[str, Any]] | float | None) -> str:
+def _name(where: Row | Sequence[Row] | float | None) -> str:
     if isinstance(where, float):
         return f"{where:g}"
     if isinstance(where, list):

@@ -7,42 +7,40 @@ import pandas as pd
 from pydantic import Field
 
 from neural_shadows.metrics.intervals import FEWEST_VIEWS, two_way_interval
-from neural_shadows.reports.claims import row_claims, unlearned
-from neural_shadows.reports.claims.comparison import Comparison, judged, unjudged
+from neural_shadows.reports.claims import views
+from neural_shadows.reports.claims.claim_kinds import methods
+from neural_shadows.reports.claims.comparison import Comparison, judged
 from neural_shadows.reports.claims.measured import Claim, Measured, labels
 from neural_shadows.reports.data.trained import Row
+from neural_shadows.sections.any_report import AnyClaim
 from neural_shadows.sections.sections import Sections
 
 COUNTS_VIOLATIONS = True
+LEAST_SEEDS = 1
 # Counts of violations, of those at points where the error can occur, and of those where it does.
 LOWER = ("lower_violations", "lit_of_lower", "false_shadow_of_lower")
 UPPER = ("upper_violations", "shadowed_of_upper", "light_leak_of_upper")
 
 
-class Settings(row_claims.RowsClaim):
+class Settings(AnyClaim):
     """Violations of the lower bound against those of the upper.
 
     For each network the former must show more often.
     """
 
-    rows_key = "methods"
-
     kind: Literal["violations"] = Field(description="`violations`")
     methods: list[str] = Field(min_length=1, description="networks")
 
-    def compared(self) -> list[list[str]]:
-        return [[method] for method in self.methods]
+    def check(self, config: Sections, key: str) -> None:
+        views.check_methods(config, f"{key}.methods", [[method] for method in self.methods])
 
     def resolved(self, config: Sections) -> dict[str, Any]:
-        return self.model_dump() | {"methods": row_claims.compared_rows(config, self.methods)}
+        rows = [[row] for row in views.compared_rows(config, self.methods)]
+        return self.model_dump() | {"rows": rows}
 
 
-files = row_claims.picture_files
-not_learned = unlearned.by_frames
-
-
-def compared(claim: Claim) -> list[list[Row]]:
-    return [[row] for row in claim["methods"]]
+files = views.files
+not_learned = views.not_learned
 
 
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
@@ -52,7 +50,7 @@ def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
     shadow): the cost of a violation, independent of how often each bound is violated and of
     the lit share of the frame. Counts of all views are added.
     """
-    rows = claim["methods"]
+    rows = methods(claim)
     return [_comparison(label, row, data) for label, row in zip(labels(rows), rows)]
 
 
@@ -72,7 +70,7 @@ def _comparison(label: str, row: Row, data: Measured) -> Comparison:
     lower, lit, false, upper, shadowed, leak = counts.sum((0, 1))
     if not lit or not shadowed:
         missing = "lower bound is violated at no lit" if not lit else "upper bound at no shadowed"
-        return Comparison(**fields, **unjudged(untested=f"the {missing} point"))
+        return Comparison(**fields, untested=f"the {missing} point")
     fields["text"] = (
         f"{label}: false shadow at {100 * false / lit:.3g} % of the {lit:,.0f} points that are "
         f"lit, of {lower:,.0f} with a violated lower bound, and light leak at "
@@ -80,7 +78,7 @@ def _comparison(label: str, row: Row, data: Measured) -> Comparison:
         "violated upper one"
     )
     if len(frames[0]) < FEWEST_VIEWS:
-        return Comparison(**fields, **unjudged(untested=f"{len(frames[0])} views are too few"))
+        return Comparison(**fields, untested=f"{len(frames[0])} views are too few")
     groups = frames[0].index.get_level_values("view_set")
     return Comparison(**fields, **judged(*two_way_interval(counts, _excess, groups)))
 

@@ -1,0 +1,221 @@
+"""Methods for soft shadows, compared on the frames of a table."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import TypedDict
+
+import numpy as np
+import pandas as pd
+
+from neural_shadows.evaluation.registry import UNLEARNED, is_network, rays_of
+from neural_shadows.frames.feature_names import BASES
+from neural_shadows.layout import tables
+from neural_shadows.layout.layout import Layout
+from neural_shadows.layout.paths import ALL
+from neural_shadows.metrics.intervals import FEWEST_SCENES, FEWEST_VIEWS, scenes_interval
+from neural_shadows.metrics.registry import frame_metrics, metrics
+from neural_shadows.reports.claims import screen_networks
+from neural_shadows.reports.claims.comparison import Comparison, judged, of_all_pixels, seeds_of
+from neural_shadows.reports.claims.measured import Claim, Measured, needs
+from neural_shadows.reports.data.digits import short
+from neural_shadows.sections.sections import Sections
+from neural_shadows.settings.records import SoftTimes
+
+METRICS = frame_metrics("soft")
+# A claimed winner: the most rays that take no longer than the loser, or than its first seed.
+EQUAL_TIME = "rays_of_equal_time"
+ITS_BASE = "base"  # a null predictor by network: its base, or the light's map
+
+not_learned = screen_networks.not_learned
+
+
+class TableSettings(TypedDict):
+    """Settings of a table of methods for soft shadows; `radii` as texts."""
+
+    frame_set: str
+    labels: dict[str, str]
+    scenes: list[str]
+    radii: list[str]
+
+
+@dataclass(frozen=True)
+class SoftTable:
+    """Values and times of methods for soft shadows.
+
+    Args:
+        values: a row a frame (scene, part, frame), a column a (method, metric, radius).
+        labels: by method; times: of `time_methods`, None without timing; radii: texts with
+            their unit.
+    """
+
+    values: pd.DataFrame
+    labels: Mapping[str, str]
+    times: SoftTimes | None
+    radii: Sequence[str]
+
+    def milliseconds(self, method: str, radius: int | None) -> float:
+        """Milliseconds of a frame, with its map's.
+
+        NaN for untimed methods; without a radius the mean over all.
+        """
+        timed = self.times["methods"].get(method) if self.times else None
+        if timed is None:
+            return float("nan")
+        own = np.mean(timed["ms"]) if radius is None else timed["ms"][radius]
+        return own + self.times["maps"].get(timed["map"], {"ms": 0.0})["ms"]
+
+    def errors(self, method: str, metric: str, radius: int | None) -> pd.Series | None:
+        """Errors of each frame, if measured; 1 − SSIM."""
+        radii = range(len(self.radii)) if radius is None else [radius]
+        columns = [(method, metric, k) for k in radii]
+        if any(column not in self.values for column in columns):
+            return None
+        measured = metrics()[metric]
+        means = measured.factor * self.values[columns].mean(axis=1, skipna=False)
+        return means.map(measured.error)
+
+    def light(self, radius: int | None) -> str:
+        """The light of a radius, or all, in words."""
+        return "all lights" if radius is None else self.radii[radius]
+
+    def rays_within(self, milliseconds: float, radius: int | None) -> str | None:
+        """The most rays in a time, if any."""
+        rays = [name for name in self.labels if rays_of(name)]
+        fitting = [name for name in rays if self.milliseconds(name, radius) <= milliseconds]
+        return max(fitting, key=rays_of, default=None)
+
+
+def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
+    """The `values` of a `SoftTable` from the rows of `read_metrics`."""
+    index, columns = ["scene", "part", "frame"], ["method", "metric", "radius"]
+    return metrics.pivot_table("value", index, columns)
+
+
+def bases(config: Sections, networks: Sequence[str]) -> dict[str, str]:
+    """The base of each network with one."""
+    return {
+        name: feature
+        for name in networks
+        for feature in config.network_of(name).features
+        if feature in BASES
+    }
+
+
+def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
+    """Files of a claim's table, other seeds and null predictors."""
+    table, frame_set = claim["table"], tables.frame_set(layout, claim["table"])
+    methods = [name for others in claim["again"].values() for name in others]
+    if claim["networks"]:
+        methods += [*UNLEARNED, *claim["bases"].values()]
+    beside = [layout.paths.evaluation("csv", frame_set, method, ALL) for method in methods]
+    return {
+        "soft_metrics": [*tables.evaluations(layout, table, "csv"), *beside],
+        "soft_times": tables.times(layout, table),
+        **screen_networks.files(layout, claim),
+    }
+
+
+def comparisons(claim: Claim, data: Measured, null: str = "") -> list[Comparison]:
+    """A comparison for each pair, metric and radius, see `_comparison`."""
+    table, radii = data.soft[claim["table"]], claim["radii"] or [None]
+    outcomes = []
+    for (winner, loser), metric, radius in product(claim["pairs"], claim["metrics"], radii):
+        if winner == EQUAL_TIME:
+            limit, label = table.milliseconds(loser, radius), table.labels[loser]
+            winner = table.rays_within(limit, radius)
+            if winner is None:
+                text = f"{label} takes {limit:.1f} ms at {table.light(radius)}"
+                why = f"no number of rays fits into {limit:.1f} ms"
+                outcomes.append(Comparison(metric, label, text, untested=why))
+                continue
+        outcomes.append(_comparison(claim, table, metric, radius, (winner, loser), null))
+    return outcomes
+
+
+def without_networks(claim: Claim, data: Measured) -> dict[str, list[Comparison]]:
+    """The comparisons with null predictors for networks, by null.
+
+    In each pair the null replaces the claimed winner, or the loser where only that is a network;
+    times stay the networks'. Empty without networks.
+    """
+    if not claim.get("networks"):
+        return {}
+    nulls = (*UNLEARNED, *([ITS_BASE] if claim.get("bases") else ()))
+    return {null: comparisons(claim, data, null) for null in nulls}
+
+
+def network_wins(claim: Claim) -> bool:
+    """Check for a network as claimed winner."""
+    return any(winner != EQUAL_TIME and is_network(winner) for winner, _ in claim["pairs"])
+
+
+def by_all_pixels(claim: Claim) -> Claim | None:
+    """The claim on errors of all pixels, if on those off edges."""
+    metrics = [*map(of_all_pixels, claim["metrics"])]
+    return {**claim, "metrics": metrics} if metrics != claim["metrics"] else None
+
+
+def soft_table(claim: Claim) -> str:
+    """The table of a claim."""
+    return claim["table"]
+
+
+def _comparison(
+    claim: Claim,
+    table: SoftTable,
+    metric: str,
+    radius: int | None,
+    pair: Sequence[str],
+    null: str,
+) -> Comparison:
+    """Compare two methods by paired differences over scenes and seeds.
+
+    The interval is that of `scenes_interval`. Frames do not show how trainings differ: with fewer
+    seeds of a network than the claim needs (two by default) nothing is judged. Other seeds of a
+    network are `again` of its name; both methods have the same number of them, or one a single run.
+
+    Args:
+        null: a null predictor in the first network's place, or "".
+    """
+    other_seeds, needed = claim.get("again") or {}, needs(claim, "seeds") or 2
+    measured = metrics()[metric]
+    runs = [[method, *other_seeds.get(method, ())] for method in pair]
+    network = next((k for k, method in enumerate(pair) if is_network(method)), None)
+    seeds = None
+    if null:
+        runs = [[method] for method in pair]
+        if network is not None:
+            base = claim.get("bases", {}).get(pair[network], "hard")
+            runs[network] = [base if null == ITS_BASE else null]
+    elif network is not None:
+        seeds = min(len(names) for names in runs if is_network(names[0]))
+        runs = [names[:seeds] for names in runs]
+    labels = [table.labels[name] for name in pair]
+    light = table.light(radius)
+    fields = {"metric": metric, "methods": f"{' against '.join(labels)} at {light}"}
+    errors = [[table.errors(run, metric, radius) for run in names] for names in runs]
+    if missing := [
+        label for label, series in zip(labels, errors) if any(x is None for x in series)
+    ]:
+        reason = f"no {measured.text} of {', '.join(missing)}"
+        return Comparison(**fields, text=fields["methods"], untested=reason)
+    frames = [pd.concat(series, axis=1) for series in errors]
+    means = [measured.value(each.groupby("scene").mean().mean(axis=None)) for each in frames]
+    times = [table.milliseconds(name, radius) for name in pair]
+    texts = [
+        f"{label} {short(mean)}" + ("" if np.isnan(ms) else f" ({ms:.0f} ms)")
+        for label, mean, ms in zip(labels, means, times)
+    ]
+    fields["text"] = f"{measured.text} at {light} of {' against '.join(texts)}"
+    first, second = (each.to_numpy() for each in frames)
+    gain = pd.DataFrame(second - first, frames[0].index).dropna()  # broadcasts one run over several
+    scenes = gain.index.get_level_values("scene").to_numpy()
+    count = len(set(scenes))
+    if count < FEWEST_SCENES and len(gain) < FEWEST_VIEWS:
+        return Comparison(**fields, untested=f"{len(gain)} frames are too few")
+    units = f"{count} scenes" if count >= FEWEST_SCENES else f"{len(gain)} frames in {count} scene"
+    units += "s" * (1 < count < FEWEST_SCENES)
+    interval = scenes_interval(gain.to_numpy().T, scenes)
+    outcome = Comparison(**fields, **judged(*interval), remark=f" over {units}")
+    return outcome if seeds is None or seeds >= needed else outcome.without(seeds_of(seeds, needed))
