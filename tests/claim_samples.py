@@ -118,7 +118,7 @@ def pairs(*named, scenes=None, built=()):
 def better(*named, metrics=("lpips",), scenes=None, built=(), **needs):
     """A claim on pairs of methods."""
     rows = pairs(*named, scenes=scenes, built=built)
-    return {"kind": "better", "pairs": rows, "metrics": list(metrics), "needs": needs}
+    return {"kind": "better", "rows": rows, "metrics": list(metrics), "needs": needs}
 
 
 def verdict(claim, data):

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from neural_shadows.evaluation.answers import write_answers
 from neural_shadows.evaluation.references import write_references
-from neural_shadows.evaluation.visibilities import write_visibilities
 from neural_shadows.rendering.gbuffer import GBuffer
 from neural_shadows.scenes.cameras import Viewpoint
 
@@ -44,6 +44,8 @@ def write_frames(
     paths = []
     for method, views in seen.items():
         if method != "reference":
-            paths.append(folder / f"{method}.{batch}.npz")
-            write_visibilities(paths[-1], [views[view].ravel() for view in truth])
+            paths.append(folder / f"{folder.name}.{batch}" / f"{method}.npz")
+            paths[-1].parent.mkdir(exist_ok=True)
+            lit = {str(number): views[view].ravel() for number, view in enumerate(truth)}
+            write_answers(paths[-1], lit)
     return [references], paths

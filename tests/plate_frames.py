@@ -7,6 +7,7 @@ import trimesh
 from shapes import prepared
 
 from neural_shadows.frames.soft_frame import SoftFrame
+from neural_shadows.rendering.light_shape import SPHERE
 from neural_shadows.rendering.soft_shadows import soft_visibility
 from neural_shadows.rendering.surface import see_surface
 from neural_shadows.scenes.arrangement import UP, scene_of
@@ -30,16 +31,18 @@ def camera(shift=0.0):
     return Camera(np.array([shift, 0.75, 0.6]), np.array([shift, 0, 0]), UP, 30.0)
 
 
-def plate_frame(shift=0.0):
+def plate_frame(shift=0.0, shape=SPHERE):
     surface = see_surface(plate(), camera(shift), WIDTH, HEIGHT)
-    return SoftFrame(plate(), surface, CENTRE, cube_map(CENTRE, 8))
+    return SoftFrame(plate(), surface, CENTRE, cube_map(CENTRE, 8), shape=shape)
 
 
 @cache
-def plate_truth(shift=0.0):
+def plate_truth(shift=0.0, shape=SPHERE):
     """Its visibility, (HEIGHT · WIDTH,) float32."""
-    told = {"centre": CENTRE, "radii": [RADIUS], "samples": 32, "adaptive": False}
-    return soft_visibility(plate(), camera(shift), WIDTH, HEIGHT, **told)[0].ravel()
+    light = {"centre": CENTRE, "radii": [RADIUS], "shape": shape}
+    size = WIDTH, HEIGHT
+    images = soft_visibility(plate(), camera(shift), *size, **light, samples=32, adaptive=False)
+    return images[0].ravel()
 
 
 def error(found, truth):

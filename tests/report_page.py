@@ -18,9 +18,9 @@ TEMPLATE = sorted((Path(__file__).parents[1] / "workflow" / "report" / "page").i
 HOSTILE = "<script>alert('x')</script> & \"quotes\""
 SHARED = "A note to several tables."
 CLAIMS = (
-    "claim,section,statement,verdict,reason,evidence,samples,thesis_samples\n"
-    f'less,4.3,"{HOSTILE.replace(chr(34), chr(34) * 2)}",supported,all,"PSNR of A 3 against B 2: +1 [+0.5, +2]",10,1000\n'
-    'more,4.3,More is more.,undecided (scale),1 seed,"loss of A 3 against B 2: +1; too few",10,1000\n'
+    "claim,text,kind,number_of,number,section,statement,verdict,reason,evidence,samples,text_samples\n"
+    f'less,thesis,better,,,4.3,"{HOSTILE.replace(chr(34), chr(34) * 2)}",supported,all,"PSNR of A 3 against B 2: +1 [+0.5, +2]",10,1000\n'
+    'more,thesis,better,,,4.3,More is more.,undecided (scale),1 seed,"loss of A 3 against B 2: +1; too few",10,1000\n'
 )
 VIEWER = """<!DOCTYPE html><title>Viewer</title><p id="said">waits</p>
 <script>document.getElementById("said").textContent = "runs" + ("</scr" + "ipt>").length;
@@ -41,7 +41,7 @@ def table() -> Table:
     }
     notes = ["Mean over 24 views; *thesis*: printed.", SHARED]
     data = pd.DataFrame({"a": [1]})
-    return Table("Networks and shadow maps (table 4.3 of the thesis)", data, columns, notes)
+    return Table(data, columns, notes, title="Networks and shadow maps (table 4.3 of the thesis)")
 
 
 def seen_frames() -> dict[str, dict[tuple[str, int], np.ndarray]]:
@@ -104,7 +104,7 @@ def make_page(folder: Path, **changes) -> Path:
         "soft_answers": [],
         "soft_pictures": [],
         "folded": ["figure_4_1"],
-        "missing": {},
+        "missing": [],
         "rows": [samples.row(method, label) for method, label in LABELS.items()],
         "kinds": {"512² shadow map": "map", "Network": "frequency"},
         "run": {**samples.RUN, "scale": HOSTILE},

@@ -1,13 +1,14 @@
 """Rows, the context of a run and small results of its stages, for the tests of reports."""
 
-import inspect
 import json
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from neural_shadows.reports.data.table import write_table
+from neural_shadows.reports.data.table import whole_table, write_table
+from neural_shadows.reports.drawing.chart import write_chart
+from neural_shadows.reports.drawing.style import whole_figure
 
 PUBLISHED = Path(__file__).parents[1] / "config" / "published.csv"
 RUN = {"scale": "test", "seed": 1, "width": 60, "height": 40, "reference": "exact"}
@@ -32,6 +33,12 @@ SPENT = {"samples": 640, "seconds": 1.5, **ORIGIN, "threads": 2}
 TRAINING = {"training": SETTINGS | ON_CPU} | NETWORK | SPENT
 FRAMES = {"width": 60, "height": 40, "views": 4, "repeats": 2, "warm_up": 1, "sphere_rays": 123.0}
 TIMES = {"scene": "dragon", "machine": MACHINE} | ON_CPU | FRAMES
+# Of methods for soft shadows, of a point and of a light of a quarter of the scene's size.
+SOFT_FRAMES = {"width": 8, "height": 4, "radii": [0, 0.5], "given_radii": [0, 0.25]}
+SOFT_FRAMES |= {"radius_unit": "scene_sizes"}
+SOFT_TIMES = {"frames": 2, "repeats": 3, "once_above_ms": 100, "machine": {"cpu": "a CPU"}}
+SOFT_TIMES |= {"maps": {"8": {"ms": 10.0, "texels": 64}}, "map_share": 1.0}
+BY_MAP = {"map": "8", "texel_floats": 1, "held_bytes": 0}
 NULL = ("no_shadow", "all_dark")
 CLASSIC = ("shadow_map_", "ray_traced", *NULL)
 
@@ -62,7 +69,7 @@ def row(
 
 
 def timed(ms, own_ms=None, device="cpu", resident_bytes=None):
-    """The times of a method as `measure_frame_times` gives them."""
+    """The times of a method as `time_methods` gives them."""
     own = own_ms or [one / 2 for one in ms]
     return {"ms": ms, "own_ms": own, "device": device, "resident_bytes": resident_bytes}
 
@@ -85,8 +92,16 @@ def write_metrics(folder, means, scene="dragon", views=12):
     """A file of `metrics_of` in the folder of a scene."""
     path = folder / scene / "metrics.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
-    metrics_of(means, views).to_csv(path, index=False)
+    columns = {"view": "frame", "view_set": "part"}
+    rows = metrics_of(means, views).rename(columns=columns).assign(scene=scene, radius=0)
+    rows.to_csv(path, index=False)
     return path
+
+
+def constants_of(depth_bias, push, at_end):
+    """A method's constants as `tune` gives them."""
+    chosen = {"depth_bias": depth_bias, "push": push}
+    return {"radii": [{"constants": chosen, "at_end": ["depth_bias"] * at_end}]}
 
 
 def write_record(path, record):
@@ -118,14 +133,20 @@ def written_table(make, folder, **given):
         "tables": [],
         "screen_trainings": [],
         "against": None,
+        "more_metrics": (),
         "durations": {},
         "run": RUN,
         "scenes": SCENES,
     } | given
     weights.write_bytes(bytes(8 + 2_227_200))  # the length of an empty header, and the weights
-    return written(
-        make(**{name: settings[name] for name in inspect.signature(make).parameters}), folder
-    )
+    return written(whole_table(make)(**settings), folder)
+
+
+def written_figure(draw, folder, write=write_chart, **given):
+    """The SVG's text of the figure that a kind's function draws; the PNG is beside it."""
+    png, svg = folder / "figure.png", folder / "figure.svg"
+    write(whole_figure(draw)(**{"title": "Title", "run": RUN, **given}), png, svg)
+    return svg.read_text(encoding="utf-8")
 
 
 def written(table, folder):

@@ -14,16 +14,13 @@ from checkout import Checkout
 MEASURED = {
     # On a cluster the machine too: cores are those of the job.
     "networks/*/training.json": {"seconds", "samples_per_second", "machine"},
-    "depth_biases/*/*.json": {"machine"},
+    "constants/*/*/*.json": {"machine"},
     "scenes/*/mesh.json": {"machine"},
     "frames/*/*/*.json": {"machine"},
-    "penumbra_widths/*.json": {"machine"},
-    "soft_constants/*/*.json": {"machine"},
+    "frame_measures/*/*.json": {"machine"},
     "screen_sensitivities/*/*.json": {"machine"},
-    "frame_times/*/*.json": {"ms", "own_ms", "rays_per_second", "machine"},
-    "screen_networks/*/training.json": {"seconds", "samples_per_second", "machine"},
+    "times/*/*.json": {"ms", "own_ms", "rays_per_second", "machine"},
     "screen_profiles/*.json": {"whole_ms", "product_macs", "ms", "machine"},
-    "soft_times/*.json": {"ms", "machine"},
 }
 
 # Folders below results/<scale> of what jobs say on the way, and of what is not finished.

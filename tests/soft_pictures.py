@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from screen_frames import edge, write_frames
 
-from neural_shadows.evaluation.soft_answers import name_of, write_answers
+from neural_shadows.evaluation.answers import name_of, write_answers
 
 LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "my_network": "Network"}
 SHIFTS = {"hard": 1, "rt_4": 0, "my_network": 2}  # pixels by which the edge is too far right
@@ -22,7 +22,7 @@ def seen(method: str, radius: int) -> np.ndarray:
 def write_soft_pictures(folder: Path) -> dict[str, list]:
     """Frames of two scenes under two lights, what methods answered, and what to show of them."""
     parts = [write_frames(folder / "wall" / scene, "test") for scene in SCENES]
-    paths = [folder / "evaluations" / "wall" / f"{method}.npz" for method in LABELS]
+    paths = [folder / "evaluations" / "wall" / "all" / f"{method}.npz" for method in LABELS]
     paths[0].parent.mkdir(parents=True)
     for path in paths:
         radii = {name_of(part, k): seen(path.stem, k) for part in parts for k in (0, 1)}

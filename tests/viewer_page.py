@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 import trimesh
+from built_networks import make_network
+from opened import write_constants
 from shapes import SPHERE_OF_LIGHTS, bumpy_sphere, prepared
 
 from neural_shadows.files.whole_files import write_json
-from neural_shadows.networks.kinds import make_network
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.weight_file import load_network, save_network
 from neural_shadows.scenes.scene import Scene, make_scene
@@ -57,7 +58,7 @@ def make_viewer(folder: Path, settings=NETWORKS, shape=None, light=SPHERE_OF_LIG
         network.initialise(5)
         header = {"name": name, "network": setting, "training": None}
         save_network(folder / f"{name}.safetensors", network, header)
-        write_json(folder / f"{name}.json", {"depth_bias": biases[name], "push": 0.05})
+        write_constants(folder / f"{name}.json", depth_bias=biases[name], push=0.05)
         networks[name], _ = load_network(folder / f"{name}.safetensors")
         networks[name].push = 0.05
         rows.append({"method": name, "experiment": name, "label": name, "bias": "held_out"})

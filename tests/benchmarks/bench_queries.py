@@ -4,22 +4,22 @@ The ceiling is the rate of the layers' matrix products in our number format. On 
 answers half of the frame, as two evaluation jobs side by side do.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import torch
-from measurement import Row, median_seconds
+from measurement import Row, Work, median_seconds, name_of
 from torch import Tensor
 
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import QUERY_CHUNKS
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.shadow_query import on_device
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.exact_shadow import exact_visibility
-from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
+from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.scenes.scene import open_scene
 
@@ -48,7 +48,7 @@ def rows(mesh_ply: Path, weights: Sequence[Path], quick: bool) -> list[Row]:
     origins = sphere_rays(points, light).origins
     rounds = 2 if quick else 5
 
-    found = []
+    result = []
     for width in WIDTHS:
         network = thesis_network(width)
         works = {
@@ -59,14 +59,14 @@ def rows(mesh_ply: Path, weights: Sequence[Path], quick: bool) -> list[Row]:
             "products": _products(network, dtype, len(origins)),
         }
         seconds = median_seconds(works, rounds)
-        asked = dict.fromkeys(works, len(origins)) | {EMBREE: len(points)}
-        rate = {name: asked[name] / seconds[name] for name in works}
-        stage = f"query, width {width}, {str(dtype).removeprefix('torch.')}"
-        found += [
+        rays = dict.fromkeys(works, len(origins)) | {EMBREE: len(points)}
+        rate = {name: rays[name] / seconds[name] for name in works}
+        stage = f"query, width {width}, {name_of(dtype)}"
+        result += [
             Row(stage, "cpu x1", rate["ours"], "rays/s", rate["products"], peer, rate[peer])
             for peer in (EAGER, EMBREE)
         ]
-        found.append(Row(stage, "cpu x2", rate["halves"], "rays/s", 2 * rate["products"]))
+        result.append(Row(stage, "cpu x2", rate["halves"], "rays/s", 2 * rate["products"]))
 
     trained = {path.parent.name: load_network(path)[0] for path in weights}
     works = {
@@ -74,13 +74,11 @@ def rows(mesh_ply: Path, weights: Sequence[Path], quick: bool) -> list[Row]:
         for name, network in {THESIS: thesis_network(256), **trained}.items()
         if trained
     }
-    seconds = median_seconds(works, rounds)
-    rate = {name: len(origins) / value for name, value in seconds.items()}
-    found += [
+    rate = {name: len(origins) / value for name, value in median_seconds(works, rounds).items()}
+    return result + [
         Row(f"query, {name}", "cpu x1", rate[name], "rays/s", peer=THESIS, peer_rate=rate[THESIS])
         for name in trained
     ]
-    return found + (_cuda_rows(frame, 5 if quick else 50) if torch.cuda.is_available() else [])
 
 
 def thesis_network(width: int) -> FrequencyNetwork:
@@ -95,15 +93,13 @@ def _eager(network: FrequencyNetwork, origins: Tensor, d: Tensor) -> None:
         network(origins, d.expand(len(origins), 3), torch.float32)
 
 
-def _two_halves(
-    network: FrequencyNetwork, origins: Tensor, d: Tensor, dtype: torch.dtype
-) -> Callable[[], object]:
+def _two_halves(network: FrequencyNetwork, origins: Tensor, d: Tensor, dtype: torch.dtype) -> Work:
     halves = origins.chunk(2)
     pool = ThreadPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,))
     return lambda: list(pool.map(lambda half: network.depths(half, d, dtype), halves))
 
 
-def _products(network: FrequencyNetwork, dtype: torch.dtype, rays: int) -> Callable[[], object]:
+def _products(network: FrequencyNetwork, dtype: torch.dtype, rays: int) -> Work:
     """The matrix products of a query, forward alone."""
     rows = QUERY_CHUNKS["cpu"]
     layers = [
@@ -117,26 +113,3 @@ def _products(network: FrequencyNetwork, dtype: torch.dtype, rays: int) -> Calla
                 torch.mm(x, weight)
 
     return products
-
-
-def _cuda_rows(frame: GBuffer, rounds: int) -> list[Row]:
-    """Whole frames from points to a mask, all on the GPU."""
-    cuda = choose_device("cuda")
-    dtype = choose_dtype("auto", cuda)
-    points, light = on_device(frame.p, frame.view.light, cuda)
-    networks = {width: thesis_network(width).to(cuda) for width in WIDTHS}
-
-    def mask(width: int) -> None:
-        network_lit(networks[width], points, light, dtype=dtype)(0.0)
-        torch.cuda.synchronize()
-
-    works = {str(width): lambda width=width: mask(width) for width in WIDTHS}
-    return [
-        Row(
-            f"frame from points to mask, width {width}",
-            torch.cuda.get_device_name(),
-            1000 * seconds,
-            "ms a frame",
-        )
-        for width, seconds in median_seconds(works, rounds).items()
-    ]

@@ -10,11 +10,12 @@ from pathlib import Path
 
 import torch
 import torchvision
-from measurement import Row, median_seconds
+from measurement import Row, median_seconds, name_of, with_threads
 
 from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.pretrained_trunk import MODELS
 from neural_shadows.networks.screen_space.screen_networks import make_screen_network
+from neural_shadows.networks.settings.networks import screen_network
 from neural_shadows.training.perceptual import Perceptual
 from neural_shadows.training.screen_crops import Crops, CropSample
 from neural_shadows.training.screen_loss import ScreenLoss
@@ -77,7 +78,7 @@ def _run(precision: str, trunk: Path | None) -> ScreenRun:
     loss = ScreenLoss(0.9, 3.0, perceptual)
     loss.factor = 1.0
     settings = SETTINGS | {"precision": precision}
-    return ScreenRun(make_screen_network(NETWORK), settings, RandomFrames(), loss)
+    return ScreenRun(make_screen_network(screen_network(NETWORK)), settings, RandomFrames(), loss)
 
 
 class WholeBatch(ScreenRun):
@@ -138,27 +139,16 @@ def _row(trunk: Path | None, rounds: int) -> Row:
     convolutions = _convolutions(ours, trunk)
     products = [convolutions] * CROPS
 
-    def threaded(threads: int, work):
-        def run() -> None:
-            torch.set_num_threads(threads)
-            work()
-
-        return run
-
-    def plainly() -> None:
-        torch.set_num_threads(THREADS)
-        plain.train_step(0, _Here())
-
     works = {
-        "ours": threaded(1, lambda: ours.train_step(0, pool)),
-        "plain": plainly,
-        "convolutions": threaded(1, lambda: list(pool.map(lambda work: work(), products))),
+        "ours": with_threads(1, lambda: ours.train_step(0, pool)),
+        "plain": with_threads(THREADS, lambda: plain.train_step(0, _Here())),
+        "convolutions": with_threads(1, lambda: list(pool.map(lambda work: work(), products))),
     }
     seconds = median_seconds(works, rounds)
     pixels = CROPS * SIDE**2
     named = "L1" if trunk is None else "L1 and SqueezeNet"
     return Row(
-        f"training whole frames, {named}, {str(ours.dtype).removeprefix('torch.')}",
+        f"training whole frames, {named}, {name_of(ours.dtype)}",
         f"cpu x{THREADS}",
         pixels / seconds["ours"],
         "pixels/s",

@@ -4,22 +4,20 @@ The plain step is float32 on the whole batch at once, with threads inside each p
 ceiling is the rate of the layers' matrix products, forward and backward, in our number format.
 """
 
-import itertools
-
 import torch
-from measurement import Row, median_seconds
+from bench_queries import WIDTHS, thesis_network
+from measurement import Row, Work, median_seconds, name_of, with_threads
 
-from neural_shadows.networks.compute import choose_device, choose_dtype
+from neural_shadows.networks.compute import choose_dtype
 from neural_shadows.networks.object_space.frequency_network import FrequencyNetwork
 from neural_shadows.networks.object_space.shadow_network import LabelledBatch
 from neural_shadows.training.batches import batch_indices
-from neural_shadows.training.cuda_graph import WARM_UP, recorded
 from neural_shadows.training.training_run import TrainingRun
 from neural_shadows.training.training_state import gradient_pool
 
 THREADS = 2
-DESK_BATCH, THESIS_BATCH = 1024, 65536
-WIDTHS = (256, 128, 64)
+BATCH = 1024  # of the desk scale
+CPU = torch.device("cpu")
 
 
 class RandomRays:
@@ -27,15 +25,11 @@ class RandomRays:
 
     count = 1 << 17
 
-    def __init__(self, device: torch.device):
+    def __init__(self):
         generator = torch.Generator().manual_seed(0)
-
-        def unit() -> torch.Tensor:
-            vectors = torch.randn(self.count, 3, generator=generator)
-            return (vectors / vectors.norm(dim=1, keepdim=True)).to(device)
-
-        t_lb = torch.rand(self.count, generator=generator).to(device)
-        self.parts = LabelledBatch(unit(), unit(), t_lb, t_lb + 0.1)
+        vectors = torch.randn(2, self.count, 3, generator=generator)
+        t_lb = torch.rand(self.count, generator=generator)
+        self.parts = LabelledBatch(*vectors / vectors.norm(dim=2, keepdim=True), t_lb, t_lb + 0.1)
 
     def gather(self, indices: torch.Tensor) -> LabelledBatch:
         """A batch of rays and their labels."""
@@ -43,27 +37,20 @@ class RandomRays:
 
 
 def rows(quick: bool) -> list[Row]:
-    """Rates at the desk's batch on the CPU, and at the thesis's where there is a GPU."""
-    found = [_cpu_row(width, 7 if quick else 21) for width in WIDTHS]
-    found += _optimiser_rows(21 if quick else 101)
-    if torch.cuda.is_available():
-        found += [_cuda_row(width, 20 if quick else 200) for width in WIDTHS]
-    return found
+    """Rates at the desk's batch, and the optimisers' part of a step."""
+    steps = [_row(width, 7 if quick else 21) for width in WIDTHS]
+    return steps + _optimiser_rows(21 if quick else 101)
 
 
-def new_run(
-    width: int, batch: int, device: torch.device, precision: str, optimiser: str = "adam"
-) -> TrainingRun:
+def new_run(width: int, batch: int, precision: str, optimiser: str = "adam") -> TrainingRun:
     """A training of the thesis's network."""
-    network = FrequencyNetwork(frequencies=10, width=width, hidden_layers=8)
-    network.initialise(0)
     settings = {"optimiser": optimiser, "learning_rate": 1e-4, "adam_rate": 1e-4, "loss": {}}
     settings |= {"steps": 1, "batch_size": batch, "schedule": "constant"}
-    made = {"seed": 0, "device": device.type, "precision": precision}
-    return TrainingRun(network, settings | made)
+    settings |= {"seed": 0, "device": CPU.type, "precision": precision}
+    return TrainingRun(thesis_network(width), settings)
 
 
-def stepper(run: TrainingRun, rays: RandomRays, pool=None):
+def stepper(run: TrainingRun, rays: RandomRays, pool=None) -> Work:
     """A function that does one step of a training."""
     batch = run.settings["batch_size"]
 
@@ -74,13 +61,12 @@ def stepper(run: TrainingRun, rays: RandomRays, pool=None):
     return step
 
 
-def _products(network: FrequencyNetwork, dtype: torch.dtype, rows: int):
+def _products(network: FrequencyNetwork, dtype: torch.dtype, rows: int) -> Work:
     """The matrix products of so many samples: forward, and both of the backward pass."""
-    device = network.device
     layers = [
         (
-            torch.randn(rows, weight.shape[1], device=device).to(dtype),
-            torch.randn(rows, weight.shape[0], device=device).to(dtype),
+            torch.randn(rows, weight.shape[1]).to(dtype),
+            torch.randn(rows, weight.shape[0]).to(dtype),
             weight.detach().to(dtype),
         )
         for weight in network.layers
@@ -96,87 +82,40 @@ def _products(network: FrequencyNetwork, dtype: torch.dtype, rows: int):
     return products
 
 
-def _cpu_row(width: int, rounds: int) -> Row:
-    cpu = torch.device("cpu")
-    dtype = choose_dtype("auto", cpu)
-    run, whole = (new_run(width, DESK_BATCH, cpu, name) for name in ("auto", "float32"))
-    whole.chunk = DESK_BATCH
-    rays, pool = RandomRays(cpu), gradient_pool(THREADS)
-    ours, plain = stepper(run, rays, pool), stepper(whole, rays)
+def _row(width: int, rounds: int) -> Row:
+    dtype = choose_dtype("auto", CPU)
+    run, whole = (new_run(width, BATCH, precision) for precision in ("auto", "float32"))
+    whole.chunk = BATCH
+    rays, pool = RandomRays(), gradient_pool(THREADS)
     # Each thread multiplies for itself, as in our step: nothing has to be waited for.
-    parts = DESK_BATCH // run.chunk
-    products = [_products(run.network, dtype, run.chunk) for _ in range(parts)]
-
-    def with_threads(threads: int, work):
-        def threaded() -> None:
-            torch.set_num_threads(threads)
-            work()
-
-        return threaded
-
+    products = [_products(run.network, dtype, run.chunk) for _ in range(BATCH // run.chunk)]
     works = {
-        "ours": with_threads(1, ours),  # each of the pool's threads has one
-        "plain": with_threads(THREADS, plain),
+        "ours": with_threads(1, stepper(run, rays, pool)),  # each of the pool's threads has one
+        "plain": with_threads(THREADS, stepper(whole, rays)),
         "products": with_threads(1, lambda: list(pool.map(lambda work: work(), products))),
     }
-    seconds = median_seconds(works, rounds)
+    rate = {name: BATCH / seconds for name, seconds in median_seconds(works, rounds).items()}
     return Row(
-        f"training, width {width}, {str(dtype).removeprefix('torch.')}",
+        f"training, width {width}, {name_of(dtype)}",
         f"cpu x{THREADS}",
-        DESK_BATCH / seconds["ours"],
+        rate["ours"],
         "samples/s",
-        ceiling=DESK_BATCH / seconds["products"],
+        ceiling=rate["products"],
         peer="eager float32, whole batch",
-        peer_rate=DESK_BATCH / seconds["plain"],
+        peer_rate=rate["plain"],
     )
 
 
 def _optimiser_rows(rounds: int) -> list[Row]:
     """What changing the weights takes of a step, whatever its batch, on one thread."""
     torch.set_num_threads(1)
-    cpu = torch.device("cpu")
-    rate = torch.tensor(1e-4)
-    works = {}
+    rate, works = torch.tensor(1e-4), {}
     for name in ("adam", "muon"):
-        run = new_run(256, 16, cpu, "auto", name)
-        stepper(run, RandomRays(cpu))()  # which leaves gradients
+        run = new_run(256, 16, "auto", name)
+        stepper(run, RandomRays())()  # which leaves gradients
         optimisers = run.optimisers.values()
         works[name] = lambda optimisers=optimisers: [one.step(rate) for one in optimisers]
-    seconds = median_seconds(works, rounds)
     return [
-        Row(f"{name}'s part of a step, width 256", "cpu x1", 1000 * seconds[name], "ms")
-        for name in works
+        Row(f"{name}'s part of a step, width 256", "cpu x1", 1000 * seconds, "ms")
+        for name, seconds in median_seconds(works, rounds).items()
     ]
-
-
-def _cuda_row(width: int, rounds: int) -> Row:
-    cuda = choose_device("cuda")
-    dtype = choose_dtype("auto", cuda)
-    rays = RandomRays(cuda)
-
-    run, exact = (new_run(width, THESIS_BATCH, cuda, name) for name in ("auto", "float32"))
-    ours, plain = recorded(stepper(run, rays)), stepper(exact, rays)
-    products = _products(run.network, dtype, THESIS_BATCH)
-    for _ in range(WARM_UP + 1):
-        ours()
-
-    def repeated(work):
-        def several() -> None:
-            for _ in itertools.repeat(None, 20):
-                work()
-            torch.cuda.synchronize()
-
-        return several
-
-    works = {"ours": ours, "plain": plain, "products": products}
-    seconds = median_seconds({name: repeated(work) for name, work in works.items()}, rounds)
-    rate = {name: 20 * THESIS_BATCH / value for name, value in seconds.items()}
-    return Row(
-        f"training, width {width}, {str(dtype).removeprefix('torch.')}",
-        torch.cuda.get_device_name(),
-        rate["ours"],
-        "samples/s",
-        ceiling=rate["products"],
-        peer="eager float32",
-        peer_rate=rate["plain"],
-    )

@@ -18,10 +18,13 @@ import torch
 from bench_queries import HEIGHT, SCENE, SEED, WIDTH, thesis_network
 from measurement import Row, median_seconds
 
-from neural_shadows.evaluation.shadow_methods import ShadowMethod, classic_method, network_method
-from neural_shadows.metrics.flip import flip
-from neural_shadows.metrics.lpips_distance import make_lpips
-from neural_shadows.metrics.psnr_ssim import psnr, ssim
+from neural_shadows.evaluation.method import ShadowMethod
+from neural_shadows.evaluation.ray_network import network_method
+from neural_shadows.evaluation.registry import classic_method
+from neural_shadows.metrics.kinds.flip import flip
+from neural_shadows.metrics.kinds.lpips import make_lpips
+from neural_shadows.metrics.kinds.psnr import psnr
+from neural_shadows.metrics.kinds.ssim import ssim
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer

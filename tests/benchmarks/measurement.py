@@ -1,13 +1,17 @@
 """Rates beside their ceilings and peers, measured in turn so that all see the same machine."""
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import astuple, dataclass
 
 import numpy as np
 import pandas as pd
+import torch
 
 COLUMNS = ["stage", "device", "rate", "unit", "ceiling", "share", "peer", "ratio"]
+
+Work = Callable[[], object]
 
 
 @dataclass(frozen=True)
@@ -22,33 +26,50 @@ class Row:
     peer: str | None = None
     peer_rate: float | None = None
 
-    def values(self) -> list:
-        """What stands in the columns."""
-        share = self.rate / self.ceiling if self.ceiling else None
-        ratio = self.rate / self.peer_rate if self.peer_rate else None
-        ceiling = (self.ceiling, share)
-        return [self.stage, self.device, self.rate, self.unit, *ceiling, self.peer, ratio]
-
 
 def table(rows: list[Row]) -> pd.DataFrame:
     """All rows under `COLUMNS`."""
-    return pd.DataFrame([row.values() for row in rows], columns=COLUMNS)
+    values = []
+    for row in rows:
+        *stage, ceiling, peer, peer_rate = astuple(row)
+        share = row.rate / ceiling if ceiling else None
+        values.append([*stage, ceiling, share, peer, row.rate / peer_rate if peer_rate else None])
+    return pd.DataFrame(values, columns=COLUMNS)
 
 
-def median_seconds(
-    works: Mapping[str, Callable[[], object]], rounds: int, clock: str = "perf_counter"
-) -> dict[str, float]:
-    """Median time of each work over rounds in which each is done once, after one to warm up.
-
-    Args:
-        clock: of module `time`; with `thread_time` what else runs on the machine counts less, but
-            the works must be done by the calling thread alone.
-    """
+def median_seconds(works: Mapping[str, Work], rounds: int) -> dict[str, float]:
+    """Median time of each work over rounds in which each is done once, after one to warm up."""
     seconds: dict[str, list[float]] = {name: [] for name in works}
     for number in range(rounds + 1):
         for name, work in works.items():
-            started = getattr(time, clock)()
+            started = time.perf_counter()
             work()
             if number:
-                seconds[name].append(getattr(time, clock)() - started)
+                seconds[name].append(time.perf_counter() - started)
     return {name: float(np.median(times)) for name, times in seconds.items()}
+
+
+@contextmanager
+def torch_threads(threads: int) -> Iterator[None]:
+    """Compute with so many of torch's threads meanwhile."""
+    before = torch.get_num_threads()
+    torch.set_num_threads(threads)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
+
+
+def with_threads(threads: int, work: Work) -> Work:
+    """The work with so many of torch's threads."""
+
+    def threaded() -> None:
+        with torch_threads(threads):
+            work()
+
+    return threaded
+
+
+def name_of(dtype: torch.dtype) -> str:
+    """A number format's name."""
+    return str(dtype).removeprefix("torch.")

@@ -1,13 +1,12 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only rays labels training queries field viewpoint soft peers screen kernels default]
+        [--only rays labels training queries viewpoint soft screen default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
-Prints the table and writes it to reports/benchmarks.csv. Peers of the ray stages beyond trimesh
-come from envs/benchmarks.txt; field and peers need gcc, see embree_rays.py. `--quick` takes fewer
-rounds and leaves the default main job out: under five minutes on two cores.
+Prints the table and writes it to reports/benchmarks.csv. `--quick` takes fewer rounds and leaves the
+default main job out: under five minutes on two cores.
 """
 
 import argparse
@@ -16,13 +15,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import bench_default
-import bench_field
-import bench_kernels
-import bench_labels
 import bench_queries
-import bench_ray_peers
 import bench_rays
-import bench_screen_networks
+import bench_screen
 import bench_screen_training
 import bench_soft
 import bench_training
@@ -31,40 +26,25 @@ from measurement import Row, table
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_text
-from neural_shadows.meshes.generate_mesh import generate_mesh
+from neural_shadows.meshes.get_mesh import get_mesh
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.running.hardware import describe_machine
 
-STAGES = (
-    "rays",
-    "labels",
-    "training",
-    "queries",
-    "field",
-    "viewpoint",
-    "soft",
-    "peers",
-    "screen",
-    "kernels",
-    "default",
-)
+STAGES = ("rays", "labels", "training", "queries", "viewpoint", "soft", "screen", "default")
 TABLE = Path("reports/benchmarks.csv")
 
 
-def measure(arguments: argparse.Namespace, source: Path, mesh_ply: Path) -> Iterator[list[Row]]:
-    """The rows of each stage that is asked for, of a mesh's file and what it was prepared to."""
+def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]]:
+    """The rows of each chosen stage, of a prepared mesh."""
     quick = arguments.quick
     measured = {
-        "rays": lambda: bench_rays.rows(quick),
-        "labels": lambda: bench_labels.rows(mesh_ply, quick),
+        "rays": lambda: bench_rays.packet_rows(quick),
+        "labels": lambda: bench_rays.label_rows(mesh_ply, quick),
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
-        "field": lambda: bench_field.rows(source, mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
-        "peers": lambda: bench_ray_peers.rows(mesh_ply, quick),
-        "screen": lambda: bench_screen_networks.rows(quick) + bench_screen_training.rows(quick),
-        "kernels": lambda: bench_kernels.rows(quick),
+        "screen": lambda: bench_screen.rows(quick) + bench_screen_training.rows(quick),
         "default": bench_default.rows,
     }
     for stage in arguments.only:
@@ -90,12 +70,12 @@ def main() -> None:
         mesh = {"generate": "wyrm", "cells": 256}
         if source is None:
             source = Path(folder) / "made.ply"
-            generate_mesh(source, mesh)
+            get_mesh(source, mesh)
         prepare_mesh(source, mesh_ply, Path(folder) / "mesh.json", mesh, "mesh")
-        stages = measure(arguments, source, mesh_ply)
-        found = table([row for rows in stages for row in rows])
-    print(found.to_string(index=False, float_format="{:,.4g}".format, na_rep=""))
-    write_text(TABLE, found.to_csv(index=False, lineterminator="\n", float_format="%.6g"))
+        stages = measure(arguments, mesh_ply)
+        rates = table([row for rows in stages for row in rows])
+    print(rates.to_string(index=False, float_format="{:,.4g}".format, na_rep=""))
+    write_text(TABLE, rates.to_csv(index=False, lineterminator="\n", float_format="%.6g"))
 
 
 if __name__ == "__main__":

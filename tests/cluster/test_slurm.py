@@ -120,7 +120,7 @@ class Submitted:
 
 def slow_down(checkout: Checkout, seconds: float) -> None:
     """Have a training rest so long at each point of its curve; its weights stay the same."""
-    train = checkout.module("training/train.py")
+    train = checkout.module("training/train_on_rays.py")
     source = train.read_text()
     points = "yield from curve_points(run, advance, after_step)"
     rest = "for step in curve_points(run, advance, after_step):"

@@ -16,7 +16,6 @@ from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.meshes.prepared_mesh import read_prepared
 from neural_shadows.rays.describe_rays import describe_rays
 from neural_shadows.rays.draw_directions import draw_directions
-from neural_shadows.rays.label_rays import label_rays
 from neural_shadows.rays.sample_rays import sample_rays
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # numpy's, of numbers out of range
@@ -129,8 +128,7 @@ def test_odd_shapes_have_rays(tmp_path, vertices, faces):
     sampling = {"sampler": "poisson_quadtree", "directions": 20, "points_per_direction": 100}
     sampling |= {"silhouette_resolution": 32, "min_quad": 1}
     made = {"mesh_ply": mesh, "directions_npy": directions, "seed": 3}
-    part = {"origins_npy": origins, "first": 0, "last": 20}
+    part = {"origins_npy": origins, "bounds_npy": bounds, "first": 0, "last": 20}
     draw_directions(directions_npy=directions, sampling=sampling, seed=3)
     sample_rays(**made, **part, sampling=sampling)
-    label_rays(**made, **part, bounds_npy=bounds)
     describe_rays(**made, origins=[origins], bounds=[bounds], rays_json=rays, sampling=sampling)

@@ -41,7 +41,7 @@ def test_the_lock_lets_a_machine_without_a_gpu_do_without_cuda():
     assert [line for line in LOCKED if re.match("nvidia-|cuda-|triton", line)] == []
 
 
-@pytest.mark.parametrize("name", ["benchmarks.txt", "browser.txt", "external.txt", "slurm.txt"])
+@pytest.mark.parametrize("name", ["browser.txt", "external.txt", "slurm.txt"])
 def test_what_few_need_is_pinned_and_no_part_of_the_lock(name):
     locked = {line.split("==")[0] for line in LOCKED}
     for line in lines_of(name):

@@ -22,13 +22,11 @@ def test_rules_exist():
 
 def test_what_is_not_grouped_is_long_or_local():
     long = {"describe_rays", "train", "render_references", "query_network", "evaluate"}
-    long |= {"find_depth_bias", "export_network"}
-    long |= {"render_frames", "tune_soft_method", "evaluate_soft", "train_screen"}
+    long |= {"tune", "export_network", "render_frames", "measure_frames"}
     long |= {"measure_sensitivity", "answer_frames", "fit_fields"}
-    timed = {"measure_frame_times", "time_soft_methods"}
-    timed |= {"profile_screen_network"}
+    timed = {"time_methods", "profile_screen_network"}
     local = {name for name, rule in RULES.items() if "localrule: True" in rule}
-    assert local == {"find_lpips", "download_mesh"}
+    assert local == {"find_lpips", "get_mesh"}
     assert PROFILE["set-resources"].keys() == timed
     assert RULES.keys() - PROFILE["groups"].keys() == long | timed | local
 

@@ -8,9 +8,8 @@ from checkout import SMOKE, write_overlay
 # What shows the networks' pictures, and all that is made of a network.
 SHOWN = {"table", "figure", "claims", "page"}
 ANSWERED = SHOWN | {"query_network", "evaluate"}
-TRAINED = ANSWERED | {"find_depth_bias", "measure_frame_times"}
-MAPPED = SHOWN | {"find_depth_bias", "evaluate", "measure_frame_times"}  # of the methods by maps
-SOFT = SHOWN | {"tune_soft_method", "evaluate_soft", "time_soft_methods"}
+TRAINED = ANSWERED | {"tune", "time_methods"}
+MAPPED = SHOWN | {"tune", "evaluate", "time_methods"}  # of the methods by maps
 
 
 @pytest.mark.parametrize(
@@ -24,9 +23,9 @@ SOFT = SHOWN | {"tune_soft_method", "evaluate_soft", "time_soft_methods"}
         ("evaluation/evaluate.py", SHOWN | {"evaluate"}),
         ("evaluation/query_network.py", ANSWERED),
         ("shadow_maps/shadow_map.py", MAPPED),
-        ("evaluation/hard_methods/shadow_map.py", MAPPED),
+        ("evaluation/methods/shadow_map.py", MAPPED),
         ("training/training_run.py", TRAINED | {"train", "viewer"}),
-        ("metrics/flip.py", SHOWN | {"evaluate", "evaluate_soft"}),
+        ("metrics/kinds/flip.py", SHOWN | {"evaluate"}),
         ("running/stage.py", set()),
     ],
 )
@@ -49,21 +48,19 @@ def test_edited_form_of_network(finished):
     with finished.module("networks/screen_space/kernel_unet.py").open("a") as file:
         file.write("\nEDITED = True\n")
     pending = finished.pending().items()
-    for rule in ("train_screen", "evaluate_soft"):
+    for rule in ("train", "evaluate"):
         paths = [path for path, name in pending if name == rule]
         assert paths and all("kpnsm" in path for path in paths)
 
 
 def test_edited_soft_method(finished):
     """It alone is measured again, and all methods of its table are timed, for they take turns."""
-    with finished.module("evaluation/soft_methods/pcss.py").open("a") as file:
+    with finished.module("evaluation/methods/pcss.py").open("a") as file:
         file.write("\nEDITED = True\n")
     pending = finished.pending()
-    measured = [
-        path for path, rule in pending.items() if rule in ("tune_soft_method", "evaluate_soft")
-    ]
-    assert measured and all("/frames/pcss." in path for path in measured)
-    assert set(pending.values()) == SOFT
+    measured = [path for path, rule in pending.items() if rule in ("tune", "evaluate")]
+    assert measured and all("/frames/all/pcss." in path for path in measured)
+    assert set(pending.values()) == MAPPED
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import contextlib
 import inspect
 import os
 from collections.abc import Iterator
+from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 from typing import Any
 from unittest import mock
@@ -20,16 +21,17 @@ from neural_shadows.reports.drawing import opengl
 
 EXAMPLES = {"scene": "dragon", "sampling": "poisson_quadtree", "over": "width", "value": "64"}
 EXAMPLES |= dict(experiment="dragon_field", method="dragon_field", batch="000", shard="000")
-EXAMPLES |= {"viewer": "viewer"}
+EXAMPLES |= {"viewer": "viewer", "frame_set": "views", "group": "dragon"}
 # Of the rules for soft shadows.
 SOFT = {"scene": "room_dragon", "frame_set": "frames", "part": "test_000"}
-SOFT |= {"method": "pcss", "table": "soft_methods"}
-OF_FRAMES = ("render_frames", "answer_frames", "measure_occluders", "measure_widths", "fit_fields")
+SOFT |= {"method": "pcss", "table": "soft_methods", "group": "all", "measure": "widths.json"}
+OF_FRAMES = ("render_frames", "answer_frames", "measure_frames", "fit_fields")
+OF_BOTH = ("tune", "evaluate", "time_methods")
 SCREEN = {"network": "nsm", "experiment": "nsm", "frame_set": "nsm"}
 
 # Of a function that does not have the rule's name.
 FUNCTIONS = {"figure": "draw", "preview_scene": "draw"}
-FUNCTIONS |= {"page": "write_page", "available": "write_page", "viewer": "write_viewer"}
+FUNCTIONS |= {"page": "write_page", "viewer": "write_viewer"}
 RETURNED = ("table", "claims")  # rules whose function returns a table, which `write_table` writes
 
 
@@ -51,14 +53,37 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
     settings = workflow.globals["SETTINGS"]
     if rule.name in ("table", "figure"):
         return [{rule.name: name} for name in settings[f"{rule.name}s"]]
+    if rule.name == "page":
+        return [{"page": page} for page in ("index", "available")]
+    if rule.name == "preview_scene":
+        return [{"scene": scene} for scene in ("dragon", "room_dragon")]
     if rule.name == "import_frame":
         return []  # no shipped configuration has frames of an engine: see test_engine_frames.py
-    if "soft" in rule.name or rule.name in OF_FRAMES:
+    if rule.name in OF_FRAMES:
         return [SOFT]
+    if rule.name == "train":
+        return [EXAMPLES, SCREEN]
     if "screen" in rule.name or rule.name == "measure_sensitivity":
         return [SCREEN]
     timed = next(name for name, table in settings["tables"].items() if table["kind"] == "networks")
-    return [{**EXAMPLES, "table": timed}]
+    of_views = {**EXAMPLES, "table": timed}
+    if rule.name == "evaluate":
+        of_views["group"] = "dragon.000"
+    return [of_views, SOFT] if rule.name in OF_BOTH else [of_views]
+
+
+def required(function: Any) -> set[str]:
+    """Arguments without a default, of a bundle those of its fields."""
+    names: set[str] = set()
+    for name, parameter in inspect.signature(function).parameters.items():
+        if is_dataclass(kind := parameter.annotation):
+            without = [
+                field for field in fields(kind) if field.default is field.default_factory is MISSING
+            ]
+            names |= {field.name for field in without if field.init}
+        elif parameter.default is parameter.empty:
+            names.add(name)
+    return names
 
 
 def test_an_argument_that_is_no_wildcard_is_refused(workflow):
@@ -86,8 +111,13 @@ def test_names(workflow):
         script = str(rule.script).replace("{params.kind}", params.get("kind", ""))
         room = script[script.index("neural_shadows/") : -len(".py")]
         module = import_module(room.replace("/", "."))
-        signature = inspect.signature(getattr(module, FUNCTIONS.get(rule.name, rule.name)))
+        name = FUNCTIONS.get(rule.name, rule.name)
+        function = getattr(module, name, None) or getattr(module, room.rpartition("/")[2])
+        signature = inspect.signature(function)
         names |= {"threads", *example} & signature.parameters.keys()
+        if rule.name in ("table", "figure"):  # whose writers take what more there is
+            assert required(function) - {"heading"} <= names, (rule.name, example)
+            continue
         try:
             signature.bind(**dict.fromkeys(names - {"settings", "code", "beside", "kind"}))
         except TypeError as error:

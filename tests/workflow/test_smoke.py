@@ -11,7 +11,7 @@ import pandas as pd
 from checkout import SECRET
 from shipped import DEFAULT
 
-from neural_shadows.evaluation.soft_registry import available
+from neural_shadows.evaluation.registry import available
 
 METRICS = ["psnr", "ssim", "flip", "shadow_error", "false_shadow", "light_leak"]
 

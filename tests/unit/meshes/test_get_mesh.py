@@ -10,16 +10,17 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 import pytest
 
 from neural_shadows.errors import InputError
-from neural_shadows.meshes import download_mesh as stage
-from neural_shadows.meshes.download_mesh import download_mesh
+from neural_shadows.meshes import stanford_dragon
+from neural_shadows.meshes.get_mesh import get_mesh
 
+DRAGON = {"download": "stanford_dragon"}
 MESH = b"ply\n(not a real one)\n" * 1000
 
 
 def archive() -> bytes:
     file = io.BytesIO()
     with tarfile.open(fileobj=file, mode="w:gz") as tar:
-        for name, content in (("dragon_recon/README", b"about"), (stage.MEMBER, MESH)):
+        for name, content in (("dragon_recon/README", b"about"), (stanford_dragon.MEMBER, MESH)):
             info = tarfile.TarInfo(name)
             info.size = len(content)
             tar.addfile(info, io.BytesIO(content))
@@ -42,7 +43,7 @@ def serve(monkeypatch, tmp_path_factory):
             url = f"http://127.0.0.1:{server.server_port}/dragon.tar.gz"
             digests = [hashlib.sha256(part).hexdigest() for part in (WHOLE, MESH)]
             for name, value in zip(("URL", "ARCHIVE_SHA256", "DRAGON_SHA256"), (url, *digests)):
-                monkeypatch.setattr(stage, name, value)
+                monkeypatch.setattr(stanford_dragon, name, value)
 
         yield serve
         server.shutdown()
@@ -50,8 +51,8 @@ def serve(monkeypatch, tmp_path_factory):
 
 def test_the_one_mesh_is_taken_out_of_the_archive(serve, tmp_path):
     serve(WHOLE)
-    target = tmp_path / "out" / "downloaded.ply"
-    download_mesh(target)
+    target = tmp_path / "out" / "source.ply"
+    get_mesh(target, DRAGON)
     assert target.read_bytes() == MESH
     assert list(target.parent.iterdir()) == [target]
 
@@ -60,7 +61,7 @@ def test_anything_else_is_refused_with_what_to_do(serve, tmp_path, monkeypatch):
     serve(WHOLE[:50])
     for reason in ("does not match the known hash", "refused"):
         with pytest.raises(InputError, match=f"cannot download http.*{reason}") as caught:
-            download_mesh(tmp_path / "downloaded.ply")
+            get_mesh(tmp_path / "source.ply", DRAGON)
         assert "`--config dragon=PATH/TO/dragon_vrip_res2.ply`" in str(caught.value)
         assert list(tmp_path.iterdir()) == []
-        monkeypatch.setattr(stage, "URL", "http://127.0.0.1:9/dragon.tar.gz")
+        monkeypatch.setattr(stanford_dragon, "URL", "http://127.0.0.1:9/dragon.tar.gz")

@@ -1,4 +1,4 @@
-"""Stage for downloading the Stanford dragon."""
+"""Download of the Stanford dragon."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -9,7 +9,6 @@ from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import sha256_of
 from neural_shadows.meshes.thesis_meshes import DRAGON_SHA256
 from neural_shadows.running.progress import progress_bar
-from neural_shadows.running.stage import run_stage
 
 URL = "https://graphics.stanford.edu/pub/3Dscanrep/dragon/dragon_recon.tar.gz"
 ARCHIVE_BYTES = 11_197_764
@@ -17,20 +16,20 @@ ARCHIVE_SHA256 = "74ac1d90989c9b1732edee82d57e9ce71452144cf4355f108d8c9c616d28d0
 MEMBER = "dragon_recon/dragon_vrip_res2.ply"
 
 
-def download_mesh(downloaded_ply: Path) -> None:
+def download_mesh(source_ply: Path) -> None:
     """Download the dragon's archive, and extract its mesh.
 
     The mesh has 202,520 triangles. An interrupted download starts again with the next attempt.
 
     Args:
-        downloaded_ply: the mesh, unchanged from the archive.
+        source_ply: the mesh, unchanged from the archive.
 
     Raises:
         InputError: no connection, or archive or mesh differ from the published ones.
     """
-    downloaded_ply.parent.mkdir(parents=True, exist_ok=True)
+    source_ply.parent.mkdir(parents=True, exist_ok=True)
     try:
-        with TemporaryDirectory(dir=downloaded_ply.parent) as folder:
+        with TemporaryDirectory(dir=source_ply.parent) as folder:
             unpacked = pooch.retrieve(
                 URL,
                 known_hash=f"sha256:{ARCHIVE_SHA256}",
@@ -41,14 +40,10 @@ def download_mesh(downloaded_ply: Path) -> None:
             )
             if [sha256_of(path) for path in unpacked] != [DRAGON_SHA256]:
                 raise ValueError(f"{MEMBER} is missing, or not as published")
-            Path(unpacked[0]).replace(downloaded_ply)
+            Path(unpacked[0]).replace(source_ply)
     except (OSError, ValueError) as error:  # from requests, or a wrong digest
         reason = " ".join(str(error).split())[:300]
         raise InputError(
             f"cannot download {URL}: {reason}. Try again, or download it by hand, unpack it, and "
             f"run with `--config dragon=PATH/TO/{Path(MEMBER).name}`"
         ) from error
-
-
-if "snakemake" in globals():
-    run_stage(snakemake, download_mesh)
