@@ -54,12 +54,12 @@ def test_edited_form_of_network(finished):
 
 
 def test_edited_soft_method(finished):
-    """It alone is measured again, and all methods of its table are timed, for they take turns."""
+    """It alone is measured again, and all methods of its tables are timed, for they take turns."""
     with finished.module("evaluation/methods/pcss.py").open("a") as file:
         file.write("\nEDITED = True\n")
     pending = finished.pending()
     measured = [path for path, rule in pending.items() if rule in ("tune", "evaluate")]
-    assert measured and all("/frames/all/pcss." in path for path in measured)
+    assert measured and all("/all/pcss." in path for path in measured)
     assert set(pending.values()) == MAPPED
 
 

@@ -79,9 +79,10 @@ def params(layout: Layout, section: str, name: str) -> dict[str, Any]:
     names, report = _named(layout, section, name), _report(layout, section, name)
     own = _own(layout, section, name, "params")
     others = own.keys() | FILES.keys() | _own(layout, section, name, "files").keys()
-    keys = {*_ALWAYS[section], *names} - others
-    shared = {key: PARAMS[key](report) for key in keys & PARAMS.keys()}
-    settings = {key: report.settings[key] for key in keys & report.settings.keys()}
+    # In one order in each run: Snakemake compares parameters as text.
+    keys = sorted({*_ALWAYS[section], *names} - others)
+    settings = {key: report.settings[key] for key in keys if key in report.settings}
+    shared = {key: PARAMS[key](report) for key in keys if key in PARAMS}
     return settings | shared | own
 
 
