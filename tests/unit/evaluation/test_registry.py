@@ -1,6 +1,7 @@
 import pytest
 
 from neural_shadows.evaluation import registry as names
+from neural_shadows.evaluation.method import Method
 
 
 @pytest.mark.parametrize(
@@ -30,3 +31,11 @@ def test_others(method):
 def test_a_bias_comes_off_a_key_again(method):
     biased = names.biased_key(method)
     assert biased != method == names.unbiased(biased) == names.unbiased(method)
+
+
+def test_a_method_of_buffers_answers_frames_without_a_scene(monkeypatch):
+    """So that it can stand in tables of a user's own frames."""
+    method = Method(of_buffers=lambda *buffers: None)
+    monkeypatch.setitem(names.METHODS, "mine", method)
+    assert method.answers_frames and not method.answers_views
+    assert not names.needs_scene("mine") and names.needs_scene("pcss")

@@ -63,8 +63,8 @@ class Method:
         by_rays: sends rays to the light's points. All others are dark where a surface faces away
             from the light's centre, though it may see a part of a large light.
         of_buffers: of a frame's buffers by name (height, width), the camera's `Lens`, the radius, the
-            scene's size and the light's shape, visibilities (height, width) float32, if it needs buffers alone; `answer`
-            then computes the buffers, for timing.
+            scene's size and the light's shape, visibilities (height, width) float32, if it needs
+            buffers alone; `answer` then computes the buffers, for timing.
         check_own: of a part of a user's own frames, raises an InputError for unsuitable ones.
         channel: the frame's buffer with its visibility, if stored.
         constant: the visibility of all surfaces facing the light.
@@ -107,7 +107,8 @@ class Method:
     @property
     def answers_frames(self) -> bool:
         """Check for answers to frames under an area light."""
-        return (self.answer or self.channel or self.constant) is not None
+        inputs = self.answer, self.of_buffers, self.channel, self.constant
+        return any(each is not None for each in inputs)
 
     def of_view(self, frame: "GBuffer", scene: "Scene | None", **settings) -> OfBias:
         """Visibility of a view at any depth bias; settings: of `sun`."""

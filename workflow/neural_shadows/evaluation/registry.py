@@ -148,7 +148,9 @@ def needs_fields(method: str) -> bool:
 
 def needs_scene(method: str) -> bool:
     """Check for the need of more than a frame's buffers."""
-    return not is_network(method) and METHODS[method].answer is not None
+    if is_network(method):
+        return False
+    return METHODS[method].answer is not None and METHODS[method].of_buffers is None
 
 
 def rays_of(method: str) -> int | None:
