@@ -106,7 +106,7 @@ rule claims:
             PATHS.report("claims.csv"),
             caption="../report/claims.rst",
             category="Claims",
-            labels={"what": "claims of the thesis and their verdicts"},
+            labels={"what": "claims of the texts and their verdicts"},
         ),
         md=PATHS.report("claims.md"),
         json=PATHS.report("claims.json"),
@@ -120,7 +120,7 @@ rule claims:
         code=code("reports/claims/write_claims", modules=claims.modules(LAYOUT)),
         settings=claims.arguments(LAYOUT),
     message:
-        "Testing the thesis's claims"
+        "Testing the claims"
     script:
         "../neural_shadows/reports/claims/write_claims.py"
 

@@ -1,1 +1,1 @@
-"""Every method on the same viewpoints: quality, time, memory, cost [4]."""
+"""Shadow methods on views and frames: constants, errors, times, memory."""

@@ -214,9 +214,8 @@ def open_frames(inputs: Inputs) -> Iterator[MeasuredFrame]:
 def open_methods(key: str, inputs: Inputs) -> Callable[[str], Method | None]:
     """The method of a key, by scene.
 
-    `Inputs.by_scene`: the network trained on the scene, or None.
-
-    None of all scenes for a network in a number format that the CPU would have to emulate.
+    Of a network for each scene (`Inputs.by_scene`) the one trained on it, else None. None for all
+    scenes where the CPU would have to emulate the network's number format.
 
     Raises:
         InputError: a file of weights or fields cannot be read.

@@ -1,1 +1,1 @@
-"""Frames for screen-space networks: buffers, light maps and exact soft shadows."""
+"""Frames of scenes in metres: buffers, light maps, exact soft shadows."""
