@@ -11,8 +11,7 @@ from PIL import Image
 
 from neural_shadows.evaluation.memory import network_bytes
 from neural_shadows.evaluation.ray_network import take_constants
-from neural_shadows.files.whole_files import whole_file, write_text
-from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.files.whole_files import read_json, whole_file, write_text
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET
 from neural_shadows.rendering.shading import AMBIENT, BACKGROUND
@@ -72,7 +71,7 @@ def write_viewer(
     image = poster(opened)
     with whole_file(png) as part:
         image.save(part, "PNG")
-    report = read_mesh_report(mesh_json)
+    report = read_json(mesh_json)
     biases = {path.stem: path for path in depth_biases}
     title = f"Shadows of {report['name']}"
     data = {

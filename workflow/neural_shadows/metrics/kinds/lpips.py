@@ -52,15 +52,15 @@ def load_model(net: "Net", trunk: Path | None) -> "lpips.LPIPS":
     return model.eval()
 
 
-def make_lpips(net: "Net", trunk: Path | None, device: str = "cpu") -> Lpips:
+def make_lpips(net: "Net", trunk: Path | None) -> Lpips:
     """LPIPS of grey frames. Arguments and errors as of `load_model`."""
     import torch
 
     # Channels last: the backbone is 1.8 times as fast, at the same values to 1e-8.
-    model = load_model(net, trunk).to(device, memory_format=torch.channels_last)
+    model = load_model(net, trunk).to(memory_format=torch.channels_last)
 
     def rgb(image: np.ndarray) -> "torch.Tensor":
-        grey = torch.tensor(image, dtype=torch.float32, device=device)
+        grey = torch.tensor(image, dtype=torch.float32)
         return grey.expand(1, 3, *grey.shape).contiguous(memory_format=torch.channels_last)
 
     def distance(image: np.ndarray, reference: np.ndarray) -> float:

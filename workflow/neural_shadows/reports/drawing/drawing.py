@@ -10,7 +10,7 @@ from matplotlib.patches import Circle
 from matplotlib.transforms import Affine2D
 
 from neural_shadows.evaluation.look import BLUE, ORANGE
-from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.rays.poisson_disk import PatternBank
 from neural_shadows.rays.quadtree import build_quadtree
 from neural_shadows.rays.sampling import sample_quads
@@ -40,7 +40,7 @@ def open_figure(
         InputError: a file is missing or not whole.
     """
     cut = slice_mesh(open_scene(mesh_ply, **scene))
-    name = read_mesh_report(mesh_json)["name"]
+    name = read_json(mesh_json)["name"]
     return cut, new_figure(f"{title} ({name})", *(size or (12.5, 6.6)))
 
 

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
 from neural_shadows.evaluation.look import COLOURS, ORANGE
-from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.rendering.exact_shadow import exact_visibility
 from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
@@ -37,7 +37,7 @@ def draw(
     Raises:
         InputError: an input file is missing or not whole.
     """
-    report = read_mesh_report(mesh_json)
+    report = read_json(mesh_json)
     opened = open_scene(mesh_ply, **scene)
     view = hero_view(opened.up)
     figure = new_figure(report["name"], 12.8, 7.4)

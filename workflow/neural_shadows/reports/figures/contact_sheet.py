@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.metric_files import read_view_metrics
-from neural_shadows.meshes.mesh_report import read_mesh_report
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.pooled_psnr import identical
 from neural_shadows.reports.data.method_look import REFERENCE
 from neural_shadows.reports.drawing.style import (
@@ -71,7 +71,7 @@ def draw(
         indices = np.linspace(0, len(numbers) - 1, count).round().astype(int)
         views = [(view_set, number) for number in numbers[indices]]
         frames[view_set] = read_frames(references, visibilities, values, views)
-    mesh = read_mesh_report(mesh_json)["name"]
+    mesh = read_json(mesh_json)["name"]
     heading = f"{title} ({mesh}, {run['scale']} scale)"
     labels = {row["method"]: row["label"] for row in rows}
     return contact_sheet(frames, labels, heading)

@@ -11,9 +11,9 @@ from pydantic import Field
 from neural_shadows.evaluation.look import YELLOW, Look
 from neural_shadows.evaluation.metric_files import read_view_metrics
 from neural_shadows.evaluation.null_predictors import NO_SHADOW
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout import tables
 from neural_shadows.layout.layout import Layout
-from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data.chosen_views import RULE, choose_views
 from neural_shadows.reports.data.learned import learned_methods, margins
@@ -99,7 +99,7 @@ def draw(
     heads = {row["method"]: (labels[row["method"]], look_of(row)) for row in rows}
     chosen = choose_views(values)
     frames = read_frames(references, visibilities, values, [chosen[name] for name in view_sets])
-    mesh = read_mesh_report(mesh_json)["name"]
+    mesh = read_json(mesh_json)["name"]
     heading = f"{title} ({mesh}, {run['scale']} scale)"
     return picture_strip(frames, heads, heading)
 

@@ -7,8 +7,8 @@ import numpy as np
 from pydantic import Field
 
 from neural_shadows.evaluation.look import BLUE, COLOURS, ORANGE
+from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
-from neural_shadows.meshes.mesh_report import read_mesh_report
 from neural_shadows.reports.drawing import space
 from neural_shadows.reports.drawing.style import Figure, run_figure
 from neural_shadows.scenes.lights import arc_directions, lowest_elevation
@@ -89,7 +89,7 @@ def draw(
         f"{len(towards):,} view directions; up: {scene['up']}": left,
         f"{RAYS} of {rays.count:,} training rays": right,
     }
-    name = read_mesh_report(mesh_json)["name"]
+    name = read_json(mesh_json)["name"]
     return space.pictures(shown, title=f"{title} ({name})", colours=COLOURS)
 
 
