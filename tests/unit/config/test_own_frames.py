@@ -83,9 +83,11 @@ def test_names_may_begin_with_a_prefix(engine):
 
 def test_lights_have_the_unit_of_the_training_and_are_no_larger(engine):
     said = refused(engine(radius_unit="metres"), "reports/answers/quay/kpnsm.csv")
-    assert "is trained on radii in scene sizes" in said and "`engine.radius_unit`" in said
+    assert (
+        "is trained on radii in scene_sizes" in said and "`engine.radius_unit: scene_sizes`" in said
+    )
     said = refused(engine(radii=[0, 0.5]), "reports/answers/quay/kpnsm.csv")
-    assert "is trained on lights of up to 0.01 scene sizes" in said
+    assert "is trained on lights of up to 0.01 scene_sizes" in said
 
 
 def test_names_in_the_target_have_suggestions(engine):

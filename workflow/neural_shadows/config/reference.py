@@ -2,8 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from types import UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from typing import Any, Literal, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
@@ -67,9 +66,9 @@ def _tag(field: FieldInfo) -> bool:
 
 
 def _title(model: type[Model]) -> str:
-    """Title of a model: its kind, or its class."""
-    for key in ("kind", "encoding", "form", "generate", "shape"):
-        if (field := model.model_fields.get(key)) and _tag(field):
+    """Title of a model: the key and value that choose it, or its class."""
+    for key, field in model.model_fields.items():
+        if _tag(field):
             return f"`{key}: {get_args(field.annotation)[0]}`"
     return re.sub(r"(?<!^)(?=[A-Z])", " ", model.__name__).capitalize()
 
@@ -90,8 +89,8 @@ def _default(field: FieldInfo) -> str:
     value = field.get_default()
     if value is None:
         return "none"
-    if isinstance(value, Model) or value in ({}, []):
-        return "its own" if isinstance(value, Model) else f"`{value}`"
+    if isinstance(value, Model):
+        return "its own"
     return f"`{value}`".replace("|", "\\|")
 
 
@@ -99,9 +98,7 @@ def _models(annotation: Any) -> Iterator[type[Model]]:
     """Models within an annotation, in order."""
     if isinstance(annotation, type) and issubclass(annotation, Model):
         yield annotation
-    elif get_origin(annotation) in (Union, UnionType, Annotated, list, dict) or get_args(
-        annotation
-    ):
+    else:
         for part in get_args(annotation):
             yield from _models(part)
 

@@ -38,7 +38,9 @@ def files(layout: Layout, section: str, name: str) -> dict[str, Any]:
     """
     names, report = _named(layout, section, name), _report(layout, section, name)
     own, params = _own(layout, section, name, "files"), _own(layout, section, name, "params")
-    known = {**own, **params, **FILES, **PARAMS, **report.settings, "heading": report.name}
+    known = {**own, **params, **FILES, **PARAMS, **report.settings}
+    if section == "figures":
+        known["heading"] = report.name
     for argument in required(_function(layout, section, name)):
         if argument not in known:
             kind = report.settings["kind"]

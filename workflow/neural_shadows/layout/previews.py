@@ -43,7 +43,10 @@ def settings(layout: Layout, scene: str) -> dict[str, Any]:
 
 
 def _advice(layout: Layout, scene: str) -> str:
-    """The next command: the last table with the scene, which an overlay's is."""
+    """Next command to type, for the last table with the scene.
+
+    An overlay's tables come last, so that a user's own is named before shipped ones.
+    """
     tables = [name for name in layout.settings["tables"] if _has(layout, name, scene)]
     if not tables:
         return f"Next: a table (`tables`) with {scene} in its rows or its frame set."

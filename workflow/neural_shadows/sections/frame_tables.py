@@ -130,15 +130,16 @@ def _check_network(config: Sections, key: str, frame_set: str, experiment: str) 
     )
     if not frames or not trained_on:
         return
-    if isinstance(config.frame_sets[frame_set], OwnFrames) and frames[0] != trained_on[0]:
-        raise ValueError(
-            f"{key} is trained on radii in {trained_on[0]}, and frame_sets.{frame_set} has them in "
-            f"{frames[0]}. Set its `engine.radius_unit`, and radii of up to {trained_on[1]:g}"
-        )
     if frames[0] != trained_on[0] and "degrees" in (frames[0], trained_on[0]):
         raise ValueError(
             f"{key} is trained on lights with radii in {trained_on[0]}, and frame_sets.{frame_set} has them "
             f"in {frames[0]}. Train it on frames of such a light, or leave it out"
+        )
+    if isinstance(config.frame_sets[frame_set], OwnFrames) and frames[0] != trained_on[0]:
+        raise ValueError(
+            f"{key} is trained on radii in {trained_on[0]}, and frame_sets.{frame_set} has them in "
+            f"{frames[0]}. Set its `engine.radius_unit: {trained_on[0]}`, and radii of up to "
+            f"{trained_on[1]:g}"
         )
     if frames[0] == trained_on[0] and frames[2] > trained_on[2]:
         raise ValueError(
@@ -155,4 +156,4 @@ def _radii(frames: Any) -> tuple[str, float, float] | None:
         return None
     unit, largest = frames.radius_unit, max(frames.radii)
     shape = getattr(frames, "light", SPHERE)
-    return unit.replace("_", " "), largest, shape.radius_of(largest, unit, 1.0)
+    return unit, largest, shape.radius_of(largest, unit, 1.0)

@@ -18,7 +18,7 @@ class Block:
     Args:
         title: its line in the contents.
         html: a figure; caption: below it.
-        parts: of a table, one for each scene (`page_tables.Part`).
+        parts: of a table, one for each scene (`table_blocks.Part`).
         notes: below a table; the first says how to read it.
         files: its downloads: addresses within the page, by file name.
     """

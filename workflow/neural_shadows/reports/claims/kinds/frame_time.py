@@ -62,7 +62,7 @@ def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:
 
 
 def comparisons(claim: Claim, data: Measured) -> list[Comparison]:
-    """A comparison for each pair (slower, faster) of a scene.
+    """A comparison for each pair of a scene: the first's time over the second's.
 
     By the median over frames of the ratio of own milliseconds. The claim's `overhead_ms` is added to
     both, the rest of a frame: the thesis compares whole frames, and its rest is faster than ours.
