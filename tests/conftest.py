@@ -1,18 +1,28 @@
-"""Which tests one process does: those of a file share what they make, those of the workflow its runs."""
+"""Which tests one process does, and when: those of a file share what they make."""
 
 import pytest
 from xdist.scheduler import LoadScopeScheduling
 
 
 class ByFile(LoadScopeScheduling):
-    """Spreads the files of tests/unit over the processes; any other folder is one process's."""
+    """Spreads the files of the suite over the processes; a folder of long tests is one process's."""
 
     def _split_scope(self, nodeid: str) -> str:
         path, _, _ = nodeid.partition("::")
         _, folder, *_ = path.split("/")
-        return path if folder == "unit" else folder
+        return path if folder in ("unit", "workflow") else folder
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log) -> LoadScopeScheduling:
     """What xdist asks for the way to spread tests."""
     return ByFile(config, log)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The smoke run first, beside the units, and what changes copies of it when it has ended."""
+
+    def turn(item: pytest.Item) -> int:
+        path = item.nodeid.partition("::")[0]
+        return 0 if path.endswith("workflow/test_smoke.py") else 1 + ("/workflow/" in path)
+
+    items.sort(key=turn)

@@ -2,7 +2,17 @@
 
 import numpy as np
 
+from neural_shadows.frames.draw_settings import FrameKind, draw_setting
+from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.scenes.arrangement import Arrangement
+from neural_shadows.scenes.generated import arrange
+
+PICTURE = {"kind": "perspective", "fov": 120, "resolution": 64}
+KINDS = {
+    "whole": FrameKind(512, 256, 55, None, PICTURE, radius=0.25),
+    "window": FrameKind(512, 256, 55, (1024, 512), PICTURE, radius=0.5),
+    "small": FrameKind(512, 256, 55, (2048, 1024), {"kind": "cube", "resolution": 64}, 0.0625),
+}
 
 
 def check_objects(drawn: Arrangement) -> None:
@@ -15,3 +25,15 @@ def check_objects(drawn: Arrangement) -> None:
         assert np.linalg.norm(doubled, axis=1).min() > 1e-9, part.name
         assert part.vertices[:, 1].min() >= -1e-5, part.name
         assert len(np.unique(part.faces)) == len(part.vertices), part.name
+
+
+def check_layout(name: str, seed: int) -> Arrangement:
+    """Assert that a seed gives a layout with frames of each kind, and give it."""
+    drawn = arrange(name, seed)
+    assert 10_000 <= sum(len(part.faces) for part in drawn.objects) <= 60_000
+    assert len(drawn.spots) == 2
+    check_objects(drawn)
+    scene = SoftScene({"generate": name, "seed": seed, "inserted": {}}, [])
+    for kind in KINDS.values():
+        draw_setting(scene, kind, np.random.default_rng(0))  # or an InputError that says why not
+    return drawn

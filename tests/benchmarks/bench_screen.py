@@ -1,4 +1,4 @@
-"""Screen-space networks on frames of 2048 × 1024, whole and of kernels by part.
+"""Screen-space networks on frames of 2048 × 1024: in bands of rows, layer by layer, by part.
 
 In bfloat16 where the CPU has it, or float32. The ceiling is a product of square matrices of the
 same type, on as many threads, by the multiply-adds of the network.
@@ -15,20 +15,19 @@ from neural_shadows.networks.screen_space.widths import total
 from neural_shadows.networks.settings.networks import screen_network
 
 WIDTH, HEIGHT = 2048, 1024
-KERNELS = "KPNSM"
+KERNELS = {
+    "form": "kernels",
+    "features": ["cosine", "c_v_by_d", "z_f", "penumbra", "behind", "z_b_by_z", "z_b", "base_msm"],
+    "filters": 4,
+}
 NETWORKS = {
     "NSM, fast form": {
         "form": "shuffle",
         "widths": [32, 64, 128, 256],
         "features": ["c_e", "view", "ratio", "difference"],
     },
-    KERNELS: {
-        "form": "kernels",
-        "widths": [64, 64, 128, 256],
-        "features": ["cosine", "c_v_by_d", "z_f", "penumbra", "behind", "z_b_by_z", "z_b"]
-        + ["base_msm"],
-        "filters": 4,
-    },
+    "KPNSM": KERNELS | {"widths": [64, 64, 128, 256]},
+    "KPNSM, slim": KERNELS | {"widths": [32, 32, 64, 128]},
 }
 PRODUCT = 2048  # rows and columns of the matrices
 THREADS = (1, 2)
@@ -47,10 +46,14 @@ def _rows(name: str, rounds: int) -> list[Row]:
     frame = frame.contiguous(memory_format=torch.channels_last)
     macs = total(layers_of(settings), "macs") * WIDTH * HEIGHT
     square = torch.rand(PRODUCT, PRODUCT).to(dtype)
-    works = {"frame": lambda: network(frame), "product": lambda: square @ square}
+    works = {
+        "frame": lambda: network.in_bands(frame),
+        "layer by layer": lambda: network(frame),
+        "product": lambda: square @ square,
+    }
     result = []
     with torch.inference_mode():
-        if name == KERNELS:
+        if settings.form == "kernels":
             inner, base = network.inner(frame), frame[:, -1:]
             logits = network.head(inner)
             works |= {
@@ -64,6 +67,6 @@ def _rows(name: str, rounds: int) -> list[Row]:
             ceiling = PRODUCT**3 / seconds.pop("product") / macs
             for part, value in seconds.items():
                 stage = f"{name}, {WIDTH} x {HEIGHT}, {name_of(dtype)}: {part}"
-                most = ceiling if part == "frame" else None
+                most = ceiling if part in ("frame", "layer by layer") else None
                 result.append(Row(stage, f"cpu x{threads}", 1 / value, "frames/s", most))
     return result

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import torch
@@ -21,8 +22,9 @@ from measurement import Row, median_seconds
 from neural_shadows.evaluation.method import ShadowMethod
 from neural_shadows.evaluation.ray_network import network_method
 from neural_shadows.evaluation.registry import classic_method
+from neural_shadows.metrics.find_lpips import export_onnx, load_model
 from neural_shadows.metrics.kinds.flip import flip
-from neural_shadows.metrics.kinds.lpips import make_lpips
+from neural_shadows.metrics.kinds.lpips import with_model
 from neural_shadows.metrics.kinds.psnr import psnr
 from neural_shadows.metrics.kinds.ssim import ssim
 from neural_shadows.networks.compute import choose_device, choose_dtype
@@ -105,7 +107,12 @@ def seconds_of_parts(mesh_ply: Path, trunk: Path | None, views: int) -> dict[str
     dtype = choose_dtype("auto", choose_device("cpu"))
     maps = [unbiased(classic_method(f"shadow_map_{resolution}", scene)) for resolution in MAPS]
     network = unbiased(network_method(thesis_network(256), dtype))
-    lpips = make_lpips("squeeze", trunk) if trunk else None
+    lpips = None
+    if trunk:
+        with TemporaryDirectory() as folder:
+            lpips_onnx = Path(folder) / "lpips.onnx"
+            export_onnx(load_model("squeeze", trunk), lpips_onnx)
+            lpips = with_model(lpips_onnx, threads=1)
 
     parts = ["viewpoint drawn", "primary rays", "reference", "5 shadow maps", "network", "shading"]
     parts += ["PSNR", "SSIM", "FLIP"] + ["LPIPS"] * bool(lpips)

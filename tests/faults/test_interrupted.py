@@ -119,7 +119,7 @@ def test_disk_that_fills(finished, overlays, tmp_path):
         resize(disk, shutil.disk_usage(disk).used + 300_000)
         failed = checkout.snakemake(*TARGETS, overlays=overlays)
         assert failed.returncode != 0
-        assert "No space left on device" in failed.stdout, failed.stdout
+        assert "No space left on device. Make room" in failed.stdout, failed.stdout
         assert wrong(checkout, wanted) == []
         resize(disk, 4 * written)
         checkout.run(*TARGETS, overlays=overlays)

@@ -36,6 +36,17 @@ def test_the_lock_pins_everything_and_has_the_direct_pins():
     assert {*DIRECT} < {*LOCKED}
 
 
+def test_files_of_the_lock_are_checked_by_hash():
+    """By .ci/run. pip then wants one of each package, of what torch's GPU builds need too."""
+    others = r"(nvidia|cuda|triton)[^=]*==.+ ; .*sys_platform == 'linux'.*"
+    pins = []
+    for pin in (ENVS / "hashes.txt").read_text().replace("\\\n", "").splitlines()[2:]:
+        name, *hashes = pin.split(" --hash=")
+        assert hashes and all(re.fullmatch("sha256:[0-9a-f]{64} *", each) for each in hashes), pin
+        pins.append(name.strip())
+    assert [pin for pin in pins if not re.fullmatch(others, pin)] == LOCKED
+
+
 def test_the_lock_lets_a_machine_without_a_gpu_do_without_cuda():
     """What torch's builds for GPUs need is 4.7 GB; a CPU build that is installed before is kept."""
     assert [line for line in LOCKED if re.match("nvidia-|cuda-|triton", line)] == []

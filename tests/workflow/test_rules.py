@@ -3,6 +3,7 @@
 import contextlib
 import inspect
 import os
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
@@ -16,6 +17,8 @@ from snakemake.exceptions import WorkflowError
 from snakemake.iocontainers import Wildcards
 from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
+from neural_shadows.reports.costs import work
+from neural_shadows.reports.costs.plan import EVERYTHING, plan
 from neural_shadows.reports.data.table import write_table
 from neural_shadows.reports.drawing import opengl
 
@@ -32,7 +35,8 @@ SCREEN = {"network": "nsm", "experiment": "nsm", "frame_set": "nsm"}
 # Of a function that does not have the rule's name.
 FUNCTIONS = {"figure": "draw", "preview_scene": "draw"}
 FUNCTIONS |= {"page": "write_page", "viewer": "write_viewer"}
-RETURNED = ("table", "claims")  # rules whose function returns a table, which `write_table` writes
+# Rules whose function returns a table, which `write_table` writes.
+RETURNED = ("table", "claims", "expected_minutes")
 
 
 @pytest.fixture(scope="module")
@@ -122,3 +126,21 @@ def test_names(workflow):
             signature.bind(**dict.fromkeys(names - {"settings", "code", "beside", "kind"}))
         except TypeError as error:
             pytest.fail(f"rule {rule.name} for {example}: {error}")
+
+
+def test_each_rule_has_an_expected_time(workflow):
+    assert {rule.name for rule in workflow.rules} == work.BY_RULE.keys() | work.CONSTANT.keys()
+
+
+def test_the_plan_has_all_jobs_of_a_report(workflow):
+    planned = plan(workflow.globals["LAYOUT"], workflow.rules)
+    jobs, of_table = planned["jobs"], planned["targets"]["table_4_3.csv"]
+    counts = Counter(jobs[index]["rule"] for index in of_table)
+    assert counts == {
+        **{"get_mesh": 1, "prepare_mesh": 1, "draw_directions": 1, "sample_rays": 4},
+        **{"describe_rays": 1, "train": 2, "render_references": 3, "find_lpips": 1, "tune": 1},
+        **{"preview_scene": 1, "query_network": 4, "evaluate": 18, "figure": 2, "table": 1},
+    }
+    assert {*of_table} < {*planned["targets"][EVERYTHING]}
+    assert len({(job["rule"], job["name"]) for job in jobs}) == len(jobs)
+    assert all(sum(job["work"].values()) > 0 for job in jobs)

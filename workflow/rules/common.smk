@@ -2,7 +2,6 @@
 
 import functools
 import gc
-import hashlib
 import inspect
 import os
 import sys
@@ -21,16 +20,6 @@ SEARCH_PATH = "PYTHONPATH"
 inherited = [path for path in [os.environ.get(SEARCH_PATH)] if path]
 os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
 
-# numba caches kernels by the age of their own file: a kernel that calls one of another, edited module
-# would be stale. The cache's folder is therefore named by the package's content.
-package = b"".join(
-    path.read_bytes() for path in sorted(WORKFLOW.glob("neural_shadows/**/*.py"))
-)
-kernels = os.path.abspath(
-    f".snakemake/numba/{hashlib.sha256(package).hexdigest()[:16]}"
-)
-os.environ.update(NUMBA_CACHE_DIR=kernels)
-
 # glibc returns arrays to the system and requests them again, which clears their pages: 3.2 of 20 CPU
 # seconds of `evaluate`. Keep up to 256 MiB, and serve arrays below 32 MiB from them.
 os.environ.setdefault("MALLOC_MMAP_THRESHOLD_", str(32 << 20))
@@ -46,10 +35,22 @@ from neural_shadows.layout import previews, tables, trainings, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import form_module, kind_module
 from neural_shadows.reports.claims import inputs as claims
+from neural_shadows.reports.costs.plan import plan
 from neural_shadows.reports.page import targets
 from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.scenes.generated import generator_module
 from neural_shadows.training.checkpoints import remove_finished
+
+# numba caches kernels by the age of their own file: a kernel that calls one of another, edited module
+# would be stale. The cache's folder is therefore named by the content of kernels' modules and of all
+# that these import. Of the whole package, an edited plot would compile all anew: a minute.
+compiled = [
+    path
+    for path in WORKFLOW.glob("neural_shadows/**/*.py")
+    if b"import njit" in path.read_bytes()
+]
+kernels = digest({module for path in compiled for module in modules_of(path)})
+os.environ.update(NUMBA_CACHE_DIR=os.path.abspath(f".snakemake/numba/{kernels}"))
 
 try:
     check_duplicates(workflow.configfiles)
@@ -97,7 +98,7 @@ wildcard_constraints:
     measure=r"widths\.json|occluders\.npy",
     part="[a-z]+_[0-9]+",
     # Names without an entry in the configuration are refused by the functions below.
-    table=r"(?!claims\b)[a-z][a-z0-9_]*",
+    table=r"(?!(claims|expected_minutes)\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",
     viewer="viewer(_[a-z0-9_]+)?",
 

@@ -6,6 +6,7 @@ rule find_lpips:
         trunk=SETTINGS["metrics"]["lpips"]["trunk"] or [],
     output:
         lpips_json=PATHS.lpips,
+        lpips_onnx=PATHS.lpips_model,
     log:
         PATHS.log("find_lpips"),
     # May download: compute nodes of clusters often have no network.
@@ -114,6 +115,7 @@ rule query_network:
 rule evaluate:
     input:
         unpack(of(evaluations.evaluated_files)),
+        PATHS.lpips_model,  # read beside its JSON
         lpips_json=PATHS.lpips,
     output:
         metrics_csv=PATHS.evaluation("csv"),

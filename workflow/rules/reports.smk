@@ -125,6 +125,33 @@ rule claims:
         "../neural_shadows/reports/claims/write_claims.py"
 
 
+rule expected_minutes:
+    output:
+        csv=PATHS.report("expected_minutes.csv"),
+        md=PATHS.report("expected_minutes.md"),
+        json=PATHS.report("expected_minutes.json"),
+    log:
+        PATHS.log("expected_minutes"),
+    conda:
+        ENVIRONMENT
+    # It measures the machine's rates, so nothing runs beside it. On a cluster there is no number of cores.
+    threads: workflow.cores or COMPUTE["threads"]
+    resources:
+        **usual(2000, minutes=10),
+        gpu=GPUS,
+    params:
+        code=code("reports/costs/expected_minutes"),
+        settings=lambda wildcards: plan(LAYOUT, workflow.rules),
+        cores=workflow.cores or COMPUTE["threads"],
+        scale=SETTINGS["scale"],
+        device=COMPUTE["device"],
+        precision=COMPUTE["precision"],
+    message:
+        "Estimating the minutes of each report on this machine"
+    script:
+        "../neural_shadows/reports/costs/expected_minutes.py"
+
+
 # `index` is the page of a whole run; `available` shows what there is: its reports are params, not
 # inputs, so that none is made for it.
 rule page:

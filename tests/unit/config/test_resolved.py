@@ -165,15 +165,15 @@ def test_claims_on_methods_without_a_network_and_on_what_is_printed(changed):
 
 def test_learning_curves(settings, changed):
     assert settings["learning_curves"] == {}
-    given = {"experiments": ["dragon", "dragon_64"], "steps": [10, 100, 20000], "seeds": 2}
+    given = {"experiments": ["dragon", "dragon_64"], "steps": [10, 100, 12000], "seeds": 2}
     values = changed("learning_curves", given)
     values["scenes"]["dragon"]["seed"] = 5
     found = resolved(read_config(values))
     names = ["dragon_10_steps_seed_5", "dragon_10_steps_seed_6", "dragon_100_steps_seed_5"]
-    names += ["dragon_100_steps_seed_6", "dragon", "dragon_20000_steps_seed_6"]
+    names += ["dragon_100_steps_seed_6", "dragon", "dragon_12000_steps_seed_6"]
     points = found["learning_curves"]["dragon"]
     assert [point["experiment"] for point in points] == names
-    assert points[2] == {"experiment": names[2], "steps": 100, "seed": 5, "samples": 102400}
+    assert points[2] == {"experiment": names[2], "steps": 100, "seed": 5, "samples": 51200}
     dragon, point = found["experiments"]["dragon"], found["experiments"][names[3]]
     assert point == dragon | {"seed": 6, "training": dragon["training"] | {"steps": 100}}
     assert point["training"]["schedule"] == "cosine"  # of its own length

@@ -3,6 +3,7 @@
 import inspect
 import json
 import re
+from functools import cache
 
 import jsonschema
 import pytest
@@ -19,16 +20,26 @@ from neural_shadows.sections.own_frames import EngineFrames
 from neural_shadows.settings.base import Model
 
 FILES = sorted((ROOT / "config").glob("*.yaml"))
+config_of = cache(lambda name: read_config(shipped(name)))
 REFERENCE = ROOT / "config" / "REFERENCE.md"
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.json"
 
 
+@pytest.fixture(scope="module")
+def validator():
+    """Of the checked schema, which takes 1.5 s: once."""
+    schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
+    kind = jsonschema.validators.validator_for(schema)
+    kind.check_schema(schema)
+    return kind(schema)
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_shipped_files_are_valid(path, recwarn):
-    resolved(read_config(shipped(path.stem)))
+def test_shipped_files_are_valid(path, validator, recwarn):
+    resolved(config_of(path.stem))
     check_duplicates([path])
     assert path.read_text().startswith("# yaml-language-server: $schema=../workflow/schemas/")
-    jsonschema.validate(yaml.safe_load(path.read_text()), json.loads(SCHEMA.read_text()))
+    validator.validate(yaml.safe_load(path.read_text()))
     assert not recwarn.list
 
 
@@ -46,7 +57,7 @@ def test_every_key_is_of_use_to_a_shipped_file():
             if isinstance(one, Model | dict | list):
                 yield from given(one)
 
-    used = {key for path in FILES for key in given(read_config(shipped(path.stem)))}
+    used = {key for path in FILES for key in given(config_of(path.stem))}
     there = [(m, key) for m in subclasses(Model) for key in inspect.get_annotations(m)]
     unused = {key for m, key in there if key in m.model_fields and (m, key) not in used}
     # Given on the command line; frames of a user's own.

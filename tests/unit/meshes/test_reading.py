@@ -11,11 +11,13 @@ from mesh_files import (
     TETRAHEDRON_FACES,
     WRITERS,
     ascii_ply,
+    exported,
     obj,
 )
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.ascii_ply import parse_ascii_ply
+from neural_shadows.meshes.binary_ply import parse_binary_ply
 from neural_shadows.meshes.reading import read_mesh
 
 
@@ -56,6 +58,27 @@ def test_text_ply_is_read_at_once_as_trimesh_reads_it(tmp_path, kind):
         text.replace(b"format ascii", b"format binary_little_endian"),
     ):
         assert other != text and parse_ascii_ply(other) is None
+
+
+def test_a_prepared_mesh_is_read_as_by_trimesh():
+    """Which still takes what has more properties, other polygons or an unusual end."""
+    shape = trimesh.creation.icosphere(2)
+    data = exported("ply", shape.vertices, shape.faces)
+    vertices, faces = parse_binary_ply(data)
+    expected = trimesh.load(io.BytesIO(data), file_type="ply", process=False)
+    np.testing.assert_array_equal(vertices, expected.vertices)
+    np.testing.assert_array_equal(faces, expected.faces)
+    assert vertices.dtype == np.float64 and faces.dtype == np.int64
+    corners = len(data) - 13 * len(faces)
+    for other in (
+        data.replace(b"float z\n", b"float z\nproperty float quality\n"),
+        data.replace(b"float z", b"double z"),
+        data.replace(b"little", b"big"),
+        data[:-1],
+        data + b"\0",
+        data[:corners] + b"\4" + data[corners + 1 :],
+    ):
+        assert other != data and parse_binary_ply(other) is None
 
 
 def test_polygons_become_triangles(tmp_path):

@@ -1,11 +1,19 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 import torch
 import torchvision
+from images import random_image
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.metrics.find_lpips import find_lpips
+from neural_shadows.metrics.registry import image_metrics
+
+
+def outputs(folder: Path) -> tuple[Path, Path]:
+    return folder / "lpips.json", folder / "lpips.onnx"
 
 
 @pytest.fixture(scope="module")
@@ -17,9 +25,14 @@ def features() -> dict[str, torch.Tensor]:
 def test_features_of_a_whole_classifier(features, tmp_path):
     path = tmp_path / "trunk.pth"
     torch.save({f"features.{key}": value for key, value in features.items()}, path)
-    find_lpips(path, tmp_path / "lpips.json", net="squeeze")
+    find_lpips(path, *outputs(tmp_path), net="squeeze")
     expected = {"net": "squeeze", "trunk": str(path), "available": True, "reason": None}
     assert read_json(tmp_path / "lpips.json") == expected
+    values = image_metrics("hard", tmp_path / "lpips.json")(random_image(0), random_image(1))
+    assert values["lpips"] > 1e-3
+    (tmp_path / "lpips.onnx").write_bytes(b"cut")
+    with pytest.raises(InputError, match="lpips.onnx: damaged .* Delete it and run again"):
+        image_metrics("hard", tmp_path / "lpips.json")
 
 
 @pytest.mark.parametrize(
@@ -37,7 +50,7 @@ def test_what_is_no_trunk_is_named(content, named, features, tmp_path):
     elif content:
         torch.save(features | content, path)
     with pytest.raises(InputError, match=f"trunk.pth: .*{named}.*metrics.lpips.trunk"):
-        find_lpips(path, tmp_path / "lpips.json", net="squeeze")
+        find_lpips(path, *outputs(tmp_path), net="squeeze")
 
 
 def test_without_a_download_lpips_is_left_out(tmp_path, monkeypatch):
@@ -48,7 +61,9 @@ def test_without_a_download_lpips_is_left_out(tmp_path, monkeypatch):
 
     monkeypatch.setattr(torch.hub, "download_url_to_file", fail)
     monkeypatch.setenv("TORCH_HOME", str(tmp_path / "home"))
-    find_lpips(None, tmp_path / "lpips.json", net="alex")
+    find_lpips(None, *outputs(tmp_path), net="alex")
     found = read_json(tmp_path / "lpips.json")
+    assert (tmp_path / "lpips.onnx").read_bytes() == b""
+    assert "lpips" not in image_metrics("hard", tmp_path / "lpips.json")(*[random_image(0)] * 2)
     assert not found["available"] and "/home" not in found["reason"]
     assert "alexnet cannot be downloaded (Permission denied)" in found["reason"]

@@ -1,12 +1,13 @@
 """PSNR, SSIM and FLIP against closed forms and the papers' formulas; shadow errors."""
 
+import flip_evaluator
 import numpy as np
 import pytest
 from images import constant, random_image
 from skimage.color import rgb2lab
 
 from neural_shadows.metrics.kinds.errors_of_visibility import shadow_error
-from neural_shadows.metrics.kinds.flip import flip
+from neural_shadows.metrics.kinds.flip import flip, flip_map
 from neural_shadows.metrics.kinds.psnr import psnr
 from neural_shadows.metrics.kinds.ssim import ssim
 
@@ -49,6 +50,34 @@ def test_flip_of_constants(a, b):
     error = abs(hunt((a, a, a))[0] - hunt((b, b, b))[0]) ** 0.7 / largest
     expected = 0.95 * error / 0.4 if error < 0.4 else 0.95 + 0.05 * (error - 0.4) / 0.6
     assert flip(constant(a), constant(b)) == pytest.approx(expected, abs=1e-4)
+
+
+def shadowed() -> np.ndarray:
+    """A ground that darkens to a side, with a slanted shadow."""
+    y, x = np.mgrid[:150, :200].astype(np.float32)
+    return np.where(abs(x - y) < 30, 0.25, 0.4 + 0.002 * x).astype(np.float32)
+
+
+PAIRS = {
+    "a shadow moved by a pixel": (np.roll(shadowed(), 1, axis=1), shadowed(), 2e-6),
+    "random": (random_image(0, (75, 131)), random_image(1, (75, 131)), 5e-6),
+    "0 and 1": (random_image(2).round(), random_image(3).round(), 5e-6),
+    "smaller than a filter": (random_image(4, (5, 7)), random_image(5, (5, 7)), 5e-6),
+    # The package takes the root of its derivatives' rounding errors.
+    "flat": (constant(0.3), constant(0.5), 2e-5),
+}
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+def test_flip_is_that_of_the_package(pair):
+    image, reference, tolerance = PAIRS[pair]
+    colored = (np.repeat(grey[..., None], 3, axis=2) for grey in (reference, image))
+    expected, _, _ = flip_evaluator.evaluate(
+        *colored, "LDR", applyMagma=False, computeMeanError=False
+    )
+    assert flip(image, reference) == pytest.approx(expected.mean(dtype=np.float64), abs=tolerance)
+    np.testing.assert_allclose(flip_map(image, reference), expected[..., 0], rtol=0, atol=1e-3)
+    assert flip(image, image) == 0
 
 
 @pytest.mark.parametrize("metric", [psnr, ssim, flip])

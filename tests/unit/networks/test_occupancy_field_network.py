@@ -93,7 +93,7 @@ def learn(network, batch: LabelledBatch, steps: int) -> None:
 
 def test_it_learns_a_ball(tmp_path):
     network = laid_out(trimesh.creation.icosphere(4, radius=0.5), tmp_path, SOLID_32)
-    learn(network, ball_batch(30_000), 60)
+    learn(network, ball_batch(15_000), 60)
     batch = ball_batch(2000, seed=3)
     o, d, t_lb, t_ub = batch
     with torch.inference_mode():

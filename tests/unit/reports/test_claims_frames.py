@@ -148,7 +148,7 @@ def of_networks(gains, metric=OFF, equal_time=False, samples=SAMPLES, nulls=None
 def test_three_trainings_decide(gains, verdict, equal_time):
     """Their differences count as much as those of frames."""
     outcome = judge(*of_networks(-np.array(gains) if equal_time else gains, equal_time=equal_time))
-    assert outcome["verdict"] == verdict
+    assert (outcome["verdict"], outcome["seeds"]) == (verdict, len(gains))
     words = "(9 ms) against Mine " if equal_time else "MSE × 10⁻⁴ off edges at all lights of Mine"
     assert words in outcome["evidence"] and "nan" not in outcome["evidence"]
     assert verdict != verdicts.TOO_SMALL or "2 seeds of 3" in outcome["reason"]

@@ -17,6 +17,36 @@ def test_no_stage_depends_on_the_configuration(stage):
     assert not {path.parent.name for path in found} & {"config", "layout"}
 
 
+@pytest.mark.parametrize(
+    ("module", "stages"),
+    [
+        # Figures of a table import its settings.
+        (
+            "reports/tables/comparison.py",
+            {"tables/comparison"}
+            | {f"figures/{n}" for n in ("contact_sheet", "errors_3d", "pictures")},
+        ),
+        ("reports/claims/write_claims.py", {"claims/write_claims"}),
+        ("reports/drawing/preview.py", {"drawing/preview"}),
+        ("evaluation/evaluate.py", {"evaluation/evaluate"}),
+        # Through the methods, which are inputs of their jobs.
+        ("shadow_maps/shadow_map.py", set()),
+    ],
+)
+def test_a_module_has_these_stages(module, stages):
+    found = {stage for stage in STAGES if PACKAGE / module in modules_of(stage)}
+    assert {"/".join(stage.with_suffix("").parts[-2:]) for stage in found} == stages
+
+
+def test_metrics_are_measured_by_one_stage_and_named_by_reports():
+    found = [stage for stage in STAGES if PACKAGE / "metrics/kinds/flip.py" in modules_of(stage)]
+    rooms = [stage.relative_to(PACKAGE).parts for stage in found]
+    assert {parts for parts in rooms if parts[0] != "reports"} == {("evaluation", "evaluate.py")}
+    assert {"comparison.py", "write_claims.py", "page.py"} <= {parts[-1] for parts in rooms}
+    of_map = modules_of(PACKAGE / "evaluation/methods/shadow_map.py")
+    assert PACKAGE / "shadow_maps/shadow_map.py" in of_map
+
+
 def test_training_depends_on_what_decides_the_weights():
     found = modules_of(PACKAGE / "training" / "train_on_rays.py")
     names = {path.relative_to(PACKAGE).as_posix()[:-3] for path in found}
@@ -86,3 +116,10 @@ def test_a_digest_is_of_names_and_content_and_not_of_where_they_lie(tmp_path, mo
     first = of("first", a="1", b="2")
     assert first == of("again", a="1", b="2")
     assert len({first, of("content", a="1", b="3"), of("name", a="1", c="2")}) == 3
+
+
+def test_kernels_need_no_report_and_no_kind():
+    """Their compiled forms are kept apart by these modules' content: see workflow/rules/common.smk."""
+    compiled = [path for path in PACKAGE.rglob("*.py") if b"import njit" in path.read_bytes()]
+    found = {module for path in compiled for module in modules_of(path)}
+    assert len(compiled) > 30 and not {"reports", "kinds"} & {n for p in found for n in p.parts}

@@ -76,7 +76,11 @@ def run(folder: Path, last_line: str, stderr=subprocess.PIPE):
     ("error", "message"),
     [
         ("InputError('a.ply: not a mesh; give a .ply')", "a.ply: not a mesh; give a .ply"),
-        ("OSError(28, 'No space left', 'a.npy')", "[Errno 28] No space left: 'a.npy'"),
+        ("OSError(13, 'Permission denied', 'a.npy')", "[Errno 13] Permission denied: 'a.npy'"),
+        (
+            "OSError(28, 'No space left', 'a.npy')",
+            "a.npy: No space left. Make room; the same command then continues.",
+        ),
         ("RuntimeError('first\\n  second: 2048²\\n')", "RuntimeError: first second: 2048²"),
     ],
 )
@@ -87,6 +91,17 @@ def test_a_job_that_fails(tmp_path, error, message):
     # In the order in which it was said, by whatever way.
     assert log.splitlines()[1:5] == SAID and log.endswith(done.stderr)
     assert "Traceback (most recent call last)" in log and "in train" in log
+
+
+def test_a_log_on_a_full_disk(tmp_path):
+    """Nothing of it can be written, so the terminal has the reason."""
+    (tmp_path / "a job.log").symlink_to("/dev/full")
+    code = f"{START}    pass\nrun_stage(job, train)\n"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert f"disk of {tmp_path}: No space left on device. Make room" in done.stderr
 
 
 def test_a_terminal_shows_the_progress(tmp_path):

@@ -106,7 +106,10 @@ def test_steps_are_those_of_torch_s_adam():
 
 
 def test_muon_moves_the_hidden_layers_and_adam_the_others():
-    """As torch's own optimisers do, over a schedule; the same in a pool's threads to the bit."""
+    """As torch's own optimisers do, over a schedule; the same in a pool's threads to the bit.
+
+    Within what torch's bfloat16 products round: a tenth of a step of 0.02.
+    """
     changes = {"optimiser": "muon", "adam_rate": 1e-3, "learning_rate": 2e-2, "schedule": "cosine"}
     ours, pooled, theirs = new_run(**changes), new_run(**changes), new_run()
     hidden = [theirs.weights[f"layers.{number}"] for number in (1, 2)]
@@ -130,8 +133,8 @@ def test_muon_moves_the_hidden_layers_and_adam_the_others():
     assert_same_weights(pooled, ours)
     before = new_run().weights
     for name, weight in ours.weights.items():
-        torch.testing.assert_close(weight, theirs.weights[name], rtol=1e-5, atol=1e-6)
-        assert (weight - before[name]).abs().max() > 1e-3
+        torch.testing.assert_close(weight, theirs.weights[name], rtol=0, atol=2e-3)
+        assert (weight - before[name]).abs().max() > 2e-3
 
 
 @pytest.mark.parametrize("died_at_step", [None, 1])

@@ -34,7 +34,6 @@ KINDS = [
     GRID | {"encoding": "hash_grid", "occupancy": 16, "table_size": 64},
     FIELD | {"surface": "solid"},
     FIELD | {"surface": "sheet"},
-    FIELD | {"surface": "solid", "start": "distances"},
 ]
 
 

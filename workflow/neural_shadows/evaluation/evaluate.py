@@ -50,7 +50,7 @@ def evaluate(
             by_scene: see `Inputs`.
         answers: of `query_network`, for a network on views, in place of weights and meshes.
         constants_json: of `tune`; None for a method without constants.
-        lpips_json: of `find_lpips`; LPIPS is left out where it is not available.
+        lpips_json: of `find_lpips`, its model beside it; LPIPS is left out where it is not available.
         method: the method's key.
 
     Raises:

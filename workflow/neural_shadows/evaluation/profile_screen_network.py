@@ -40,7 +40,8 @@ def profile_screen_network(
 ) -> None:
     """Time an untrained network on one frame. Its times do not depend on its weights.
 
-    Frames, frames by part and matrix products take turns; of each the median counts. A number format
+    Frames, frames by part and matrix products take turns; of each the median counts. Whole frames
+    are evaluated in bands of rows, as methods do; parts one after another. A number format
     that a device would emulate is not timed on it: bfloat16 takes 50 times as long with AVX2 alone.
 
     Args:
@@ -111,7 +112,7 @@ def _timed(network: ScreenNetwork, profile: Mapping[str, int]) -> dict[str, Any]
         for number in range(WARM_UP + profile["repeats"]):
             if number >= LEAST and clock() > deadline:
                 break
-            measure("whole", lambda: network(x))
+            measure("whole", lambda: network.in_bands(x))
             measure("product", lambda: square @ square)
             with _parts_timed(network, parts, clock):
                 network(x)

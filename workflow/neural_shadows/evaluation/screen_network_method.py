@@ -77,8 +77,7 @@ class _OpenedNetwork:
         light = self._light(radius, size, shape)
         features = named_features(self._network.features, buffers, lens, light)
         planes = torch.from_numpy(features)[None].contiguous(memory_format=torch.channels_last)
-        with torch.inference_mode():
-            visibility = self._network(planes)
+        visibility = self._network.in_bands(planes)
         return visibility[0, 0].float().clamp(0, 1).numpy()
 
     def _check_own(self, part: FrameSetPart) -> None:

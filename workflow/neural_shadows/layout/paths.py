@@ -102,6 +102,11 @@ class Paths:
         """Availability of LPIPS."""
         return f"{self.results}/lpips.json"
 
+    @cached_property
+    def lpips_model(self) -> str:
+        """LPIPS as ONNX, empty where it is not available."""
+        return f"{self.results}/lpips.onnx"
+
     def log(self, rule: str, *wildcards: str) -> str:
         """Log of a rule's job."""
         return f"{self.results}/logs/{rule}/{_of(rule, wildcards)}.log"

@@ -8,10 +8,10 @@ import zlib
 from pathlib import Path
 
 import numpy as np
-import trimesh
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.ascii_ply import parse_ascii_ply
+from neural_shadows.meshes.binary_ply import parse_binary_ply
 from neural_shadows.meshes.formats import format_of
 from neural_shadows.meshes.obj_file import parse_obj
 
@@ -76,13 +76,15 @@ def mesh_bytes(path: str | Path) -> bytes:
 def _parse(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
     if kind == "obj":
         return parse_obj(data)
-    if kind == "ply" and (mesh := parse_ascii_ply(data)) is not None:
+    if kind == "ply" and (mesh := parse_binary_ply(data) or parse_ascii_ply(data)):
         return mesh
     return _parse_with_trimesh(data, kind)
 
 
 def _parse_with_trimesh(data: bytes, kind: str) -> tuple[np.ndarray, np.ndarray]:
     """Positions and faces of the other formats, scenes flattened."""
+    import trimesh  # loading takes up to 0.8 s, needless for prepared meshes
+
     if kind == "ply":
         _check_ply(data)
     if kind == "glb":

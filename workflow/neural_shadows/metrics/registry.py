@@ -2,8 +2,8 @@
 
 A family has `METRICS`, and the function that measures them, by what it needs:
 
-- `of_images(image, reference)`: a frame and its reference (H, W) in [0, 1]. A family with a pretrained
-  backbone has `with_backbone(net, trunk)` instead, which returns this function.
+- `of_images(image, reference)`: a frame and its reference (H, W) in [0, 1]. LPIPS, with a pretrained
+  backbone, has `with_model(lpips_onnx, threads)` instead, which returns this function.
 - `of_visibility(visibility, target, pixels)`: of a frame's points, with `Pixels`.
 - `of_occluders(visibility, target, valid, solids, widths)`: (H, W), see `measure_frames`.
 - `of_changes(changes, pixels)`: from frame to frame of a sequence, (n,) of each pair, and the pixels
@@ -36,7 +36,7 @@ OfImages = Callable[[np.ndarray, np.ndarray], Mapping[str, float]]
 
 def inputs_of(family: ModuleType) -> str:
     """The name in `INPUTS` of a family's function."""
-    if hasattr(family, "with_backbone"):
+    if hasattr(family, "with_model"):
         return "of_images"
     return next(name for name in INPUTS if not name or hasattr(family, name))
 
@@ -93,24 +93,19 @@ def image_metrics(
     """Function of a frame and its reference, (H, W) in [0, 1], to all image metrics.
 
     Args:
-        lpips_json: of `find_lpips`; LPIPS is left out without it or where it is not available.
-        threads: of PyTorch, from now on, with LPIPS. slow: with metrics that are `slow`.
+        lpips_json: of `find_lpips`, its model beside it; LPIPS is left out without it or where it is
+            not available.
+        threads: of LPIPS. slow: with metrics that are `slow`.
     """
-    backbone = read_json(lpips_json) if lpips_json and slow else {"available": False}
+    has_lpips = bool(lpips_json and slow and read_json(lpips_json)["available"])
     functions = []
     for family in families("of_images"):
-        needs_backbone = hasattr(family, "with_backbone")
-        if not _measured(family, light, slow) or (needs_backbone and not backbone["available"]):
+        if not _measured(family, light, slow):
             continue
-        if needs_backbone:
-            # Here and not above: torch and torchvision take 3 s to import.
-            import torch
-
-            torch.set_num_threads(threads)
-            trunk = Path(backbone["trunk"]) if backbone["trunk"] else None
-            functions.append(family.with_backbone(backbone["net"], trunk))
-        else:
+        if not hasattr(family, "with_model"):
             functions.append(family.of_images)
+        elif has_lpips:
+            functions.append(family.with_model(lpips_json.with_suffix(".onnx"), threads))
     return lambda image, reference: {
         key: value for function in functions for key, value in function(image, reference).items()
     }

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Literal
 
 import torch
-import torchvision
 
 from neural_shadows.errors import InputError
 
@@ -34,6 +33,8 @@ def read_trunk(net: Net, path: Path, key: str = _LPIPS) -> dict[str, torch.Tenso
     Raises:
         InputError: an unreadable file, or of another classifier.
     """
+    import torchvision  # loading takes 2.3 s, needless in trainings without a trunk
+
     model = MODELS[net]
     with torch.device("meta"):  # shapes only: VGG16's weights would take half a gigabyte
         features = torchvision.models.get_model(model, weights=None).features

@@ -142,7 +142,8 @@ def exactly(count, rng, on_sphere):
     selected = 0
     for i in range(len(points)):
         if rng.random() * (len(points) - i) < count - selected:
-            points[selected] = points[i]
+            for axis in range(points.shape[1]):
+                points[selected, axis] = points[i, axis]
             selected += 1
     return points[:count].copy(), radius
 
@@ -163,7 +164,8 @@ def _bucket(i, j, k, buckets):
 
 @njit(cache=True, nogil=True)
 def _insert(point, index, scale, points, latest, before):
-    points[index] = point
+    for axis in range(len(point)):  # assigning rows takes numba 4 s to compile
+        points[index, axis] = point[axis]
     i, j, k = _bin(point, scale)
     bucket = _bucket(i, j, k, len(latest))
     before[index] = latest[bucket]

@@ -38,11 +38,11 @@ def build_quadtree(silhouette, min_quad):
     count = 0
     # Depth first, three waiting siblings a level at most: 2^32 texels a side fit.
     stack = np.empty((100, 3), np.int64)
-    stack[0] = 0, 0, resolution
+    _put(stack, 0, 0, 0, resolution)
     waiting = 1
     while waiting > 0:
         waiting -= 1
-        row, column, size = stack[waiting]
+        row, column, size = stack[waiting, 0], stack[waiting, 1], stack[waiting, 2]
         if not _meets_disk(row, column, size, resolution):
             continue
         covered = (
@@ -52,16 +52,22 @@ def build_quadtree(silhouette, min_quad):
             + sums[row, column]
         )
         if size == min_quad or covered == 0 or covered == size * size:
-            leaves[count] = row, column, size
+            _put(leaves, count, row, column, size)
             count += 1
             continue
         half = size // 2
-        stack[waiting] = row + half, column + half, half
-        stack[waiting + 1] = row + half, column, half
-        stack[waiting + 2] = row, column + half, half
-        stack[waiting + 3] = row, column, half
+        _put(stack, waiting, row + half, column + half, half)
+        _put(stack, waiting + 1, row + half, column, half)
+        _put(stack, waiting + 2, row, column + half, half)
+        _put(stack, waiting + 3, row, column, half)
         waiting += 4
     return leaves[:count].copy()
+
+
+@njit(cache=True, nogil=True)
+def _put(quads, i, row, column, size):
+    """Set a row; to assign it as a whole takes numba seconds to compile."""
+    quads[i, 0], quads[i, 1], quads[i, 2] = row, column, size
 
 
 @njit(cache=True, nogil=True)

@@ -79,7 +79,7 @@ def uniform_on_disk(m, rng):
     for i in range(m):
         distance = DISK_RADIUS * math.sqrt(rng.random())
         angle = 2 * math.pi * rng.random()
-        offsets[i] = distance * math.cos(angle), distance * math.sin(angle)
+        offsets[i, 0], offsets[i, 1] = distance * math.cos(angle), distance * math.sin(angle)
     return offsets
 
 
@@ -110,7 +110,8 @@ def _regions(quads, resolution):
         reach_b = math.sqrt(DISK_RADIUS**2 - near_a**2)
         left, right = max(left, -reach_a), min(right, reach_a)
         bottom, top = max(bottom, -reach_b), min(top, reach_b)
-        boxes[i] = left, bottom, right, top
+        # As a whole, rows take numba seconds to compile.
+        boxes[i, 0], boxes[i, 1], boxes[i, 2], boxes[i, 3] = left, bottom, right, top
         # A convex region fills half of its box at least: a bound for slivers, whose area is
         # lost in the rounding of `disk_area`.
         areas[i] = max(area, (right - left) * (top - bottom) / 2)
@@ -141,7 +142,7 @@ def _place_uniform(counts, boxes, rng):
                 b = bottom + (top - bottom) * rng.random()
                 if _is_inside(a, b):
                     break
-            offsets[placed] = a, b
+            offsets[placed, 0], offsets[placed, 1] = a, b
             placed += 1
     return offsets
 
@@ -188,7 +189,7 @@ def _place_patterns(counts, boxes, sizes, start, patterns, points, rng):
         wanted = n
         for j in range(inside):
             if rng.random() * (inside - j) < wanted:
-                offsets[placed] = laid[j]
+                offsets[placed, 0], offsets[placed, 1] = laid[j, 0], laid[j, 1]
                 placed += 1
                 wanted -= 1
     return offsets
@@ -213,6 +214,6 @@ def _fill_pattern(pattern, box, whole, rng, out):
         a = left + (right - left) * (x - 1 if x >= 1 else x)
         b = bottom + (top - bottom) * (y - 1 if y >= 1 else y)
         if whole or _is_inside(a, b):
-            out[inside] = a, b
+            out[inside, 0], out[inside, 1] = a, b
             inside += 1
     return inside

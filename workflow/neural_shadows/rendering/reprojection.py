@@ -15,9 +15,13 @@ def projected(camera, width: int, height: int, points: np.ndarray) -> np.ndarray
 
     Columns and rows in pixels; a pixel's centre has whole numbers.
     """
-    right, upward, forward = camera_axes(camera.eye, camera.target, camera.up) @ (
-        points - camera.eye
-    ).T.astype(np.float64)
+    axes = camera_axes(camera.eye, camera.target, camera.up)
+    return on_image(camera, width, height, axes @ (points - camera.eye).T.astype(np.float64))
+
+
+def on_image(camera, width: int, height: int, along_axes: np.ndarray) -> np.ndarray:
+    """`projected` from coordinates along the camera's axes, (3, n)."""
+    right, upward, forward = along_axes
     whole = camera.window or Window(width, height, 0, 0)
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = camera.focal(height) / forward

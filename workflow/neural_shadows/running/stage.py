@@ -1,5 +1,6 @@
 """Jobs of the workflow: calls of stage functions, logs, error messages."""
 
+import errno
 import faulthandler
 import inspect
 import os
@@ -49,9 +50,9 @@ def run_stage(
         sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
         progress.TERMINAL = terminal
         origin.CODE = dict(job.params.items()).get("code")
-        made_by = origin.describe_origin()
-        print("Made by commit {commit}, code {code}, {machine}".format(**made_by), file=log)
         try:
+            made_by = origin.describe_origin()
+            print("Made by commit {commit}, code {code}, {machine}".format(**made_by), file=log)
             arguments = arguments_of(job, function)
             if write is None:
                 function(**arguments)
@@ -59,14 +60,21 @@ def run_stage(
                 outputs = {name: Path(arguments.pop(name)) for name in dict(job.output.items())}
                 write(function(**arguments), **outputs)
         except Exception as error:
-            # These errors name the file and the reason; others need their type.
-            kind = "" if isinstance(error, InputError | OSError) else f"{type(error).__name__}: "
-            message = " ".join(f"{kind}{error}".split())
-            line = f"{job.rule}: {message} [log: {shlex.quote(job.log[0])}]"
+            line = f"{job.rule}: {_message(error)} [log: {shlex.quote(job.log[0])}]"
             # First, since the log's disk may be full.
             print(line, file=terminal)
             print(traceback.format_exc(), line, sep="\n", file=log)
             sys.exit(1)
+
+
+def _message(error: Exception) -> str:
+    """One line for an error."""
+    if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
+        place = error.filename or f"a file on the disk of {Path.cwd()}"
+        return f"{place}: {error.strerror}. Make room; the same command then continues."
+    # These errors name the file and the reason; others need their type.
+    kind = "" if isinstance(error, InputError | OSError) else f"{type(error).__name__}: "
+    return " ".join(f"{kind}{error}".split())
 
 
 def arguments_of(job: Any, function: Callable[..., None]) -> dict[str, Any]:

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from trimesh.transformations import rotation_matrix
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, all_with_normals
@@ -106,6 +105,8 @@ def _on_spot(mesh: PreparedMesh, spot: Spot) -> np.ndarray:
 
     The unit sphere is scaled to the height of the spot.
     """
+    from trimesh.transformations import rotation_matrix  # up to 0.8 s, needless with arrays alone
+
     turned = _moved(mesh.vertices, rotation_matrix(spot.turn, UP)) * (spot.height / 2)
     turned[:, 1] -= turned[:, 1].min()
     return (turned + spot.position).astype(np.float32)

@@ -10,4 +10,4 @@ class FrameTimes(Model):
 
     width: int = Field(1200, ge=64, le=8192, description="pixels")
     height: int = Field(800, ge=64, le=8192, description="pixels")
-    repeats: int = Field(15, ge=3, le=10_000, description="timed frames per method")
+    repeats: int = Field(7, ge=3, le=10_000, description="timed frames per method")

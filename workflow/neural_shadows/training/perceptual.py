@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import torch
-import torchvision
 from torch import Tensor
 
 from neural_shadows.networks.pretrained_trunk import MODELS, Net, read_trunk
@@ -35,6 +34,8 @@ class Perceptual:
     """
 
     def __init__(self, net: Net, trunk: Path, device: torch.device, dtype: torch.dtype):
+        import torchvision  # loading takes 2.3 s, needless without this term
+
         weights = read_trunk(net, trunk, KEYS[net])
         with torch.device("meta"):
             layers = torchvision.models.get_model(MODELS[net], weights=None).features

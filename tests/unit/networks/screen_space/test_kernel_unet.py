@@ -118,6 +118,20 @@ def test_logits_lie_plane_by_plane_and_are_the_convolution_s(images):
     assert torch.allclose(result, functional.conv2d(x, head.weight, head.bias), atol=1e-6)
 
 
+@pytest.mark.parametrize("images", [1, 3])
+def test_gradients_of_logits_are_exact_and_keep_the_memory_format(images):
+    head = tiny().head.double()
+    x = torch.rand(images, 4, 6, 10, dtype=torch.double)
+    x = x.contiguous(memory_format=torch.channels_last).requires_grad_()
+    (gradient,) = torch.autograd.grad(head(x).square().sum(), x)
+    assert gradient.is_contiguous(memory_format=torch.channels_last)
+
+    def logits(x, weight, bias):
+        return torch.func.functional_call(head, {"weight": weight, "bias": bias}, x)
+
+    assert torch.autograd.gradcheck(logits, (x, *head.parameters()), fast_mode=True)
+
+
 @each_form
 def test_folded_norms_give_the_same_output(form):
     network = tiny(form)

@@ -210,11 +210,11 @@ def test_names_cover_neither_points_nor_lines_nor_each_other():
 
 def test_a_line_leads_to_a_name_that_another_point_is_as_near_to():
     axes = new_figure("Names", 5, 4).subplots()
-    points = np.random.default_rng(0).uniform(0, 1, (80, 2))
+    points = np.random.default_rng(0).uniform(0, 1, (50, 2))
     axes.plot(*points.T, "o")
     axes.figure.draw_without_rendering()
     limits = *axes.get_xlim(), *axes.get_ylim()
-    label_points(axes, points, [str(i) + " is its name" for i in range(80)], fontsize=7)
+    label_points(axes, points, [str(i) + " is its name" for i in range(50)], fontsize=7)
     leaders = {tuple(line.get_xydata()[0].round(9)) for line in axes.lines[1:]}
     centres = axes.transData.transform(points)
     for text in axes.texts:

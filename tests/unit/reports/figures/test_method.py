@@ -10,7 +10,7 @@ from matplotlib.image import imread
 from report_samples import written_figure
 from scipy.ndimage import binary_opening
 from scipy.special import sph_harm_y
-from shapes import SPHERE_OF_LIGHTS, box, bumpy_sphere, scene_of, sheet
+from shapes import SPHERE_OF_LIGHTS, box, scene_of, sheet
 
 from neural_shadows.evaluation.look import ORANGE
 from neural_shadows.files.whole_files import write_json
@@ -37,12 +37,10 @@ def draw(shape, kind, folder, up="y"):
     return imread(folder / "figure.png")[..., :3]
 
 
-@pytest.mark.parametrize("kind", [*SLICES, "overview", "quadtree"])
-def test_each_kind_is_drawn_also_of_a_sheet_without_second_hits(tmp_path, kind):
-    picture = draw(bumpy_sphere(3), kind, tmp_path)
+@pytest.mark.parametrize("kind", [*SLICES, "overview"])
+def test_each_kind_is_drawn_of_a_sheet_without_second_hits(tmp_path, kind):
+    picture = draw(sheet(0.0, 0.5), kind, tmp_path)
     assert 1300 <= picture.shape[1] <= 2000 and picture.std() > 0.02
-    if kind != "quadtree":
-        assert draw(sheet(0.0, 0.5), kind, tmp_path).std() > 0.02
 
 
 def test_the_silhouette_stands_upright_where_the_object_is(tmp_path):
@@ -99,9 +97,7 @@ def test_the_spectrum_is_the_sum_over_spherical_harmonics():
         assert power == pytest.approx(expected, rel=1e-9)
 
 
-def test_poisson_disks_are_blue(tmp_path):
+def test_poisson_disks_are_blue():
     power = view_directions.angular_power_spectrum(sphere_directions(500, 1)[0], 50)
     assert power[:20].max() < 0.25
     assert power[-10:].mean() > 1
-    svg = written_figure(view_directions.draw, tmp_path, write_figure, seed=1)
-    assert len(svg) < 600_000

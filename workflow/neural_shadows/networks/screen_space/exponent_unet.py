@@ -45,8 +45,10 @@ class ExponentUnet(ShadowUnet):
 
     def loss_input(self, x: Tensor) -> Tensor:
         """Logarithms of visibility for the loss, (B, 1, H, W) float32."""
-        sharpness = super().loss_input(x).float()
-        return 1 - sharpness * x[:, self._behind : self._behind + 1]
+        return self._logarithms(super().loss_input(x), x)
+
+    def _logarithms(self, sharpness: Tensor, x: Tensor) -> Tensor:
+        return 1 - sharpness.float() * x[:, self._behind : self._behind + 1]
 
     def loss_target(self, target: Tensor) -> Tensor:
         """Target of `loss_input` from visibility (B, 1, H, W)."""
@@ -55,3 +57,7 @@ class ExponentUnet(ShadowUnet):
     def forward(self, x: Tensor) -> Tensor:
         """Visibility, not cut off at 1: (B, 1, H, W) float32 of features (B, C, H, W)."""
         return torch.exp((self.loss_input(x) - 1) * -math.log(DARKEST))
+
+    def _output_in_bands(self, x: Tensor) -> Tensor:
+        logarithms = self._logarithms(super()._output_in_bands(x), x)
+        return torch.exp((logarithms - 1) * -math.log(DARKEST))

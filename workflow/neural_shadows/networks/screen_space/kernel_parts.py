@@ -46,9 +46,34 @@ class PlanesOfLogits(nn.Conv2d):
 
     def forward(self, x: Tensor) -> Tensor:
         """(B, channels, H, W), contiguous."""
-        weight, bias = self.weight.flatten(1), self.bias[:, None]
-        planes = [torch.addmm(bias, weight, image.flatten(1)).view(-1, *x.shape[2:]) for image in x]
-        return torch.stack(planes) if len(planes) > 1 else planes[0][None]
+        return _Planes.apply(x, self.weight.flatten(1), self.bias)
+
+
+class _Planes(torch.autograd.Function):
+    """`PlanesOfLogits` without copies; the input's gradient is in its memory format.
+
+    torch's own is in planes, and a ReLU before them takes four times as long: 49 ms for two crops of
+    128 × 128 × 32, forward and backward, instead of 35.
+    """
+
+    @staticmethod
+    def forward(ctx, x: Tensor, weight: Tensor, bias: Tensor) -> Tensor:
+        """(B, N, H, W) of (B, C, H, W), (N, C) and (N,)."""
+        ctx.save_for_backward(x, weight)
+        planes = x.new_empty((len(x), len(weight), *x.shape[2:]))
+        for image, output in zip(x, planes):
+            torch.addmm(bias[:, None], weight, image.flatten(1), out=output.flatten(1))
+        return planes
+
+    @staticmethod
+    def backward(ctx, gradient: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Gradients of all three."""
+        x, weight = ctx.saved_tensors
+        to_x, to_weight = torch.empty_like(x), torch.zeros_like(weight)
+        for image, to_image, to_planes in zip(x, to_x, gradient.flatten(2)):
+            torch.mm(to_planes.T, weight, out=to_image.flatten(1).T)
+            to_weight.addmm_(to_planes, image.flatten(1).T)
+        return to_x, to_weight, gradient.sum((0, 2, 3))
 
 
 class PixelKernels(nn.Module):

@@ -10,6 +10,7 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.frames.feature_names import FEATURES, base_of
+from neural_shadows.networks.screen_space import row_bands
 from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm
 from neural_shadows.networks.screen_space.kernel_parts import (
     KernelLevel,
@@ -120,6 +121,24 @@ class KernelUnet(ScreenNetwork):
         """Input of the head: (B, C, h, w) at its ends' resolution."""
         x = padded(x.to(next(self.parameters()).dtype), self.multiple)
         return down_and_up(self.levels, self.deepest, self.entrance(x))
+
+    def in_bands(self, x: Tensor) -> Tensor:
+        """See `ScreenNetwork`."""
+        if x.device.type != "cpu":
+            return self(x)
+        height, width = x.shape[-2:]
+        dtype = next(self.parameters()).dtype
+        with torch.inference_mode():
+            rows = row_bands.stored(padded(x, self.multiple))
+            rows = row_bands.mapped(lambda rows: rows.to(dtype), rows)
+            rows = row_bands.through(self.entrance, rows)
+            rows = row_bands.unet(self.levels, self.deepest, rows)
+            if self.form == "kernels":
+                base = x[:, self._base : self._base + 1]
+                inner = row_bands.computed(rows)
+                return row_bands.filtered(self.head, inner, base, self.exit.factor)
+            rows = row_bands.through(self.head, row_bands.through(self.exit, rows))
+            return row_bands.computed(rows)[..., :height, :width].float()
 
     def hidden(self) -> list[str]:
         """Names of all convolutions' weights but the first and last."""

@@ -127,15 +127,21 @@ def _add(planes, factor, y, left, right, half, to_logits):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
-def _exponentiate(planes, y, left, right, step, height, width, top, total):
-    """Replace logits by exponentials, 0 outside the frame; sum into `total`."""
+def _find_top(planes, y, left, right, step, height, width, top):
+    """Largest logits of taps inside the frame."""
     top[:] = _LEAST
-    total[:] = 0
     for tap in range(TAPS):
         _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
         logits, maxima = planes[tap, first:last], top[first:last]
         for i in range(last - first):
             maxima[i] = logits[i] if logits[i] > maxima[i] else maxima[i]
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"})
+def _exponentiate(planes, y, left, right, step, height, width, top, total):
+    """Replace logits by exponentials, 0 outside the frame; sum into `total`."""
+    _find_top(planes, y, left, right, step, height, width, top)
+    total[:] = 0
     for tap in range(TAPS):
         _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
         plane = planes[tap]
@@ -149,11 +155,12 @@ def _exponentiate(planes, y, left, right, step, height, width, top, total):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def filter_rows(bits, factor, step, source, begin, end, result):
+def filter_rows(bits, factor, step, source, begin, end, result, first_row=0):
     """Fill rows begin … end of a level's result (H, W).
 
     Args:
         bits: (25, h, w), the bits of logits in float32 or bfloat16 as integers.
+        first_row: row of the result at the beginning of `bits`.
         factor: 1, or 2 where logits are of half the resolution and are enlarged bilinearly.
         step: pixels from tap to tap.
         source: (H, W) float32, with H ≤ factor · h and W ≤ factor · w.
@@ -164,15 +171,19 @@ def filter_rows(bits, factor, step, source, begin, end, result):
     for y in range(begin, end):
         for left in range(0, width, BLOCK):
             right = min(left + BLOCK, width)
-            _load(bits, factor, y, left, right, half, planes)
-            _exponentiate(planes, y, left, right, step, height, width, top, total)
+            _load(bits, factor, y - first_row, left, right, half, planes)
+            _find_top(planes, y, left, right, step, height, width, top)
+            total[:] = 0
             sums[:] = 0
             for tap in range(TAPS):
                 v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
-                weights, mean = planes[tap, first:last], sums[first:last]
+                logits, maxima = planes[tap, first:last], top[first:last]
+                weights, mean = total[first:last], sums[first:last]
                 values = source[v, left + offset + first : left + offset + last]
                 for i in range(last - first):
-                    mean[i] += weights[i] * values[i]
+                    weight = _exp(logits[i] - maxima[i])
+                    weights[i] += weight
+                    mean[i] += weight * values[i]
             filtered = result[y, left:right]
             for i in range(right - left):
                 filtered[i] = sums[i] / total[i]

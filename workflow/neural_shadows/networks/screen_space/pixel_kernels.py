@@ -83,8 +83,14 @@ class _Filter(torch.autograd.Function):
 
 def _levels(logits: Tensor) -> Iterator[np.ndarray]:
     """Each level's logits (B, 25, h, w), as integers for numpy without bfloat16."""
-    for level in logits.view(_BITS[logits.dtype]).split(TAPS, dim=1):
-        yield level.numpy()
+    yield from (bits_of(level) for level in logits.split(TAPS, dim=1))
+
+
+def bits_of(logits: Tensor) -> np.ndarray:
+    """Logits as integers of their bits; of other formats than float32 and bfloat16 as float32."""
+    if logits.dtype not in _BITS:
+        logits = logits.float()
+    return logits.view(_BITS[logits.dtype]).numpy()
 
 
 def _in_bands(

@@ -41,6 +41,10 @@ class ScreenNetwork(nn.Module, ABC):
         return target
 
     @abstractmethod
+    def in_bands(self, x: Tensor) -> Tensor:
+        """`forward` for inference: by bands of rows on a CPU, see `row_bands.py`."""
+
+    @abstractmethod
     def hidden(self) -> list[str]:
         """Names of all convolutions' weights but the first and last."""
 

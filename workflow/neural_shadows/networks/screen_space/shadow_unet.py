@@ -8,6 +8,7 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.frames.feature_names import channels_of
+from neural_shadows.networks.screen_space import row_bands
 from neural_shadows.networks.screen_space.layers import (
     Concatenation,
     Halved,
@@ -138,6 +139,26 @@ class ShadowUnet(ScreenNetwork):
         x = down_and_up(self.levels, self.deepest, x)
         x = x if self.exit is None else self.exit(x)
         return x[..., :height, :width]
+
+    def in_bands(self, x: Tensor) -> Tensor:
+        """See `ScreenNetwork`."""
+        if x.device.type != "cpu":
+            return self(x)
+        with torch.inference_mode():
+            return self._output_in_bands(x)
+
+    def _output_in_bands(self, x: Tensor) -> Tensor:
+        """`ShadowUnet.loss_input` by bands."""
+        dtype = next(self.parameters()).dtype
+        height, width = x.shape[-2:]
+        centres, spreads = self.centres[:, None, None], self.spreads[:, None, None]
+        rows = row_bands.stored(padded(x, self.multiple))
+        rows = row_bands.mapped(lambda rows: (rows - centres).div_(spreads).to(dtype), rows)
+        for module in (self.extraction, self.entrance):
+            rows = row_bands.through(module, rows)
+        rows = row_bands.unet(self.levels, self.deepest, rows)
+        rows = row_bands.through(self.exit, rows)
+        return row_bands.computed(rows)[..., :height, :width]
 
     def hidden(self) -> list[str]:
         """Names of all convolutions' weights but the first and last."""

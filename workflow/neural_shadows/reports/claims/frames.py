@@ -193,7 +193,8 @@ def _comparison(
         runs = [names[:seeds] for names in runs]
     labels = [table.labels[name] for name in pair]
     light = table.light(radius)
-    fields = {"metric": metric, "methods": f"{' against '.join(labels)} at {light}"}
+    methods = f"{' against '.join(labels)} at {light}"
+    fields = {"metric": metric, "methods": methods, "seeds": seeds}
     errors = [[table.errors(run, metric, radius) for run in names] for names in runs]
     if missing := [
         label for label, series in zip(labels, errors) if any(x is None for x in series)

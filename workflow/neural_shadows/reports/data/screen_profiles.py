@@ -98,7 +98,8 @@ def describe(profile: Profile) -> str:
     gpu = f", {machine['gpu']}" if any(run["device"] == "cuda" for run in profile["runs"]) else ""
     return (
         f"Ours: frames of {profile['width']} × {profile['height']}, channels last, median of "
-        f"{profile['repeats']} after {profile['warm_up']}, on {machine['cpu']}{gpu}. A whole frame, and "
-        f"its multiply-adds a second beside those of a product of {size}² matrices: {whole}."
+        f"{profile['repeats']} after {profile['warm_up']}, on {machine['cpu']}{gpu}. A whole frame, "
+        "on a CPU in bands of rows and not part by part, and its multiply-adds a second beside those "
+        f"of a product of {size}² matrices: {whole}."
         f"{not_timed(profile)}"
     )

@@ -31,7 +31,8 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
         points: shape (N, 2), in data coordinates.
         look: of `Axes.annotate`.
     """
-    radius = MARKER * axes.get_figure(root=True).dpi / 72
+    pixels = axes.get_figure(root=True).dpi / 72
+    radius = MARKER * pixels
     centres = axes.transData.transform(points)
     taken = [_marker(centre, radius) for centre in centres]
     taken += [text.get_window_extent() for text in axes.texts]
@@ -41,12 +42,14 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
     for point, centre, name in zip(points, centres, names):
         # Without markers that cover its own.
         others = centres[np.linalg.norm(centres - centre, axis=1) > radius]
+        # Laid out once, not at each offset: 2.5 instead of 25 s for eight panels of 17 points.
+        text = axes.annotate(name, point, (0, 0), textcoords="offset points", va="bottom", **look)
+        text.set_in_layout(False)
+        size = text.get_window_extent().size
         for right, up in OFFSETS:
-            sides = {"ha": HORIZONTAL[np.sign(right)], "va": VERTICAL[np.sign(up)]}
-            offset = {"xytext": (right, up), "textcoords": "offset points"}
-            text = axes.annotate(name, point, **offset, **sides, **look)
-            text.set_in_layout(False)
-            box = text.get_window_extent()
+            sides = np.sign((right, up))
+            corner = centre + pixels * np.array((right, up)) + (sides - 1) / 2 * size
+            box = Bbox([corner, corner + size])
             own, other = _distances(box, centre), _distances(box, others).min(initial=np.inf)
             leader = CLEARLY * own > other
             line = Path([centre, np.clip(centre, box.min, box.max)])
@@ -58,11 +61,13 @@ def label_points(axes: Axes, points: np.ndarray, names: Sequence[str], **look: A
                 and not (leader and any(line.intersects_bbox(_marker(o, radius)) for o in others))
             ):
                 taken.append(box)
+                text.set(position=(right, up), ha=HORIZONTAL[sides[0]], va=VERTICAL[sides[1]])
                 if leader:
                     paths.append(line)
                     ends = axes.transData.inverted().transform(line.vertices)
                     axes.add_artist(Line2D(*ends.T, **LEADER))  # leaves the limits as they are
                 break
+        else:
             text.remove()
 
 

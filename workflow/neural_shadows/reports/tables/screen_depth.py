@@ -89,7 +89,7 @@ def depth_table(soft: TrainedFrames, columns: Mapping[str, str]) -> pd.DataFrame
         for column, experiment in [*columns.items(), *zip(nulls, nulls)]:
             null = experiment if experiment in nulls else None
             own = frames[frames["method"] == experiment]
-            levels = 0 if null else len(soft.records[experiment]["network"]["widths"])
+            levels = 0 if null else len(soft.records[experiment]["network"].get("widths", ()))
             row = {"row": scene.replace("plate_", "penumbra_"), "column": column, "null": null}
             row |= {"experiment": experiment, "label": labels[experiment]}
             row |= {"receptive_field": 3 * 2**levels if levels else np.nan}
