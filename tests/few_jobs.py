@@ -22,6 +22,7 @@ TARGETS = [
     "all",
     "results/smoke/networks/dragon/network.onnx",
     "reports/smoke/answers/engine/base_hard.csv",
+    "reports/smoke/expected_minutes.csv",
 ]
 
 
@@ -41,6 +42,7 @@ def few_jobs(path: Path, steps: int = 200) -> Path:
     sections["tables"]["table_4_3"] = {"rows": ["shadow_map_512", "dragon", biased], "figures": []}
     sections["tables"]["table_4_6"] = {"rows": {"dragon": ["ray_traced", "dragon"]}}
     sections["tables"]["soft_methods"] = {"methods": ["pcss", "cone_1"]}
+    sections["scenes"] = {"blinds": None}
     sections["frame_sets"] = {
         "frames": {"unseen": [], "sequence": 0},
         "engine": _engine_frames(path.with_name("engine")),

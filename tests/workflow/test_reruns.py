@@ -81,7 +81,7 @@ def test_edited_kinds(edited):
         ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "page"}),
         ({"experiments": {"dragon": {"bias": 0.01}}}, ANSWERED),
         ({"experiments": {"dragon": {"label": "Another"}}}, SHOWN),
-        ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train", "viewer"}),
+        ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train"}),
     ],
     ids=["title", "bias", "label", "learning_rate"],
 )
