@@ -58,6 +58,6 @@ class ExponentUnet(ShadowUnet):
         """Visibility, not cut off at 1: (B, 1, H, W) float32 of features (B, C, H, W)."""
         return torch.exp((self.loss_input(x) - 1) * -math.log(DARKEST))
 
-    def _output_in_bands(self, x: Tensor) -> Tensor:
-        logarithms = self._logarithms(super()._output_in_bands(x), x)
+    def _in_bands(self, x: Tensor) -> Tensor:
+        logarithms = self._logarithms(super()._in_bands(x), x)
         return torch.exp((logarithms - 1) * -math.log(DARKEST))

@@ -122,23 +122,19 @@ class KernelUnet(ScreenNetwork):
         x = padded(x.to(next(self.parameters()).dtype), self.multiple)
         return down_and_up(self.levels, self.deepest, self.entrance(x))
 
-    def in_bands(self, x: Tensor) -> Tensor:
-        """See `ScreenNetwork`."""
-        if x.device.type != "cpu":
-            return self(x)
+    def _in_bands(self, x: Tensor) -> Tensor:
         height, width = x.shape[-2:]
         dtype = next(self.parameters()).dtype
-        with torch.inference_mode():
-            rows = row_bands.stored(padded(x, self.multiple))
-            rows = row_bands.mapped(lambda rows: rows.to(dtype), rows)
-            rows = row_bands.through(self.entrance, rows)
-            rows = row_bands.unet(self.levels, self.deepest, rows)
-            if self.form == "kernels":
-                base = x[:, self._base : self._base + 1]
-                inner = row_bands.computed(rows)
-                return row_bands.filtered(self.head, inner, base, self.exit.factor)
-            rows = row_bands.through(self.head, row_bands.through(self.exit, rows))
-            return row_bands.computed(rows)[..., :height, :width].float()
+        rows = row_bands.stored(padded(x, self.multiple))
+        rows = row_bands.mapped(lambda rows: rows.to(dtype), rows)
+        rows = row_bands.through(self.entrance, rows)
+        rows = row_bands.unet(self.levels, self.deepest, rows)
+        if self.form == "kernels":
+            base = x[:, self._base : self._base + 1]
+            inner = row_bands.computed(rows)
+            return row_bands.filtered(self.head, inner, base, self.exit.factor)
+        rows = row_bands.through(self.head, row_bands.through(self.exit, rows))
+        return row_bands.computed(rows)[..., :height, :width].float()
 
     def hidden(self) -> list[str]:
         """Names of all convolutions' weights but the first and last."""

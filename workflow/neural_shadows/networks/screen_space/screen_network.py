@@ -40,9 +40,14 @@ class ScreenNetwork(nn.Module, ABC):
         """Target of `loss_input` from visibility; here visibility itself."""
         return target
 
-    @abstractmethod
     def in_bands(self, x: Tensor) -> Tensor:
         """`forward` for inference: by bands of rows on a CPU, see `row_bands.py`."""
+        with torch.inference_mode():
+            return self._in_bands(x) if x.device.type == "cpu" else self(x)
+
+    def _in_bands(self, x: Tensor) -> Tensor:
+        """`in_bands` on a CPU; a form without bands has its layers one after another."""
+        return self(x)
 
     @abstractmethod
     def hidden(self) -> list[str]:

@@ -140,15 +140,7 @@ class ShadowUnet(ScreenNetwork):
         x = x if self.exit is None else self.exit(x)
         return x[..., :height, :width]
 
-    def in_bands(self, x: Tensor) -> Tensor:
-        """See `ScreenNetwork`."""
-        if x.device.type != "cpu":
-            return self(x)
-        with torch.inference_mode():
-            return self._output_in_bands(x)
-
-    def _output_in_bands(self, x: Tensor) -> Tensor:
-        """`ShadowUnet.loss_input` by bands."""
+    def _in_bands(self, x: Tensor) -> Tensor:
         dtype = next(self.parameters()).dtype
         height, width = x.shape[-2:]
         centres, spreads = self.centres[:, None, None], self.spreads[:, None, None]
