@@ -24,7 +24,8 @@ def render_part(
     """
     folder.mkdir(parents=True, exist_ok=True)
     part = folder / f"{use}_000.json"
-    arrays = (part.with_suffix(f".{name}.npy") for name in ("buffers", "targets", "valid", "edges"))
+    names = ("buffers", "targets", "valid", "edges", "rays")
+    arrays = (part.with_suffix(f".{name}.npy") for name in names)
     settings = {"first": 0, "last": 2, "samples": 8, "name": scene, "seed": 3} | settings
     settings |= {"scene": {"generate": scene, "seed": 3, "inserted": {}}}
     render_frames([], part, *arrays, frames=FRAMES | dict(frames), use=use, **settings)

@@ -10,6 +10,7 @@ rule render_frames:
         targets_npy=PATHS.frames("targets.npy"),
         valid_npy=PATHS.frames("valid.npy"),
         edges_npy=PATHS.frames("edges.npy"),
+        rays_npy=PATHS.frames("rays.npy"),
     log:
         PATHS.log("render_frames", "scene", "frame_set", "part"),
     benchmark:

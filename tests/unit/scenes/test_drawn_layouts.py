@@ -8,7 +8,7 @@ import pytest
 from placed_objects import check_layout
 
 
-@pytest.mark.parametrize("name", ["interior", "court"])
+@pytest.mark.parametrize("name", ["interior", "court", "grove", "passage"])
 def test_seeds_are_usable_layouts_of_their_own(name):
     """Of another size, with other objects, lit and seen from elsewhere."""
     drawn = [check_layout(name, seed) for seed in range(1, 9)]

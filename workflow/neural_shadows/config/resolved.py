@@ -63,7 +63,10 @@ def _figure(config: Sections, name: str) -> Section:
 
 
 def _scene(config: Sections, name: str) -> Section:
-    arrangement = {"arrangement": _arrangement(config, name)}
+    arrangement = {
+        "arrangement": _arrangement(config, name),
+        "new_layouts": config.arrangement(name).new_layouts,
+    }
     if name not in config.mesh_scenes:
         return arrangement
     scene = config.scenes[name].model_dump()

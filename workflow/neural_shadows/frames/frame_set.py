@@ -8,10 +8,12 @@ Of F frames with T perturbed frames each, C channels, K radii:
 - `NAME.targets.npy`: (F, K, H, W) float16, the exact soft shadow of the frame itself;
 - `NAME.valid.npy`: (F, 1 + T, H, W) bool, pixels with a surface inside the light's map;
 - `NAME.edges.npy`: (F, H, W) bool, pixels of the frame itself at edges of the geometry, see
-  `geometry_edges`.
+  `geometry_edges`;
+- `NAME.rays.npy`: (F, K, 2, H, W) float16, visibility and penumbrae by `rays` rays a pixel, see
+  `traced_images`; 0 in place of 2 where `rays` is 0.
 
 A user's frame set has the same files; it may lack some of `channels`, and an engine's frames have
-no targets (`targets` is false, K 0), no edges, and only the camera's lens as their setting.
+no targets (`targets` is false, K 0), no edges, no rays, and only the camera's lens as their setting.
 """
 
 from dataclasses import dataclass
@@ -158,6 +160,16 @@ class FrameSetPart:
     def edges(self) -> np.ndarray | None:
         """(F, H, W) bool; None for a user's frames."""
         return self._open("edges", np.bool_) if self.about.get("edges") else None
+
+    @property
+    def rays(self) -> int:
+        """Rays a pixel of `traced`; 0 for none."""
+        return self.about.get("rays", 0)
+
+    @cached_property
+    def traced(self) -> np.ndarray:
+        """(F, K, 2, H, W) float16."""
+        return self._open("rays", np.float16, len(self.radii), 2 * (self.rays > 0))
 
     def _open(self, stem: str, kind: type, *inner: int) -> np.ndarray:
         path = self.frames_json.with_suffix(f".{stem}.npy")

@@ -8,7 +8,9 @@ from scipy.ndimage import binary_dilation, gaussian_filter
 
 from neural_shadows.frames.buffers import buffers_of
 from neural_shadows.frames.draw_settings import FrameKind, light_map_of
+from neural_shadows.frames.ray_tracing import traced_images
 from neural_shadows.frames.setting import Setting
+from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.rendering.geometry_edges import geometry_edges
 from neural_shadows.rendering.soft_shadows import CENTRE, PLACES, see_places, soft_visibility
@@ -74,3 +76,19 @@ def render_target(
         if blur and radius:
             image[:] = gaussian_filter(image, blur, mode="nearest", radius=1)
     return target, edges
+
+
+def render_rays(
+    scene: SoftScene, kind: FrameKind, setting: Setting, *, radii: Sequence[float], rays: int
+) -> np.ndarray:
+    """Trace few rays a pixel: (radii, 2, height, width) float16, see `traced_images`.
+
+    Args:
+        radii: of the lights, in metres. rays: of a pixel, to a light with an extent.
+    """
+    opened = scene.moved(setting.motion)
+    surface = see_surface(opened, setting.camera, kind.width, kind.height)
+    light_map = light_map_of(kind.light_map, scene, setting.centre, shape=kind.shape)
+    frame = SoftFrame(opened, surface, setting.centre, light_map, shape=kind.shape)
+    images = [np.stack(traced_images(frame, radius, samples=rays)) for radius in radii]
+    return np.stack(images).astype(np.float16)

@@ -13,7 +13,7 @@ from neural_shadows.frames.draw_sequences import draw_sequence
 from neural_shadows.frames.draw_settings import FrameKind, draw_setting
 from neural_shadows.frames.draw_twins import twin_of
 from neural_shadows.frames.frame_set import UNITS
-from neural_shadows.frames.render_frame import render_buffers, render_target
+from neural_shadows.frames.render_frame import render_buffers, render_rays, render_target
 from neural_shadows.frames.setting import Setting
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.frames.uses import SEQUENCES, USES
@@ -33,6 +33,7 @@ def render_frames(
     targets_npy: Path,
     valid_npy: Path,
     edges_npy: Path,
+    rays_npy: Path,
     *,
     scene: GeneratedScene,
     name: str,
@@ -43,6 +44,7 @@ def render_frames(
     last: int,
     samples: int,
     twins: int = 0,
+    rays: int = 0,
     threads: int = 1,
 ) -> None:
     """Render frames `first` to `last` (exclusive) of a scene, see `FrameSetPart`.
@@ -58,6 +60,7 @@ def render_frames(
         use: `train`, `validation`, `test`, or the kind of motion of a sequence.
         samples: see `soft_visibility`.
         twins: perturbed frames of each frame.
+        rays: of a pixel, for networks that filter them; 0 for none.
 
     Raises:
         InputError: a mesh cannot be read, or no camera and light can be used.
@@ -82,6 +85,7 @@ def render_frames(
         new_array(targets_npy, (count, len(radii), *image), np.float16) as targets,
         new_array(valid_npy, (count, versions, *image), np.bool_) as valid,
         new_array(edges_npy, (count, *image), np.bool_) as edges,
+        new_array(rays_npy, (count, len(radii), 2 * (rays > 0), *image), np.float16) as traced,
         ThreadPoolExecutor(threads) as pool,
         progress_bar(count, "frames", title) as bar,
     ):
@@ -102,6 +106,8 @@ def render_frames(
                 blur=frames["blur"],
                 pool=pool,
             )
+            if rays:
+                traced[number] = render_rays(opened, kind, setting, radii=radii, rays=rays)
             bar.update()
     described = [
         {"setting": setting.as_json(), "twins": [twin.as_json() for twin in twin_settings]}
@@ -110,7 +116,7 @@ def render_frames(
     about = {"use": use, "first": first, "seed": seed, "scene": opened.settings}
     about |= {"width": kind.width, "height": kind.height, "size": size, "radii": radii}
     about |= {"given_radii": frames["radii"], "radius_unit": frames["radius_unit"]}
-    about |= {"samples": samples, "blur": frames["blur"], "edges": True}
+    about |= {"samples": samples, "blur": frames["blur"], "edges": True, "rays": rays}
     about |= {
         "light_map": kind.light_map,
         "light": shape.model_dump(),

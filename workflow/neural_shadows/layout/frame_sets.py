@@ -4,11 +4,12 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from neural_shadows.frames.uses import SEQUENCES
+from neural_shadows.frames.uses import SEQUENCES, USES
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.parts import part_names
 from neural_shadows.rendering.light_shape import shape_module
 
+MEASURED_OF_LAYOUT = 2  # validation or test frames of each new layout of a scene
 # Settings shared by all frames of a set.
 FRAME_KEYS = (
     *("width", "height", "fov", "of", "light", "light_map"),
@@ -20,12 +21,12 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
     """Settings of `render_frames` for a part."""
     settings = layout.frames(frame_set)
     use, number = part.rsplit("_", 1)
-    total, shard = _counts(settings, scene, use)
+    total, shard = _counts(layout, settings, scene, use)
     first, is_training = int(number) * shard, use == "train"
     frames = {key: settings[key] for key in FRAME_KEYS}
     frames["width"] = (settings["train_width"] if is_training else None) or settings["width"]
     return {
-        "scene": layout.entry("scenes", scene)["arrangement"],
+        "scene": _arrangement(layout, scene, use, int(number)),
         "name": scene,
         "seed": layout.settings["seed"],
         "frames": frames,
@@ -35,16 +36,28 @@ def frame_settings(layout: Layout, scene: str, frame_set: str, part: str) -> dic
         # Noise of targets adds equally to all errors: choosing among them needs few rays.
         "samples": settings["samples"]["train" if use in ("train", "validation") else "measured"],
         "twins": settings["twins"]["count"] * is_training,
+        # A method of rays traces its own in tests.
+        "rays": settings["rays"] * (use in ("train", "validation")),
     }
 
 
-def _counts(settings: Mapping[str, Any], scene: str, use: str) -> tuple[int, int]:
+def _arrangement(layout: Layout, scene: str, use: str, number: int) -> dict[str, Any]:
+    """Settings of a part's scene; with new layouts its seed is the part's own."""
+    entry = layout.entry("scenes", scene)
+    if not entry["new_layouts"]:
+        return entry["arrangement"]
+    return entry["arrangement"] | {"seed": [entry["arrangement"]["seed"], USES.index(use), number]}
+
+
+def _counts(layout: Layout, settings: Mapping[str, Any], scene: str, use: str) -> tuple[int, int]:
     """Frames of a scene and use, and frames per part."""
     if use in SEQUENCES:
         return settings["sequence"], max(settings["sequence"], 1)
     total = settings[use]
     if use == "test" and scene in settings["unseen"]:
         total = settings["unseen_test"] or total
+    if use != "train" and layout.entry("scenes", scene)["new_layouts"]:
+        return total, MEASURED_OF_LAYOUT
     return total, settings["shard"]
 
 
@@ -91,7 +104,7 @@ def parts(layout: Layout, scene: str, frame_set: str, use: str) -> list[str]:
         if settings["engine"] is not None:
             return [layout.paths.imported_frames("json", scene, frame_set, name) for name in names]
         return [f"{settings['path']}/{scene}/{name}.json" for name in names]
-    total, shard = _counts(settings, scene, use)
+    total, shard = _counts(layout, settings, scene, use)
     names = [f"{use}_{number}" for number in part_names(-(-total // shard))]
     return [layout.paths.frames("json", scene, frame_set, name) for name in names]
 

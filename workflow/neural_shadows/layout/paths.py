@@ -78,7 +78,7 @@ class Paths:
         part: str = "{part}",
         folder: str = "frames",
     ) -> str:
-        """`json`, `buffers.npy`, `targets.npy`, `valid.npy`, `edges.npy` of a part."""
+        """`json`, `buffers.npy`, `targets.npy`, `valid.npy`, `edges.npy`, `rays.npy` of a part."""
         return f"{self.results}/{folder}/{frame_set}/{scene}/{part}.{ending}"
 
     imported_frames = partialmethod(frames, folder="imported_frames")  # of an engine

@@ -68,6 +68,9 @@ def ring_vectors(points, keys, first, centre, radii, counts, vectors):
         index, inner = 0, 0.0
         for ring in range(len(radii)):
             outer = radii[ring] * radii[ring]
+            if counts[ring] == 0:
+                inner = outer
+                continue
             turn = 2 * np.pi * _hashed(keys[i] * 16 + 2 * ring)
             c, s = np.cos(turn), np.sin(turn)
             shift = _hashed(keys[i] * 16 + 2 * ring + 1)

@@ -5,7 +5,7 @@ Eight places in each pixel, each with its own surface, so that shadows' edges ar
 rays find them, if their neighbourhood agrees.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 
 import numpy as np
@@ -24,7 +24,7 @@ PLACES = tuple(((column + 0.5) / 8, (row + 0.5) / 8) for column, row in enumerat
 CENTRE = (0.5, 0.5)
 # Offset of ray origins from the surface to the seen side, in shares of the scene's size.
 OFFSET = 1e-4
-_NEIGHBOURHOOD = 5  # pixels along an axis that must agree for few rays
+_NEIGHBOURHOOD = 7  # pixels along an axis that must agree for few rays
 _RAYS = 1 << 18  # at once: their memory stays in a cache
 
 
@@ -49,8 +49,8 @@ def soft_visibility(
     Args:
         centre: (3,) of the light. radii: of the lights, growing; the first may be 0, a point.
         samples: rays for every place in a pixel and every ring between two radii.
-        adaptive: leave pixels at two rays a place where they and their neighbours agree: less
-            than 5e-4 off on average.
+        adaptive: leave a ring at few rays where these and its neighbours' agree: less than 5e-4 off
+            on average.
         pool: whose threads share the places; Embree and the kernels need no interpreter.
         surfaces: the camera's surfaces at the places, by default at `PLACES`.
     """
@@ -58,21 +58,47 @@ def soft_visibility(
     run = pool.map if pool else map
     surfaces = surfaces or see_places(scene, camera, width, height, pool=pool)
     light = shape, centre, rings
-    rays = [_Place(scene, surface, index, *light) for index, surface in enumerate(surfaces)]
-    hard = np.stack([*run(lambda place: place.hard(), rays)])
-    mixed = np.ones((height, width), bool)
+    places = [_Place(scene, surface, index, *light) for index, surface in enumerate(surfaces)]
+    hard, mixed = (
+        np.ones((height, width), np.float32),
+        np.ones((len(rings) + 1, height, width), bool),
+    )
     if adaptive:
-        low, high = zip(*run(lambda place: place.pilot(), rays))
-        low = np.minimum(np.min(low, axis=0), hard.min(0))
-        high = np.maximum(np.max(high, axis=0), hard.max(0))
-        mixed = minimum_filter(low, _NEIGHBOURHOOD) < maximum_filter(high, _NEIGHBOURHOOD)
-    visibility = np.empty((len(radii), height, width), np.float32)
-    visibility[:] = hard.mean(0)
+        hard, mixed = _pilot(places, run)
+
+    def averaged(pixels: np.ndarray, visibility: Callable[["_Place"], np.ndarray]) -> np.ndarray:
+        """Mean of the places at some pixels (height, width) bool."""
+        return sum(image[pixels] for image in run(visibility, places)) / len(places)
+
+    # All places once any ring is mixed: shadows' edges are smooth even of a point.
+    some = mixed.any(axis=0)
+    hard[some] = averaged(some, lambda place: place.hard(some))
+    visibility = np.repeat(hard[None], len(radii), axis=0)
     if len(rings):
-        shares = ring_shares(rings)
-        by_ring = sum(run(lambda place: place.by_ring(mixed, samples), rays)) / len(rays)
-        visibility[len(radii) - len(rings) :, mixed] = shares @ by_ring
+        by_ring = np.repeat(hard[None], len(rings), axis=0)
+        for ring, pixels in enumerate(mixed[1:]):
+            by_ring[ring, pixels] = averaged(
+                pixels, lambda place, ring=ring, pixels=pixels: place.ring(ring, pixels, samples)
+            )
+        lights = visibility[len(radii) - len(rings) :]
+        lights[:, some] = ring_shares(rings) @ by_ring[:, some]
     return visibility
+
+
+def _pilot(places: "Sequence[_Place]", run: Callable) -> tuple[np.ndarray, np.ndarray]:
+    """Few rays from every second place in each pixel.
+
+    Returns:
+        Visibility of the light's centre from one of them, (height, width) float32; and pixels to be
+        sampled, (1 + rings, height, width) bool, for the centre and for each ring: of lights up to
+        that ring not all rays of a neighbourhood agree.
+    """
+    seen = [*run(_Place.pilot, places[::2])]
+    mixed = []
+    for low, high in zip(*(zip(*levels) for levels in zip(*seen))):
+        least, most = np.min(low, axis=0), np.max(high, axis=0)
+        mixed.append(minimum_filter(least, _NEIGHBOURHOOD) < maximum_filter(most, _NEIGHBOURHOOD))
+    return seen[0][0][0].copy(), np.array(mixed)
 
 
 def see_places(
@@ -104,62 +130,74 @@ class _Place:
         self.shape, self.centre, self.rings = shape, np.asarray(centre, np.float64), rings
         self.start = surface.p + np.float32(OFFSET * scene.size) * surface.n_g
 
-    def hard(self) -> np.ndarray:
-        """Visibility of the light's centre, (height, width) float32."""
-        to_light = self.centre.astype(np.float32) - self.start
-        return self.surface.image(self._seen(self.start, to_light, self.surface.n_g), 1.0)
+    def hard(self, pixels: np.ndarray) -> np.ndarray:
+        """Visibility of the light's centre at some pixels, (height, width) float32; else 1."""
+        points = self._points(pixels)
+        start = np.take(self.start, points, axis=0)
+        to_light = self.centre.astype(np.float32) - start
+        seen = np.ones(len(self.start), np.float32)
+        seen[points] = self._seen(start, to_light, np.take(self.surface.n_g, points, axis=0), 1)
+        return self.surface.image(seen, 1.0)
 
-    def pilot(self) -> tuple[np.ndarray, np.ndarray]:
-        """Least and most of two rays, one outermost: (height, width) float32."""
+    def pilot(self) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """Least and most visible by few rays: of the centre, and of lights up to each ring.
+
+        (height, width) float32 each. One ray to the centre, one to an inner ring, one to the
+        outermost.
+        """
+        everywhere = np.ones((self.surface.height, self.surface.width), bool)
+        low = high = self.hard(everywhere)
+        lows, highs = [low], [high]
+        outermost = len(self.rings) - 1
+        for ring in range(len(self.rings)):
+            if ring in (self.index // 2 % len(self.rings), outermost):
+                seen = self.ring(ring, everywhere, 1)
+                low, high = np.minimum(low, seen), np.maximum(high, seen)
+            lows.append(low)
+            highs.append(high)
+        return lows, highs
+
+    def ring(self, ring: int, pixels: np.ndarray, samples: int) -> np.ndarray:
+        """Visibility of a ring at some pixels, (height, width) float32; else 1."""
+        points, count = self._points(pixels), samples
         counts = np.zeros(len(self.rings), np.int64)
-        if len(counts):
-            counts[-1] += 1
-            counts[self.index % len(counts)] += 1
-        low, high = (np.ones(len(self.start), np.float32) for _ in range(2))
-        for part, seen in self._rays(np.arange(len(self.start)), counts, first=self.index):
-            low[part], high[part] = seen.min(1), seen.max(1)
-        return self.surface.image(low, 1.0), self.surface.image(high, 1.0)
-
-    def by_ring(self, mixed: np.ndarray, samples: int) -> np.ndarray:
-        """Visibility of every ring at mixed pixels: (rings, mixed pixels) float32."""
-        indices = np.flatnonzero(mixed.ravel()[self.surface.pixel])
-        visibility = np.ones(
-            (self.surface.height * self.surface.width, len(self.rings)), np.float32
-        )
-        counts = np.full(len(self.rings), samples, np.int64)
-        for part, seen in self._rays(indices, counts, first=self.index * samples):
-            rings = seen.reshape(len(part), len(self.rings), samples).mean(2)
-            visibility[self.surface.pixel[part]] = rings
-        return visibility[mixed.ravel()].T
-
-    def _rays(self, points: np.ndarray, counts: np.ndarray, first: int):
-        """Yield parts of points: (part,) indices, visibility (part, Σ counts)."""
-        count = int(counts.sum())
-        size = max(1, _RAYS // max(1, count))
-        to_light = np.empty((size, count, 3), np.float32)
-        starts = np.empty((size, count, 3), np.float32)
-        for begin in range(0, len(points) if count else 0, size):
+        counts[ring] = samples
+        seen = np.ones(len(self.start), np.float32)
+        size = max(1, _RAYS // count)
+        to_light, starts = np.empty((2, size, count, 3), np.float32)
+        for begin in range(0, len(points), size):
             part = points[begin : begin + size]
             start = np.take(self.start, part, axis=0)
             vectors, origins = to_light[: len(part)], starts[: len(part)]
-            self.shape.ring_vectors(
-                start, self.surface.pixel[part], first, self.centre, self.rings, counts, vectors
-            )
+            keys, first = self.surface.pixel[part], self.index * samples
+            self.shape.ring_vectors(start, keys, first, self.centre, self.rings, counts, vectors)
             origins[:] = start[:, None]
             normals = np.take(self.surface.n_g, part, axis=0)
-            seen = self._seen(origins.reshape(-1, 3), vectors.reshape(-1, 3), normals, count)
-            yield part, seen.reshape(len(part), count)
+            rays = origins.reshape(-1, 3), vectors.reshape(-1, 3)
+            seen[part] = self._seen(*rays, normals, count)
+        return self.surface.image(seen, 1.0)
 
-    def _seen(self, starts, to_light, normals, count: int = 1) -> np.ndarray:
-        """Visibility by free rays on the seen side: (n,) float32."""
-        seen = (~self.scene.tracer.blocked(starts, to_light)).astype(np.float32)
-        _darken(seen, to_light, normals, count)
-        return seen
+    def _points(self, pixels: np.ndarray) -> np.ndarray:
+        """Indices of the points at some pixels."""
+        return np.flatnonzero(pixels.ravel()[self.surface.pixel])
+
+    def _seen(self, starts, to_light, normals, count: int) -> np.ndarray:
+        """Share of `count` rays of each point that are free on its seen side, (n,) float32."""
+        blocked = self.scene.tracer.blocked(starts, to_light)
+        return _free_shares(blocked, to_light, normals, count)
 
 
 @njit(cache=True, nogil=True)
-def _darken(seen, to_light, normals, count):
-    for ray in range(len(seen)):
-        n = normals[ray // count]
-        if n[0] * to_light[ray, 0] + n[1] * to_light[ray, 1] + n[2] * to_light[ray, 2] <= 0:
-            seen[ray] = 0
+def _free_shares(blocked, to_light, normals, count):
+    shares = np.empty(len(normals), np.float32)
+    for i in range(len(normals)):
+        free = 0
+        for ray in range(i * count, (i + 1) * count):
+            cosine = (
+                normals[i, 0] * to_light[ray, 0]
+                + normals[i, 1] * to_light[ray, 1]
+                + normals[i, 2] * to_light[ray, 2]
+            )
+            free += cosine > 0 and not blocked[ray]
+        shares[i] = np.float32(free) / np.float32(count)
+    return shares

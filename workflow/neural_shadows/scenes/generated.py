@@ -32,8 +32,8 @@ def generator(name: str) -> ModuleType:
     return import_module(f"neural_shadows.scenes.generators.{name}")
 
 
-def arrange(name: str, seed: int) -> "Arrangement":
-    """Draw a scene's arrangement from a seed.
+def arrange(name: str, seed: int | list[int]) -> "Arrangement":
+    """Draw a scene's arrangement from a seed, see `numpy.random.default_rng`.
 
     Raises:
         InputError: the generator is unknown.

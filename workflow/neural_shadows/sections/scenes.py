@@ -138,6 +138,11 @@ class Arrangement(Model):
         description="names of meshes in `scenes`, placed on the scene's spots in this order",
     )
     seed: int | None = Field(None, ge=0, description="seed of the layout; default: the global seed")
+    new_layouts: bool = Field(
+        False,
+        description="a layout of its own for each part of its frames: of `shard` frames for training, of two "
+        "for validation and tests. Interiors, courts, groves and passages differ wholly, others a little",
+    )
     penumbra: float | None = Field(
         None,
         gt=0,

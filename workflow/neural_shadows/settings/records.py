@@ -303,7 +303,7 @@ class GeneratedScene(TypedDict, total=False):
     """A scene in metres, see `SoftScene`."""
 
     generate: str
-    seed: int
+    seed: int | list[int]  # a part's own, of a scene with new layouts
     inserted: dict[str, str]  # up axes by name
     penumbra: float | None
     height: float

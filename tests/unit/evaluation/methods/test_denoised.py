@@ -8,8 +8,8 @@ from plate_frames import CENTRE, RADIUS, error, plate, plate_frame, plate_truth
 
 from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.method_parts.denoisers import BY_KEY
-from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced, ray_traced_penumbrae
 from neural_shadows.evaluation.methods.denoised import METHODS
+from neural_shadows.frames.ray_tracing import ray_traced, ray_traced_penumbrae
 
 # At least how many times less the squared error of two rays is.
 FALLS = {"svgf": 6, "ffx": 12, "sigma": 12, "sigma_ffx": 12, "oidn_fast": 15, "oidn": 15}

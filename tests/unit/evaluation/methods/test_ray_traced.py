@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from plate_frames import CENTRE, HEIGHT, RADIUS, WIDTH, error, plate, plate_frame, plate_truth
 
-from neural_shadows.evaluation.method_parts import ray_tracing
-from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced
+from neural_shadows.frames import ray_tracing
+from neural_shadows.frames.ray_tracing import ray_traced
 from neural_shadows.rendering.light_shape import SPHERE, light_shape
 
 PANEL = light_shape({"shape": "rectangle", "aspect": 0.5})

@@ -14,7 +14,7 @@ from neural_shadows.denoising.sigma import SigmaFilter, TemporalSigma, sigma_lik
 from neural_shadows.denoising.sigma_ffx import SigmaFfxFilter, TemporalSigmaFfx, sigma_ffx_like
 from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
 from neural_shadows.denoising.temporal import TemporalFilter
-from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced, ray_traced_penumbrae
+from neural_shadows.frames.ray_tracing import ray_traced, ray_traced_penumbrae
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.rendering.surface import Surface
 

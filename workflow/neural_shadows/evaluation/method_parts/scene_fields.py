@@ -12,7 +12,7 @@ from neural_shadows.evaluation.method_parts.object_field import (
     field_key,
     fitted_field,
 )
-from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced
+from neural_shadows.frames.ray_tracing import ray_traced
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes
 from neural_shadows.scenes.scene import Scene

@@ -35,8 +35,8 @@ def cone_traced(frame: "SoftFrame", radius: float, *, walks: int, push: float) -
         walks: cones in a split of a partly occluded one; 1 without splits.
         push: see `dim_by_field`.
     """
-    from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced
     from neural_shadows.evaluation.method_parts.scene_fields import field_traced, fields_of
+    from neural_shadows.frames.ray_tracing import ray_traced
     from neural_shadows.representations.distance_bricks.field_cones import (
         above_plane,
         dim_by_field,

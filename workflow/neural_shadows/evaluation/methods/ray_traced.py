@@ -9,13 +9,13 @@ LOOK = Look("rays", GREEN, "o", "●", "Sends a few rays from each pixel to the 
 
 
 def _from_centres(*of_frame, samples: int):
-    from neural_shadows.evaluation.method_parts.ray_tracing import ray_traced
+    from neural_shadows.frames.ray_tracing import ray_traced
 
     return ray_traced(*of_frame, samples=samples)
 
 
 def _from_spread(*of_frame, samples: int):
-    from neural_shadows.evaluation.method_parts.ray_tracing import spread
+    from neural_shadows.frames.ray_tracing import spread
 
     return spread(*of_frame, samples=samples)
 

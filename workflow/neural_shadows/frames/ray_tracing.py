@@ -78,6 +78,26 @@ def ray_traced_penumbrae(
     return visibility, penumbra
 
 
+def traced_images(
+    frame: SoftFrame, radius: float, *, samples: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Images (height, width) float32 of rays: the share of free ones, and penumbrae's radii.
+
+    Lit, and −1, where there is no surface; the radii in shares of the scene's size, −1 without a
+    blocker, and of a point light.
+
+    Args:
+        radius, samples: see `ray_traced`.
+    """
+    surface = frame.surface
+    if radius == 0:
+        visibility = surface.image(ray_traced(frame, radius, samples=1), 1.0)
+        return visibility, np.full_like(visibility, -1)
+    visibility, penumbra = ray_traced_penumbrae(frame, radius, samples=samples)
+    penumbra = np.where(penumbra < 0, -1, penumbra / np.float32(frame.scene.size))
+    return surface.image(visibility, 1.0), surface.image(penumbra.astype(np.float32), -1.0)
+
+
 def _rays(
     frame: SoftFrame, radius: float, samples: int, starts: np.ndarray
 ) -> Iterator[tuple[slice, np.ndarray, np.ndarray]]:
