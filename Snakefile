@@ -11,6 +11,7 @@ configfile: "config/extensions.yaml"
 configfile: "config/soft_shadows.yaml"
 configfile: "config/datta_2022.yaml"
 configfile: "config/hu_2025.yaml"
+configfile: "config/layouts.yaml"
 
 
 report: "workflow/report/workflow.rst"

@@ -22,9 +22,17 @@ def edge(column: float, soft: float = 0.0) -> np.ndarray:
 
 
 def write_frames(
-    folder: Path, use: str = "train", count: int = 1, twins: int = 1, shift: float = 1.0
+    folder: Path,
+    use: str = "train",
+    count: int = 1,
+    twins: int = 1,
+    shift: float = 1.0,
+    rays: int = 0,
 ) -> Path:
-    """Frames whose twins have the edge `shift` pixels farther right; gives the part's JSON."""
+    """Frames whose twins have the edge `shift` pixels farther right; gives the part's JSON.
+
+    Rays, if any, have its target with noise, and penumbrae of one width.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     shape = (count, 1 + twins, len(CHANNELS), HEIGHT, WIDTH)
     buffers, targets = np.zeros(shape, np.float16), np.zeros((count, 2, *shape[-2:]), np.float16)
@@ -40,7 +48,14 @@ def write_frames(
     path = folder / f"{use}_000.json"
     frames = [{"setting": SETTING, "twins": [SETTING] * twins}] * count
     about = {"channels": CHANNELS, "radii": RADII, "size": 4.0, "frames": frames}
-    path.write_text(json.dumps(about | {"width": WIDTH, "height": HEIGHT}))
+    path.write_text(json.dumps(about | {"width": WIDTH, "height": HEIGHT, "rays": rays}))
+    if rays:
+        noise = np.random.default_rng(0).random((rays, *targets.shape))
+        seen = (noise < targets).mean(0)
+        penumbrae = np.where(seen < 1, 0.01, -1)
+        np.save(
+            path.with_suffix(".rays.npy"), np.stack([seen, penumbrae], axis=2).astype(np.float16)
+        )
     valid = np.ones((count, 1 + twins, *shape[-2:]), bool)
     valid[..., :2] = False  # a margin that does not count
     for stem, array in {"buffers": buffers, "targets": targets, "valid": valid}.items():

@@ -20,7 +20,7 @@ networks:
   small: {frequencies: 4, width: 64, hidden_layers: 2}
 trainings:
   short: {steps: 20, batch_size: 256, learning_rate: 0.001}
-learning_curves: {experiments: [dragon], steps: [5, 10, 20], seeds: 2}
+learning_curves: {on_rays: {experiments: [dragon], steps: [5, 10, 20], seeds: 2}}
 claims:
   sampling: {metrics: [psnr], needs: {seeds: 2, device: cpu}}
 """

@@ -65,6 +65,9 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
         return []  # no shipped configuration has frames of an engine: see test_engine_frames.py
     if rule.name in OF_FRAMES:
         return [SOFT]
+    if rule.name == "restore_weights":
+        shipped = workflow.globals["trainings"].restored(workflow.globals["LAYOUT"])
+        return [{"experiment": name} for name in shipped]
     if rule.name == "train":
         return [EXAMPLES, SCREEN]
     if "screen" in rule.name or rule.name == "measure_sensitivity":

@@ -1,4 +1,33 @@
-"""One training job for each network [4.1]."""
+"""One training job for each network [4.1]; none for those with shipped weights."""
+
+RESTORED = "|".join(trainings.restored(LAYOUT)) or "(?!)"
+
+
+rule restore_weights:
+    input:
+        file=of(trainings.shipped_file),
+    output:
+        weights=PATHS.network("weights.safetensors"),
+        training_json=PATHS.network("training.json"),
+    log:
+        PATHS.log("restore_weights", "experiment"),
+    wildcard_constraints:
+        experiment=RESTORED,
+    # May download: compute nodes of clusters often have no network.
+    localrule: True
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(2000, minutes=10),
+    params:
+        code=lambda wildcards: code(
+            "training/restore_weights", forms=LAYOUT.forms([wildcards.experiment])
+        ),
+        settings=of(trainings.restored_settings),
+    message:
+        "Taking the shipped weights of {wildcards.experiment}"
+    script:
+        "../neural_shadows/training/restore_weights.py"
 
 
 rule train:
@@ -12,6 +41,8 @@ rule train:
         PATHS.log("train", "experiment"),
     benchmark:
         PATHS.benchmark("train", "experiment")
+    wildcard_constraints:
+        experiment=rf"(?!({RESTORED})\b)[a-z][a-z0-9_]*",
     conda:
         ENVIRONMENT
     threads: COMPUTE["threads"]

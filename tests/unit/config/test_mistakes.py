@@ -56,10 +56,14 @@ claims.printed_comparable_to_512.row | nothing | rows of table 4.5: 'nothing' is
 claims.printed_comparable_to_512.equivalent_to | 64 | 'shadow_map_64' (did you mean
 claims.printed_comparable_to_512.equivalent_to | null | needs `pairs`, or `row` and `equivalent
 claims.printed_wider_is_worse_on_the_landscape.metrics | [psnr] | metrics of table 4.6: 'psnr' is
-learning_curves | {experiments: [dragon], steps: [500, 1000], seeds: 3} | learning_curves.steps: [500, 1000] are fewer than 3 budgets
-learning_curves | {experiments: [dragon], steps: [1, 3, 2], seeds: 3} | steps: [1, 3, 2]: must be ascending
-learning_curves | {experiments: [dragn], steps: [1, 2, 3], seeds: 3} | experiments.0: 'dragn' (did you
-learning_curves | {experiments: [fence, fence], steps: [1, 2, 3], seeds: 3} | 'fence' is listed twice
+learning_curves | {c: {experiments: [dragon], steps: [500, 1000], seeds: 3}} | learning_curves.c: steps: [500, 1000] are fewer than 3 budgets
+learning_curves | {c: {experiments: [dragon], steps: [1, 3, 2], seeds: 3}} | steps: [1, 3, 2]: must be ascending
+learning_curves | {c: {experiments: [dragn], steps: [1, 2, 3], seeds: 3}} | experiments.0: 'dragn' (did you
+learning_curves | {c: {experiments: [fence, fence], steps: [1, 2, 3], seeds: 3}} | 'fence' is listed twice
+learning_curves | {c: {experiments: [kpnsm], frames: [16, 32], steps: [9], seeds: 3}} | c: frames: [16, 32] are fewer than 3 budgets
+learning_curves | {c: {experiments: [kpnsm], frames: [16, 33, 64], steps: [9], seeds: 3}} | learning_curves.c.frames: 33: should be whole files of frame_sets.windows, 16 frames each
+learning_curves | {c: {experiments: [kpnsm], frames: [16, 32, 80], steps: [9], seeds: 3}} | frames: 80: should be whole files of frame_sets.windows, 16 frames each, and no more than its train = 64
+learning_curves | {c: {experiments: [dragon], frames: [16, 32, 64], steps: [9], seeds: 3}} | 'dragon' is not an experiment on frames (with `frame_set`)
 tables.curves | {kind: learning_curves, title: x, rows: {dragon: [dragon]}} | tables.curves.kind: 'learning_curves' needs the section `learning_curves`
 tables.table_4_3.rows.0 | {method: no_shadow, bias: held_out} | tables.table_4_3.rows of dragon: 'no_shadow' is a null predictor and has no depth bias
 tables.table_4_3.rows.0 | {method: ray_traced, bias: held_out} | 'ray_traced' is not among shadow_map_N
@@ -96,7 +100,7 @@ experiments.nsm.frame_set | views | 'views' is not a set of frames under an area
 tables.nsm_unseen.networks | [dragon] | networks.0: 'dragon' is not an experiment on frames (with `frame_set`). Allowed: nsm
 tables.table_4_3.rows.0 | nsm | rows of dragon: 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
 tables.soft_methods.methods | [dragon] | methods: 'dragon' is not an experiment on frames (with `frame_set`). Allowed: nsm
-learning_curves | {experiments: [nsm], steps: [1, 2, 3], seeds: 3} | 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
+learning_curves | {c: {experiments: [nsm], steps: [1, 2, 3], seeds: 3}} | 'nsm' is not an experiment on rays (with `scene`). Allowed: dragon
 frame_sets.views | null | frame_sets.views: this key is missing
 frame_sets.views | {path: mine} | frame_sets.views: only `views` holds views of meshes
 frame_sets.mine | {width: 600, height: 400, views_per_set: 24, batch: 12} | frame_sets.mine: only `views` holds

@@ -87,7 +87,8 @@ def test_lights_have_the_unit_of_the_training_and_are_no_larger(engine):
         "is trained on radii in scene_sizes" in said and "`engine.radius_unit: scene_sizes`" in said
     )
     said = refused(engine(radii=[0, 0.5]), "reports/answers/quay/kpnsm.csv")
-    assert "is trained on lights of up to 0.01 scene_sizes" in said
+    assert "is trained on lights of up to 0.01 scene_sizes" in said and "has one of 0.5" in said
+    assert "End its `engine.radii` at 0.01, or train it" in said
 
 
 def test_names_in_the_target_have_suggestions(engine):

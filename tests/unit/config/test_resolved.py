@@ -166,7 +166,7 @@ def test_claims_on_methods_without_a_network_and_on_what_is_printed(changed):
 def test_learning_curves(settings, changed):
     assert settings["learning_curves"] == {}
     given = {"experiments": ["dragon", "dragon_64"], "steps": [10, 100, 12000], "seeds": 2}
-    values = changed("learning_curves", given)
+    values = changed("learning_curves", {"on_rays": given})
     values["scenes"]["dragon"]["seed"] = 5
     found = resolved(read_config(values))
     names = ["dragon_10_steps_seed_5", "dragon_10_steps_seed_6", "dragon_100_steps_seed_5"]
@@ -178,6 +178,19 @@ def test_learning_curves(settings, changed):
     assert point == dragon | {"seed": 6, "training": dragon["training"] | {"steps": 100}}
     assert point["training"]["schedule"] == "cosine"  # of its own length
     assert len(found["experiments"]) == len(settings["experiments"]) + 10
+
+
+def test_learning_curves_over_frames(changed):
+    given = {"experiments": ["kpnsm"], "frames": [16, 32, 64], "steps": [10, 600], "seeds": 2}
+    found = resolved(read_config(changed("learning_curves", {"windows": given})))
+    points = found["learning_curves"]["kpnsm"]
+    assert len(points) == 12 and points[10]["experiment"] == "kpnsm"  # of 64 frames and 600 steps
+    name = "kpnsm_16_frames_10_steps_seed_2027"
+    point = {"experiment": name, "steps": 10, "seed": 2027, "frames": 16, "samples": 80}
+    assert points[1] == point
+    kpnsm, section = found["experiments"]["kpnsm"], found["experiments"][name]
+    training = kpnsm["training"] | {"steps": 10}
+    assert section == kpnsm | {"seed": 2027, "frames": 16, "training": training}
 
 
 def test_a_network_that_is_built_and_not_trained(changed, message):
@@ -194,7 +207,10 @@ def test_a_network_that_is_built_and_not_trained(changed, message):
     curves = {"experiments": ["built"], "steps": [1, 2, 3], "seeds": 1}
     pair = {"kind": "better", "metrics": ["loss"], "statement": "x", "pairs": [["built", "dragon"]]}
     for wrong, words in (
-        ({"learning_curves": curves}, "learning_curves.experiments: 'built' has no training"),
+        (
+            {"learning_curves": {"c": curves}},
+            "learning_curves.c.experiments: 'built' has no training",
+        ),
         ({"claims": {"loss": pair}}, "claims.loss.pairs: 'built' is not trained and has no loss"),
     ):
         assert words in message(values | wrong)

@@ -3,7 +3,7 @@
 import pytest
 from shipped import shipped
 
-from neural_shadows.config.reading import read_config
+from neural_shadows.config.reading import check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.errors import InputError
 
@@ -31,6 +31,15 @@ def read(frames=None, metrics=None, **changes):
         ({"lights": [1, 2]}, "frame_sets.few has 2 radii, counted from 0"),
         ({"frames": {"train": 0}}, "frame_sets.few has train = 0"),
         ({"frames": {"twins": {"count": 0}}}, "perturbation = 3 needs perturbed frames"),
+        ({"network": "kernels_rays"}, "filters rays, and frame_sets.few has rays = 0"),
+        (
+            {"network": "kernels_rays", "frames": {"rays": 1}},
+            "perturbation = 3: perturbed frames have no rays.*Set perturbation: 0",
+        ),
+        (
+            {"network": {"form": "kernels", "widths": [4, 8], "features": ["base_pcf"], "edge": 1}},
+            "edge: needs the feature 'log_d'",
+        ),
         (
             {"training": {"steps": 1, "crops": 1, "crop": 15, "learning_rate": 1.0}},
             "Set 16 or more",
@@ -185,3 +194,16 @@ def test_a_claim_on_tables_is_about_the_networks_of_other_seeds_too():
     assert {*claims["nsm_perturbation_calms"]["networks"]} == found
     found = {"nsm_trimmed", "nsm_trimmed_seed_1", "nsm_trimmed_seed_2"}
     assert {*claims["nsm_16_bits_err_no_more"]["networks"]} == found
+
+
+def test_shipped_weights_are_files_there_or_in_the_checkout_or_urls(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for path in ("README.md", "https://example.org/mine.safetensors"):
+        check_files(read(weights={"path": path, "sha256": "0" * 64}))
+    missing = {"path": "mine.safetensors", "sha256": "0" * 64}
+    with pytest.raises(InputError, match=r"mine.weights.path = 'mine.safetensors': no such file"):
+        check_files(read(weights=missing))
+    (tmp_path / "mine.safetensors").touch()
+    check_files(read(weights=missing))
+    with pytest.raises(InputError, match="experiments.mine.weights.sha256 = 'A'"):
+        read(weights=missing | {"sha256": "A"})

@@ -1,5 +1,8 @@
 """Frames as an engine writes them: a trained network answers them as it answers the pipeline's own."""
 
+import json
+import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +23,7 @@ from neural_shadows.evaluation.measured_frames import measured_frames
 from neural_shadows.files.frame_images import FrameImages
 from neural_shadows.frames.buffers import CHANNELS, LIT
 from neural_shadows.frames.engine_channels import CHANNEL_IMAGES
+from neural_shadows.frames.engine_frame import engine_frame
 from neural_shadows.frames.import_frame import import_frame
 from neural_shadows.layout import frame_methods, frame_sets
 from neural_shadows.layout.layout import Layout
@@ -178,6 +182,55 @@ def test_a_frame_without_targets_is_answered_but_not_measured(here, rendered):
     assert read_answers(here / "a/quay", "f_0007").shape == (len(RADII), HEIGHT, WIDTH)
     with pytest.raises(InputError, match="quay/f_0007: has no exact shadow to measure against"):
         _ = frame.target
+
+
+@pytest.mark.parametrize(
+    ("size", "told"),
+    [
+        (8.0, ""),
+        (
+            0.8,
+            "f_0007: its farthest z or d is .* `engine.sizes.quay` = 0.8; 0.05 to 2 times is usual",
+        ),
+        (
+            8000.0,
+            "`engine.sizes.quay` = 8000; .* Give the longest side of the scene's bounding box",
+        ),
+    ],
+)
+def test_a_size_unlike_the_distances_is_told(here, rendered, capsys, size, told):
+    imported(here, engine_images(rendered), size=size)
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == bool(told) and all(re.search(f"^warning: .*{told}", x) for x in lines)
+
+
+def test_distances_end_with_half_floats(here, rendered):
+    images = engine_images(rendered)
+    with pytest.raises(InputError, match="`engine.sizes.quay` = 1e-05; half floats end at 65504"):
+        imported(here, images, size=1e-5)
+    # What a map shows beyond is as good as nothing.
+    beyond = images | {NAMES["z_b"]: np.where(images[NAMES["z"]] > 0, np.float32(1e9), 0)}
+    assert imported(here, beyond).picture("gap").max() == 65504
+    with np.errstate(over="ignore"):
+        write_exr(here / "half/f", images | {NAMES["d"]: images[NAMES["d"]] * 1e6})
+    told = "distV.15.exr: R: NaN or .*Half floats end at 65504: write"
+    with pytest.raises(InputError, match=told):
+        engine_frame(FrameImages(here / "half/f"), CHANNEL_IMAGES, [], 8.0)
+
+
+def test_penumbrae_beyond_the_features_are_told(here, rendered, capsys):
+    weights, part = save_network(KERNELS, radii=[0, 1]), rendered.part.frames_json
+    arguments = [part], [], None, [weights], here / "a.csv", here / "a"
+    answer_frames(*arguments, method="kpnsm", label="Mine")
+    assert "warning" not in capsys.readouterr().err
+    for end in (".json", *(f".{stem}.npy" for stem in ("buffers", "targets", "valid", "edges"))):
+        shutil.copy(part.with_suffix(end), here / f"test_000{end}")
+    wide = json.loads(part.read_text()) | {"radii": [0, 0.5], "given_radii": [0, 0.5]}
+    (here / "test_000.json").write_text(json.dumps(wide))
+    arguments = [here / "test_000.json"], *arguments[1:]
+    answer_frames(*arguments, method="kpnsm", label="Mine")
+    told = r"warning: kpnsm: under a light of 0.5 S radius penumbrae are wider than the 50 pixels"
+    assert re.search(told, capsys.readouterr().err)
 
 
 def test_a_crop_of_a_large_frame_is_where_most_differs():

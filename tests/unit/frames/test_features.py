@@ -20,7 +20,7 @@ def buffers(seed=0):
     rng = np.random.default_rng(seed)
     drawn = {
         **{"z": (0.2, 1), "gap": (-0.1, 0.02), "d": (0.2, 2), "c_e": (-1, 1), "c_v": (0.1, 1)},
-        **{"msm": (0, 1), "pcf": (0, 1)},
+        **{"msm": (0, 1), "pcf": (0, 1), "rays": (0, 1), "ray_penumbra": (-0.01, 0.01)},
     }
     found = {name: np.float32(rng.uniform(*ends, (4, 6))) for name, ends in drawn.items()}
     return found | {"hard": np.float32(rng.uniform(0, 1, (4, 6)) < 0.5)}
@@ -63,6 +63,19 @@ def test_the_eight_planes_of_its_code():
     assert not planes["penumbra"][lit == 1].any() and not planes["behind"][lit == 1].any()
 
 
+def test_penumbra_by_rays_is_that_by_the_map():
+    """Where all rays meet the map's blocker; without a blocker it is none."""
+    told = buffers()
+    z_b = told["z"] + np.where(told["hard"] == 1, 0, np.minimum(told["gap"], 0))
+    told["ray_penumbra"] = (told["z"] - z_b) * LIGHT.share / (z_b + 1e-5)
+    names = ("ray_penumbra", "penumbra", "log_d", "base_rays")
+    by_rays, by_map, log_d, base = named_features(names, told, LENS, LIGHT)
+    assert np.allclose(by_rays, by_map, rtol=1e-5) and by_rays.max() > 0.01
+    assert np.allclose(np.exp(log_d), told["d"]) and np.array_equal(base, told["rays"])
+    (none,) = named_features(names[:1], told | {"ray_penumbra": 0 * z_b - 1}, LENS, LIGHT)
+    assert not none.any()
+
+
 def test_variants():
     """Other bases, and what its table 4 has in the penumbra's place."""
     told, names = buffers(), ("base_hard", "base_pcf", "r_e", "penumbra", "penumbra_pcss")
@@ -80,5 +93,5 @@ def test_a_point_light_has_no_penumbra_and_a_pixel_without_surface_no_features()
     (point,) = named_features(("penumbra",), told, LENS, light_size(0.0, 0.0, 4.0))
     assert not point.any()
     empty = dict.fromkeys(told, np.zeros((4, 6), np.float32)) | {"hard": np.ones((4, 6))}
-    names = tuple(name for name in KPNSM_FEATURES if name not in ("base_hard", "r_e"))
+    names = tuple(name for name in KPNSM_FEATURES if name not in ("base_hard", "r_e", "log_d"))
     assert not named_features(names, empty, LENS, LIGHT).any()

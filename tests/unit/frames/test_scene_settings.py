@@ -1,6 +1,7 @@
 """Which scenes of the shipped frame sets share a camera and a light: none of one set."""
 
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from neural_shadows.frames.render_frames import draw, streams_of
 from neural_shadows.frames.soft_scene import SoftScene
 from neural_shadows.layout import frame_sets
 from neural_shadows.layout.layout import Layout
+from neural_shadows.scenes.generated import arrange
 
 FRAMES = 3
 
@@ -63,3 +65,24 @@ def test_at_least_twelve_scenes_are_unseen(layout):
         unseen = layout.entry("frame_sets", frame_set)["unseen"]
         scenes = [layout.entry("scenes", name)["arrangement"] for name in unseen]
         assert len({(one["generate"], one["seed"]) for one in scenes}) == len(unseen) >= 12
+
+
+def test_new_layouts_are_those_of_no_other_part(layout):
+    """Of training windows by 16, of validation by two; a fixed scene has one layout throughout."""
+    names = {
+        use: [Path(path).stem for path in frame_sets.parts(layout, "courts", "layouts", use)]
+        for use in ("train", "validation")
+    }
+    assert {use: len(parts) for use, parts in names.items()} == {"train": 7, "validation": 2}
+    parts = [part for parts in names.values() for part in parts]
+    told = [frame_sets.frame_settings(layout, "courts", "layouts", part) for part in parts]
+    assert [each["last"] - each["first"] for each in told] == [16] * 7 + [2] * 2
+    assert [each["rays"] for each in told] == [2] * 9
+    drawn = [arrange("court", each["scene"]["seed"]) for each in told]
+    sizes = {np.ptp(one.objects[0].vertices, axis=0).tobytes() for one in drawn}
+    assert len(sizes) == len(drawn)
+    fixed = [
+        frame_sets.frame_settings(layout, "hall", "windows", f"{use}_000")["scene"]
+        for use in ("train", "test")
+    ]
+    assert fixed[0] == fixed[1]

@@ -1,5 +1,7 @@
 """Where files lie, which part a job does, what a table is made of, and what is there by default."""
 
+from dataclasses import replace
+
 import pytest
 from shipped import shipped
 
@@ -235,6 +237,47 @@ def test_files_of_learning_curves():
     biased = {**told["rows"][0], "method": "dragon_biased"}
     methods = [row["method"] for row in tables.with_curves(layout, [biased])]
     assert methods[:2] == ["dragon_biased", "dragon_500_steps_seed_2026_biased"]
+
+
+def test_files_of_learning_curves_over_frames():
+    layout = layout_of("layout_curves")
+    point = "kernels_pcf_64_frames_600_steps_seed_2027"
+    made = kinds.table_files(layout, "learning_layouts")
+    assert len(made["trainings"]) == 4 * 3 * 2 * 3
+    assert f"results/curves/networks/{point}/training.json" in made["trainings"]
+    assert made["metrics"] == made["meshes"] == made["lpips_json"] == []
+    rows = kinds.params(layout, "figures", "figure_learning_layouts")["rows"]
+    assert [row["steps"] for row in rows] == [600, 2400] * 4
+    assert rows[0]["label"].endswith("84 layouts, 600 steps") and rows[0]["scene"] == "layouts"
+    # The first files of each scene to train on, and all to validate.
+    files, whole = (trainings.files(layout, name) for name in (point, "kernels_pcf"))
+    assert len(files["train"]) == 12 * 4 and len(whole["train"]) == 12 * 7
+    assert files["train"][:4] == whole["train"][:4] and files["train"][4] == whole["train"][7]
+    assert files["validation"] == whole["validation"]
+    assert trainings.settings(layout, point)["training"]["steps"] == 600
+
+
+def test_shipped_weights_need_no_training():
+    """A file of the working directory or the checkout, or a URL; and null trains."""
+    digest = {"sha256": "0" * 64}
+    entries = {
+        "kpnsm": {"weights": {"path": "README.md", **digest}},
+        "kpnsm_basic": {"weights": {"path": "https://example.org/it.safetensors", **digest}},
+    }
+    layout = replace(layout_of(experiments=entries), root="checkout")
+    assert {"kpnsm", "kpnsm_basic"} <= {*trainings.restored(layout)}
+    assert trainings.shipped_file(layout, "kpnsm") == ["README.md"]
+    assert trainings.shipped_file(layout, "kpnsm_basic") == []
+    network = layout.settings["experiments"]["kpnsm"]["network"]
+    assert trainings.restored_settings(layout, "kpnsm") == {
+        **entries["kpnsm"]["weights"],
+        "network": network,
+    }
+    entries["kpnsm"]["weights"]["path"] = "elsewhere.safetensors"
+    layout = replace(layout_of(experiments=entries), root="checkout")
+    assert trainings.shipped_file(layout, "kpnsm") == ["checkout/elsewhere.safetensors"]
+    entries["kpnsm"]["weights"] = None
+    assert "kpnsm" not in trainings.restored(layout_of(experiments=entries))
 
 
 def test_durations_are_of_what_comes_before_a_training(desk):

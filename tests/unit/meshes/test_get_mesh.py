@@ -3,11 +3,9 @@
 import hashlib
 import io
 import tarfile
-import threading
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 import pytest
+from served import served
 
 from neural_shadows.errors import InputError
 from neural_shadows.meshes import stanford_dragon
@@ -34,19 +32,16 @@ WHOLE = archive()
 def serve(monkeypatch, tmp_path_factory):
     """A function: let a local server have an archive in the place of the published one."""
     folder = tmp_path_factory.mktemp("served")
-    handler = partial(SimpleHTTPRequestHandler, directory=folder)
-    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        threading.Thread(target=server.serve_forever, args=(0.01,)).start()
+    with served(folder) as address:
 
         def serve(content):
             (folder / "dragon.tar.gz").write_bytes(content)
-            url = f"http://127.0.0.1:{server.server_port}/dragon.tar.gz"
+            url = f"{address}dragon.tar.gz"
             digests = [hashlib.sha256(part).hexdigest() for part in (WHOLE, MESH)]
             for name, value in zip(("URL", "ARCHIVE_SHA256", "DRAGON_SHA256"), (url, *digests)):
                 monkeypatch.setattr(stanford_dragon, name, value)
 
         yield serve
-        server.shutdown()
 
 
 def test_the_one_mesh_is_taken_out_of_the_archive(serve, tmp_path):

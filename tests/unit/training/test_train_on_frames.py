@@ -21,6 +21,11 @@ from neural_shadows.training.crop_samples import crop_samples
 from neural_shadows.training.screen_batches import ScreenFrames
 from neural_shadows.training.screen_crops import CropSample
 from neural_shadows.training.screen_run import ScreenRun
+from neural_shadows.training.screen_validation import (
+    mse_by_radius,
+    null_predictors,
+    spread_images,
+)
 from neural_shadows.training.train_on_frames import train_on_frames
 
 FEATURES = ["c_e", "view", "ratio", "difference"]
@@ -105,7 +110,9 @@ def test_overfits_a_frame(tmp_path):
     assert result["null_mse"]["hard_map"][1] > 0.01
     assert max(result["validation_mse"]) < 1e-3  # 0.0001 each
     assert result["train_mse"] == result["validation_mse"]  # of the same frame
-    assert [entry["step"] for entry in result["validations"]] == list(range(20, 200, 20))
+    assert result["train_null_mse"] == result["null_mse"]
+    assert [entry["step"] for entry in result["validations"]] == list(range(20, 201, 20))
+    assert result["validations"][-1]["mse"] == result["validation_mse"]
     assert result["samples"] == 200 * 4 * HEIGHT * WIDTH
     network, header = load_screen_network(tmp_path / "nsm" / "weights.safetensors")
     arguments = {"features": FEATURES, "radii": [0, 0.25], "scenes": ["wall"], "perceptual": "none"}
@@ -138,7 +145,7 @@ def test_resumes_and_does_not_depend_on_threads(tmp_path, network, optimiser, pr
     whole = contents(tmp_path / "whole")
     assert contents(tmp_path / "killed") == contents(tmp_path / "threads") == whole
     assert contents(tmp_path / "other") != whole
-    assert [entry["step"] for entry in killed["validations"]] == [1, 2, 3, 4, 5]
+    assert [entry["step"] for entry in killed["validations"]] == [1, 2, 3, 4, 5, 6]
     # In the file too they are the same, key by key.
     assert json.dumps(killed["validations"]) == json.dumps(threads["validations"])
     bases = ["base_hard"] if network == KERNELS else []  # what it is given is no merit of its own
@@ -201,6 +208,26 @@ def test_crops_depend_on_seed_and_step_alone(tmp_path):
         whole = np.float32(frames.target(sample.frame, sample.radius))
         window = whole[sample.top :, sample.left :][:16, :16][:, :: -1 if sample.mirrored else 1]
         assert np.array_equal(crop.target[0, 0].numpy()[:: -1 if sample.upside_down else 1], window)
+
+
+def test_images_of_validations_are_spread_over_frames_and_lights(tmp_path):
+    frames = ScreenFrames([write_frames(tmp_path, count=10)], FEATURES)
+    assert spread_images(frames, 20) == [
+        (frame, radius) for radius in (0, 1) for frame in range(10)
+    ]
+    few = spread_images(frames, 6)
+    assert few == [(0, 0), (3, 0), (6, 0), (1, 1), (5, 1), (8, 1)]
+    assert [radius for _, radius in spread_images(frames, 1)] == [0, 1]
+    # Each light's error is of its own frames.
+    lit = null_predictors(frames)["no_shadow"]
+    by_radius = mse_by_radius(frames, lit, few)
+    own = [
+        np.mean(
+            [np.square(1 - frames.target(*image)[frames.valid(image[0])]).mean() for image in part]
+        )
+        for part in (few[:3], few[3:])
+    ]
+    assert by_radius == pytest.approx(own, rel=1e-3)
 
 
 def test_crops_of_chosen_lights(tmp_path):
@@ -275,3 +302,24 @@ def test_missing_channels_are_refused(tmp_path):
     part.write_text(json.dumps(about | {"channels": channels}))
     with pytest.raises(InputError, match="train_000.json: channels .*; should be z and others"):
         run(tmp_path, part)
+
+
+RAYS = KERNELS | {"features": ["cosine", "ray_penumbra", "log_d", "base_rays"], "edge": 0.1}
+
+
+def test_filters_rays(tmp_path):
+    """Of a penumbra of 8 of 62 pixels two rays have p (1 − p) / 2, 1 / 12 on average; it has less."""
+    training = TRAINING | {"steps": 150, "crop": 32, "crops": 4, "learning_rate": 3e-3}
+    part = write_frames(tmp_path, twins=0, rays=2)
+    result = run(tmp_path, part, network=RAYS, training=training | {"perturbation": 0})
+    assert result["null_mse"]["base_rays"][1] == pytest.approx(8 / 62 / 6 / 2, rel=0.3)
+    assert result["null_mse"]["base_rays"][0] == 0
+    assert result["validation_mse"][1] < 0.5 * result["null_mse"]["base_rays"][1]
+    _, header = load_screen_network(tmp_path / "nsm" / "weights.safetensors")
+    assert header["rays"] == 2 and header["network"]["edge"] == 0.1
+
+
+@pytest.mark.parametrize(("rays", "message"), [(0, "no rays of its frames"), (2, "perturbed")])
+def test_rays_that_are_missing(tmp_path, rays, message):
+    with pytest.raises(InputError, match=f"{message}.*`rays: 1` or more.*`perturbation: 0`"):
+        run(tmp_path, write_frames(tmp_path, rays=rays), network=RAYS)

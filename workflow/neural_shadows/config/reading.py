@@ -11,6 +11,7 @@ from neural_shadows.config.messages import LOADER, describe, place_of
 from neural_shadows.config.whole import Config
 from neural_shadows.errors import InputError
 from neural_shadows.meshes.formats import format_of
+from neural_shadows.running.origin import CHECKOUT
 from neural_shadows.sections.own_frames import OwnFrames, without_frames
 from neural_shadows.sections.scenes import MeshFile
 from neural_shadows.settings.base import not_among
@@ -128,7 +129,12 @@ def check_files(config: Config) -> None:
                 f"config: frame_sets.{name}.path = {frames.path!r}: {missing}. "
                 "results/README.md describes the format"
             )
-    for name in config.screen_experiments:
+    for name, experiment in config.screen_experiments.items():
+        if experiment.weights is not None:
+            path = experiment.weights.path
+            if "://" not in path and not (CHECKOUT / path).is_file():
+                _check_file(f"experiments.{name}.weights.path", path)
+            continue
         trunk = getattr(config.training_of(name).perceptual, "trunk", None)
         if trunk is not None:
             _check_file(f"experiments.{name}: perceptual.trunk", trunk)

@@ -19,11 +19,10 @@ def resolved(config: Sections) -> Section:
     and a mesh `mesh_name`, `scene` (arguments of `open_scene` besides the mesh) and `frames` (settings
     of its viewpoints); an experiment's `network` and `training` are sections, the former with keys of
     its scene, and points of learning curves are experiments as well; one on frames has a `trunk`;
-    `learning_curves` has the points of each (`points_of`); seeds and labels are the
+    `learning_curves` has the `points` of each experiment; seeds and labels are the
     effective ones; tables, figures and claims are resolved by their kinds.
     """
-    names = config.learning_curves.experiments if config.learning_curves else []
-    curves = {name: config.points_of(name) for name in names}
+    curves = config.points
     return config.model_dump() | {
         "scenes": {name: _scene(config, name) for name in config.scenes},
         "frame_sets": {name: _frame_set(config, name) for name in config.frame_sets},
@@ -123,7 +122,9 @@ def _experiment_at(config: Sections, name: str, point: Section) -> Section:
     """Experiment of a point of a learning curve."""
     section = _experiment(config, name)
     training = section["training"] | {"steps": point["steps"]}
-    return section | {"training": training, "seed": point["seed"]}
+    # A network with shipped weights is trained for its curve.
+    on_frames = {"frames": point["frames"], "weights": None} if "frames" in point else {}
+    return section | {"training": training, "seed": point["seed"]} | on_frames
 
 
 def _screen_experiment(config: Sections, name: str) -> Section:

@@ -164,9 +164,8 @@ def _fill_next(guides, light, spread, mixed, sharpness, step, next_light, next_s
                 continue
             begin, end = block * SIDE, min(block * SIDE + SIDE, width)
             _fill_sharpness(spread, y, begin, end, sharpness, sharp)
-            total[:] = 1
-            lights[: end - begin] = light[y, begin:end]
-            spreads[: end - begin] = spread[y, begin:end]
+            for i in range(end - begin):  # whole slices take 3 s more to compile
+                total[i], lights[i], spreads[i] = 1, light[y, begin + i], spread[y, begin + i]
             for below in range(-1, 2):
                 v = y + below * step
                 if v < 0 or v >= height:

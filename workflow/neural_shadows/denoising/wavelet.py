@@ -75,8 +75,9 @@ def fill_moments(guides, mean, square, row, total, first, second):
     """Means of two pictures over 7 × 7 pixels, weighted without luminance."""
     height, width = mean.shape
     flat = np.zeros((height, width), np.float32)
-    total[:] = 1
-    first[:], second[:] = mean, square
+    for y in range(height):
+        for x in range(width):  # whole arrays at once take 3 s more to compile
+            total[y, x], first[y, x], second[y, x] = 1, mean[y, x], square[y, x]
     for y in range(height):
         for v in range(max(0, y - _REACH), min(height, y + _REACH + 1)):
             for along in range(-_REACH, _REACH + 1):

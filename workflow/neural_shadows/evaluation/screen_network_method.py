@@ -9,10 +9,11 @@ import torch
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.method import Method
 from neural_shadows.frames.buffers import LIT, channel_images
-from neural_shadows.frames.feature_names import buffers_of
+from neural_shadows.frames.feature_names import TRACED, buffers_of
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.light_size import LightSize, light_size
+from neural_shadows.frames.ray_tracing import traced_images
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.networks.compute import choose_dtype, is_native
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
@@ -52,6 +53,7 @@ class _OpenedNetwork:
     def __init__(self, weights: Path, precision: str):
         self._weights = weights
         network, self._header = load_screen_network(weights)
+        self._rays = self._header.get("rays", 0)
         self._shape = light_shape(self._header.get("light"))
         self._network = network.for_inference().in_format(choose_dtype(precision, _CPU))
 
@@ -61,7 +63,10 @@ class _OpenedNetwork:
         )  # 16 bits each
         return Method(
             self._of_frame,
-            of_buffers=self._of_buffers,
+            of_buffers=None
+            if self._rays
+            else self._of_buffers,  # stored ones are of no light's size
+            by_rays=self._rays > 0,
             check_own=self._check_own,
             held=lambda frame: bytes_held,
         )
@@ -106,7 +111,10 @@ class _OpenedNetwork:
     def _of_frame(self, frame: SoftFrame, radius: float) -> np.ndarray:
         """The same from points and light map, buffers included in time."""
         surface = frame.surface
-        buffers = channel_images(buffers_of(self._network.features), frame)
+        needed = [name for name in buffers_of(self._network.features) if name not in TRACED]
+        buffers = channel_images(needed, frame)
+        if self._rays:
+            buffers |= zip(TRACED, traced_images(frame, radius, samples=self._rays))
         lens = lens_of(surface.camera, surface.width, surface.height)
         visible = self._of_buffers(buffers, lens, radius, frame.scene.size, frame.shape)
         return visible.ravel()[surface.pixel]

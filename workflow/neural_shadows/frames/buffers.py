@@ -55,25 +55,34 @@ def channel_images(names: Collection[str], frame: SoftFrame) -> dict[str, np.nda
     z = np.linalg.norm(from_light, axis=1)
     to_eye = frame.surface.camera.eye.astype(np.float32) - frame.surface.p
     d = np.linalg.norm(to_eye, axis=1)
-    nearest = frame.light_map.texels_of(from_light)
-    first = np.where(nearest >= 0, np.take(frame.depths, nearest), np.float32(np.inf))
-    occupied, biased_z = np.isfinite(first), z - frame.bias
-    lit = {"hard": biased_z <= first} | _filtered({*names}, frame, biased_z)
     values = {
         "z": (z - np.float32(frame.light_map.near)) / size,
-        "gap": np.where(occupied, first - z, 0) / size,
         "d": d / size,
         "c_e": -np.einsum("ij,ij->i", from_light, normal) / z,
         "c_v": np.einsum("ij,ij->i", to_eye, normal) / d,
-        **{name: value * (frame.cosines > 0) for name, value in lit.items()},
         **dict(zip(_NORMAL, normal.T)),
     }
-    if not values.keys() >= {*names}:
-        map_normals = _map_normals(frame, nearest, occupied)
-        values["agreement"] = np.where(occupied, np.einsum("ij,ij->i", normal, map_normals), 1)
-        values |= zip(_MAP_NORMAL, map_normals.T)
+    if not values.keys() >= {*names}:  # a network of rays needs no map
+        values |= _of_map({*names}, frame, z)
     image = frame.surface.image
     return {name: image(values[name].astype(np.float32), float(name in LIT)) for name in names}
+
+
+def _of_map(names: set[str], frame: SoftFrame, z: np.ndarray) -> dict[str, np.ndarray]:
+    """Compute channels of the light map, (n,) each; those of its normals if named."""
+    nearest = frame.light_map.texels_of(frame.from_light)
+    first = np.where(nearest >= 0, np.take(frame.depths, nearest), np.float32(np.inf))
+    occupied, biased_z = np.isfinite(first), z - frame.bias
+    lit = {"hard": biased_z <= first} | _filtered(names, frame, biased_z)
+    values = {
+        "gap": np.where(occupied, first - z, 0) / frame.scene.size,
+        **{name: value * (frame.cosines > 0) for name, value in lit.items()},
+    }
+    if {"agreement", *_MAP_NORMAL} & names:
+        normal, map_normals = frame.surface.n, _map_normals(frame, nearest, occupied)
+        values["agreement"] = np.where(occupied, np.einsum("ij,ij->i", normal, map_normals), 1)
+        values |= zip(_MAP_NORMAL, map_normals.T)
+    return values
 
 
 def _filtered(
@@ -139,7 +148,8 @@ def _fill_moments(depths, texels, fractions, kernel, depth_range, moments):
     near, span = depth_range
     rows, columns = np.empty(4), np.empty(4)
     for i in range(len(texels)):
-        rows[:], columns[:] = 0, 0
+        for k in range(4):  # of a slice at once it takes 3 s more to compile
+            rows[k] = columns[k] = 0.0
         right, down = fractions[i, 0], fractions[i, 1]
         for k in range(3):
             rows[k] += (1 - down) * kernel[k]

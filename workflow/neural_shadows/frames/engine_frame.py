@@ -8,6 +8,11 @@ import numpy as np
 from neural_shadows.errors import InputError
 from neural_shadows.files.frame_images import FrameImages
 from neural_shadows.frames.buffers import CHANNELS, LIT
+from neural_shadows.running.progress import warn
+
+_LARGEST = float(np.finfo(np.float16).max)  # 65504, of what a part holds
+# The farthest point of a frame from eye or light, in shares of a size that may be right.
+_SHARES = 0.05, 2.0
 
 # Ranges of values, with room for the rounding of half floats.
 _LIMITS = {
@@ -47,7 +52,8 @@ def engine_frame(
 
     Raises:
         InputError: z is missing; an image cannot be read, differs from z in size, or has values out
-            of range at valid pixels; or some targets are missing.
+            of range at valid pixels; some targets are missing; or distances are too many sizes for
+            half floats.
     """
     if channels["z"] is None or (z := images.image(channels["z"])) is None:
         where = images.place(channels["z"]) if channels["z"] else images.folder
@@ -70,7 +76,23 @@ def engine_frame(
         )
     exact = np.empty((0, *z.shape), np.float32) if lacking or not shadows else np.stack(shadows)
     exact = np.where(valid, np.clip(exact, 0, 1), np.float32(1))
+    _check_size(images, buffers, size)
     return EngineFrame(_converted(buffers, valid, size), exact, valid)
+
+
+def _check_size(images: FrameImages, channels: Mapping[str, np.ndarray], size: float) -> None:
+    """Compare the farthest point with the scene's size."""
+    farthest = max(float(channels[name].max()) for name in ("z", "d") if name in channels)
+    what = (
+        f"{images.folder}: its farthest z or d is {farthest:g}, {farthest / size:.3g} times "
+        f"`engine.sizes.{images.folder.parent.name}` = {size:g}"
+    )
+    cure = "Give the longest side of the scene's bounding box, in the unit of z and d"
+    if farthest / size > _LARGEST:
+        raise InputError(f"{what}; half floats end at {_LARGEST:.0f}. {cure}")
+    low, high = _SHARES
+    if not low <= farthest / size <= high:
+        warn(f"{what}; {low:g} to {high:g} times is usual, and all lights scale with it. {cure}")
 
 
 def _read(images: FrameImages, image: str, name: str, valid: np.ndarray) -> np.ndarray | None:
@@ -89,7 +111,12 @@ def _read(images: FrameImages, image: str, name: str, valid: np.ndarray) -> np.n
         row, column = np.argwhere(wrong)[0]
         raise InputError(
             f"{where}: NaN or infinity in {wrong.sum()} pixels, the first in row {row}, column {column}. "
-            "Set z to 0 where there is no surface."
+            "Set z to 0 where there is no surface"
+            + (
+                f". Half floats end at {_LARGEST:.0f}: write farther points in 32 bits or a larger unit"
+                if np.isposinf(values[wrong]).any()
+                else ""
+            )
         )
     values = np.where(valid, values, np.float32(0))
     low, high = _LIMITS[name]
@@ -110,8 +137,8 @@ def _converted(
         z_b = buffers.pop("z_b")
         buffers["gap"] = np.where(np.isfinite(z_b), z_b - buffers["z"], 0)
     for name in ("z", "gap", "d"):
-        if name in buffers:
-            buffers[name] = buffers[name] / np.float32(size)
+        if name in buffers:  # a map may show something as far as its numbers go
+            buffers[name] = np.minimum(buffers[name] / np.float32(size), _LARGEST)
     for name in LIT:
         if name in buffers:
             faces = buffers["c_e"] > 0 if "c_e" in buffers else True

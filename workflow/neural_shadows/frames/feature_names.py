@@ -13,15 +13,19 @@ NSM_FEATURES = {
     **{"c_e": 1, "view": 1, "ratio": 1, "difference": 1, "agreement": 1, "d": 1},
     **{"n": 3, "z": 1, "n_e": 3, "z_f": 1, "c_c": 1},
 }
-# Base shadows of kernel-predicting networks: by the map's texel, by 2 × 2 of them, by moments.
-BASES = ("base_hard", "base_pcf", "base_msm")
+# Base shadows of kernel-predicting networks: by the map's texel, by 2 × 2 of them, by moments, and by a
+# few rays a pixel.
+BASES = ("base_hard", "base_pcf", "base_msm", "base_rays")
+GUIDE = "log_d"  # the feature by which kernels keep to a surface
 # Hu et al. 2025 (4.1; z is the former's `z_f`): cosine with the direction to the light, of either sign; that
 # with the direction to the eye over the distance from it; width of the penumbra in the frame, the same
 # without regard to slant; distance behind the blocker, its distance from the light over the point's
-# and alone; the light's radius.
+# and alone; the light's radius. Ours: the penumbra's width in the frame by the blockers of a few rays;
+# the logarithm of the distance from the eye.
 KPNSM_FEATURES = dict.fromkeys(
     (
         *("cosine", "c_v_by_d", "penumbra", "penumbra_pcss", "behind", "z_b_by_z", "z_b", "r_e"),
+        *("ray_penumbra", GUIDE),
         *BASES,
     ),
     1,
@@ -51,8 +55,14 @@ BUFFERS = {
     "z_b_by_z": _BLOCKED,
     "z_b": _BLOCKED,
     "r_e": ("z",),
+    "ray_penumbra": ("ray_penumbra", "d", "c_e", "c_v"),
+    GUIDE: ("d",),
     **{name: (name.removeprefix("base_"),) for name in BASES},
 }
+
+
+TRACED = ("rays", "ray_penumbra")
+"""Buffers of one light, by rays: see `ray_tracing.traced_images`."""
 
 
 def buffers_of(features: Sequence[str]) -> list[str]:

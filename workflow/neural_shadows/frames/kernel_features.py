@@ -1,7 +1,7 @@
 """Features of Kernel Predicting Neural Shadow Maps (Hu et al. 2025, 4.1, 6.2.5).
 
 Its inputs, in the order of its code: cosine, c_v_by_d, z_f (its z), penumbra, behind, z_b_by_z, z_b,
-and a base. Its table 4 has `penumbra_pcss` or `r_e` in the penumbra's place, or Neural Shadow
+and a base. `ray_penumbra` and `log_d` are ours. Its table 4 has `penumbra_pcss` or `r_e` in the penumbra's place, or Neural Shadow
 Mapping's `c_e`, to which the light's size is added.
 """
 
@@ -16,6 +16,7 @@ from neural_shadows.rendering.gbuffer import Lens
 PENUMBRA_PIXELS = 50.0  # the widest distinguished
 FULL_WIDTH = 2048  # pixels, of the paper's frames …
 FULL_FOCAL = 983.5  # … and their focal length
+_NEAREST = 1e-3  # in shares of the scene's size: nearer points are as far in `log_d`
 
 
 def kernel_feature(
@@ -33,6 +34,11 @@ def kernel_feature(
         return buffers["c_v"] / (buffers["d"] + 1e-10)
     if name == "r_e":
         return np.full_like(buffers["z"], light.step / LARGEST_STEP)
+    if name == "log_d":
+        return np.log(np.maximum(buffers["d"], _NEAREST))
+    if name == "ray_penumbra":
+        blurred = np.maximum(buffers["ray_penumbra"], 0)
+        return _shown(frame_pixels(blurred, *(buffers[b] for b in ("d", "c_e", "c_v")), lens.focal))
     z, z_b = buffers["z"], blocker(buffers)
     if name == "behind":
         return z - z_b
@@ -41,7 +47,10 @@ def kernel_feature(
     if name == "z_b":
         return z_b
     slant = (buffers["c_e"], buffers["c_v"]) if name == "penumbra" else (1.0, 1.0)
-    pixels = penumbra_pixels(z, z_b, buffers["d"], *slant, light, lens.focal)
+    return _shown(penumbra_pixels(z, z_b, buffers["d"], *slant, light, lens.focal))
+
+
+def _shown(pixels: np.ndarray) -> np.ndarray:
     return np.clip(pixels, 0, PENUMBRA_PIXELS) / PENUMBRA_PIXELS
 
 
@@ -70,7 +79,18 @@ def penumbra_pixels(
     Args:
         z, z_b: see `frames.buffers`, of a sun without its distance. focal: of the camera, in pixels.
     """
+    blurred = (z - z_b) * light.share / (z_b + light.away + 1e-5)
+    return frame_pixels(blurred, d, c_e, c_v, focal)
+
+
+def frame_pixels(
+    blurred: np.ndarray,
+    d: np.ndarray,
+    c_e: np.ndarray | float,
+    c_v: np.ndarray | float,
+    focal: float,
+) -> np.ndarray:
+    """Widths in the frame, in pixels, of penumbrae of radii in shares of the scene's size."""
     width = FULL_WIDTH * focal / FULL_FOCAL
     slant = np.sqrt(np.abs(c_v) / (np.abs(c_e) + 1e-5))
-    blocked = (z - z_b) * light.share / (z_b + light.away + 1e-5)
-    return (blocked / np.maximum(d, 1e-5) * width * slant).astype(np.float32)
+    return (blurred / np.maximum(d, 1e-5) * width * slant).astype(np.float32)

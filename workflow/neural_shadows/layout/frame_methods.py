@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 from neural_shadows.evaluation.registry import (
     FORMATS,
+    FRAME_METHODS,
     LABELS,
     in_format,
     is_network,
@@ -35,10 +36,12 @@ def occluders(layout: Layout, frame_set: str, method: str) -> list[str]:
     return [layout.paths.frame_measure("occluders.npy", frame_set)]
 
 
-def label(layout: Layout, method: str) -> str:
-    """Label of a method."""
+def label(layout: Layout, method: str, frame_set: str | None = None) -> str:
+    """Label of a method; of a user's base shadows without a filter."""
     if not is_network(method):
-        return LABELS[method]
+        channel = FRAME_METHODS[method].channel if method in FRAME_METHODS else None
+        own = frame_set is not None and layout.frames(frame_set)["path"] is not None
+        return f"Base: its own {channel}" if own and channel else LABELS[method]
     by_scene = layout.settings["networks_by_scene"]
     networks = by_scene if method in by_scene else layout.settings["experiments"]
     return networks[method]["label"]

@@ -140,6 +140,7 @@ PARAMS: dict[str, Callable[[Report], Any]] = {
     "device": lambda report: report.layout.settings["compute"]["device"],
     "precision": lambda report: report.layout.settings["compute"]["precision"],
     "labels": lambda report: {
-        method: frame_methods.label(report.layout, method) for method in report.methods
+        method: frame_methods.label(report.layout, method, report.frame_set)
+        for method in report.methods
     },
 }

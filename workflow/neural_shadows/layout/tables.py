@@ -150,7 +150,10 @@ def widths(layout: Layout, frame_set: str) -> list[str]:
 
 def labels(layout: Layout, table: str) -> dict[str, str]:
     """Labels of a table's methods."""
-    return {method: frame_methods.label(layout, method) for method in methods(layout, table)}
+    frames = frame_set(layout, table)
+    return {
+        method: frame_methods.label(layout, method, frames) for method in methods(layout, table)
+    }
 
 
 def shown_scenes(layout: Layout, table: str) -> list[str]:

@@ -1,5 +1,6 @@
-"""Trainings of experiments: stage, files and settings."""
+"""Trainings of experiments, or their shipped weights: stage, files and settings."""
 
+import os
 from typing import Any
 
 from neural_shadows.layout import frame_sets
@@ -29,6 +30,25 @@ def settings(layout: Layout, experiment: str) -> dict[str, Any]:
     return {key: entry[key] for key in _KEYS[stage(layout, experiment)]}
 
 
+def restored(layout: Layout) -> list[str]:
+    """Experiments with shipped weights in place of a training."""
+    return [name for name, entry in layout.settings["experiments"].items() if entry.get("weights")]
+
+
+def shipped_file(layout: Layout, experiment: str) -> list[str]:
+    """File of an experiment's shipped weights; none of a URL."""
+    path = layout.on_frames(experiment)["weights"]["path"]
+    if "://" in path:
+        return []
+    return [path if os.path.exists(path) else layout.source(path)]
+
+
+def restored_settings(layout: Layout, experiment: str) -> dict[str, Any]:
+    """Arguments of `restore_weights` besides files."""
+    entry = layout.on_frames(experiment)
+    return {**entry["weights"], "network": entry["network"]}
+
+
 def _ray_files(layout: Layout, experiment: str) -> dict[str, Any]:
     entry = layout.on_rays(experiment)
     names = entry["scene"], entry["sampling"]
@@ -50,13 +70,15 @@ def _ray_files(layout: Layout, experiment: str) -> dict[str, Any]:
 def _frame_files(layout: Layout, experiment: str) -> dict[str, Any]:
     """Training and validation parts with arrays, and pretrained weights."""
     entry = layout.on_frames(experiment)
+    frames = entry.get("frames")  # of each scene, of a point of a learning curve
+    files = frames and -(-frames // layout.frames(entry["frame_set"])["shard"])
     parts = {
         use: [
             part
             for scene in entry["scenes"]
-            for part in frame_sets.parts(layout, scene, entry["frame_set"], use)
+            for part in frame_sets.parts(layout, scene, entry["frame_set"], use)[:count]
         ]
-        for use in ("train", "validation")
+        for use, count in (("train", files), ("validation", None))
     }
     beside = frame_sets.arrays(layout, entry["frame_set"], [*parts["train"], *parts["validation"]])
     return {**parts, "beside": beside, "trunk": entry["trunk"] or []}

@@ -1,11 +1,10 @@
 """Download of the Stanford dragon."""
 
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pooch
 
-from neural_shadows.errors import InputError
+from neural_shadows.files.download import downloaded
 from neural_shadows.files.whole_files import sha256_of
 from neural_shadows.meshes.thesis_meshes import DRAGON_SHA256
 from neural_shadows.running.progress import progress_bar
@@ -19,7 +18,7 @@ MEMBER = "dragon_recon/dragon_vrip_res2.ply"
 def download_mesh(source_ply: Path) -> None:
     """Download the dragon's archive, and extract its mesh.
 
-    The mesh has 202,520 triangles. An interrupted download starts again with the next attempt.
+    The mesh has 202,520 triangles.
 
     Args:
         source_ply: the mesh, unchanged from the archive.
@@ -27,23 +26,15 @@ def download_mesh(source_ply: Path) -> None:
     Raises:
         InputError: no connection, or archive or mesh differ from the published ones.
     """
-    source_ply.parent.mkdir(parents=True, exist_ok=True)
-    try:
-        with TemporaryDirectory(dir=source_ply.parent) as folder:
-            unpacked = pooch.retrieve(
-                URL,
-                known_hash=f"sha256:{ARCHIVE_SHA256}",
-                path=folder,
-                fname=Path(URL).name,
-                processor=pooch.Untar(members=[MEMBER]),
-                progressbar=progress_bar(ARCHIVE_BYTES, "B", "Stanford dragon"),
-            )
-            if [sha256_of(path) for path in unpacked] != [DRAGON_SHA256]:
-                raise ValueError(f"{MEMBER} is missing, or not as published")
-            Path(unpacked[0]).replace(source_ply)
-    except (OSError, ValueError) as error:  # from requests, or a wrong digest
-        reason = " ".join(str(error).split())[:300]
-        raise InputError(
-            f"cannot download {URL}: {reason}. Try again, or download it by hand, unpack it, and "
-            f"run with `--config dragon=PATH/TO/{Path(MEMBER).name}`"
-        ) from error
+    with downloaded(
+        URL,
+        ARCHIVE_SHA256,
+        source_ply.parent,
+        "Try again, or download it by hand, unpack it, and run with "
+        f"`--config dragon=PATH/TO/{Path(MEMBER).name}`",
+        pooch.Untar(members=[MEMBER]),
+        progress_bar(ARCHIVE_BYTES, "B", "Stanford dragon"),
+    ) as unpacked:
+        if [sha256_of(path) for path in unpacked] != [DRAGON_SHA256]:
+            raise ValueError(f"{MEMBER} is missing, or not as published")
+        unpacked[0].replace(source_ply)

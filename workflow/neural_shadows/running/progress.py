@@ -1,4 +1,4 @@
-"""Progress of a job: a bar on a terminal, else lines."""
+"""Progress of a job, a bar on a terminal, else lines; its warnings."""
 
 import sys
 from typing import Any, TextIO
@@ -40,6 +40,12 @@ class _LogAndTerminal:
             self._terminal.write(text)
         elif line:
             print(line, file=self._terminal)
+
+
+def warn(text: str) -> None:
+    """Print a warning to the job's log, and to the terminal."""
+    for file in dict.fromkeys((sys.stderr, TERMINAL or sys.stderr)):
+        print(f"warning: {text}", file=file)
 
 
 def progress_bar(total: int, unit: str, title: str, initial: int = 0) -> tqdm:

@@ -47,6 +47,16 @@ class RayExperiment(Model):
     )
 
 
+class ShippedWeights(Model):
+    """A file of weights that `ship_weights` has written, and its checksum."""
+
+    path: str = Field(
+        min_length=1,
+        description="a file, in the working directory or else in the checkout, or its URL",
+    )
+    sha256: str = Field(pattern=r"^[0-9a-f]{64}$", description="SHA-256 of the file, hexadecimal")
+
+
 class ScreenExperiment(Model):
     """A screen-space network: frames, architecture, training, seed."""
 
@@ -64,6 +74,9 @@ class ScreenExperiment(Model):
         description="indices, from 0, of the frame set's radii for training; default: all",
     )
     seed: Seed | None = Field(None, description="seed of the training; default: the global seed")
+    weights: ShippedWeights | None = Field(
+        None, description="take these weights and train nothing; null in an overlay: train"
+    )
     label: Text | None = Field(None, description="label in tables")
 
 

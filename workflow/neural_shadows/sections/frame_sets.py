@@ -125,10 +125,8 @@ class RenderedFrames(Model):
     )
     samples: Samples = Field(Samples(), description="shadow rays of the exact soft shadows")
     blur: float = Field(0.0, ge=0, le=5, description="σ of a blur of the soft shadows, pixels")
-    rays: int = Field(
+    rays: Literal[0, 1, 2, 3, 4, 6, 8, 16] = Field(
         0,
-        ge=0,
-        le=16,
         description="rays a pixel of training and validation frames, for networks with the feature `base_rays`",
     )
 

@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 from pydantic import Field
 
 from neural_shadows.evaluation.registry import FRAME_METHODS, needs_scene
-from neural_shadows.frames.feature_names import buffers_of
+from neural_shadows.frames.feature_names import TRACED, buffers_of
 from neural_shadows.rendering.light_shape import SPHERE
 from neural_shadows.sections.any_report import AnyTable, Chapter
 from neural_shadows.sections.experiments import FRAMES, ScreenExperimentName
@@ -112,6 +112,11 @@ def check_method(config: Sections, key: str, frame_set: str, method: str) -> Non
     if isinstance(frames, OwnFrames):
         features = (config.network_of(experiment).features for experiment in networks)
         buffers = [buffer for names in features for buffer in buffers_of(names)]
+        if {*TRACED} & {*buffers}:
+            raise ValueError(
+                f"{key} filters rays, and a user's own frames have no scene to trace. Use a network of a "
+                "shadow map"
+            )
         base = FRAME_METHODS[method].channel if method in FRAME_METHODS else None
         if absent := lacking(frames, dict.fromkeys([base] if base else buffers)):
             raise ValueError(f"{key} needs all its channels in frame_sets.{frame_set}: {absent}")
@@ -142,9 +147,11 @@ def _check_network(config: Sections, key: str, frame_set: str, experiment: str) 
             f"{trained_on[1]:g}"
         )
     if frames[0] == trained_on[0] and frames[2] > trained_on[2]:
+        own = isinstance(config.frame_sets[frame_set], OwnFrames)
+        cure = f"End its `engine.radii` at {trained_on[1]:g}, or train" if own else "Train"
         raise ValueError(
             f"{key} is trained on lights of up to {trained_on[1]:g} {trained_on[0]}, and "
-            f"frame_sets.{frame_set} has one of {frames[1]:g}. Train it on frames with such a light, "
+            f"frame_sets.{frame_set} has one of {frames[1]:g}. {cure} it on frames with such a light, "
             "or leave it out"
         )
 

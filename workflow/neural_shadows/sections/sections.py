@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import product
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
@@ -11,7 +12,7 @@ from neural_shadows.sections.compute import Compute
 from neural_shadows.sections.experiments import Experiment, RayExperiment, ScreenExperiment
 from neural_shadows.sections.frame_sets import VIEWS, FrameSet, RenderedFrames
 from neural_shadows.sections.frame_times import FrameTimes
-from neural_shadows.sections.learning_curves import LearningCurves
+from neural_shadows.sections.learning_curves import LearningCurve
 from neural_shadows.sections.metrics import Metrics
 from neural_shadows.sections.networks import Network
 from neural_shadows.sections.networks_by_scene import NetworksByScene
@@ -23,6 +24,7 @@ from neural_shadows.sections.trainings import Training
 from neural_shadows.sections.viewers import Viewer
 from neural_shadows.sections.views import Views
 from neural_shadows.settings.base import Model, Name, Seed
+from neural_shadows.settings.records import CurvePoint
 
 FigureName = Annotated[str, Field(pattern=r"^figure_[a-z0-9_]+$")]
 ViewerName = Annotated[str, Field(pattern=r"^viewer(_[a-z0-9_]+)?$")]
@@ -59,8 +61,8 @@ class Sections(Model):
     experiments: dict[Name, Experiment] = Field(
         description="trained networks, on rays of a `scene` or on frames of a `frame_set`, by name"
     )
-    learning_curves: LearningCurves | None = Field(
-        None, description="trainings at several budgets, from several seeds"
+    learning_curves: dict[Name, LearningCurve] = Field(
+        {}, description="trainings at several budgets, from several seeds, by name"
     )
     frame_sets: dict[Name, FrameSet] = Field(
         description="`views` of meshes under a sun, and frames with exact soft shadows, by name"
@@ -155,24 +157,33 @@ class Sections(Model):
                 f"its network or training. Allowed: {', '.join(settings)}"
             ) from error
 
-    def points_of(self, experiment: str) -> list[dict[str, Any]]:
-        """Points of an experiment's learning curve, by steps, then seed.
+    @cached_property
+    def points(self) -> dict[str, list[CurvePoint]]:
+        """Points of the learning curve of each experiment, by steps, frames, then seed.
 
-        Returns: of each `experiment`, the name of the network that is trained for it; `steps`;
-            `seed`; `samples`, steps × batch. The experiment itself is the point of its own steps
-            and seed.
+        The experiment itself is the point of its own steps, frames and seed.
         """
-        curves, training = self.learning_curves, self.training_of(experiment)
+        curves = self.learning_curves.values()
+        return {
+            name: self._points_of(name, curve) for curve in curves for name in curve.experiments
+        }
+
+    def _points_of(self, experiment: str, curve: LearningCurve) -> list[CurvePoint]:
+        settings, training = self.experiments[experiment], self.training_of(experiment)
         own_seed = self.seed_of(experiment)
+        all_frames = self.frame_sets[settings.frame_set].train if curve.frames else None
         points = []
-        for steps in curves.steps:
-            for seed in range(own_seed, own_seed + curves.seeds):
-                own = (steps, seed) == (training.steps, own_seed)
-                name = experiment if own else f"{experiment}_{steps}_steps_seed_{seed}"
-                samples = steps * training.batch_size
-                points.append(
-                    {"experiment": name, "steps": steps, "seed": seed, "samples": samples}
-                )
+        for steps, frames, k in product(curve.steps, curve.frames or [None], range(curve.seeds)):
+            point: CurvePoint = {"steps": steps, "seed": own_seed + k}
+            if curve.frames:
+                point |= {"frames": frames, "samples": frames * len(settings.scenes)}
+            else:
+                point |= {"samples": steps * training.batch_size}
+            shipped = getattr(settings, "weights", None)
+            own = (steps, frames, k) == (training.steps, all_frames, 0) and not shipped
+            of_frames = f"_{frames}_frames" if curve.frames else ""
+            name = f"{experiment}{of_frames}_{steps}_steps_seed_{own_seed + k}"
+            points.append({"experiment": experiment if own else name, **point})
         return points
 
     def differences(self, experiment: str, other: str) -> list[str]:

@@ -28,6 +28,7 @@ class Row(TypedDict, total=False):
     trained: bool
     bias: Bias  # of the depth test, sphere radii
     width: int  # neurons a layer, in a figure of widths
+    steps: int  # of a learning curve over frames
 
 
 class SceneInfo(TypedDict):
@@ -200,6 +201,9 @@ class TrainingRecord(TypedDict, total=False):
     validation_mse: list[float | None]
     validations: list[dict[str, Any]]
     null_mse: dict[str, list[float]]
+    train_null_mse: dict[str, list[float]]
+    data: dict[str, Any]  # of `describe_data`
+    shipped: dict[str, str]  # path and SHA-256 of weights that were restored
 
 
 class FrameTimes(TypedDict, total=False):
@@ -344,10 +348,11 @@ class FrameSettings(TypedDict, total=False):
     blur: float  # σ in pixels
 
 
-class CurvePoint(TypedDict):
+class CurvePoint(TypedDict, total=False):
     """A training of a learning curve."""
 
     experiment: str
     steps: int
     seed: int
-    samples: int
+    frames: int  # of each scene, of an experiment on frames
+    samples: int  # rays, steps × batch; or different frames

@@ -11,7 +11,7 @@ from torch import Tensor
 
 from neural_shadows.errors import InputError
 from neural_shadows.frames.aligned_twins import ALIGNED_BY, twin_pixels
-from neural_shadows.frames.feature_names import BASES, buffers_of
+from neural_shadows.frames.feature_names import BASES, TRACED, buffers_of
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.rendering.gbuffer import Lens, lens_of
@@ -124,12 +124,29 @@ class ScreenFrames:
         part, number = self._frames[frame]
         return {name: part.image(number, name, version, window) for name in names}
 
+    def _read_rays(self, frame: int, radius: int, version: int, window) -> dict[str, np.ndarray]:
+        """Buffers by rays of a frame, (h, w) float32."""
+        part, number = self._frames[frame]
+        if version or not part.rays:
+            what = "perturbed frames" if version else "frames"
+            raise InputError(
+                f"{part.frames_json}: has no rays of its {what}, which the features {', '.join(TRACED)} "
+                "need. Give the frame set `rays: 1` or more, and the training `perturbation: 0`"
+            )
+        return {
+            name: np.float32(image[window])
+            for name, image in zip(TRACED, part.traced[number, radius])
+        }
+
     def features(
         self, frame: int, radius: int, version: int = 0, window=(slice(None), slice(None))
     ) -> np.ndarray:
         """Network input of a frame (version 0) or perturbed frame: (C, h, w) float32."""
         part, number = self._frames[frame]
-        buffers = self._read(frame, version, self._buffers, window)
+        stored = [name for name in self._buffers if name not in TRACED]
+        buffers = self._read(frame, version, stored, window)
+        if len(stored) < len(self._buffers):
+            buffers |= self._read_rays(frame, radius, version, window)
         lens = self._lens(part, number)
         light = part.light_size(part.radii[radius])
         return named_features(self._features, buffers, lens._replace(axis=lens.axis[window]), light)
@@ -154,9 +171,11 @@ class ScreenFrames:
         part, number = self._frames[frame]
         return np.float32(part.targets[number, radius])
 
-    def base(self, name: str, frame: int) -> np.ndarray:
-        """Visibility by one of `BASES`, (H, W) float32."""
+    def base(self, name: str, frame: int, radius: int) -> np.ndarray:
+        """Visibility by one of `BASES`, (H, W) float32; by rays of a radius, the others of a point."""
         part, number = self._frames[frame]
+        if name == "base_rays":
+            return self._read_rays(frame, radius, 0, (slice(None), slice(None)))["rays"]
         return part.image(number, name.removeprefix("base_"))
 
     def valid(self, frame: int) -> np.ndarray:

@@ -14,6 +14,7 @@ import torch
 
 from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import sha256_of, write_json, write_text
+from neural_shadows.frames.feature_names import TRACED, buffers_of
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.kind_module import form_module
 from neural_shadows.networks.screen_space.screen_networks import (
@@ -31,16 +32,18 @@ from neural_shadows.training.screen_run import ScreenRun
 from neural_shadows.training.screen_validation import (
     mse_by_radius,
     network_predictor,
-    null_predictors,
+    null_errors,
+    spread_images,
 )
 from neural_shadows.training.settings.frames import ScreenTraining
 from neural_shadows.training.steps import curve_points, train_to_end
+from neural_shadows.training.training_data import describe_data
 from neural_shadows.training.training_state import gradient_pool
 
-# Validations in a training, the last at its end. Before that only each third frame: all 60 pictures
-# of 12 frames take as long as ten steps.
+# Validations in a training, the last at its end, all on the same images: at most these, as 96 of
+# 256² take four seconds of two slow cores. The default sets have fewer.
 VALIDATIONS = 10
-EVERY = 3
+IMAGES = 96
 
 
 def train_on_frames(
@@ -72,10 +75,12 @@ def train_on_frames(
         trunk: weights file of the perceptual distance's backbone; None for L1 alone.
         weights: in a folder of the experiment's, with `checkpoints` beside it.
         training_json: for the settings and their results: `samples` (pixels), `seconds`,
-            `samples_per_second`, `final_loss`, `died_at_step`; `radii` and by them `train_mse` of
-            as many training frames as validation has, `validation_mse`, `null_mse` of null
-            predictors (`no_shadow`, `hard_map`, and the network's own base); `validations` on the
-            way; `perceptual` (`none` for L1 alone), `perceptual_factor`.
+            `samples_per_second`, `final_loss`, `died_at_step`; `perceptual` (`none` for L1 alone),
+            `perceptual_factor`; `data`, see `describe_data`; by `radii` squared errors on at most
+            `IMAGES` images, evenly spread over scenes and lights, the same at each step:
+            `validations` by step, the last of which is `validation_mse`, and `null_mse` of null
+            predictors on the same (`no_shadow`, `hard_map`, and the network's own base); `train_mse`
+            and `train_null_mse` on as many images of training frames.
         scenes: of the parts. lights: indices of the radii to train for; None for all.
         threads: crops of a batch computed side by side; the weights do not depend on it.
 
@@ -111,6 +116,8 @@ def train_on_frames(
         "scenes": list(scenes),
         "perceptual": net,
     }
+    if {*TRACED} & {*buffers_of(model.features)}:
+        header["rays"] = frames.about["rays"]
     loss = ScreenLoss(training.alpha, training.perturbation, perceptual)
     run = ScreenRun(model, header["training"], frames, loss)
     identity = {**header, "data": _digest([*train, *validation, *([trunk] if trunk else [])])}
@@ -122,21 +129,32 @@ def train_on_frames(
             loss.factor = loss.factor_for(run.first_terms(pool))
         if (checkpoint / STATE).exists():
             run.restore(checkpoint / STATE)
-        points = partial(_points, run, held_out, pool)
-        train_to_end(run, points, experiment, checkpoint, started, "pixels")
         compute = pool.map if torch_device.type == "cpu" else map
-        validation_mse = mse_by_radius(held_out, network_predictor(run, held_out), compute)
-        nulls = null_predictors(held_out).items()
-        null_mse = {name: mse_by_radius(held_out, null, compute) for name, null in nulls}
-        every = -(-len(frames) // len(held_out))  # as many frames, evenly spread
-        train_mse = mse_by_radius(frames, network_predictor(run, frames), compute, every)
+        images = spread_images(held_out, IMAGES)
+
+        def validate() -> None:
+            mse = mse_by_radius(held_out, network_predictor(run, held_out), images, compute)
+            # In alphabetical order, as a checkpoint restores them.
+            run.validations.append({"mse": mse, "step": int(run.step)})
+
+        points = partial(_points, run, validate, pool)
+        train_to_end(run, points, experiment, checkpoint, started, "pixels")
+        if not run.validations or run.validations[-1]["step"] < int(run.step):
+            validate()  # after a divergence
+        seen = spread_images(frames, len(images))
+        errors = {
+            "validation_mse": run.validations[-1]["mse"],
+            "null_mse": null_errors(held_out, images, compute),
+            "train_mse": mse_by_radius(frames, network_predictor(run, frames), seen, compute),
+            "train_null_mse": null_errors(frames, seen, compute),
+        }
 
     save_screen_network(weights, model, header)
     write_text(loss_csv, run.curve_csv())
-    errors = {"train_mse": train_mse, "validation_mse": validation_mse, "null_mse": null_mse}
     result = {"parameters": sum(weight.numel() for weight in run.weights.values()), **run.outcome()}
     result |= {"died_at_step": run.died_at_step, "validations": run.validations, **errors}
     result |= {"perceptual_factor": loss.factor if perceptual is not None else None}
+    result |= {"data": describe_data(train, validation)}
     write_json(training_json, {**header, **result, **describe_origin(), "threads": threads})
 
 
@@ -154,11 +172,10 @@ def _digest(files: Sequence[Path]) -> str:
 
 
 def _points(
-    run: ScreenRun, held_out: ScreenFrames, pool, after_step: Callable[[int], object]
+    run: ScreenRun, validate: Callable[[], None], pool, after_step: Callable[[int], object]
 ) -> Iterator[int]:
-    """Do the remaining steps, with validations on the way."""
+    """Do the remaining steps, with validations."""
     number, steps = int(run.step), run.settings["steps"]
-    compute = pool.map if run.device.type == "cpu" else map
 
     def advance() -> None:
         nonlocal number
@@ -167,10 +184,8 @@ def _points(
 
     before = number
     for step in curve_points(run, advance, after_step):
-        if VALIDATIONS * step // steps > VALIDATIONS * before // steps and step < steps:
-            mse = mse_by_radius(held_out, network_predictor(run, held_out), compute, EVERY)
-            # In alphabetical order, as a checkpoint restores them.
-            run.validations.append({"mse": mse, "step": step})
+        if VALIDATIONS * step // steps > VALIDATIONS * before // steps:
+            validate()
         before = step
         yield step
 

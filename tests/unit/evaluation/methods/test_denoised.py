@@ -9,7 +9,11 @@ from plate_frames import CENTRE, RADIUS, error, plate, plate_frame, plate_truth
 from neural_shadows.evaluation.method import visibility
 from neural_shadows.evaluation.method_parts.denoisers import BY_KEY
 from neural_shadows.evaluation.methods.denoised import METHODS
-from neural_shadows.frames.ray_tracing import ray_traced, ray_traced_penumbrae
+from neural_shadows.frames.ray_tracing import (
+    ray_traced,
+    ray_traced_penumbrae,
+    traced_images,
+)
 
 # At least how many times less the squared error of two rays is.
 FALLS = {"svgf": 6, "ffx": 12, "sigma": 12, "sigma_ffx": 12, "oidn_fast": 15, "oidn": 15}
@@ -71,6 +75,18 @@ def test_rays_with_distances_see_what_others_do(frame):
         assert np.array_equal(visible, ray_traced(frame, RADIUS, samples=samples))
         assert np.array_equal(penumbra < 0, visible == 1)
         assert np.all(penumbra[penumbra < 0] == -1)
+
+
+def test_images_for_networks(frame):
+    """Those of the filters, penumbrae in shares of the scene's size; a point has none."""
+    images = traced_images(frame, RADIUS, samples=2)
+    visible, penumbra = ray_traced_penumbrae(frame, RADIUS, samples=2)
+    size = frame.scene.size
+    for image, values in zip(images, (visible, np.where(penumbra < 0, -1, penumbra / size))):
+        assert np.allclose(image.ravel()[frame.surface.pixel], values)
+    point, none = traced_images(frame, 0, samples=2)
+    hard = ray_traced(frame, 0, samples=1)
+    assert np.array_equal(point.ravel()[frame.surface.pixel], hard) and np.all(none == -1)
 
 
 def test_penumbrae_are_as_wide_as_similar_triangles_say(frame):

@@ -9,6 +9,7 @@ import torch
 from built_networks import make_screen_network
 from opened import evaluate_frames, frame_method
 from rendered_frames import render_part
+from scipy.ndimage import maximum_filter, minimum_filter
 
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation import screen_network_method
@@ -23,6 +24,8 @@ from neural_shadows.evaluation.registry import is_network, is_tuned
 from neural_shadows.evaluation.time_methods import time_methods
 from neural_shadows.frames.buffers import LIT
 from neural_shadows.frames.feature_names import NSM_FEATURES
+from neural_shadows.frames.ray_tracing import traced_images
+from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.networks import compute
 from neural_shadows.networks.screen_space.screen_networks import save_screen_network
 from neural_shadows.training.screen_batches import ScreenFrames
@@ -64,6 +67,24 @@ def test_it_answers_by_buffers_what_it_answers_by_the_map(folder):
     timed = frame.frame.surface.image(method.answer(frame.frame, 0.25), 1.0)
     assert np.median(np.abs(timed - asked[2])[frame.valid]) < 2e-3
     assert asked[0].min() >= 0 and asked[0].max() <= 1
+
+
+def test_it_filters_the_rays_of_a_frame(folder):
+    """Of their own number, with neither map nor stored buffers: within what a kernel reaches."""
+    settings = {"form": "kernels", "widths": [8, 8], "filters": 1, "edge": 0.1}
+    settings |= {"features": ["cosine", "ray_penumbra", "log_d", "base_rays"]}
+    network = make_screen_network(settings)
+    network.initialise(1)
+    header = {"network": settings, "training": {}, "radii": RADII, "radius_unit": "metres"}
+    save_screen_network(folder / "rays.safetensors", network, header | {"rays": 2})
+    method = frame_method("rays", folder / "rays.safetensors")
+    measured = next(measured_frames([folder / "blinds/test_000.json"], []))
+    with mock.patch.object(SoftFrame, "depths", property(lambda frame: pytest.fail("a map"))):
+        visible = measured.answered(method, 0.25, {})
+    rays, _ = traced_images(measured.frame, 0.25, samples=2)
+    assert np.all(visible <= maximum_filter(rays, 5) + 1e-5)
+    assert np.all(visible >= minimum_filter(rays, 5) - 1e-5)
+    assert 0.001 < np.abs(visible - rays)[measured.valid].mean() < 0.5
 
 
 def test_one_network_by_scene_answers_no_scene_that_it_has_not_learned(folder):

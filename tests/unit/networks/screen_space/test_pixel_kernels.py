@@ -55,6 +55,30 @@ def test_bfloat16_is_read_to_its_last_digit(factor):
     assert torch.allclose(of_logits.double(), theirs[1], rtol=2**-8, atol=1e-6)
 
 
+@pytest.mark.parametrize("work", [filtered, by_shifts])
+@pytest.mark.parametrize("factor", [1, 2])
+def test_no_tap_across_a_step_of_the_guide(work, factor):
+    """Both sides of a step are filtered as frames of their own; values and gradients."""
+    logits, base, gradient = drawn((24, 40), factor)
+    guide = torch.zeros_like(base.detach())
+    guide[..., 20:] = 1.0
+    output = work(logits, base, factor, guide, 0.5)
+    changes = torch.autograd.grad(output, [logits, base], gradient)
+    # Enlarged first: bilinear interpolation of logits does cross the step.
+    full = logits.detach().contiguous()
+    if factor > 1:
+        full = functional.interpolate(full, scale_factor=2, mode="bilinear")
+    for side in (slice(0, 20), slice(20, 40)):
+        own = base.detach()[..., side].contiguous().requires_grad_()
+        alone = work(full[..., side].contiguous(), own)
+        assert torch.allclose(output[..., side], alone, rtol=0, atol=3e-6)
+        (of_base,) = torch.autograd.grad(alone, [own], gradient[..., side].contiguous())
+        assert torch.allclose(changes[1][..., side], of_base, rtol=0, atol=3e-6)
+    unlimited = work(logits, base, factor)
+    assert not torch.allclose(output, unlimited, atol=1e-3)
+    assert torch.equal(work(logits, base, factor, guide, 2.0), unlimited)
+
+
 def test_gradients_are_differences_of_values():
     """Along the gradient of either input, where the value changes most."""
     logits, base, gradient = drawn((13, 20), spread=1.0)

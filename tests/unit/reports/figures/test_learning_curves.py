@@ -3,6 +3,7 @@ import pandas as pd
 import pytest
 from report_samples import row, written_figure
 
+from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
 from neural_shadows.reports.figures.learning_curves import curves_figure, draw
 from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, MEASURED
@@ -36,7 +37,8 @@ def table():
 
 
 def test_trainings_law_prediction_and_null(table):
-    figure = curves_figure(table, ["A", "B"], title="Curves")
+    looks = {"A": (COLOURS[0], "o"), "B": (COLOURS[1], "o")}
+    figure = curves_figure(table, looks, title="Curves")
     loss, ssim = figure.axes[:2]
     points = next(line for line in loss.lines if line.get_marker() == "o").get_xydata()
     assert points[0].tolist() == pytest.approx([BUDGETS[0], 0.99 * 0.4])
@@ -57,6 +59,28 @@ def test_trainings_law_prediction_and_null(table):
     names = [text.get_text() for text in figure.legends[0].get_texts()]
     assert names[:2] == ["A", "B"] and "as the thesis prints it" in names
     assert "extrapolated, 90 %" not in names
+
+
+def test_curves_over_frames(tmp_path):
+    """A colour a network, a marker a number of steps; and what its base gives."""
+    falling = 0.004 * (BUDGETS / BUDGETS[0]) ** -0.3
+    names = [f"A, {steps} steps" for steps in (600, 2400)]
+    table = pd.concat(
+        [
+            lines_of(name, "mse", falling / k, null=0.1).assign(base=0.008, scene="layouts")
+            for k, name in enumerate(names, 1)
+        ]
+    )
+    rows = [
+        {"label": name, "experiment": "a", "steps": steps, "scene": "layouts"}
+        for name, steps in zip(names, (600, 2400))
+    ]
+    table.to_csv(tmp_path / "table.csv", index=False)
+    (axes,) = draw(tmp_path / "table.csv", rows, "Curves").axes
+    markers = {line.get_marker() for line in axes.lines if line.get_alpha()}
+    assert markers == {"o", "^"} and axes.get_xlabel() == "training frames"
+    levels = {line.get_linestyle(): line.get_ydata()[0] for line in axes.lines}
+    assert levels[":"] == 80 and axes.get_title().endswith("(no shadow: 1,000)")  # × 10⁻⁴
 
 
 def test_a_scene_of_a_table_is_drawn(table, tmp_path):

@@ -25,6 +25,7 @@ TRAINING = {
     **{"optimiser": "adam", "perturbation": 3.0, "perturbation_from": 0.5},
 }
 VALIDATIONS = [{"step": step, "mse": [0.9 / step, 1.1 / step]} for step in (1, 4, 7)]
+VALIDATIONS.append({"step": 10, "mse": [0.01, 0.03]})
 RECORD = {
     **{"training": TRAINING, "perceptual": "squeeze", "died_at_step": None},
     **{"validations": VALIDATIONS, "validation_mse": [0.01, 0.03]},
@@ -254,7 +255,7 @@ def test_maps_of_flicker_are_drawn(tmp_path):
 
 
 def test_what_learns_nothing_is_in_the_csv_alone(made):
-    """On training frames as on those of validation: it has learned neither."""
+    """On training frames and on those of validation, as measured there."""
     rows = {
         method: [
             *(frames(value, "mse", (1, 1), scene="room")),
@@ -268,9 +269,14 @@ def test_what_learns_nothing_is_in_the_csv_alone(made):
     }
     learned = {"scenes": ["room"], "radii": [0, 0.25], "train_mse": [0.01] * 2}
     learned |= {"validation_mse": [0.02] * 2, "null_mse": {"hard_map": [0.05, 0.07]}}
+    learned |= {"train_null_mse": {"hard_map": [0.01, 0.03]}}
     table, text = made(screen_errors, rows, learned, labels={"five": "Five"})
     cells = table.set_index(["experiment", "frames", "light"])["mse"]
-    assert cells["hard", "training", "all"] == cells["hard", "validation", "all"] == 0.06
+    assert cells["hard", "training", "all"] == 0.02 and cells["hard", "validation", "all"] == 0.06
+    # Twice the error of training is no overfitting of frames that are three times as hard.
+    to_map = table.set_index(["experiment", "frames", "light"])["ratio_to_map"]
+    assert to_map["five", "training", "all"] == 0.5 and to_map["five", "room", "all"] == 0.5
+    assert to_map["five", "validation", "all"] == pytest.approx(1 / 3) and "× map" in text
     assert cells["no_shadow", "room", "1"] == 0.1 and cells["five", "room", "all"] == 0.02
     assert table.set_index("experiment").loc["five", "null"].isna().all()
     assert set(table["null"].dropna()) == {"hard", "no_shadow"}

@@ -60,6 +60,7 @@ def written(tmp_path):
         soft_times=times,
         widths_json=None,
         soft_constants=[constants],
+        screen_trainings=[],
         lpips_json=lpips,
         labels=LABELS,
         left_out=["1 ray, OIDN"],

@@ -8,6 +8,7 @@ from neural_shadows.evaluation.registry import (
     RAY_TRACED,
     in_format,
 )
+from neural_shadows.frames.feature_names import TRACED, buffers_of
 from neural_shadows.networks.screen_space.screen_forms import layers_of
 from neural_shadows.sections.experiments import RayExperiment, ScreenExperiment
 from neural_shadows.sections.frame_sets import RenderedFrames
@@ -84,7 +85,7 @@ def _check_on_rays(config: Sections, key: str, name: str) -> None:
 def _check_on_frames(config: Sections, key: str, name: str) -> None:
     """Check training frames, crops and lights."""
     experiment, training = config.experiments[name], config.training_of(name)
-    _check_frames(config, key, experiment, training)
+    _check_frames(config, key, name, experiment, training)
     network = config.network_of(name)
     least = 2 ** max(layer.level for layer in layers_of(network))
     if training.crop < least:
@@ -100,7 +101,7 @@ def _check_on_frames(config: Sections, key: str, name: str) -> None:
 
 
 def _check_frames(
-    config: Sections, key: str, experiment: ScreenExperiment, training: ScreenTraining
+    config: Sections, key: str, name: str, experiment: ScreenExperiment, training: ScreenTraining
 ) -> None:
     frames, where = config.frame_sets[experiment.frame_set], f"frame_sets.{experiment.frame_set}"
     own = isinstance(frames, OwnFrames)
@@ -119,14 +120,26 @@ def _check_frames(
             f"{key}.lights = {experiment.lights}: {where} has {len(radii)} radii, counted from 0"
         )
     if not own:  # the stage checks a user's files
-        _check_rendered(key, where, frames, training)
+        traced = {*TRACED} & {*buffers_of(config.network_of(name).features)}
+        _check_rendered(key, where, frames, training, bool(traced))
 
 
-def _check_rendered(key: str, where: str, frames: RenderedFrames, training: ScreenTraining) -> None:
+def _check_rendered(
+    key: str, where: str, frames: RenderedFrames, training: ScreenTraining, traced: bool
+) -> None:
     if frames.train == 0:
         raise ValueError(f"{key}.frame_set: {where} has train = 0. Set it to 1 or more")
     if training.perturbation > 0 and frames.twins.count == 0:
         raise ValueError(
             f"{key}.training: perturbation = {training.perturbation:g} needs perturbed frames. Set "
             f"`twins: {{count: 3}}` in {where}, or perturbation: 0"
+        )
+    if traced and frames.rays == 0:
+        raise ValueError(
+            f"{key}.network: filters rays, and {where} has rays = 0. Set it to 1 or more"
+        )
+    if traced and training.perturbation > 0:
+        raise ValueError(
+            f"{key}.training: perturbation = {training.perturbation:g}: perturbed frames have no rays, "
+            "which the network filters. Set perturbation: 0"
         )

@@ -40,6 +40,7 @@ DENOISERS = {
     "ffx": Denoiser(
         "FFX-like",
         _look("FFX-like filter", SKY, ">", "►", "smoothed within surfaces by the fewest taps."),
+        (1, 2, 3, 4, 6, 8),
         tried={"sigma": (*_SIGMA, 16.0)},
     ),
     "sigma": Denoiser(

@@ -79,13 +79,13 @@ class _Planes(torch.autograd.Function):
 class PixelKernels(nn.Module):
     """The filter as a module; see `filtered`."""
 
-    def __init__(self, factor: int):
+    def __init__(self, factor: int, limit: float):
         super().__init__()
-        self.factor = factor
+        self.factor, self.limit = factor, limit
 
-    def forward(self, logits: Tensor, base: Tensor) -> Tensor:
+    def forward(self, logits: Tensor, base: Tensor, guide: Tensor | None = None) -> Tensor:
         """See `filtered`."""
-        return filtered(logits, base, self.factor)
+        return filtered(logits, base, self.factor, guide, self.limit)
 
 
 def normed(layers: Sequence[Convolution], part: str) -> nn.Sequential:

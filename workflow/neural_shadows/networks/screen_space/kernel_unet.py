@@ -3,13 +3,14 @@
 From a frame's planes to kernels, or to visibility.
 """
 
+import math
 from collections.abc import Sequence
 from copy import deepcopy
 
 import torch
 from torch import Tensor, nn
 
-from neural_shadows.frames.feature_names import FEATURES, base_of
+from neural_shadows.frames.feature_names import FEATURES, GUIDE, base_of
 from neural_shadows.networks.screen_space import row_bands
 from neural_shadows.networks.screen_space.chunk_norm import ChunkNorm
 from neural_shadows.networks.screen_space.kernel_parts import (
@@ -42,6 +43,7 @@ class KernelUnet(ScreenNetwork):
         seed: of the first weights.
         ends: of the kernels, `half` (2 × 2 pixels as channels, and a bilinear enlargement) or
             `full`.
+        edge: largest difference of the feature `log_d` within a kernel; None for any.
 
     Its norms use running statistics, except in training, inside `chunk_statistics`.
 
@@ -57,6 +59,7 @@ class KernelUnet(ScreenNetwork):
         filters: int = 4,
         seed: int = 0,
         ends: str = "half",
+        edge: float | None = None,
     ):
         super().__init__()
         self.form, self.features, self.filters = form, tuple(features), filters
@@ -65,6 +68,8 @@ class KernelUnet(ScreenNetwork):
         if form == "kernels":
             base = self.features.index(base_of(self.features))
             self._base = sum(channels[:base])  # index of its plane
+            guide = base if edge is None else self.features.index(GUIDE)
+            self._guide = sum(channels[:guide])
         self._first = FIRST_LEVELS[ends]
         last_level = self._first + len(widths) - 1
         self.multiple = 2**last_level
@@ -76,7 +81,7 @@ class KernelUnet(ScreenNetwork):
         last = [layer for layer in layers if layer.part == "head"]
         if form == "kernels":
             self.head = PlanesOfLogits(last[0].inputs, last[0].outputs, 1)
-            self.exit = PixelKernels(2**self._first)
+            self.exit = PixelKernels(2**self._first, math.inf if edge is None else edge)
         else:
             before, output = (
                 nn.Conv2d(x.inputs, x.outputs, x.size, padding=x.size // 2) for x in last
@@ -105,8 +110,12 @@ class KernelUnet(ScreenNetwork):
         height, width = x.shape[-2:]
         inner = self.inner(x)
         if self.form == "kernels":
-            return self.exit(self.head(inner), x[:, self._base : self._base + 1].float())
+            return self.exit(self.head(inner), *self._filtered_by(x))
         return self.head(self.exit(inner))[..., :height, :width].float()
+
+    def _filtered_by(self, x: Tensor) -> tuple[Tensor, Tensor]:
+        """Base and guide among planes (B, C, H, W)."""
+        return tuple(x[:, plane : plane + 1].float() for plane in (self._base, self._guide))
 
     def loss_input(self, x: Tensor) -> Tensor:
         """Visibility, for a training's loss."""
@@ -130,9 +139,9 @@ class KernelUnet(ScreenNetwork):
         rows = row_bands.through(self.entrance, rows)
         rows = row_bands.unet(self.levels, self.deepest, rows)
         if self.form == "kernels":
-            base = x[:, self._base : self._base + 1]
-            inner = row_bands.computed(rows)
-            return row_bands.filtered(self.head, inner, base, self.exit.factor)
+            base, guide = self._filtered_by(x)
+            inner, exit_ = row_bands.computed(rows), self.exit
+            return row_bands.filtered(self.head, inner, base, exit_.factor, guide, exit_.limit)
         rows = row_bands.through(self.head, row_bands.through(self.exit, rows))
         return row_bands.computed(rows)[..., :height, :width].float()
 

@@ -34,6 +34,13 @@ def _exp(x):
 
 
 @njit(cache=True, nogil=True, inline="always")
+def _fill(row, value):
+    """Fill a row: as an assignment to a slice it takes 3 s more to compile."""
+    for i in range(len(row)):
+        row[i] = value
+
+
+@njit(cache=True, nogil=True, inline="always")
 def _block_row():
     """A block's row; rows of a 2-D array are strided to numba, and slow."""
     return np.empty(BLOCK, np.float32)
@@ -127,9 +134,20 @@ def _add(planes, factor, y, left, right, half, to_logits):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})
+def _gate(planes, guide, limit, y, left, right, step, height, width):
+    """Make taps negligible whose guide differs from the pixel's by more than a limit."""
+    for tap in range(TAPS):
+        v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
+        logits, own = planes[tap, first:last], guide[y, left + first : left + last]
+        others = guide[v, left + offset + first : left + offset + last]
+        for i in range(last - first):
+            logits[i] = logits[i] if abs(others[i] - own[i]) <= limit else _LEAST
+
+
+@njit(cache=True, nogil=True, fastmath={"contract"})
 def _find_top(planes, y, left, right, step, height, width, top):
     """Largest logits of taps inside the frame."""
-    top[:] = _LEAST
+    _fill(top, _LEAST)
     for tap in range(TAPS):
         _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
         logits, maxima = planes[tap, first:last], top[first:last]
@@ -141,12 +159,12 @@ def _find_top(planes, y, left, right, step, height, width, top):
 def _exponentiate(planes, y, left, right, step, height, width, top, total):
     """Replace logits by exponentials, 0 outside the frame; sum into `total`."""
     _find_top(planes, y, left, right, step, height, width, top)
-    total[:] = 0
+    _fill(total, np.float32(0))
     for tap in range(TAPS):
         _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
         plane = planes[tap]
-        plane[:first] = 0
-        plane[last:] = 0
+        _fill(plane[:first], np.float32(0))
+        _fill(plane[last:], np.float32(0))
         logits, maxima, sums = plane[first:last], top[first:last], total[first:last]
         for i in range(last - first):
             weight = _exp(logits[i] - maxima[i])
@@ -155,7 +173,7 @@ def _exponentiate(planes, y, left, right, step, height, width, top, total):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def filter_rows(bits, factor, step, source, begin, end, result, first_row=0):
+def filter_rows(bits, factor, step, source, guide, limit, begin, end, result, first_row=0):
     """Fill rows begin … end of a level's result (H, W).
 
     Args:
@@ -164,6 +182,7 @@ def filter_rows(bits, factor, step, source, begin, end, result, first_row=0):
         factor: 1, or 2 where logits are of half the resolution and are enlarged bilinearly.
         step: pixels from tap to tap.
         source: (H, W) float32, with H ≤ factor · h and W ≤ factor · w.
+        guide: likewise, and the limit to its differences within a kernel; ∞ for none.
     """
     height, width = source.shape
     planes, half = np.empty((TAPS, BLOCK), np.float32), np.empty(BLOCK // 2 + 3, np.float32)
@@ -172,9 +191,11 @@ def filter_rows(bits, factor, step, source, begin, end, result, first_row=0):
         for left in range(0, width, BLOCK):
             right = min(left + BLOCK, width)
             _load(bits, factor, y - first_row, left, right, half, planes)
+            if limit < np.inf:
+                _gate(planes, guide, limit, y, left, right, step, height, width)
             _find_top(planes, y, left, right, step, height, width, top)
-            total[:] = 0
-            sums[:] = 0
+            _fill(total, np.float32(0))
+            _fill(sums, np.float32(0))
             for tap in range(TAPS):
                 v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
                 logits, maxima = planes[tap, first:last], top[first:last]
@@ -190,11 +211,11 @@ def filter_rows(bits, factor, step, source, begin, end, result, first_row=0):
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def add_gradients(bits, factor, step, source, result, gradient, to_source, to_logits):
+def add_gradients(bits, factor, step, source, guide, limit, result, gradient, to_source, to_logits):
     """Add a level's gradients to source and logits.
 
     Args:
-        bits, factor, step, source: as for `filter_rows`. result: its output.
+        bits, factor, step, source, guide, limit: as for `filter_rows`. result: its output.
         gradient, to_source: (H, W) float32. to_logits: (25, h, w) float32.
     """
     height, width = source.shape
@@ -204,6 +225,8 @@ def add_gradients(bits, factor, step, source, result, gradient, to_source, to_lo
         for left in range(0, width, BLOCK):
             right = min(left + BLOCK, width)
             _load(bits, factor, y, left, right, half, planes)
+            if limit < np.inf:
+                _gate(planes, guide, limit, y, left, right, step, height, width)
             _exponentiate(planes, y, left, right, step, height, width, top, total)
             to_result, mean = gradient[y, left:right], result[y, left:right]
             for i in range(right - left):

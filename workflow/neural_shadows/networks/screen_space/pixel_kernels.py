@@ -1,5 +1,6 @@
 """Per-pixel kernel filter of Kernel Predicting Neural Shadow Maps."""
 
+import math
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 
@@ -18,7 +19,13 @@ from neural_shadows.networks.screen_space.pixel_kernel_loops import (
 _BITS = {torch.float32: torch.int32, torch.bfloat16: torch.int16}
 
 
-def filtered(logits: Tensor, base: Tensor, factor: int = 1) -> Tensor:
+def filtered(
+    logits: Tensor,
+    base: Tensor,
+    factor: int = 1,
+    guide: Tensor | None = None,
+    limit: float = math.inf,
+) -> Tensor:
     """Filter a picture by each pixel's kernels (Hu et al. 2025, 3).
 
     (B, 1, H, W) float32. Kernels of 5 × 5 taps, 2^l pixels apart at level l, applied from level 0
@@ -30,6 +37,8 @@ def filtered(logits: Tensor, base: Tensor, factor: int = 1) -> Tensor:
         logits: (B, levels · 25, h, w), a level's taps row by row; copied unless contiguous.
         base: (B, 1, H, W) float32. H ≤ factor · h and W ≤ factor · w: the rest is ignored.
         factor: 1, or 2 where logits are of half the resolution: they are enlarged bilinearly.
+        guide: as the base, without gradients. limit: taps that differ more from their kernel's pixel
+            in the guide have no weight, so that no shadow goes across a silhouette.
 
     Raises:
         ValueError: logits that do not cover the base, or not of whole levels.
@@ -41,30 +50,32 @@ def filtered(logits: Tensor, base: Tensor, factor: int = 1) -> Tensor:
             f"{tuple(base.shape)}"
         )
     if base.device.type != "cpu":
-        return by_shifts(logits, base, factor)
+        return by_shifts(logits, base, factor, guide, limit)
     if logits.dtype not in _BITS:
         logits = logits.float()
-    return _Filter.apply(logits, base.float(), factor)
+    guide = base if guide is None else guide
+    return _Filter.apply(logits, base.float(), factor, guide.float(), limit)
 
 
 class _Filter(torch.autograd.Function):
     """The filter on a CPU; the backward pass recomputes weights."""
 
     @staticmethod
-    def forward(ctx, logits: Tensor, base: Tensor, factor: int) -> Tensor:
+    def forward(ctx, logits: Tensor, base: Tensor, factor: int, guide: Tensor, limit: float):
         """See `filtered`."""
         logits = logits.detach().contiguous()
-        pictures = [np.ascontiguousarray(base.detach()[:, 0].numpy())]
+        base, guide = (np.ascontiguousarray(x.detach()[:, 0].numpy()) for x in (base, guide))
+        pictures, gate = [base], (guide, np.float32(limit))
         for level, bits in enumerate(_levels(logits)):
-            result = np.empty_like(pictures[-1])
-            _in_bands(bits, factor, 2**level, pictures[-1], result)
+            result = np.empty_like(base)
+            _in_bands(bits, factor, 2**level, pictures[-1], gate, result)
             pictures.append(result)
         ctx.save_for_backward(logits)
-        ctx.pictures, ctx.factor = pictures, factor
+        ctx.pictures, ctx.factor, ctx.gate = pictures, factor, gate
         return torch.from_numpy(pictures[-1])[:, None]
 
     @staticmethod
-    def backward(ctx, gradient: Tensor) -> tuple[Tensor, Tensor, None]:
+    def backward(ctx, gradient: Tensor) -> tuple[Tensor, Tensor, None, None, None]:
         """Gradients: of the logits, in their format, and of the base."""
         (logits,) = ctx.saved_tensors
         # numpy's zeros are not written before additions.
@@ -74,11 +85,15 @@ class _Filter(torch.autograd.Function):
         for level, (bits, to_level) in reversed(levels):
             to_source = np.zeros_like(to_result)
             source, result = ctx.pictures[level : level + 2]
+            guide, limit = ctx.gate
             for image, to_kernels in enumerate(to_level.numpy()):
-                arrays = (array[image] for array in (source, result, to_result, to_source))
-                add_gradients(bits[image], ctx.factor, 2**level, *arrays, to_kernels)
+                arrays = (array[image] for array in (result, to_result, to_source))
+                gate = guide[image], limit
+                level_of = bits[image], ctx.factor, 2**level, source[image]
+                add_gradients(*level_of, *gate, *arrays, to_kernels)
             to_result = to_source
-        return to_logits.to(logits.dtype), torch.from_numpy(to_result)[:, None], None
+        to_base = torch.from_numpy(to_result)[:, None]
+        return to_logits.to(logits.dtype), to_base, None, None, None
 
 
 def _levels(logits: Tensor) -> Iterator[np.ndarray]:
@@ -94,13 +109,19 @@ def bits_of(logits: Tensor) -> np.ndarray:
 
 
 def _in_bands(
-    bits: np.ndarray, factor: int, step: int, source: np.ndarray, result: np.ndarray
+    bits: np.ndarray,
+    factor: int,
+    step: int,
+    source: np.ndarray,
+    gate: tuple[np.ndarray, np.float32],
+    result: np.ndarray,
 ) -> None:
     """Filter a level of pictures in bands, by torch's threads."""
     height, threads = source.shape[1], torch.get_num_threads()
+    guide, limit = gate
     ends = [height * number // threads for number in range(threads + 1)]
     bands = [
-        (bits[image], factor, step, source[image], *rows, result[image])
+        (bits[image], factor, step, source[image], guide[image], limit, *rows, result[image])
         for image in range(len(source))
         for rows in zip(ends, ends[1:])
     ]
@@ -112,7 +133,13 @@ def _in_bands(
         list(pool.map(lambda band: filter_rows(*band), bands))
 
 
-def by_shifts(logits: Tensor, base: Tensor, factor: int = 1) -> Tensor:
+def by_shifts(
+    logits: Tensor,
+    base: Tensor,
+    factor: int = 1,
+    guide: Tensor | None = None,
+    limit: float = math.inf,
+) -> Tensor:
     """`filtered` by torch operations, for a GPU: no copies by tap."""
     if factor > 1:
         logits = functional.interpolate(logits, scale_factor=factor, mode="bilinear")
@@ -125,8 +152,11 @@ def by_shifts(logits: Tensor, base: Tensor, factor: int = 1) -> Tensor:
         def shifted(padded: Tensor, offsets=offsets) -> list[Tensor]:
             return [padded[..., y : y + height, x : x + width] for y, x in offsets]
 
-        inside = shifted(functional.pad(torch.ones_like(base[:1]), [border] * 4))
-        weights = level_logits.to(base.dtype).masked_fill(torch.cat(inside, dim=1) == 0, -torch.inf)
+        inside = torch.cat(shifted(functional.pad(torch.ones_like(base), [border] * 4)), dim=1) == 1
+        if limit < math.inf:
+            others = torch.cat(shifted(functional.pad(guide, [border] * 4)), dim=1)
+            inside = inside & ((others - guide).abs() <= limit)
+        weights = level_logits.to(base.dtype).masked_fill(~inside, -torch.inf)
         values = shifted(functional.pad(picture, [border] * 4))
         parts = zip(weights.softmax(dim=1).split(1, dim=1), values)
         picture = sum(weight * value for weight, value in parts)

@@ -197,24 +197,33 @@ def _for_bands(fill: Callable[[int, int], None], height: int) -> None:
         list(pool.map(fill_span, spans))
 
 
-def filtered(head: nn.Conv2d, inner: Tensor, base: Tensor, factor: int) -> Tensor:
+def filtered(
+    head: nn.Conv2d, inner: Tensor, base: Tensor, factor: int, guide: Tensor, limit: float
+) -> Tensor:
     """`pixel_kernels.filtered` by the output of a head, never stored whole.
 
     Args:
-        head: of 1 × 1 pixels. inner: its input (B, C, h, w). base, factor: as there.
+        head: of 1 × 1 pixels. inner: its input (B, C, h, w). base, factor, guide, limit: as there.
     """
     weights, biases = head.weight.flatten(1).split(TAPS), head.bias[:, None].split(TAPS)
     results = []
-    for image, picture in zip(inner, base[:, 0].float().numpy()):
-        picture = np.ascontiguousarray(picture)
+    for image, *planes in zip(inner, base[:, 0].float().numpy(), guide[:, 0].float().numpy()):
+        picture, of_picture = map(np.ascontiguousarray, planes)
+        gate = of_picture, np.float32(limit)
         for level, of_level in enumerate(zip(weights, biases)):
-            picture = _filtered_level(*of_level, image, picture, 2**level, factor)
+            picture = _filtered_level(*of_level, image, picture, gate, 2**level, factor)
         results.append(torch.from_numpy(picture))
     return torch.stack(results)[:, None]
 
 
 def _filtered_level(
-    weight: Tensor, bias: Tensor, inner: Tensor, source: np.ndarray, step: int, factor: int
+    weight: Tensor,
+    bias: Tensor,
+    inner: Tensor,
+    source: np.ndarray,
+    gate: tuple[np.ndarray, np.float32],
+    step: int,
+    factor: int,
 ) -> np.ndarray:
     result = np.empty_like(source)
 
@@ -222,7 +231,8 @@ def _filtered_level(
         low, high = max(begin // factor - 1, 0), -(-end // factor) + 1
         rows = inner[:, low:high]
         logits = torch.addmm(bias, weight, rows.flatten(1)).view(TAPS, *rows.shape[1:])
-        filter_rows(bits_of(logits), factor, step, source, begin, end, result, factor * low)
+        rows = begin, end, result, factor * low
+        filter_rows(bits_of(logits), factor, step, source, *gate, *rows)
 
     _for_bands(fill, len(source))
     return result

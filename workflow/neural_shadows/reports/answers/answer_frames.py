@@ -11,21 +11,25 @@ from neural_shadows.errors import InputError
 from neural_shadows.evaluation.frame import Inputs, constants_of
 from neural_shadows.evaluation.frame_metrics import image_errors
 from neural_shadows.evaluation.measured_frames import MeasuredFrame, measured_frames, open_methods
+from neural_shadows.evaluation.registry import is_network
 from neural_shadows.files.frame_images import write_images
 from neural_shadows.files.whole_files import whole_file
 from neural_shadows.frames.buffers import LIT
+from neural_shadows.frames.feature_names import buffers_of
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.frames.kernel_features import PENUMBRA_PIXELS, blocker, penumbra_pixels
 from neural_shadows.frames.light_size import shown_radii
 from neural_shadows.metrics.registry import image_metrics
 from neural_shadows.reports.data.lights import light_names
 from neural_shadows.reports.figures.soft_pictures import answers_alone, strips
-from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.progress import progress_bar, warn
 from neural_shadows.running.stage import run_stage
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 CROP = 256  # pixels along both sides of a crop
+WIDE_SHARE = 0.01  # of a frame's pixels, below which nothing is said
 COUNTS = ["frame_width", "frame_height", "pixels"]
 
 
@@ -59,6 +63,7 @@ def answer_frames(
         InputError: an input file cannot be read, or the method cannot evaluate a frame.
     """
     method_of = open_methods(method, Inputs(parts, meshes, weights, by_scene=by_scene))
+    wide = np.zeros(len(FrameSetPart(parts[0]).radii))
     constants = constants_of(constants_json, len(FrameSetPart(parts[0]).radii))
     rows: list[Mapping[str, Any]] = []
     total = sum(len(FrameSetPart(path)) for path in parts)
@@ -76,8 +81,33 @@ def answer_frames(
             write_images(stem.with_name(f"{stem.name}.{form}"), images)
             _draw(measured, visibility, label, stem)
             rows += _rows(measured, visibility)
+            if is_network(method):
+                wide = np.maximum(wide, _wide_penumbrae(measured))
             bar.update()
     _write_rows(errors_csv, rows)
+    if (wide > WIDE_SHARE).any():
+        light = light_names(FrameSetPart(parts[0]).about)[int(wide.argmax())]
+        warn(
+            f"{method}: under a {light} penumbrae are wider than the {PENUMBRA_PIXELS:.0f} pixels "
+            f"that features tell apart in up to {100 * wide.max():.0f} % of a frame's pixels, and come "
+            "out too narrow. Render smaller frames, or take a smaller light"
+        )
+
+
+def _wide_penumbrae(measured: MeasuredFrame) -> np.ndarray:
+    """Share of pixels with penumbrae beyond the features' range, by radius.
+
+    0 for frames without the buffers.
+    """
+    part = measured.part
+    names = buffers_of(["penumbra"])
+    if not {*names} <= {*part.about["channels"]}:
+        return np.zeros(len(part.radii))
+    buffers = {name: measured.picture(name) for name in names}
+    places = [buffers["z"], blocker(buffers), *(buffers[name] for name in ("d", "c_e", "c_v"))]
+    focal = part.lens(measured.number).focal
+    widths = (penumbra_pixels(*places, part.light_size(radius), focal) for radius in part.radii)
+    return np.array([np.mean(image[measured.valid] > PENUMBRA_PIXELS) for image in widths])
 
 
 def _name(measured: MeasuredFrame) -> str:

@@ -93,13 +93,20 @@ def soft_values(metrics: pd.DataFrame) -> pd.DataFrame:
 
 
 def bases(config: Sections, networks: Sequence[str]) -> dict[str, str]:
-    """The base of each network with one."""
+    """The method that is the base of each network with one."""
     return {
-        name: feature
+        name: _method(config, name, feature)
         for name in networks
         for feature in config.network_of(name).features
         if feature in BASES
     }
+
+
+def _method(config: Sections, network: str, base: str) -> str:
+    if base != "base_rays":
+        return base
+    frame_set = config.screen_experiments[network].frame_set
+    return f"rt_{config.frame_sets[frame_set].rays}"
 
 
 def files(layout: Layout, claim: Claim) -> dict[str, list[str]]:

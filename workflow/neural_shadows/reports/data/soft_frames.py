@@ -148,7 +148,10 @@ def read_trainings(paths: Sequence[Path]) -> dict[str, TrainingRecord]:
 def describe_trainings(
     records: Mapping[str, TrainingRecord], labels: Mapping[str, str]
 ) -> list[str]:
-    """Describe trainings, equal ones together, and name diverged ones."""
+    """Describe trainings, equal ones together, and name diverged ones.
+
+    Those of shipped weights are told apart from the run's own.
+    """
     names_by_text: dict[str, list[str]] = {}
     diverged = [
         f"{labels.get(name, name)} at step {record['died_at_step']}"
@@ -158,14 +161,15 @@ def describe_trainings(
     for name, record in records.items():
         training = record["training"]
         begins = f" from {training['perturbation_from']:.0%} of them on"
+        begin = "Weights as shipped, of" if "shipped" in record else "Trained for"
         text = (
-            f"{training['steps']:,} steps of {training['crops']} crops of {training['crop']}², "
+            f"{begin} {training['steps']:,} steps of {training['crops']} crops of {training['crop']}², "
             f"{training['optimiser'].capitalize()} at {training['learning_rate']:g}, seed "
             f"{training['seed']}, perceptual term: {record['perceptual']}, perturbation's weight "
             f"{training['perturbation']:g}{begins if training['perturbation'] else ''}"
         )
         names_by_text.setdefault(text, []).append(labels.get(name, name))
-    notes = [f"Trained for {text}: {', '.join(names)}." for text, names in names_by_text.items()]
+    notes = [f"{text}: {', '.join(names)}." for text, names in names_by_text.items()]
     if diverged:
         notes.append(
             f"**Diverged**, with the same output for every pixel since: {', '.join(diverged)}. Such numbers "

@@ -94,17 +94,19 @@ def pictured(layout: Layout) -> list[tables.Row]:
     """Methods of default tables and claims, each once by scene."""
     rows = [
         *(row for claim in layout.settings["claims"].values() for row in claims.methods(claim)),
-        *(
-            r
-            for name in default_tables(layout)
-            for r in layout.settings["tables"][name].get("rows", ())
-        ),
+        *(r for name in default_tables(layout) for r in _rows_on_rays(layout, name)),
     ]
     # Of a method that is in several tables, the label of the last.
     # Ray tracing is the reference itself, and all dark shows nothing.
     unseen = (RAY_TRACED, "all_dark")
     shown = {(row["scene"], row["method"]): row for row in rows if row["method"] not in unseen}
     return list(shown.values())
+
+
+def _rows_on_rays(layout: Layout, table: str) -> list[tables.Row]:
+    """Rows of a table, without networks on frames of a learning curve."""
+    rows = layout.entry("tables", table).get("rows", ())
+    return [row for row in rows if "steps" not in row]
 
 
 def page_arguments(layout: Layout) -> dict[str, Any]:
@@ -127,8 +129,8 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
         "rows": pictured(layout),
         "kinds": {
             row["label"]: kind_of(row)
-            for table in layout.settings["tables"].values()
-            for row in table.get("rows", ())
+            for table in layout.settings["tables"]
+            for row in _rows_on_rays(layout, table)
         },
         "run": layout.run(),
         "scenes": layout.scenes(layout.mesh_scenes),

@@ -1,4 +1,7 @@
-"""Errors by training budget, and their extrapolation [4.2, 4.3]."""
+"""Errors by training budget, and their extrapolation [4.2, 4.3].
+
+Of networks on rays by samples, of screen-space networks by training frames.
+"""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -26,10 +29,14 @@ from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.quality import values_by_view
 from neural_shadows.reports.data.table import Column, Table, number_cells, run_table, with_ends
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
-from neural_shadows.sections.row_settings import RowSettings
+from neural_shadows.sections.any_report import Chapter
+from neural_shadows.sections.experiments import ScreenExperimentName
+from neural_shadows.sections.row_settings import Rows, RowSettings
 from neural_shadows.sections.rows import TableByScene
+from neural_shadows.sections.scenes import MeshName
 from neural_shadows.sections.sections import Sections
-from neural_shadows.settings.records import CurvePoint, Run, SceneInfo
+from neural_shadows.settings.base import check_among
+from neural_shadows.settings.records import CurvePoint, Run, SceneInfo, TrainingRecord
 from neural_shadows.training.loss_curve import read_loss
 
 PREDICTED = with_ends("predicted")
@@ -37,28 +44,60 @@ COLUMNS = [
     *("scene", "method", "metric", "kind", "samples", "mean", "spread", "by_seed", "exponent"),
     *(*PREDICTED, "step", "error", "unlicensed", "no_shadow", "thesis"),
 ]
+# Of screen-space networks also the error of their base, and both on training frames.
+FRAMES_COLUMNS = [*COLUMNS, "base", "train_mean", "train_base", "steps"]
+FURTHER = 4  # times the frames of the largest budget, for an extrapolation
 MEASURED, EXTRAPOLATED = "measured", "extrapolated"  # kinds of rows
 
 
 class Settings(TableByScene):
     """Errors at each budget of `learning_curves`."""
 
+    rows: dict[MeshName, Rows] = Field({}, description="methods on rays, by scene")
+    networks: list[ScreenExperimentName] = Field(
+        [], description="experiments on frames, instead of `rows`"
+    )
     kind: Literal["learning_curves"] = Field(description="`learning_curves`")
 
+    def chapter_of(self) -> Chapter:
+        return "soft" if self.networks else super().chapter_of()
+
     def experiments_allowed(self, config: Sections) -> list[str]:
-        return config.learning_curves.experiments
+        return [name for name in config.points if name in config.ray_experiments]
 
     def classic_allowed(self, row: RowSettings) -> list[str]:
         return []
 
     def check(self, config: Sections, key: str) -> None:
-        if config.learning_curves is None:
+        if not config.learning_curves:
             raise ValueError(f"{key}.kind: {self.kind!r} needs the section `learning_curves`")
+        if bool(self.rows) == bool(self.networks):
+            raise ValueError(f"{key}: needs `rows` or `networks`, and not both")
+        curves = [name for name in config.points if name in config.screen_experiments]
+        for name in self.networks:
+            check_among(f"{key}.networks", name, curves)
         super().check(config, key)
+
+    def resolved_rows(self, config: Sections) -> list[Row]:
+        """Resolved rows; of a network on frames one for each number of steps."""
+        return super().resolved_rows(config) + [
+            {
+                **{"method": name, "experiment": name, "trained": True, "steps": steps},
+                "label": f"{config.label_of(name)}, {steps:,} steps",
+                "scene": config.experiments[name].frame_set,
+            }
+            for name in self.networks
+            for steps in unique(point["steps"] for point in config.points[name])
+        ]
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
-    rows = layout.entry("tables", table)["rows"]
+    entry = layout.entry("tables", table)
+    rows = entry["rows"]
+    if entry["networks"]:
+        points = with_curves(layout, rows)[len(rows) :]
+        none = dict.fromkeys(("metrics", "losses", "meshes", "lpips_json"), [])
+        return none | {"trainings": networks(layout, points, "training.json")}
     rows = [*with_curves(layout, rows), *unshadowed(unique(row["scene"] for row in rows))]
     return {
         "metrics": metrics_of(layout, rows),
@@ -68,7 +107,9 @@ def files(layout: Layout, table: str) -> dict[str, Any]:
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:
-    return {"curves": curves_of(layout, layout.entry("tables", table)["rows"])}
+    entry = layout.entry("tables", table)
+    no_scenes = {"scenes": {}} if entry["networks"] else {}
+    return {"curves": curves_of(layout, entry["rows"])} | no_scenes
 
 
 def table(
@@ -76,7 +117,7 @@ def table(
     losses: list[Path],
     trainings: list[Path],
     meshes: list[Path],
-    lpips_json: Path,
+    lpips_json: Path | None,
     published_csv: Path,
     published: str | None,
     rows: Sequence[Row],
@@ -86,11 +127,16 @@ def table(
 ) -> Table:
     """Tabulate `curve_table`; its Markdown has a row for each method and metric.
 
+    Of networks on frames `frames_table`.
+
     Args:
         metrics: also of `no_shadow`, and of all points of the learning curves.
-        losses, trainings: of these points.
+        losses, trainings: of these points; of networks on frames `trainings` alone.
         curves: `experiment`, `seed` and `samples` of each point, by the rows' experiments.
     """
+    records = {name: read_json(path) for name, [path] in by_folder(trainings).items()}
+    if not metrics:
+        return _of_frames(frames_table(rows, curves, records, run["seed"]))
     lpips = read_json(lpips_json)
     values = {scene: read_view_metrics(paths) for scene, paths in by_folder(metrics).items()}
     data = Trained(
@@ -98,7 +144,7 @@ def table(
             name: values_by_view(part, part["method"].unique()) for name, part in values.items()
         },
         losses={name: read_loss(path) for name, [path] in by_folder(losses).items()},
-        trainings={name: read_json(path) for name, [path] in by_folder(trainings).items()},
+        trainings=records,
         meshes=read_meshes(meshes),
         curves=curves,
         seed=run["seed"],
@@ -165,7 +211,8 @@ def curve_table(
             errors_and_null[metric] = np.array(means), error_of(metric, null).mean()
         for metric, (errors, null) in errors_and_null.items():
             curve = Curve(samples, errors)
-            lines = _metric_lines(metric, curve, data.seed, data.diverged(row, budgets))
+            diverged = data.diverged(row, budgets)
+            lines = _metric_lines(metric, curve, THESIS_SAMPLES, data.seed, diverged)
             if data.meshes[row["scene"]]["thesis_mesh"]:
                 lines[-1]["thesis"] = printed.get((row["published"], metric), np.nan)
             key = method | {"metric": metric, "no_shadow": value_of(metric, null)}
@@ -173,10 +220,88 @@ def curve_table(
     return pd.DataFrame(records, columns=COLUMNS)
 
 
-def _metric_lines(metric: str, curve: Curve, seed: int, diverged: bool) -> list[dict[str, Any]]:
+def frames_table(
+    rows: Sequence[Row],
+    curves: Mapping[str, Sequence[CurvePoint]],
+    trainings: Mapping[str, TrainingRecord],
+    seed: int,
+) -> pd.DataFrame:
+    """Tabulate squared errors of screen-space networks by training frames.
+
+    Columns as of `curve_table`, `scene` the frame set, `samples` frames, on the fixed images of
+    validation, mean over the lights of the training; `EXTRAPOLATED` to `FURTHER` times the largest
+    budget. And `steps`, `base` (the error of the network's base there, of one without that of the
+    light map; `no_shadow` is on the same images), and both on training frames of each budget,
+    `train_mean` and `train_base`.
+    """
+    records = []
+    for row in rows:
+        points = [p for p in curves[row["experiment"]] if p["steps"] == row["steps"]]
+        runs = {
+            frames: [trainings[p["experiment"]] for p in points if p["samples"] == frames]
+            for frames in unique(p["samples"] for p in points)
+        }
+        errors = [
+            [_of_lights(run, run["validation_mse"]) for run in same] for same in runs.values()
+        ]
+        curve = Curve(np.array([*runs]), np.array(errors))
+        diverged = any(run["died_at_step"] is not None for same in runs.values() for run in same)
+        lines = _metric_lines("mse", curve, FURTHER * max(runs), seed, diverged)
+        for line, same in zip(lines, runs.values()):
+            line["train_mean"] = np.mean([_of_lights(run, run["train_mse"]) for run in same])
+            line["train_base"] = _null(same[0], "train_null_mse")
+        last = same[-1]
+        key = {
+            "scene": row["scene"],
+            "method": row["label"],
+            "metric": "mse",
+            "steps": row["steps"],
+        }
+        key["no_shadow"] = _of_lights(last, last["null_mse"]["no_shadow"])
+        records += [key | {"base": _null(last, "null_mse")} | line for line in lines]
+    return pd.DataFrame(records, columns=FRAMES_COLUMNS)
+
+
+def _of_lights(record: TrainingRecord, errors: Sequence[float | None]) -> float:
+    """Mean error over the lights of a training."""
+    lights = record["training"]["lights"] or range(len(errors))
+    return float(np.mean([errors[light] for light in lights], dtype=float))  # of None NaN
+
+
+def _null(record: TrainingRecord, key: str) -> float:
+    """Error of a network's base, of one without that of the light map; NaN without a map."""
+    *_, name = ["no_shadow", *record[key]]
+    return np.nan if name == "no_shadow" else _of_lights(record, record[key][name])
+
+
+def _of_frames(table: pd.DataFrame) -> Table:
+    steps = table.loc[table["kind"] == MEASURED, "step"].dropna()
+    notes = [
+        "Squared error on the images of validation, the same for all trainings, by training frames, the "
+        "first of each scene. Mean ± standard deviation over seeds. Each budget is trained from the "
+        "start, with a schedule of its own.",
+        "exponent: −d log error / d log frames, between the first two budgets and between the last two.",
+        "largest, as predicted: by the power law m∞ + a N^−b fitted to all budgets but the largest "
+        f"[90 % interval over seeds], {short(steps.min())} times the frames. missed by: relative error "
+        "of the prediction."
+        if len(steps)
+        else "Three seeds or more and three budgets or more give predictions.",
+        f"at {FURTHER} × the frames: extrapolated [90 %], if the largest budget is within its predicted "
+        "interval and within 10 % of the prediction; otherwise the cell has the reason.",
+        "base: of what the network filters, or of the light map as it is; no shadow: of 1 everywhere; on "
+        "the same images. on training frames: at the largest budget, with the base's there in brackets. "
+        "Where both ratios to the base agree nothing is overfitted.",
+    ]
+    return Table(table, _cells(table), notes, text_columns=2)
+
+
+def _metric_lines(
+    metric: str, curve: Curve, further: int, seed: int, diverged: bool
+) -> list[dict[str, Any]]:
     """Tabulate a curve of errors by budget, and its extrapolation.
 
-    `diverged`: one of its trainings did.
+    Args:
+        further: samples of the extrapolation. diverged: one of its trainings did.
     """
     lines = []
     for count, errors in zip(curve.samples, curve.values):
@@ -195,17 +320,13 @@ def _metric_lines(metric: str, curve: Curve, seed: int, diverged: bool) -> list[
     if power_law.can_hold_out(curve) and (held_out := power_law.hold_out(curve, seed)):
         lines[-1] |= _prediction(metric, held_out.predicted, held_out.low, held_out.high)
         lines[-1] |= {"step": held_out.step, "error": held_out.error}
-    allowed, reason = power_law.licensed([curve], THESIS_SAMPLES, seed, diverged)
-    step = THESIS_SAMPLES / curve.samples[-1]
-    extrapolated = {
-        "kind": EXTRAPOLATED,
-        "samples": THESIS_SAMPLES,
-        "step": step,
-        "unlicensed": reason,
-    }
-    lines.append(extrapolated)
+    allowed, reason = power_law.licensed([curve], further, seed, diverged)
+    step = further / curve.samples[-1]
+    lines.append(
+        {"kind": EXTRAPOLATED, "samples": further, "step": step, "unlicensed": reason},
+    )
     if allowed:
-        lines[-1] |= _prediction(metric, *power_law.extrapolate(curve, THESIS_SAMPLES, seed))
+        lines[-1] |= _prediction(metric, *power_law.extrapolate(curve, further, seed))
     return lines
 
 
@@ -230,10 +351,18 @@ def _describe_steps(table: pd.DataFrame) -> list[str]:
 def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
     """Format the cells by heading: a row for each method and metric."""
     budgets = sorted(table.loc[table["kind"] == MEASURED, "samples"].unique())
+    on_frames = "base" in table
+    if on_frames:
+        headings = [f"{frames:,} frames" for frames in budgets]
+        beyond = f"at {FURTHER} × the frames"
+    else:
+        headings = [f"{short(samples / 1e6)} M samples" for samples in budgets]
+        beyond = "at the thesis's samples"
     lines = []
     for (scene, method, metric), part in table.groupby(["scene", "method", "metric"], sort=False):
         described = metrics_by_key()[metric]
         form = f"{{:.{described.digits}f}}"
+        part = _scaled(part, described.factor)
         measured, extrapolated = by_kind(part)
         last = measured.iloc[-1]
         exponents = measured["exponent"].dropna()
@@ -244,20 +373,36 @@ def _cells(table: pd.DataFrame) -> dict[str, list[str]]:
         error = "" if np.isnan(last["error"]) else f"{100 * last['error']:+.1f} %"
         lines.append(
             {"scene": scene, "method": method, "metric": described.heading}
-            | {f"{short(n / 1e6)} M samples": a + b for n, a, b in zip(budgets, means, spreads)}
+            | {heading: a + b for heading, a, b in zip(headings, means, spreads)}
             | {
                 "exponent": " → ".join(f"{exponent:.2f}" for exponent in ends),
                 "largest, as predicted": _interval(last, form),
                 "missed by": error,
-                "at the thesis's samples": extrapolated["unlicensed"]
-                or _interval(extrapolated, form),
-                "thesis": ""
-                if np.isnan(extrapolated["thesis"])
-                else form.format(extrapolated["thesis"]),
-                "no shadow": form.format(part["no_shadow"].iloc[0]),
+                beyond: extrapolated["unlicensed"] or _interval(extrapolated, form),
             }
+            | (_beside(last, form) if on_frames else _printed(extrapolated, form))
+            | {"no shadow": form.format(part["no_shadow"].iloc[0])}
         )
     return {name: [line[name] for line in lines] for name in lines[0]}
+
+
+def _scaled(part: pd.DataFrame, factor: float) -> pd.DataFrame:
+    """Rows with values in a metric's unit."""
+    if factor == 1:
+        return part
+    errors = ["mean", "spread", *PREDICTED, "no_shadow", "base", "train_mean", "train_base"]
+    return part.assign(**{name: factor * part[name].astype(float) for name in errors})
+
+
+def _beside(last: pd.Series, form: str) -> dict[str, str]:
+    """Cells of the base, and of training frames."""
+    base, train, train_base = number_cells(last[["base", "train_mean", "train_base"]], form)
+    return {"on training frames": f"{train} ({train_base or '–'})", "base": base}
+
+
+def _printed(extrapolated: pd.Series, form: str) -> dict[str, str]:
+    thesis = extrapolated["thesis"]
+    return {"thesis": "" if np.isnan(thesis) else form.format(thesis)}
 
 
 def by_kind(part: pd.DataFrame) -> tuple[pd.DataFrame, pd.Series]:

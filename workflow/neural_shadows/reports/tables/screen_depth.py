@@ -104,8 +104,7 @@ def _describe_learning(records: Mapping[str, TrainingRecord], labels: Mapping[st
     """Describe errors over steps: a deeper network may only lack training."""
     texts = []
     for name, record in records.items():
-        end = {"step": record["training"]["steps"], "mse": record["validation_mse"]}
-        validations = [*record["validations"], end]
+        validations = record["validations"]
         quarters = np.linspace(0, len(validations) - 1, 4).round().astype(int)
         shown = [validations[number] for number in dict.fromkeys(quarters)]
         errors = number_cells([np.mean(point["mse"], dtype=float) for point in shown], short, 1e4)

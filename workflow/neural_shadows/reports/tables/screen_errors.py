@@ -18,6 +18,7 @@ from neural_shadows.settings.records import TrainingRecord
 
 TRAINING, VALIDATION, SEQUENCES = "training", "validation", "sequences"
 ALL = "all"  # lights of all radii
+HARD = "hard"  # the light map as it is
 WIDTHS = {"width": "width, px", "width_reference": "exact width, px"}
 SHOWN = {"mse": ("MSE × 10⁻⁴", 1e4), OFF_EDGES: ("MSE off edges × 10⁻⁴", 1e4)}
 SHOWN |= {name: (text, 1) for name, text in WIDTHS.items()}
@@ -58,7 +59,7 @@ def errors_table(soft: TrainedFrames) -> pd.DataFrame:
     `mse_off_edges` with the ends of their intervals over a scene's frames, NaN where only the mean
     is known; `width` and `width_reference` of the predicted and of the exact penumbrae of test
     frames; `ratio` to the error of training frames at the same light, NaN for lights without
-    training.
+    training; `ratio_to_map` to the error of the light map as it is on the same frames, NaN without.
     """
     rows, errors, radii = [], soft.errors, soft.radii
     first = next(iter(soft.records.values()))
@@ -76,9 +77,19 @@ def errors_table(soft: TrainedFrames) -> pd.DataFrame:
         ]
     table = pd.DataFrame(rows)
     table["radius"] = [np.nan if light == ALL else radii[int(light)] for light in table["light"]]
-    base = table[table["frames"] == TRAINING].set_index(["experiment", "light"])["mse"]
-    keys = pd.MultiIndex.from_frame(table[["experiment", "light"]])
-    return table.assign(ratio=table["mse"].to_numpy() / base.reindex(keys).to_numpy())
+    training, hard = table[table["frames"] == TRAINING], table[table["null"] == HARD]
+    return table.assign(
+        ratio=_ratio(table, training, ["experiment", "light"]),
+        ratio_to_map=_ratio(table, hard, ["frames", "light"]),
+    )
+
+
+def _ratio(table: pd.DataFrame, others: pd.DataFrame, keys: list[str]) -> np.ndarray:
+    """Errors over those of the other rows with the same keys."""
+    errors = others.set_index(keys)["mse"]
+    return (
+        table["mse"].to_numpy() / errors.reindex(pd.MultiIndex.from_frame(table[keys])).to_numpy()
+    )
 
 
 def _training_errors(record: TrainingRecord, same: bool) -> Iterator[dict[str, Any]]:
@@ -92,9 +103,10 @@ def _training_errors(record: TrainingRecord, same: bool) -> Iterator[dict[str, A
 
 
 def _null_record(null: str, record: TrainingRecord) -> TrainingRecord:
-    """Errors of a null predictor on validation frames, also as training frames."""
-    values = record.get("null_mse", {}).get({"hard": "hard_map"}.get(null, null), [])
-    return {"train_mse": values, "validation_mse": values}
+    """Errors of a null predictor on the training's frames."""
+    name = "hard_map" if null == HARD else null
+    keys = {"train_mse": "train_null_mse", "validation_mse": "null_mse"}
+    return {key: record.get(nulls, {}).get(name, []) for key, nulls in keys.items()}
 
 
 def _tested(own: pd.DataFrame, record: TrainingRecord) -> Iterator[dict[str, Any]]:
@@ -122,15 +134,16 @@ def _cells(table: pd.DataFrame, radii: Sequence[float]) -> dict[str, list[str]]:
     keys = ["label", "frames", "learned"]
     rows = []
     for (label, frames, learned), part in table.groupby(keys, sort=False):
-        times = number_cells([part["ratio"].mean()], "{:.2f}")
+        of_all = part.loc[part["light"] == ALL, "ratio_to_map"]
+        times = number_cells([part["ratio"].mean(), of_all.mean()], "{:.2f}")
         for name, (text, factor) in SHOWN.items():
             cells = dict(zip(part["light"], number_cells(part[name], "{:.1f}", factor)))
             texts = [cells.get(light, "") for light in (*map(str, range(len(radii))), ALL)]
             if any(texts):
                 names = [label, _frames_name(frames, learned), text]
-                rows.append([*names, *texts, *(times if name == "mse" else [""])])
+                rows.append([*names, *texts, *(times if name == "mse" else ["", ""])])
     headings = ["network", "frames", "", *(f"{radius:g}" for radius in radii), "all lights"]
-    columns = dict(zip([*headings, "× training"], map(list, zip(*rows))))
+    columns = dict(zip([*headings, "× training", "× map"], map(list, zip(*rows))))
     return filled(columns)
 
 
@@ -139,8 +152,9 @@ def _describe_training(has_ratio: bool) -> list[str]:
         return []
     return [
         "Training: a sample of the training frames, as large as the validation set. × training: the "
-        "error over theirs, mean over the row's lights. Frames are drawn at random, and some are harder "
-        "than others."
+        "error over theirs, mean over the row's lights. × map: the error over that of the light map "
+        "as it is on the same frames, over all lights. Some frames are harder than others: a network "
+        "overfits if its × map is higher where it was not trained."
     ]
 
 

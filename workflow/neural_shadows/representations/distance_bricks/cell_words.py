@@ -149,7 +149,8 @@ def _fill_moments(corners, moments):
         for c in range(8):
             rise += corners[c] if c & axis else -corners[c]
         slope += rise * rise / 16
-    moments[:] = 0
+    for i in range(len(moments)):
+        moments[i] = 0
     for shares in _SHARES:
         value = np.float32(0)
         for c in range(8):

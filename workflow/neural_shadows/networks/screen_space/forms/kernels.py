@@ -2,9 +2,9 @@
 
 from typing import Any, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
-from neural_shadows.frames.feature_names import base_of, channels_of
+from neural_shadows.frames.feature_names import GUIDE, base_of, channels_of
 from neural_shadows.networks.screen_space.kernel_widths import kernel_convolutions
 from neural_shadows.networks.screen_space.widths import Convolution
 from neural_shadows.networks.settings.screen_space import UnetOfSums
@@ -25,11 +25,25 @@ class Settings(UnetOfSums):
         "enlarged bilinearly; `full`, the frame's own",
     )
 
+    edge: float | None = Field(
+        None,
+        gt=0,
+        le=10,
+        description="largest difference of the feature `log_d` between a kernel's pixel and its taps, so that "
+        "no shadow goes across a silhouette; default: any",
+    )
+
     @field_validator("features")
     @classmethod
     def _check_base(cls, features: list[str]) -> list[str]:
         base_of(features)
         return features
+
+    @model_validator(mode="after")
+    def _check_edge(self):
+        if self.edge is not None and GUIDE not in self.features:
+            raise ValueError(f"edge: needs the feature {GUIDE!r}. Add it to `features`")
+        return self
 
 
 def convolutions(settings: Settings) -> list[Convolution]:

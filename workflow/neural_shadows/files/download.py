@@ -1,0 +1,44 @@
+"""Downloads of files with a known SHA-256."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from neural_shadows.errors import InputError
+
+
+@contextmanager
+def downloaded(
+    url: str, sha256: str, folder: Path, cure: str, processor: Any = None, progress: Any = False
+) -> Iterator[list[Path]]:
+    """Yield a downloaded file, or those unpacked from it; they go after the block.
+
+    An interrupted download starts again with the next attempt.
+
+    Args:
+        folder: for a temporary folder within it, so that a file can be moved.
+        cure: what to do without the download, for the message.
+        processor, progress: of `pooch.retrieve`.
+
+    Raises:
+        InputError: no connection, another file, or an OSError or ValueError of the block.
+    """
+    import pooch
+
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        with TemporaryDirectory(dir=folder) as temporary:
+            files = pooch.retrieve(
+                url,
+                known_hash=f"sha256:{sha256}",
+                path=temporary,
+                fname=Path(url).name,
+                processor=processor,
+                progressbar=progress,
+            )
+            yield [Path(file) for file in ([files] if isinstance(files, str) else files)]
+    except (OSError, ValueError) as error:  # from requests, or a wrong digest
+        reason = " ".join(str(error).split())[:300]
+        raise InputError(f"cannot download {url}: {reason}. {cure}") from error
