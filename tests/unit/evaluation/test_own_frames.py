@@ -101,7 +101,7 @@ def test_a_table(layout):
     )
     assert (table["frames"] == FRAMES).all() and table["ms"].isna().all()
     text = Path("mine.md").read_text(encoding="utf-8")
-    assert "| Base: hard" in text and "2 frames of 16 × 12 in 1 scenes" in text
+    assert "| Base: its own hard" in text and "2 frames of 16 × 12 in 1 scenes" in text
 
 
 def test_nothing_is_written_of_damaged_ones(layout, engine):
