@@ -67,6 +67,7 @@ class _OpenedNetwork:
             if self._rays
             else self._of_buffers,  # stored ones are of no light's size
             by_rays=self._rays > 0,
+            texel_floats=0 if self._rays else 1,
             check_own=self._check_own,
             held=lambda frame: bytes_held,
         )
