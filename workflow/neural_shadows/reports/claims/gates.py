@@ -152,7 +152,7 @@ def too_small(
 ) -> str:
     """Missing seeds, views or samples, and the difference's direction."""
     least_seeds = by_kind(claim, "LEAST_SEEDS", default=LEAST_SEEDS)
-    needed = max(needs(claim, "seeds") or 0, least_seeds)
+    needed = needs(claim, "seeds") or least_seeds  # 1: of weights as they are
     learning = deciding(comparisons).learning
     opposing = against(extrapolated or comparisons)
     # One comparison is enough against a claim.
