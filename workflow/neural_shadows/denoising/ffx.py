@@ -164,7 +164,7 @@ def _fill_next(guides, light, spread, mixed, sharpness, step, next_light, next_s
                 continue
             begin, end = block * SIDE, min(block * SIDE + SIDE, width)
             _fill_sharpness(spread, y, begin, end, sharpness, sharp)
-            for i in range(end - begin):  # whole slices take 3 s more to compile
+            for i in range(end - begin):  # assignments of slices compile longer: 9.5 s for 5.4
                 total[i], lights[i], spreads[i] = 1, light[y, begin + i], spread[y, begin + i]
             for below in range(-1, 2):
                 v = y + below * step

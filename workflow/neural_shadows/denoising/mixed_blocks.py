@@ -37,7 +37,7 @@ def _fill_means(picture, kernel, across, mean):
     height, width = picture.shape
     row = np.empty(width + 2 * REACH, np.float32)
     for y in range(height):
-        for x in range(len(row)):  # whole slices take 3 s more to compile
+        for x in range(len(row)):  # assignments of slices compile longer: 6.6 s for 2.9
             row[x] = picture[y, min(max(x - REACH, 0), width - 1)]
         for x in range(width):
             across[y, x] = mean[y, x] = 0

@@ -176,7 +176,7 @@ def _fill_next(guides, light, share, width, mixed, reach, turn, next_light, next
             if not mixed[y, block]:
                 continue
             begin, end = block * SIDE, min(block * SIDE + SIDE, columns)
-            for i in range(SIDE):  # whole slices take 3 s more to compile
+            for i in range(SIDE):
                 total[i], lights[i], shares[i], widths[i] = _LEAST, 0, 0, 0
             for v in range(max(0, y - _NEAR), min(height, y + _NEAR + 1)):
                 for along in range(-_NEAR, _NEAR + 1):

@@ -63,9 +63,8 @@ class _OpenedNetwork:
         )  # 16 bits each
         return Method(
             self._of_frame,
-            of_buffers=None
-            if self._rays
-            else self._of_buffers,  # stored ones are of no light's size
+            # Stored buffers hold no rays.
+            of_buffers=None if self._rays else self._of_buffers,
             by_rays=self._rays > 0,
             texel_floats=0 if self._rays else 1,
             check_own=self._check_own,

@@ -148,7 +148,7 @@ def _fill_moments(depths, texels, fractions, kernel, depth_range, moments):
     near, span = depth_range
     rows, columns = np.empty(4), np.empty(4)
     for i in range(len(texels)):
-        for k in range(4):  # of a slice at once it takes 3 s more to compile
+        for k in range(4):
             rows[k] = columns[k] = 0.0
         right, down = fractions[i, 0], fractions[i, 1]
         for k in range(3):

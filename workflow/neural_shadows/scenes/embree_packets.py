@@ -174,7 +174,7 @@ def _fill_hits(scene, origins, directions, end, packet, t, face, u, v):
     for first in range(0, len(origins), WIDTH):
         count, _ = _fill_packet(packet, bits, origins, directions, first, end)
         bits[_ARGUMENTS, 0] = 0
-        for k in range(WIDTH):  # whole rows take 3 s more to compile
+        for k in range(WIDTH):
             bits[_MESH, k] = bits[_INSTANCE, k] = -1
         _intersect8(
             bits[_ACTIVE].ctypes.data, scene, packet.ctypes.data, bits[_ARGUMENTS].ctypes.data

@@ -34,13 +34,6 @@ def _exp(x):
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _fill(row, value):
-    """Fill a row: as an assignment to a slice it takes 3 s more to compile."""
-    for i in range(len(row)):
-        row[i] = value
-
-
-@njit(cache=True, nogil=True, inline="always")
 def _block_row():
     """A block's row; rows of a 2-D array are strided to numba, and slow."""
     return np.empty(BLOCK, np.float32)
@@ -147,7 +140,7 @@ def _gate(planes, guide, limit, y, left, right, step, height, width):
 @njit(cache=True, nogil=True, fastmath={"contract"})
 def _find_top(planes, y, left, right, step, height, width, top):
     """Largest logits of taps inside the frame."""
-    _fill(top, _LEAST)
+    top[:] = _LEAST
     for tap in range(TAPS):
         _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
         logits, maxima = planes[tap, first:last], top[first:last]
@@ -159,12 +152,12 @@ def _find_top(planes, y, left, right, step, height, width, top):
 def _exponentiate(planes, y, left, right, step, height, width, top, total):
     """Replace logits by exponentials, 0 outside the frame; sum into `total`."""
     _find_top(planes, y, left, right, step, height, width, top)
-    _fill(total, np.float32(0))
+    total[:] = 0
     for tap in range(TAPS):
         _, _, first, last = _tap_span(tap, y, left, right, step, height, width)
         plane = planes[tap]
-        _fill(plane[:first], np.float32(0))
-        _fill(plane[last:], np.float32(0))
+        plane[:first] = 0
+        plane[last:] = 0
         logits, maxima, sums = plane[first:last], top[first:last], total[first:last]
         for i in range(last - first):
             weight = _exp(logits[i] - maxima[i])
@@ -194,8 +187,8 @@ def filter_rows(bits, factor, step, source, guide, limit, begin, end, result, fi
             if limit < np.inf:
                 _gate(planes, guide, limit, y, left, right, step, height, width)
             _find_top(planes, y, left, right, step, height, width, top)
-            _fill(total, np.float32(0))
-            _fill(sums, np.float32(0))
+            total[:] = 0
+            sums[:] = 0
             for tap in range(TAPS):
                 v, offset, first, last = _tap_span(tap, y, left, right, step, height, width)
                 logits, maxima = planes[tap, first:last], top[first:last]
