@@ -8,7 +8,11 @@ from screen_frames import edge, write_frames
 from neural_shadows.evaluation.answers import name_of, write_answers
 
 LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "my_network": "Network"}
-SHIFTS = {"hard": 1, "rt_4": 0, "my_network": 2}  # pixels by which the edge is too far right
+SHIFTS = {
+    "hard": -1,
+    "rt_4": 0,
+    "my_network": 2,
+}  # pixels of the edge to the right, from light to dark
 SCENES = ("room", "tree")
 
 

@@ -1,8 +1,16 @@
 """The report's page in a real browser."""
 
+import base64
+import io
+
+import numpy as np
 import pytest
+from PIL import Image
 from report_page import HOSTILE, LABELS, POINTS, make_page
 from soft_pictures import write_soft_pictures
+
+from neural_shadows.reports.data.frame_errors import coloured
+from neural_shadows.reports.data.soft_pictures import read_pictures
 
 
 @pytest.fixture(scope="module")
@@ -35,6 +43,10 @@ def sources(page):
     return page.locator(".layer").evaluate_all(
         "layers => layers.map(layer => [...layer.children].map(one => one.hidden || one.src))"
     )
+
+
+def grey(image):
+    return np.repeat(image[..., None], 3, axis=-1)
 
 
 def drag(page, start, end):
@@ -185,26 +197,79 @@ def test_what_is_shown_of_a_method_and_that_the_reference_has_no_errors(open_pag
     assert seen["map"][1:] == [True, True]
 
 
-def test_a_soft_shadow_s_errors_lie_on_its_picture_or_on_white(open_page, tmp_path):
-    soft = make_page(tmp_path, references=[], **write_soft_pictures(tmp_path)).as_uri()
-    page = open_page(address=soft)
-    views = page.locator(".view option").all_inner_texts()
-    assert len(views) == 4 and views[3] == "tree, light of 0.25 m radius"
-    page.locator(".view").select_option("1")
-    under, over = sources(page)
-    assert True not in over and under[1:] == [True, True]
-    first = page.locator(".over img:first-child")
-    page.locator(".shown").select_option("map")
-    _, alone = sources(page)
-    assert alone[1] is True and alone[2] == over[2]
-    assert first.evaluate("image => getComputedStyle(image).visibility") == "hidden"
-    paper = page.locator(".over").evaluate("layer => getComputedStyle(layer).backgroundColor")
-    assert paper == "rgb(255, 255, 255)" and page.locator(".scale").is_visible()
-    # The exact shadow has no errors: it is shown.
+@pytest.fixture
+def soft_page(open_page, tmp_path):
+    """A page of soft frames, and those of its first scene."""
+    soft = write_soft_pictures(tmp_path)
+    paths = {path.stem: path for path in soft["soft_answers"]}
+    pictures = read_pictures(soft["soft_parts"][0], paths, [0, 1])
+    return open_page(address=make_page(tmp_path, references=[], **soft).as_uri()), pictures
+
+
+def painted(page, side):
+    """Levels (height, width, 3) of the canvas under or over the divider, and its name."""
+    layer = page.locator(f".{side}[aria-busy='false']")
+    address, name = layer.locator("canvas").evaluate(
+        "canvas => [canvas.toDataURL(), canvas.getAttribute('aria-label')]"
+    )
+    content = base64.b64decode(address.removeprefix("data:image/png;base64,"))
+    return np.asarray(Image.open(io.BytesIO(content)).convert("RGB"), int), name
+
+
+def test_soft_frames_are_shaded_masks_or_errors(soft_page):
+    page, pictures = soft_page
+    # It opens under the largest light, by the method of most error and by the network.
+    assert page.locator(".lights [aria-pressed='true']").inner_text() == "0.25 m"
+    exact, answer = pictures.exact[1], pictures.answers["hard"][1]
+    levels, name = painted(page, "over")
+    assert name == "■ Shadow map, shaded pictures, room, light of 0.25 m radius"
+    # Of 64 levels, and of a shading with a little loss.
+    np.testing.assert_allclose(levels, 255 * grey(pictures.shown(answer)), atol=5)
+    page.locator(".shown").select_option("visibility")
+    np.testing.assert_allclose(painted(page, "over")[0], 255 * grey(answer), atol=2.6)
+    assert page.locator(".scale").is_hidden()
+    page.locator(".shown").select_option("errors")
+    error, (levels, _) = answer - exact, painted(page, "over")
+    shade, rounding = 0.5 / 8, 1 / 63
+    np.testing.assert_allclose(levels, 255 * coloured(error), atol=255 * (shade + 2 * rounding))
+    assert (levels[error == 0] == 255).all()
+    assert error.max() > 0.1 and (levels[error > 0.1].argmax(-1) == 2).all()  # a leak is blue
+    dark, (levels, _) = pictures.error("my_network", 1), painted(page, "under")
+    assert dark.min() < -0.1 and (levels[dark < -0.1].argmax(-1) == 0).all()  # orange
+    assert page.locator(".scale").is_visible() and page.messages == []
     page.locator(".left").select_option("reference")
-    assert first.evaluate("image => getComputedStyle(image).visibility") == "visible"
-    page.locator(".shown").select_option("frame")
-    assert page.locator(".scale").is_hidden() and page.messages == []
+    assert (painted(page, "over")[0] == 255).all()
+
+
+def test_a_light_and_a_scene_are_chosen(soft_page):
+    page, pictures = soft_page
+    page.locator(".shown").select_option("visibility")
+    soft, _ = painted(page, "under")
+    page.locator(".lights button").first.click()
+    hard, name = painted(page, "under")
+    assert name.endswith("visibility alone, room, point light")
+    np.testing.assert_allclose(hard, 255 * grey(pictures.answers["my_network"][0]), atol=2.6)
+    assert np.abs(hard - soft).max() > 50
+    assert page.locator(".name-left").inner_text() == "■ Shadow map: MSE 161.3 × 10⁻⁴"
+    page.locator(".view").select_option("1")
+    assert painted(page, "under")[1].endswith("tree, point light") and page.messages == []
+
+
+def test_the_last_of_many_quick_choices_is_painted(soft_page):
+    page, pictures = soft_page
+    page.evaluate(
+        """() => {
+          const select = document.querySelector(".left");
+          for (const value of ["rt_4", "hard", "reference", "my_network"]) {
+            select.value = value;
+            select.dispatchEvent(new Event("change"));
+          }
+        }"""
+    )
+    levels, name = painted(page, "over")
+    assert name.startswith("✦ Network, shaded")
+    expected = grey(pictures.shown(pictures.answers["my_network"][1]))
+    np.testing.assert_allclose(levels, 255 * expected, atol=5)
 
 
 def test_a_double_click_zooms_and_leaves_the_divider(open_page):

@@ -72,7 +72,10 @@ COMPUTE = SETTINGS["compute"]
 ENVIRONMENT = "../../envs/environment.yaml"
 TEMPLATE = [
     LAYOUT.source(f"workflow/report/page/{name}")
-    for name in ("template.html", "style.css", "reading.js", "script.js")
+    for name in (
+        *("template.html", "style.css", "reading.js"),
+        *("hard_frames.js", "soft_frames.js", "frames.js"),
+    )
 ]
 VIEWER = [
     LAYOUT.source(os.path.relpath(path, WORKFLOW.parent))

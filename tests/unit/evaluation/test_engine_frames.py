@@ -236,10 +236,10 @@ def test_penumbrae_beyond_the_features_are_told(here, rendered, capsys):
 def test_a_crop_of_a_large_frame_is_where_most_differs():
     difference = np.full((600, 900), 0.01)
     difference[300:420, 500:620] = 1
-    rows, columns = _window(difference)
-    assert difference[rows, columns].shape == (CROP, CROP)
-    assert difference[rows, columns].sum() > 120 * 120
-    assert rows.start <= 300 and columns.stop >= 620
+    window = _window(difference)
+    crop = window.of(difference)
+    assert crop.shape == (CROP, CROP) and crop.sum() > 120 * 120
+    assert window.row <= 300 and window.column + CROP >= 620
 
 
 def with_value(channel, value):

@@ -332,7 +332,7 @@ def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):
     assert len(made["soft_answers"]) == len(set(made["soft_answers"]))
     shown = {(one["table"], one["scene"]): one for one in told}
     one = shown["nsm_methods", "room_dragon"]
-    assert one["frame_set"] == "nsm" and one["radii"] == [1, 2, 4]
+    assert one["frame_set"] == "nsm" and one["radii"] == [0, 2, 4]
     assert one["labels"]["nsm"] == "Neural Shadow Mapping"
 
 

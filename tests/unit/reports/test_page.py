@@ -105,4 +105,4 @@ def test_soft_shadows_are_compared_and_led_to_from_their_tables(tmp_path):
     section = text[text.index('<section id="soft">') :]
     assert 'href="#compare-soft-rivals"' in section
     # Hard shadows have a FLIP map, soft ones errors by their size.
-    assert text.count("FLIP map</option>") == text.count("errors alone</option>") == 1
+    assert text.count("FLIP map</option>") == text.count("visibility alone</option>") == 1

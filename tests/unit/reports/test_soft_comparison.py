@@ -7,7 +7,7 @@ from PIL import Image
 from screen_frames import edge
 from soft_pictures import LABELS, seen, write_soft_pictures
 
-from neural_shadows.reports.page.frame_comparison import soft_comparisons
+from neural_shadows.reports.page.soft_comparison import LEVELS, soft_comparisons
 
 
 @pytest.fixture
@@ -17,48 +17,55 @@ def given(tmp_path):
 
 def opened(address):
     content = base64.b64decode(address.removeprefix("data:image/webp;base64,"))
-    return Image.open(io.BytesIO(content)).convert("RGBA")
+    return np.asarray(Image.open(io.BytesIO(content)).convert("L"), int)
 
 
-def test_each_scene_and_light_is_a_view_and_the_network_stands_beside_the_exact_shadow(given):
+def test_a_table_shows_its_scenes_and_lights_by_the_method_that_errs_most_and_by_the_network(given):
     (data,) = soft_comparisons(*given)
-    assert (data["name"], data["title"]) == ("soft-rivals", "A wall")
-    assert [view["caption"] for view in data["views"]] == [
-        *("room, point light", "room, light of 0.25 m radius"),
-        *("tree, point light", "tree, light of 0.25 m radius"),
+    assert (data["name"], data["title"], data["soft"]) == ("soft-rivals", "A wall", True)
+    assert [view["caption"] for view in data["views"]] == ["room", "tree"]
+    assert data["lights"] == [
+        {"name": "point light", "size": "point"},
+        {"name": "light of 0.25 m radius", "size": "0.25 m"},
     ]
     names = [method["name"] for method in data["methods"]]
     assert names == ["★ Reference", "■ Shadow map", "● 4 rays", "✦ Network"]
-    assert (data["left"], data["right"]) == ("my_network", "reference")
+    assert (data["left"], data["right"]) == ("hard", "my_network")
 
 
 def test_a_picture_is_what_was_answered_and_the_exact_shadow_where_nothing_counts(given):
     (data,) = soft_comparisons(*given)
-    for k, view in enumerate(data["views"][:2]):
+    for k, pictures in enumerate(data["views"][0]["lights"]):
+        exact = opened(pictures["reference"]["visibility"])
         for method in LABELS:
-            frame = opened(view["reference"])
-            frame.alpha_composite(opened(view["pictures"][method]["change"]))
+            levels = opened(pictures[method]["visibility"])
             shown = seen(method, k)
             shown[:, :2] = edge(24.0, soft=4.0 * k)[:, :2]
-            np.testing.assert_allclose(np.asarray(frame)[..., 0], 255 * shown, atol=1)
+            np.testing.assert_allclose(levels, 255 * shown, atol=255 / (LEVELS - 1) / 2 + 1)
+            # Nothing is lost between two pictures: equal pixels have no error.
+            assert (levels == exact)[shown == edge(24.0, soft=4.0 * k)].all()
 
 
-def test_scores_are_mean_squared_errors_of_what_counts_and_errors_lie_where_they_are(given):
+def test_a_wall_is_lit_by_its_cosine_and_by_the_upper_half_of_the_sky(given):
+    view = soft_comparisons(*given)[0]["views"][0]
+    np.testing.assert_allclose(opened(view["direct"]), 255 * 0.75 * 0.7, atol=2)
+    np.testing.assert_allclose(opened(view["sky"]), 255 * 0.25 * 0.75, atol=2)
+
+
+def test_scores_are_mean_squared_errors_of_what_counts(given):
     (data,) = soft_comparisons(*given)
-    hard, soft = (view["pictures"] for view in data["views"][:2])
-    # One column of 62 is dark where it should be lit.
+    hard, soft = data["views"][0]["lights"]
+    # One column of 62 is lit where it should be dark.
     assert hard["hard"]["scores"] == f"MSE {1e4 / 62:.1f} × 10⁻⁴"
-    layer = np.asarray(opened(hard["hard"]["errors"]))
-    assert np.argwhere(layer[..., 3].any(axis=0)).ravel().tolist() == [24]
-    assert hard["rt_4"]["scores"] == "MSE 0.0 × 10⁻⁴"
-    layer = np.asarray(opened(soft["rt_4"]["errors"]))
-    assert layer[..., 3].max() == 0
+    assert hard["rt_4"]["scores"] == soft["rt_4"]["scores"] == "MSE 0.0 × 10⁻⁴"
 
 
 def test_of_a_half_finished_run_what_is_there_is_shown(given):
     parts, answers, pictures = given
     (data,) = soft_comparisons(parts[1:], answers[:2], pictures)
     assert [method["key"] for method in data["methods"]] == ["reference", "hard", "rt_4"]
-    assert len(data["views"]) == 2 and data["left"] == "rt_4"  # which errs least
+    assert len(data["views"]) == 1 and (data["left"], data["right"]) == ("hard", "rt_4")
+    (data,) = soft_comparisons(parts, answers[:1], pictures)
+    assert (data["left"], data["right"]) == ("reference", "hard")
     assert soft_comparisons([], answers, pictures) == []
     assert soft_comparisons(parts, [], pictures) == []  # nothing to compare with

@@ -1,5 +1,14 @@
 "use strict";
 
+// Light or dark: as the system has it, until the reader chooses.
+const theme = document.getElementById("theme");
+function setTheme(dark) {
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  theme.setAttribute("aria-pressed", String(dark));
+}
+setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
+theme.addEventListener("click", () => setTheme(theme.getAttribute("aria-pressed") !== "true"));
+
 // The contents follow the reading: the last heading that has passed a line below the top.
 const links = [...document.querySelectorAll("nav li > a")];
 const places = links.map((link) => document.getElementById(link.hash.slice(1)));

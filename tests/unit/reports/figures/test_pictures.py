@@ -5,9 +5,10 @@ from frame_samples import write_frames
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from neural_shadows.reports.data.frame_errors import (
+    choose_boxes,
     choose_crops,
+    coloured,
     error_layer,
-    graded_layer,
     with_errors,
 )
 from neural_shadows.reports.data.frames import Frame
@@ -54,11 +55,25 @@ def test_errors_are_red_where_too_dark_and_blue_where_too_light():
         np.testing.assert_array_equal(channel[same], image[same])
 
 
-def test_a_soft_shadow_s_errors_are_as_opaque_as_they_are_large():
-    layer = graded_layer(np.array([[0.5, 0.75, 0.25, 1.0]]), np.array([[0.5, 0.5, 0.5, 0.0]]))
-    assert layer[0, :, 3].tolist() == [0, 128, 128, 255]  # half of the light has the whole colour
-    red, _, blue = np.moveaxis(layer[0, :, :3].astype(int), 1, 0)
-    assert (blue > red).tolist() == [False, True, False, True] and red[2] > blue[2]
+def test_a_soft_shadow_s_errors_are_as_strong_as_they_are_large():
+    none, leak, dark, weak = coloured(np.array([0.0, 0.5, -0.5, 0.25]))
+    assert np.allclose(none, 1) and leak.argmax() == 2 and dark.argmax() == 0  # blue leaks
+    assert np.allclose(weak, (1 + leak) / 2)
+    assert np.allclose(coloured(np.array([1.0])), leak)  # half of the light has the whole colour
+
+
+def test_boxes_lie_apart_where_methods_err_most_and_no_method_outvotes_the_others():
+    first, second = np.zeros((2, 1, 60, 90))
+    first[0, 10:16, 20:29] = 0.01
+    second[0, 40:46, 60:69] = 1
+    counted = np.ones((60, 90), bool)
+    boxes = choose_boxes([first, second], counted, 6, 9)
+    assert {*boxes} == {(10, 20, 6, 9), (40, 60, 6, 9)}
+    counted[:30] = False
+    assert choose_boxes([first, second], counted, 6, 9)[0] == (40, 60, 6, 9)
+    # All errors in one place: the second box lies beside the first.
+    (a, b) = choose_boxes([second], np.ones((60, 90), bool), 6, 9)
+    assert abs(a.row - b.row) >= 6 or abs(a.column - b.column) >= 9
 
 
 def test_strips_show_frames_crops_and_scores_and_long_names_do_not_overlap():

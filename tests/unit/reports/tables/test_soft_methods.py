@@ -8,7 +8,7 @@ import report_samples as samples
 from neural_shadows.evaluation.metric_files import write_metrics
 from neural_shadows.reports.data.frame_means import ERROR_COLUMNS
 from neural_shadows.reports.data.soft_frames import SoftFrames
-from neural_shadows.reports.figures import soft_equal_time, soft_pictures
+from neural_shadows.reports.figures import soft_equal_time
 from neural_shadows.reports.tables import soft_methods
 
 LABELS = {"hard": "Shadow map", "rt_4": "4 rays", "pcss_post": "PCSS, filtered"}
@@ -127,11 +127,3 @@ def test_the_legend_is_as_wide_as_the_figure(radii):
     figure.draw_without_rendering()
     extent = figure.legends[0].get_window_extent()
     assert extent.x0 >= 0 and extent.x1 <= figure.bbox.x1
-
-
-def test_strips_show_what_is_too_dark_and_too_bright():
-    error = np.array([[0.0, 0.5, -0.5, 0.25]])
-    colours = soft_pictures.coloured(error)
-    assert np.allclose(colours[0, 0], 1)
-    assert colours[0, 1].argmax() == 2 and colours[0, 2].argmax() == 0  # blue leaks, orange is dark
-    assert np.allclose(colours[0, 3], (1 + colours[0, 1]) / 2)

@@ -1,8 +1,8 @@
 """Visibility, pictures and errors of test frames by one method."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -20,13 +20,12 @@ from neural_shadows.frames.frame_set import FrameSetPart
 from neural_shadows.frames.kernel_features import PENUMBRA_PIXELS, blocker, penumbra_pixels
 from neural_shadows.frames.light_size import shown_radii
 from neural_shadows.metrics.registry import image_metrics
+from neural_shadows.reports.data.frame_errors import Window
 from neural_shadows.reports.data.lights import light_names
-from neural_shadows.reports.figures.soft_pictures import answers_alone, strips
+from neural_shadows.reports.data.soft_pictures import pictures_of
+from neural_shadows.reports.drawing.soft_sheet import whole_sheet
 from neural_shadows.running.progress import progress_bar, warn
 from neural_shadows.running.stage import run_stage
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 CROP = 256  # pixels along both sides of a crop
 WIDE_SHARE = 0.01  # of a frame's pixels, below which nothing is said
@@ -164,44 +163,32 @@ def _draw(measured: MeasuredFrame, visibility: np.ndarray, label: str, stem: Pat
     for k, image in enumerate(visibility):
         with whole_file(stem.with_name(f"{stem.name}_visibility_{k}.png")) as part:
             Image.fromarray(np.round(255 * image).astype(np.uint8)).save(part, format="png")
-    shown = shown_radii(len(visibility))
-    pictures = {f"its {base}": [measured.picture(base)] * len(shown) for base in _bases(measured)}
-    pictures[label] = [visibility[k] for k in shown]
-    whole = (slice(None), slice(None))
-    windows = {"": whole}
+    shown, bases = shown_radii(len(visibility)), _bases(measured)
+    answers = {base: np.stack([measured.picture(base)] * len(shown)) for base in bases}
+    answers["own"] = visibility[shown]
+    labels = {base: f"its {base}" for base in bases} | {"own": label}
+    part, number = measured.part, measured.number
+    exact = measured.target[shown] if part.has_targets else None
+    names = light_names(part.about)
+    pictures = pictures_of(part, number, [names[k] for k in shown], exact, answers)
+    windows = {"": Window(0, 0, *measured.valid.shape)}
     if min(measured.valid.shape) > CROP:
-        first, *_ = pictures.values()
+        first, *_ = answers.values()
         windows["_crop"] = _window(np.abs(visibility[shown[-1]] - first[-1]))
     for ending, window in windows.items():
-        figure = _compared(measured, pictures, shown, window, f"{label}: {_name(measured)}")
-        with whole_file(stem.with_name(f"{stem.name}{ending}.png")) as part:
-            figure.savefig(part)
+        figure = whole_sheet(pictures, labels, f"{label}: {_name(measured)}", window)
+        with whole_file(stem.with_name(f"{stem.name}{ending}.png")) as path:
+            figure.savefig(path)
 
 
-def _compared(
-    measured: MeasuredFrame,
-    pictures: Mapping[str, Sequence[np.ndarray]],
-    shown: Sequence[int],
-    window: tuple[slice, slice],
-    title: str,
-) -> "Figure":
-    about = measured.part.about
-    lights = [light_names(about)[k] for k in shown]
-    crops = {label: [image[window] for image in images] for label, images in pictures.items()}
-    if not measured.part.has_targets:
-        return answers_alone(crops, lights, title)
-    targets = [measured.target[k][window] for k in shown]
-    return strips(crops, targets, measured.valid[window], lights, title)
-
-
-def _window(difference: np.ndarray) -> tuple[slice, slice]:
+def _window(difference: np.ndarray) -> Window:
     """The square of `CROP` pixels with the largest sum of differences (H, W)."""
     from scipy.ndimage import uniform_filter
 
     half = CROP // 2
     inner = uniform_filter(difference, CROP, mode="constant")[half:-half, half:-half]
     row, column = np.unravel_index(inner.argmax(), inner.shape)
-    return slice(row, row + CROP), slice(column, column + CROP)
+    return Window(int(row), int(column), CROP, CROP)
 
 
 if "snakemake" in globals():

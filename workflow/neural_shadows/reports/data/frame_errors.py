@@ -1,10 +1,10 @@
 """Error colours of methods' pictures, and crops to show large."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.colors import to_rgba
+from matplotlib.colors import to_rgb, to_rgba
 from matplotlib.patches import Patch
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import maximum_filter, uniform_filter
@@ -18,7 +18,6 @@ FEW = 0.0005  # of a frame's pixels: a method with fewer wrong ones weighs less
 CROP_SHARES = (0.2, 0.06)  # of the frame's height and width
 TINT = 0.75  # of an error's colour; the rest is the picture's
 FULL = 0.5  # a soft shadow's error of so much visibility has the whole colour
-SHADES = 8  # of these colours: a layer of 512 × 256 has 18 KB, with 16 it has 25
 
 
 class Window(NamedTuple):
@@ -64,9 +63,38 @@ def choose_crops(images: Mapping[str, np.ndarray]) -> list[Window]:
     return windows[1:]
 
 
-def _best_window(interest: np.ndarray, height: int, width: int) -> tuple[int, int]:
+def choose_boxes(
+    errors: Iterable[np.ndarray], counted: np.ndarray, height: int, width: int
+) -> list[Window]:
+    """Choose two windows with most of the methods' squared errors.
+
+    Each method's add up to 1, so that no bad one outweighs the others. The windows do not overlap.
+
+    Args:
+        errors: (lights, H, W) of each method. counted: (H, W) bool, pixels whose errors count.
+        height, width: of a window, at most a third of the frame's: then a second one has room.
+    """
+    interest = np.zeros(counted.shape)
+    for error in errors:
+        square = np.where(counted, np.square(error, dtype=np.float64).sum(axis=0), 0)
+        interest += square / (square.sum() or 1)
+    row, column = _best_window(interest, height, width)
+    rows, columns = (
+        (max(0, row - height + 1), row + height),
+        (max(0, column - width + 1), column + width),
+    )
+    other = _best_window(interest, height, width, besides=(slice(*rows), slice(*columns)))
+    return [Window(*corner, height, width) for corner in ((row, column), other)]
+
+
+def _best_window(
+    interest: np.ndarray, height: int, width: int, besides: tuple[slice, slice] | None = None
+) -> tuple[int, int]:
+    """Upper left corner of the window with most interest; none of the corners `besides`."""
     inside = sliding_window_view(interest, height, axis=0).sum(axis=-1)
     inside = sliding_window_view(inside, width, axis=1).sum(axis=-1)
+    if besides is not None:
+        inside[besides] = -1
     best = np.argwhere(np.isclose(inside, inside.max()))  # sums of shares are not exact
     row, column = best[np.argmin(((best - best.mean(axis=0)) ** 2).sum(axis=1))]
     return int(row), int(column)
@@ -87,18 +115,11 @@ def error_layer(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.n
     return layer
 
 
-def graded_layer(image: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Colour errors of a soft shadow (H, W): RGBA (H, W, 4) uint8.
-
-    Opacity grows with the error, from none to all at `FULL`.
-    """
-    difference = image - reference
-    share = np.round(SHADES * np.clip(np.abs(difference) / FULL, 0, 1)) / SHADES
-    layer = np.zeros((*image.shape, 4), np.uint8)
-    for where, colour in ((difference < 0, FALSE_SHADOW), (difference > 0, LIGHT_LEAK)):
-        layer[where & (share > 0)] = np.round(255 * np.array(to_rgba(colour)))
-    layer[..., 3] = np.round(255 * share)
-    return layer
+def coloured(error: np.ndarray) -> np.ndarray:
+    """Colours (…, 3) of a soft shadow's errors: orange below 0, blue above, white at 0."""
+    share = np.clip(np.abs(error) / FULL, 0, 1)[..., None]
+    colour = np.where(error[..., None] < 0, to_rgb(FALSE_SHADOW), to_rgb(LIGHT_LEAK))
+    return 1 - share * (1 - colour)
 
 
 def with_errors(image: np.ndarray, reference: np.ndarray, size: int = 1) -> np.ndarray:

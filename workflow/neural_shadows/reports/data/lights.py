@@ -9,6 +9,13 @@ def light_names(about: PartRecord) -> list[str]:
     return [light_name(radius, unit_of(about)) for radius in radii_of(about)]
 
 
+def light_sizes(about: PartRecord) -> list[str]:
+    """Radii of the lights of a part, in words, in order; `about`: its JSON."""
+    unit = unit_of(about)
+    space = "" if unit == UNITS["degrees"] else " "
+    return [f"{radius:.3g}{space}{unit}" if radius else "point" for radius in radii_of(about)]
+
+
 def radii_of(about: PartRecord) -> list[float]:
     """Radii of a part's lights, as they are configured, in `unit_of`."""
     return about.get("given_radii", about["radii"])

@@ -1,30 +1,17 @@
 """A frame by methods for soft shadows, with their errors."""
 
 import sys
-import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Literal
 
-import numpy as np
 from pydantic import Field
 
-from neural_shadows.evaluation.answers import name_of, read_answer
-from neural_shadows.evaluation.look import FALSE_SHADOW, LIGHT_LEAK
 from neural_shadows.frames.light_size import shown_radii
 from neural_shadows.layout import frame_sets, kinds
 from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import frame_set, unique
-from neural_shadows.metrics.registry import metrics
-from neural_shadows.reports.data.lights import light_names
-from neural_shadows.reports.drawing.style import (
-    Axes,
-    Figure,
-    frame_picture,
-    new_figure,
-    note_below,
-    run_figure,
-)
+from neural_shadows.reports.drawing.style import Figure, run_figure
 from neural_shadows.reports.tables import soft_methods, soft_summary
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.frame_sets import measured_scenes
@@ -33,20 +20,11 @@ from neural_shadows.sections.table_figures import RadiiFigure
 from neural_shadows.settings.base import check_among, name_in
 from neural_shadows.settings.records import Run
 
-NUMBER = 0  # of the shown frame in its part
-WIDTH, NARROWEST = 12.0, 5.2  # inches
-WIDEST, HIGHEST = 4.0, 2.4  # of a picture
-MARGIN = 0.5  # of the methods' names
-NOTE = (
-    "Visibility, and its errors: orange is too dark (false shadow), blue too bright (light leak), "
-    "white none; errors from half of the light on have the full colour."
-)
-
 
 class Settings(RadiiFigure):
-    """A frame by methods for soft shadows, with their errors.
+    """A scene with two boxes, and these enlarged by each method, with errors.
 
-    At several radii; the page compares any two of them.
+    The page compares the methods under the least light, the middle one and the largest.
     """
 
     tables = (soft_methods.Settings, soft_summary.Settings)
@@ -87,6 +65,7 @@ def shown(layout: Layout) -> list[dict[str, Any]]:
     for name in _of_this_kind(layout, layout.settings["figures"]):
         settings = layout.entry("figures", name)
         table = settings["table"]
+        count = len(layout.frames(frame_set(layout, table))["radii"])
         frames.append(
             {
                 "table": table,
@@ -94,7 +73,7 @@ def shown(layout: Layout) -> list[dict[str, Any]]:
                 "frame_set": frame_set(layout, table),
                 "scene": settings["scene"],
                 "labels": kinds.params(layout, "figures", name)["labels"],
-                "radii": settings["radii"],
+                "radii": sorted({0, count // 2, count - 1}),
             }
         )
     return frames
@@ -128,102 +107,12 @@ def draw(
         part: of a frame set, see `FrameSetPart`; soft_answers: of each method, by file name.
         labels: of the methods, in the order to draw them; radii: their numbers, counted from 0.
     """
-    from neural_shadows.frames.frame_set import FrameSetPart
+    from neural_shadows.reports.data.soft_pictures import read_pictures
+    from neural_shadows.reports.drawing.soft_sheet import crop_sheet
 
-    opened = FrameSetPart(part)
-    targets = opened.targets[NUMBER].astype(np.float32)
-    valid = np.asarray(opened.valid[NUMBER, 0])
     paths = {path.stem: path for path in soft_answers}
-    pictures = {
-        label: [read_answer(paths[method], name_of(part, k)) for k in radii]
-        for method, label in labels.items()
-    }
-    lights = [light_names(opened.about)[k] for k in radii]
-    heading = f"{title} ({part.parent.name}, {run['scale']} scale)"
-    return strips(pictures, [targets[k] for k in radii], valid, lights, heading)
-
-
-def strips(
-    pictures: Mapping[str, Sequence[np.ndarray]],
-    targets: Sequence[np.ndarray],
-    valid: np.ndarray,
-    lights: Sequence[str],
-    title: str,
-) -> Figure:
-    """Draw exact soft shadows, and below each method's, with errors.
-
-    Args:
-        pictures: (H, W) in [0, 1] of each method, by light; valid: (H, W) bool, the evaluated
-            pixels.
-        lights: their sizes in words.
-    """
-    labels, columns = ["Exact", *pictures], 2 * len(targets)
-    figure, grid = _grid(title, labels, columns, valid.shape, NOTE)
-    for k, (target, light) in enumerate(zip(targets, lights)):
-        _show(grid[0, 2 * k], target, light)
-        grid[0, 2 * k + 1].set_axis_off()
-        for axes, images in zip(grid[1:], pictures.values()):
-            error = np.where(valid, images[k] - target, 0)
-            square = np.square(error[valid]).mean()
-            _show(axes[2 * k], images[k], light)
-            _show(axes[2 * k + 1], coloured(error), f"error, {metrics()['mse'].score(square)}")
-    return figure
-
-
-def answers_alone(
-    pictures: Mapping[str, Sequence[np.ndarray]], lights: Sequence[str], title: str
-) -> Figure:
-    """Draw each method's visibility by radius, without a reference.
-
-    Args:
-        pictures, lights: see `strips`.
-    """
-    shape = next(iter(pictures.values()))[0].shape
-    figure, grid = _grid(title, [*pictures], len(lights), shape)
-    for row, images in zip(grid, pictures.values()):
-        for axes, picture, light in zip(row, images, lights):
-            _show(axes, picture, light)
-    return figure
-
-
-def _grid(
-    title: str, labels: Sequence[str], columns: int, shape: tuple[int, int], note: str = ""
-) -> tuple[Figure, np.ndarray]:
-    """A figure with a row of pictures a label, and its axes.
-
-    Args:
-        shape: a picture's height and width.
-    """
-    height, width = shape
-    side = min((WIDTH - MARGIN) / columns, WIDEST, HIGHEST * width / height)
-    tall = side * height / width
-    across = max(MARGIN + columns * side, NARROWEST)
-    figure = new_figure(title, across, (1.3 if note else 0.6) + len(labels) * (tall + 0.25))
-    figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02, hspace=0, wspace=0)
-    grid = figure.subplots(len(labels), columns, squeeze=False)
-    for axes, label in zip(grid[:, 0], labels):
-        axes.set_ylabel(textwrap.fill(label, max(10, int(14 * tall))), fontsize=9)
-    if note:
-        note_below(figure, note)
-    return figure, grid
-
-
-def coloured(error: np.ndarray) -> np.ndarray:
-    """Colours (H, W, 3) of errors (H, W)."""
-    from matplotlib.colors import to_rgb
-
-    from neural_shadows.reports.data.frame_errors import FULL
-
-    share = np.clip(np.abs(error) / FULL, 0, 1)[..., None]
-    colour = np.where(error[..., None] < 0, to_rgb(FALSE_SHADOW), to_rgb(LIGHT_LEAK))
-    return 1 - share * (1 - colour)  # orange below 0, blue above, white at 0
-
-
-def _show(axes: Axes, image: np.ndarray, text: str) -> None:
-    # Of a larger frame not every n-th pixel.
-    axes.imshow(image, cmap="gray", vmin=0, vmax=1, interpolation="antialiased")
-    frame_picture(axes)  # much of most pictures is white
-    axes.set_title(text, loc="left", fontsize=8, pad=2)
+    pictures = read_pictures(part, {method: paths[method] for method in labels}, radii)
+    return crop_sheet(pictures, labels, f"{title} ({run['scale']} scale)", part.parent.name)
 
 
 if "snakemake" in globals():

@@ -16,13 +16,14 @@ from neural_shadows.reports.data.phrases import describe_mesh
 from neural_shadows.reports.page.blocks import Block, data_uri
 from neural_shadows.reports.page.claim_cards import budget, counted, read_cards
 from neural_shadows.reports.page.figure_blocks import figure_blocks, themed
-from neural_shadows.reports.page.frame_comparison import frame_comparisons, soft_comparisons
+from neural_shadows.reports.page.hard_comparison import hard_comparisons
 from neural_shadows.reports.page.run_facts import run_facts, run_sentence
+from neural_shadows.reports.page.soft_comparison import soft_comparisons
 from neural_shadows.reports.page.table_blocks import has_printed, shown_looks, table_block
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
-SCRIPTS = ("reading.js", "script.js")
+SCRIPTS = ("reading.js", "hard_frames.js", "soft_frames.js", "frames.js")
 
 
 def write_page(
@@ -132,7 +133,7 @@ def write_page(
         missing=missing,
         front=first,
         comparisons=[
-            *frame_comparisons(references, visibilities, metrics, rows, described),
+            *hard_comparisons(references, visibilities, metrics, rows, described),
             *soft_comparisons(soft_parts, soft_answers, soft_pictures),
         ],
         tables=of_chapter(blocks, "thesis"),

@@ -1,25 +1,19 @@
 "use strict";
 
-// Light or dark: as the system has it, until the reader chooses.
-const theme = document.getElementById("theme");
-function setTheme(dark) {
-  document.documentElement.dataset.theme = dark ? "dark" : "light";
-  theme.setAttribute("aria-pressed", String(dark));
-}
-setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
-theme.addEventListener("click", () => setTheme(theme.getAttribute("aria-pressed") !== "true"));
-
+// Frames side by side: two methods under a divider. `paintHard` and `softPainter` put a method's
+// picture into a layer of the stage.
 const LARGEST_ZOOM = 16;
 
 for (const article of document.querySelectorAll("article.compare")) {
   const data = JSON.parse(article.querySelector("script").textContent);
   const find = (selector) => article.querySelector(selector);
-  const stage = find(".stage"), divider = find(".divider");
-  const over = find(".over"), images = article.querySelectorAll(".layer img");
+  const stage = find(".stage"), divider = find(".divider"), over = find(".over");
   const view = find(".view"), left = find(".left"), right = find(".right"), shown = find(".shown");
+  const lights = [...article.querySelectorAll("button[data-light]")];
   const names = Object.fromEntries(data.methods.map((method) => [method.key, method.name]));
+  const paint = data.soft ? softPainter(data.errors) : paintHard;
   // position: of the divider in per cent; x, y: of the picture's corner in stage widths.
-  const state = { position: 50, zoom: 1, x: 0, y: 0 };
+  const state = { position: 50, zoom: 1, x: 0, y: 0, light: lights.length - 1 };
 
   data.views.forEach((item, i) => view.add(new Option(item.caption, String(i))));
   for (const method of data.methods) {
@@ -31,31 +25,22 @@ for (const article of document.querySelectorAll("article.compare")) {
 
   function show() {
     const item = data.views[Number(view.value)];
+    const pictures = data.soft ? item.lights[state.light] : item.pictures;
+    const light = data.soft ? `, ${data.lights[state.light].name}` : "";
     stage.style.aspectRatio = `${item.width} / ${item.height}`;
     for (const [layer, key, name] of [
       [over, left.value, find(".name-left")],
       [find(".under"), right.value, find(".name-right")],
     ]) {
-      const picture = item.pictures[key];
-      // Over the reference lies what a method changes, and over that its errors; the reference has
-      // neither, and no map.
-      const map = shown.value === "map" && picture.map;
-      // Without a map the errors lie on white.
-      const alone = shown.value === "map" && !map && picture.errors;
-      const errors = (alone || shown.value === "errors") && picture.errors;
-      const [image, ...others] = layer.children;
-      image.src = map || item.reference;
-      layer.classList.toggle("alone", Boolean(alone));
-      [!map && !alone && picture.change, errors].forEach((source, i) => {
-        others[i].hidden = !source;
-        if (source) others[i].src = source;
-      });
-      image.alt = `${names[key]}, ${shown.selectedOptions[0].text}, ${item.caption}`;
-      name.textContent = picture.scores ? `${names[key]}: ${picture.scores}` : names[key];
+      const { scores } = pictures[key];
+      const alt = `${names[key]}, ${shown.selectedOptions[0].text}, ${item.caption}${light}`;
+      paint(layer, { item, pictures, key, shown: shown.value, alt });
+      name.textContent = scores ? `${names[key]}: ${scores}` : names[key];
     }
     for (const scale of article.querySelectorAll(".scale")) {
-      scale.hidden = !scale.dataset.of.split(" ").includes(shown.value);
+      scale.hidden = scale.dataset.of !== shown.value;
     }
+    lights.forEach((button, i) => button.setAttribute("aria-pressed", String(i === state.light)));
   }
 
   function place() {
@@ -63,7 +48,7 @@ for (const article of document.querySelectorAll("article.compare")) {
     state.x = Math.min(0, Math.max(1 - state.zoom, state.x));
     state.y = Math.min(0, Math.max((1 - state.zoom) * height, state.y));
     const width = stage.clientWidth;
-    for (const image of images) {
+    for (const image of article.querySelectorAll(".layer > *")) {
       image.style.transform =
         `translate(${state.x * width}px, ${state.y * width}px) scale(${state.zoom})`;
     }
@@ -95,6 +80,10 @@ for (const article of document.querySelectorAll("article.compare")) {
   };
 
   for (const select of [view, left, right, shown]) select.addEventListener("change", show);
+  lights.forEach((button, i) => button.addEventListener("click", () => {
+    state.light = i;
+    show();
+  }));
   find(".in").addEventListener("click", () => zoomMiddle(2));
   find(".out").addEventListener("click", () => zoomMiddle(0.5));
   find(".reset").addEventListener("click", () => {

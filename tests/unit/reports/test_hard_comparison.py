@@ -7,7 +7,7 @@ from PIL import Image
 from report_page import seen_frames, write_evaluated
 from report_samples import row
 
-from neural_shadows.reports.page.frame_comparison import frame_comparisons, map_picture
+from neural_shadows.reports.page.hard_comparison import hard_comparisons, map_picture
 
 
 def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
@@ -15,7 +15,7 @@ def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
     # Two methods of one label bear their keys.
     labels = {"shadow_map_128": "A map", "shadow_map_512": "A map", "dragon": "Network"}
     rows = [row(method, label) for method, label in labels.items()]
-    (data,) = frame_comparisons(**files, rows=rows, meshes={"dragon": "the dragon"})
+    (data,) = hard_comparisons(**files, rows=rows, meshes={"dragon": "the dragon"})
     names = [method["name"] for method in data["methods"]]
     assert names == [
         "★ Reference",
@@ -36,20 +36,22 @@ def test_frames_are_stored_without_loss_beside_their_scores(tmp_path):
     )
     assert shown["scores"] == "LPIPS 0.1100, PSNR 24.20 dB, FLIP 0.2200"
     # Without a reference nothing is compared.
-    assert frame_comparisons(**files | {"references": []}, rows=rows, meshes={}) == []
+    assert hard_comparisons(**files | {"references": []}, rows=rows, meshes={}) == []
 
 
 def test_map_is_black_where_nothing_differs():
-    picture = np.asarray(map_picture(np.array([[0.0, 0.5, 1.0]])))
-    assert picture[0, 0].tolist() == [0, 0, 4]
-    assert picture[0, 2].tolist() == [252, 253, 191]  # magma's ends
+    error = np.zeros((4, 6))
+    error[2:, 4:] = 1
+    picture = np.asarray(map_picture(error))
+    assert picture.shape == (2, 3, 3) and picture[0, 0].tolist() == [0, 0, 4]
+    assert picture[1, 2].tolist() == [252, 253, 191]  # magma's ends
 
 
 def test_of_a_half_finished_run_what_each_view_has_is_shown(tmp_path):
     files = write_evaluated(tmp_path)
     values = pd.read_csv(files["metrics"][0])
     values[values["method"] != "dragon"].to_csv(files["metrics"][0], index=False)
-    (data,) = frame_comparisons(**files, rows=[], meshes={})
+    (data,) = hard_comparisons(**files, rows=[], meshes={})
     shown = ["reference", "shadow_map_128", "shadow_map_512"]
     assert [method["key"] for method in data["methods"]] == shown
     assert all(list(view["pictures"]) == shown for view in data["views"])
