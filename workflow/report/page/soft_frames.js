@@ -33,15 +33,15 @@ function errorColour(error, { full, shades, dark, bright }) {
 }
 
 function softPainter(errors) {
-  const newest = new Map(); // by layer: what is to be seen, when its pictures are decoded
+  const newest = new Map(); // choice by layer
 
-  return async function paint(layer, asked) {
-    newest.set(layer, asked);
+  return async function paint(layer, choice) {
+    newest.set(layer, choice);
     layer.setAttribute("aria-busy", "true");
-    const { item, pictures, key, shown, alt } = asked;
+    const { item, pictures, key, shown, alt } = choice;
     const sources = [item.direct, item.sky, pictures[key].visibility, pictures.reference.visibility];
     const [direct, sky, visibility, exact] = await Promise.all(sources.map(levels));
-    if (newest.get(layer) !== asked) return; // another choice, meanwhile
+    if (newest.get(layer) !== choice) return; // a later choice
     const colourOf = {
       shaded: (i) => grey(sky[i] + direct[i] * visibility[i] / 255),
       visibility: (i) => grey(visibility[i]),
