@@ -11,10 +11,13 @@ function openWebgl(canvas) {
   return gl;
 }
 
-function makeProgram(gl, vertex, fragment, constants = {}) {
+// Begins to compile and link; drivers do several at a time until one is finished.
+function beginProgram(gl, vertex, fragment, constants = {}) {
   const defines = Object.entries(constants).map(([name, value]) => `#define ${name} ${value}\n`);
   // Without the latter phones may read positions and heights as half floats.
-  const exact = ["float", "int", "sampler2D", "isampler2D", "isampler3D"];
+  const exact = [
+    "float", "int", "sampler2D", "isampler2D", "isampler3D", "usampler2D", "sampler2DArray", "usampler2DArray",
+  ];
   const precisions = exact.map((type) => `precision highp ${type};\n`);
   const head = ["#version 300 es\n", ...precisions, ...defines].join("");
   const program = gl.createProgram();
@@ -23,12 +26,16 @@ function makeProgram(gl, vertex, fragment, constants = {}) {
     gl.shaderSource(shader, head + source);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
-    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
-      throw new Error(gl.getShaderInfoLog(shader) || "a shader does not compile");
-    }
   }
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+  return program;
+}
+
+function finishProgram(gl, program) {
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+    const logs = gl.getAttachedShaders(program).map((shader) => gl.getShaderInfoLog(shader));
+    throw new Error([...logs, gl.getProgramInfoLog(program)].join("") || "a shader does not compile");
+  }
   const uniforms = {};
   for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); i++) {
     const { name, type } = gl.getActiveUniform(program, i);
@@ -37,10 +44,14 @@ function makeProgram(gl, vertex, fragment, constants = {}) {
   return { program, uniforms };
 }
 
+function makeProgram(gl, vertex, fragment, constants) {
+  return finishProgram(gl, beginProgram(gl, vertex, fragment, constants));
+}
+
 // format: [internal, format, type]; data null for a target. Texels are fetched, never filtered.
-function makeTexture(gl, format, [width, height, depth], data = null) {
-  const texture = gl.createTexture(), kind = depth ? gl.TEXTURE_3D : gl.TEXTURE_2D;
-  const most = gl.getParameter(depth ? gl.MAX_3D_TEXTURE_SIZE : gl.MAX_TEXTURE_SIZE);
+function makeTexture(gl, format, [width, height, depth], data = null, kind = depth ? gl.TEXTURE_3D : gl.TEXTURE_2D) {
+  const texture = gl.createTexture();
+  const most = gl.getParameter(kind === gl.TEXTURE_3D ? gl.MAX_3D_TEXTURE_SIZE : gl.MAX_TEXTURE_SIZE);
   if (Math.max(width, height, depth ?? 0) > most) {
     throw new Unavailable(`This device's textures end at ${most} texels, too few for this method.`);
   }
@@ -85,6 +96,16 @@ function makeTarget(gl, formats, width, height, deep = false) {
   return { framebuffer, textures, width, height, free };
 }
 
+// A framebuffer of an array texture's layers.
+function makeLayerFramebuffer(gl, { texture }, first, count) {
+  const framebuffer = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+  const places = Array.from({ length: count }, (_, i) => gl.COLOR_ATTACHMENT0 + i);
+  places.forEach((place, i) => gl.framebufferTextureLayer(gl.FRAMEBUFFER, place, texture, 0, first + i));
+  gl.drawBuffers(places);
+  return framebuffer;
+}
+
 function setUniforms(gl, { program, uniforms }, values) {
   gl.useProgram(program);
   let unit = 0;
@@ -98,6 +119,7 @@ function setUniforms(gl, { program, uniforms }, values) {
     } else if (type === gl.FLOAT) gl.uniform1f(place, value);
     else if (type === gl.FLOAT_VEC2) gl.uniform2fv(place, value);
     else if (type === gl.FLOAT_VEC3) gl.uniform3fv(place, value);
+    else if (type === gl.INT_VEC2) gl.uniform2iv(place, value);
     else if (type === gl.FLOAT_MAT3) gl.uniformMatrix3fv(place, false, value);
     else if (type === gl.FLOAT_MAT4) gl.uniformMatrix4fv(place, false, value);
     else gl.uniform1i(place, Number(value)); // int or bool

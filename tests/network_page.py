@@ -1,0 +1,98 @@
+"""A page with the viewer's executor of screen-space networks, and networks and planes for it."""
+
+import base64
+from pathlib import Path
+
+import numpy as np
+import torch
+from scipy.ndimage import gaussian_filter
+
+from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
+
+REPORT = Path(__file__).parents[1] / "workflow/report"
+EXECUTOR = [
+    REPORT / "soft_viewer/screen_network.js",
+    *sorted((REPORT / "soft_viewer/shaders").glob("network_*")),
+    *sorted((REPORT / "soft_viewer/shaders").glob("kernel_*")),
+]
+SHADERS = [REPORT / "viewer/shaders/screen.vert", *EXECUTOR[1:]]
+SCRIPTS = [REPORT / "viewer/webgl.js", REPORT / "viewer/arrays.js", EXECUTOR[0]]
+HEADER = {"radii": [0.0, 0.01], "radius_unit": "scene_sizes"}
+# A network, its planes filled with numbers (layers, height, width, 4); all of a page share a context.
+MAKE = """async ([name, data, shaders, planes, width, height, float]) => {
+  window.gl ??= openWebgl(document.createElement("canvas"));
+  window.networks ??= {};
+  const arrays = { weights: await unpack(data.arrays.weights) };
+  const network = new ScreenNetwork(gl, shaders, { ...data, arrays }, width, height, { float });
+  networks[name]?.free();
+  networks[name] = network;
+  const numbers = new Float32Array(Uint8Array.from(atob(planes), (letter) => letter.charCodeAt(0)).buffer);
+  gl.bindTexture(network.planes.kind, network.planes.texture);
+  gl.texSubImage3D(network.planes.kind, 0, 0, 0, 0, width, height, numbers.length / width / height / 4,
+    gl.RGBA, gl.FLOAT, numbers);
+}"""
+# Its visibility, rows from the top, and the number of draws.
+RUN = """(name) => {
+  const { width, height } = networks[name], steps = networks[name].run();
+  let draws = 0, step = steps.next();
+  for (; !step.done; step = steps.next()) draws++;
+  gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, step.value.kind, step.value.texture, 0);
+  const pixels = new Float32Array(4 * width * height);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
+  const bytes = new Uint8Array(pixels.filter((_, i) => i % 4 === 0).buffer);
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 4096) text += String.fromCharCode(...bytes.subarray(i, i + 4096));
+  return { visibility: btoa(text), size: [height, width], draws, error: gl.getError() };
+}"""
+
+
+def open_page(browser):
+    """A page with the scripts and nothing else."""
+    page = browser.new_page()
+    page.add_script_tag(content="\n".join(path.read_text("utf-8") for path in SCRIPTS))
+    return page
+
+
+def make(page, data: dict, planes: torch.Tensor, float: bool = False, name: str = "") -> None:
+    """Make a network of the page from its `screen_arrays` and planes (C, H, W)."""
+    channels, height, width = planes.shape
+    layers = np.zeros((-(-channels // 4), 4, height, width), np.float32)
+    layers.reshape(-1, height, width)[:channels] = planes
+    numbers = base64.b64encode(layers.transpose(0, 2, 3, 1).tobytes()).decode()
+    page.evaluate(MAKE, [name, data, _shaders(), numbers, width, height, float])
+
+
+def run(page, name: str = "") -> tuple[np.ndarray, int]:
+    """Visibility (H, W) by a network of the page, and its draws."""
+    result = page.evaluate(RUN, name)
+    assert result["error"] == 0
+    visibility = np.frombuffer(base64.b64decode(result["visibility"]), np.float32)
+    return visibility.reshape(result["size"]), result["draws"]
+
+
+def smooth_planes(count: int, height: int, width: int, seed: int = 0) -> torch.Tensor:
+    """Planes (C, H, W) like features: smooth, between 0 and 1.4, with steps at silhouettes."""
+    noise = np.random.default_rng(seed).normal(size=(count + 1, height, width))
+    smooth = gaussian_filter(noise, (0, 6, 6), mode="nearest")
+    smooth -= smooth.min((1, 2), keepdims=True)
+    smooth /= smooth.max((1, 2), keepdims=True)
+    nearer = smooth[-1] > 0.5
+    return torch.from_numpy((smooth[:-1] + 0.4 * nearer).astype(np.float32))
+
+
+def with_random_statistics(network: ScreenNetwork, seed: int = 0) -> ScreenNetwork:
+    """The network as if trained: statistics of its input and its norms, and biases, by chance."""
+    generator = torch.Generator().manual_seed(seed)
+    for name, tensor in network.state_dict().items():
+        chance = torch.rand(tensor.shape, generator=generator)
+        if name.rpartition(".")[2] in ("running_var", "spreads"):
+            tensor.copy_(0.5 + chance)
+        elif name.rpartition(".")[2] in ("bias", "running_mean", "centres"):
+            tensor.add_(0.4 * (chance - 0.5))
+    return network
+
+
+def _shaders() -> dict[str, str]:
+    endings = {".glsl": "", ".frag": "_frag", ".vert": "_vert"}
+    return {path.stem + endings[path.suffix]: path.read_text("utf-8") for path in SHADERS}
