@@ -77,10 +77,26 @@ TEMPLATE = [
         *("hard_frames.js", "soft_frames.js", "frames.js"),
     )
 ]
-VIEWER = [
-    LAYOUT.source(os.path.relpath(path, WORKFLOW.parent))
-    for path in sorted((WORKFLOW / "report/viewer").glob("**/*.*"))
-]
+
+
+def files_of(folder, pattern="**/*.*"):
+    """Files of a folder of `workflow`, as inputs."""
+    paths = sorted((WORKFLOW / folder).glob(pattern))
+    return [LAYOUT.source(os.path.relpath(path, WORKFLOW.parent)) for path in paths]
+
+
+# By the stage that fills them in. That of an area light shares some of the other's.
+VIEWERS = {
+    "write_viewer": files_of("report/viewer"),
+    "write_soft_viewer": [
+        *(
+            path
+            for path in files_of("report/viewer")
+            if os.path.basename(path) in viewers.SHARED
+        ),
+        *files_of("report/soft_viewer"),
+    ],
+}
 STAGES = WORKFLOW / "neural_shadows"
 
 # GPUs of a job that computes networks; with `device: auto` a GPU is used, not reserved.

@@ -28,7 +28,7 @@ rule export_network:
 rule viewer:
     input:
         unpack(of(viewers.files)),
-        template=VIEWER,
+        template=lambda wildcards: VIEWERS[viewers.stage(LAYOUT, wildcards.viewer)],
     output:
         html=report(
             PATHS.report("{viewer}.html"),
@@ -44,11 +44,10 @@ rule viewer:
     resources:
         **usual(4000, minutes=10),
     params:
-        code=lambda wildcards: code(
-            "viewer/write_viewer", viewers.encodings(LAYOUT, wildcards.viewer)
-        ),
+        code=lambda wildcards: code(**viewers.code_of(LAYOUT, wildcards.viewer)),
+        stage=of(viewers.stage),
         settings=of(viewers.arguments),
     message:
         "Writing {wildcards.viewer}: a scene with a movable light"
     script:
-        "../neural_shadows/viewer/write_viewer.py"
+        "../neural_shadows/viewer/{params.stage}.py"

@@ -8,6 +8,7 @@ from neural_shadows.sections.own_frames import OwnFrames, own_settings
 from neural_shadows.sections.rows import row_of
 from neural_shadows.sections.scenes import mesh_name
 from neural_shadows.sections.sections import Sections
+from neural_shadows.sections.viewers import HardViewer, SoftViewer
 
 Section = dict[str, Any]
 
@@ -35,13 +36,7 @@ def resolved(config: Sections) -> Section:
             **{name: _experiment(config, name) for name in config.experiments},
         },
         "learning_curves": curves,
-        "viewers": {
-            name: {
-                "scene": viewer.scene,
-                "rows": [row_of(config, viewer.scene, row) for row in viewer.networks],
-            }
-            for name, viewer in config.viewers.items()
-        },
+        "viewers": {name: _viewer(config, viewer) for name, viewer in config.viewers.items()},
         "tables": {
             name: table.resolved(config) | {"chapter": table.chapter_of()}
             for name, table in config.tables.items()
@@ -49,6 +44,13 @@ def resolved(config: Sections) -> Section:
         "figures": {name: _figure(config, name) for name in config.figures},
         "claims": {name: claim.resolved(config) for name, claim in config.claims.items()},
     }
+
+
+def _viewer(config: Sections, viewer: HardViewer | SoftViewer) -> Section:
+    if isinstance(viewer, SoftViewer):
+        return viewer.model_dump()
+    rows = [row_of(config, viewer.scene, row) for row in viewer.networks]
+    return {"scene": viewer.scene, "rows": rows}
 
 
 def _figure(config: Sections, name: str) -> Section:

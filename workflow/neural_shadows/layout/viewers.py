@@ -2,14 +2,34 @@
 
 from typing import Any
 
-from neural_shadows.layout import tables
+from neural_shadows.layout import frame_sets, tables
 from neural_shadows.layout.layout import Layout
+
+_HARD, _SOFT = "write_viewer", "write_soft_viewer"
+# Files of `report/viewer` that the viewer of an area light has as well.
+SHARED = (
+    *("arrays.js", "bvh.js", "divider.js", "mesh.js", "orbit.js", "vectors.js", "webgl.js"),
+    *("page.js", "viewer.css", "screen.vert"),
+)
+
+
+def stage(layout: Layout, viewer: str) -> str:
+    """Stage that writes a viewer: under a sun, or under an area light."""
+    return _SOFT if "frame_set" in layout.entry("viewers", viewer) else _HARD
 
 
 def files(layout: Layout, viewer: str) -> dict[str, Any]:
-    """Mesh, weights and held-out depth biases of a viewer."""
+    """Mesh, weights and held-out depth biases of a viewer; or meshes and weights."""
     settings, paths = layout.entry("viewers", viewer), layout.paths
-    scene, rows = settings["scene"], settings["rows"]
+    scene = settings["scene"]
+    if stage(layout, viewer) == _SOFT:
+        return {
+            "meshes": frame_sets.meshes(layout, scene, settings["frame_set"]),
+            "weights": [
+                paths.network("weights.safetensors", name) for name in settings["networks"]
+            ],
+        }
+    rows = settings["rows"]
     return {
         "mesh_ply": paths.scene("mesh.ply", scene),
         "mesh_json": paths.scene("mesh.json", scene),
@@ -19,9 +39,11 @@ def files(layout: Layout, viewer: str) -> dict[str, Any]:
 
 
 def arguments(layout: Layout, viewer: str) -> dict[str, Any]:
-    """Arguments of `write_viewer` besides files."""
+    """Arguments of a viewer's stage besides files."""
     settings = layout.entry("viewers", viewer)
     name = settings["scene"]
+    if stage(layout, viewer) == _SOFT:
+        return _soft_arguments(layout, settings)
     scene = layout.mesh_scene(name)
     return {
         "name": name,
@@ -34,9 +56,32 @@ def arguments(layout: Layout, viewer: str) -> dict[str, Any]:
     }
 
 
-def encodings(layout: Layout, viewer: str) -> set[str]:
-    """Kinds of a viewer's networks."""
-    return layout.encodings(tables.experiments_of(layout.entry("viewers", viewer)["rows"]))
+def _soft_arguments(layout: Layout, settings: dict[str, Any]) -> dict[str, Any]:
+    frames = layout.frames(settings["frame_set"])
+    experiments = layout.settings["experiments"]
+    return {
+        "name": settings["scene"],
+        "labels": [experiments[name]["label"] for name in settings["networks"]],
+        "scene": layout.entry("scenes", settings["scene"])["arrangement"],
+        "frames": {key: frames[key] for key in ("fov", "radii", "radius_unit")},
+        "triangles": settings["triangles"],
+        "resolution": settings["map"],
+        "seed": layout.settings["seed"],
+        "run": layout.run(),
+    }
+
+
+def code_of(layout: Layout, viewer: str) -> dict[str, Any]:
+    """Modules behind a viewer, see `code` of the rules."""
+    settings, name = layout.entry("viewers", viewer), stage(layout, viewer)
+    code = {"stage": f"viewer/{name}"}
+    if name == _HARD:
+        return code | {"encodings": layout.encodings(tables.experiments_of(settings["rows"]))}
+    arrangement = layout.entry("scenes", settings["scene"])["arrangement"]
+    return code | {
+        "forms": layout.forms(settings["networks"]),
+        "generators": [arrangement["generate"]],
+    }
 
 
 def labels(layout: Layout, viewer: str) -> dict[str, str]:

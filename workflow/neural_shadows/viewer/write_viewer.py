@@ -1,13 +1,8 @@
 """Stage for interactive pages with a movable light."""
 
-import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
-
-import jinja2
-from markupsafe import Markup
-from PIL import Image
 
 from neural_shadows.evaluation.memory import network_bytes
 from neural_shadows.evaluation.ray_network import take_constants
@@ -16,7 +11,6 @@ from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET
 from neural_shadows.rendering.shading import AMBIENT, BACKGROUND
 from neural_shadows.reports.data.phrases import describe_mesh, describe_run
-from neural_shadows.reports.page.blocks import data_uri
 from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.running import progress
 from neural_shadows.running.stage import run_stage
@@ -25,6 +19,7 @@ from neural_shadows.settings.records import Row, Run, SceneInfo, SceneSettings, 
 from neural_shadows.viewer.mesh_arrays import BITS, mesh_arrays
 from neural_shadows.viewer.network_arrays import network_arrays
 from neural_shadows.viewer.packed import packed
+from neural_shadows.viewer.template import fill_template, shaders
 from neural_shadows.viewer.views import poster, shown_views
 
 # 3.4 bytes per triangle: with a 256³ field and a network of width 64 a viewer takes 2 MiB.
@@ -93,19 +88,15 @@ def write_viewer(
         },
         "views": shown_views(opened, frames, views),
         "networks": [_network(path, row, biases) for path, row in zip(weights, rows)],
-        "shaders": _shaders(template),
+        "shaders": shaders(template),
     }
     verb = "is decimated to" if len(faces) < report["faces"] else "has its"
     quantised = f"Here it {verb} {len(faces):,} triangles, with vertices in {BITS} bits."
-    (folder,) = {path.parent for path in template if path.suffix == ".html"}
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
-    )
-    page = environment.get_template("viewer.html").render(
+    page = fill_template(
+        template,
+        "viewer.html",
         title=title,
-        style=Markup(_text(template, ".css")),
-        script=Markup(_text(template, ".js")),
-        poster=_jpeg(image),
+        poster=image,
         about=f"Mesh: {describe_mesh(report, about)}. {quantised} {describe_run(run)}",
         data=data,
     )
@@ -133,30 +124,6 @@ def _network(weights: Path, row: Row, depth_biases: Mapping[str, Path]) -> dict[
         "resident": network.resident_bytes(),
         **network_arrays(network),
     }
-
-
-def _jpeg(image: Image.Image) -> str:
-    """Image as a data URI, shown while the viewer starts."""
-    file = io.BytesIO()
-    image.save(file, "JPEG", quality=80)
-    return data_uri("image/jpeg", file.getvalue())
-
-
-def _text(template: Sequence[Path], ending: str) -> str:
-    """Joined template files of one suffix; main.js last."""
-    paths = sorted(template, key=lambda path: path.name == "main.js")
-    return "\n".join(path.read_text(encoding="utf-8") for path in paths if path.suffix == ending)
-
-
-def _shaders(template: Sequence[Path]) -> dict[str, str]:
-    """Shaders by name: `field` for field.glsl, `surface_vert` for surface.vert."""
-    shaders = {}
-    for path in template:
-        if path.suffix in (".vert", ".frag"):
-            shaders[f"{path.stem}_{path.suffix[1:]}"] = path.read_text(encoding="utf-8")
-        elif path.suffix == ".glsl":
-            shaders[path.stem] = path.read_text(encoding="utf-8")
-    return shaders
 
 
 if "snakemake" in globals():

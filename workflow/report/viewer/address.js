@@ -26,9 +26,3 @@ function stateOf(text, keys) {
   }
   return state;
 }
-
-// In a page's frame the page's own address holds it; on its own, the viewer's.
-function writeAddress(text) {
-  if (window.parent !== window) window.parent.postMessage({ viewer: text }, "*");
-  else history.replaceState(null, "", `#${text}`);
-}

@@ -37,6 +37,10 @@ function corners({ vertices, faces }) {
       faceNormals.set(normal, 3 * (first + k));
     }
   }
+  for (let i = 0; i < normals.length; i += 3) { // one where faces cancel: the shader takes theirs
+    const length = Math.hypot(normals[i], normals[i + 1], normals[i + 2]) || 1;
+    for (let axis = 0; axis < 3; axis++) normals[i + axis] /= length;
+  }
   const vertexNormals = new Float32Array(3 * faces.length);
   faces.forEach((i, at) => vertexNormals.set(normals.subarray(3 * i, 3 * i + 3), 3 * at));
   return { positions, vertexNormals, faceNormals };

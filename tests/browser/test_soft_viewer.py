@@ -1,0 +1,207 @@
+"""The soft viewer in a browser, against the pipeline's buffers, maps, rays, filters and networks."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+import torch
+from soft_viewer_page import NETWORKS, frame_of, images_of, make_soft_viewer
+
+from neural_shadows.denoising.ffx import FfxFilter, ffx_like
+from neural_shadows.evaluation.methods import moments, pcf, pcss
+from neural_shadows.frames.feature_names import TRACED, buffers_of, channels_of
+from neural_shadows.frames.features import named_features
+from neural_shadows.frames.light_size import light_size
+from neural_shadows.frames.ray_tracing import ray_traced, traced_images
+from neural_shadows.networks.screen_space.screen_networks import load_screen_network
+from neural_shadows.rendering.gbuffer import lens_of
+from neural_shadows.viewer.screen_arrays import with_half_weights
+
+SIZE = WIDTH, HEIGHT = 512, 256  # in half of it two percent of the pixels are edges
+RAYS = 8  # of the reference
+SHARES = (0.0, 0.5, 1.0)  # of the largest radius
+# Of visibility and features, in steps of 1/255: rasterised edges lie up to 1/16 of a pixel elsewhere.
+MEAN, MOST_OF_99 = 1 / 255, 4 / 255
+HALF_MAPS = 2e-3  # of kernels in half precision
+
+
+@pytest.fixture(scope="module")
+def soft_page(tmp_path_factory):
+    scene = {"generate": "room", "seed": 5, "inserted": {}}
+    return make_soft_viewer(tmp_path_factory.mktemp("soft"), scene)
+
+
+@pytest.fixture(scope="module")
+def data(soft_page):
+    text = soft_page.html.read_text("utf-8")
+    found = re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)
+    return json.loads(found[1])
+
+
+def opened(browser, html, fragment="", **options):
+    """The page, and what its console says."""
+    page = browser.new_page(**{"viewport": {"width": 640, "height": 480}} | options)
+    said = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto(f"file://{html}#{fragment}")
+    page.wait_for_selector("#viewer.ready,#viewer.failed", timeout=120_000)
+    return page, said
+
+
+@pytest.fixture(scope="module")
+def page(browser, soft_page):
+    return opened(browser, soft_page.html, "left=hard&right=hard")[0]
+
+
+@pytest.fixture(scope="module")
+def frame(soft_page, data):
+    return frame_of(soft_page, data["views"][1], SIZE)
+
+
+def asked(data, share=0.0):
+    view = data["views"][1]
+    light = {"centre": view["light"], "radius": share * data["radius"]}
+    return {
+        "view": {key: view[key] for key in ("eye", "target", "fov")},
+        "light": light,
+        "size": SIZE,
+        "truth": RAYS,
+    }
+
+
+def answers(page, key, question):
+    shown = page.evaluate("([key, asked]) => viewer.answers(key, asked)", [key, question])
+    return np.array(shown, np.float32).reshape(HEIGHT, WIDTH)
+
+
+def assert_alike(shown, expected, name):
+    off = np.abs(np.asarray(shown, float) - expected)
+    assert off.mean() <= MEAN, (name, off.mean())
+    assert np.quantile(off, 0.99) <= MOST_OF_99, (name, np.quantile(off, 0.99))
+
+
+def test_buffers(page, data, frame):
+    """Each buffer but at edges, where a pixel shows another surface."""
+    shown = page.evaluate("(asked) => viewer.channels(asked)", asked(data))
+    shown = {key: np.array(values).reshape(HEIGHT, WIDTH, 4) for key, values in shown.items()}
+    places = {"z": ("lengths", 0), "gap": ("lengths", 1), "d": ("lengths", 2)}
+    places |= {"c_e": ("visibilities", 0), "c_v": ("visibilities", 1), "hard": ("visibilities", 2)}
+    places |= {"msm": ("visibilities", 3), "pcf": ("pcf", 0)}
+    places |= {f"n_{axis}": ("normals", k) for k, axis in enumerate("xyz")}
+    expected = images_of(list(places), frame)
+    for name, (texture, channel) in places.items():
+        assert_alike(shown[texture][..., channel], expected[name], name)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_classic_methods(page, data, frame, share):
+    """Maps, rays and the filter, with constants of their own."""
+    radius = share * data["radius"]
+    rays = image(frame, ray_traced(frame, radius, samples=2 if radius else 1))
+    normals = frame.surface.image(frame.surface.n)
+    expected = {
+        "pcf": image(frame, pcf._box(frame, radius, size=9, bias=1.0)),
+        "pcss": image(frame, pcss._visibility(frame, radius, scale=1.0, bias=1.0)),
+        "msm_9": image(
+            frame,
+            moments._visibility(
+                frame, radius, kind="msm", size=9, sigma=None, bias=0.1, bleeding=0.1
+            ),
+        ),
+        "rays_2": rays,
+        "truth": image(frame, ray_traced(frame, radius, samples=RAYS if radius else 1)),
+        "rays_2_ffx": ffx_like(
+            FfxFilter(HEIGHT, WIDTH), rays, frame.surface.depth_image(), normals
+        ),
+    }
+    for key, values in expected.items():
+        assert_alike(answers(page, key, asked(data, share)), values, key)
+
+
+def image(frame, visibility):
+    """Image of visibilities, dark where the surface is turned from the light."""
+    return frame.surface.image((visibility * (frame.cosines > 0)).astype(np.float32), 1.0)
+
+
+@pytest.mark.parametrize("name", NETWORKS)
+@pytest.mark.parametrize("share", SHARES[::2])
+def test_networks(page, data, frame, soft_page, name, share):
+    """Features as the pipeline's; the answer as the same half-precision network's of these features."""
+    network, header = load_screen_network(soft_page.html.parent / name / "weights.safetensors")
+    network = with_half_weights(network)
+    radius, size = share * data["radius"], soft_page.scene.size
+    buffers = images_of([b for b in buffers_of(network.features) if b not in TRACED], frame)
+    if header.get("rays"):
+        buffers |= zip(TRACED, traced_images(frame, radius, samples=header["rays"]))
+    lens = lens_of(frame.surface.camera, *SIZE)
+    expected = named_features(
+        network.features, buffers, lens, light_size(radius, data["radius"], size)
+    )
+    shown = answers(page, name, asked(data, share))
+    planes = np.array(
+        page.evaluate("([key, asked]) => viewer.planes(key, asked)", [name, asked(data)])
+    )
+    planes = planes.reshape(channels_of(network.features), HEIGHT, WIDTH).astype(np.float32)
+    for number, (plane, values) in enumerate(zip(planes, expected, strict=True)):
+        spread = max(1.0, float(np.ptp(values)))
+        assert_alike(plane / spread, values / spread, (name, number))
+    with torch.inference_mode():
+        whole = network(torch.from_numpy(planes)[None])[0, 0].numpy()
+    assert np.abs(shown - whole).max() <= HALF_MAPS
+
+
+def test_a_motion_moves_shadows_with_their_object(page, data, soft_page):
+    """Turned once round, the object casts its shadow as at rest; moved, another."""
+    question = asked(data, 0.5)
+    rest = answers(page, "rays_1", question)
+    turned = answers(page, "rays_1", question | {"move": [0, 0, 2 * np.pi]})
+    moved = answers(page, "rays_1", question | {"move": [0.2, 0.1, 0.4]})
+    assert np.mean(np.abs(turned - rest)) < MEAN < np.mean(np.abs(moved - rest))
+
+
+def test_a_picture_without_errors(browser, soft_page):
+    page, said = opened(browser, soft_page.html, "left=pcss&right=kernels_rays")
+    page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
+    page.wait_for_timeout(1000)
+    assert not page.inner_text(".reason")
+    faults = [text for text in said if "INVALID" in text or "rror" in text]
+    assert not faults
+    pixels = page.evaluate(
+        "() => { const c = document.querySelector('canvas'); viewer.redraw(); return c.toDataURL().length; }"
+    )
+    assert pixels > 10_000  # a picture of one colour takes 3,000
+
+
+def test_dragging_the_light_moves_it_and_the_address_keeps_it(browser, soft_page):
+    page, _ = opened(browser, soft_page.html, "left=hard&right=msm_3")
+    page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
+    before = page.evaluate("() => viewer.state.light.centre")
+    box = page.locator(".light").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 40, y + 25, steps=4)
+    page.mouse.up()
+    page.wait_for_selector("#viewer[data-moving=false]", timeout=120_000)
+    after = page.evaluate("() => viewer.state.light.centre")
+    assert np.linalg.norm(np.subtract(after, before)) > 0.02
+    again, _ = opened(browser, soft_page.html, page.url.split("#")[1])
+    kept = again.evaluate("() => viewer.state.light.centre")
+    assert kept == pytest.approx(after, abs=1e-3)
+    assert again.evaluate("() => viewer.state.right") == "msm_3"
+
+
+def test_a_phone(browser, soft_page):
+    page, _ = opened(browser, soft_page.html, viewport={"width": 375, "height": 700})
+    page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
+    width = page.evaluate("() => document.documentElement.scrollWidth")
+    assert width <= 375
+    assert page.locator("canvas").bounding_box()["height"] >= 200
+
+
+def test_without_webgl(launch, soft_page):
+    page, _ = opened(launch("--disable-gpu", "--disable-3d-apis"), soft_page.html)
+    assert "no WebGL2" in page.inner_text(".reason")
+    assert page.locator(".poster").is_visible()

@@ -1,0 +1,184 @@
+// Passes on the graphics processor: surface points, the light's map, buffers and rays. Results are kept as
+// long as what they depend on stays. A `state` has `view` (eye, target, up, fov), `light` (centre, radius),
+// `move` (see motionOf), and `size` (width, height) of the picture.
+
+const FLOATS = ["RGBA32F", "RGBA", "FLOAT"], BYTES = ["RGBA8", "RGBA", "UNSIGNED_BYTE"];
+const DEPTHS = ["R32F", "RED", "FLOAT"];
+const MOST_TAPS = 9; // of a filter of moments, along an axis
+const CONSTANTS = {
+  MOST_TAPS, SEARCHED: 64, FILTERED: 128,
+  SPREAD: "0.01", // of depths round a receiver: about 1 in moments' units
+  GAUSSIAN_SIDE: (Math.exp(-0.5 / 0.55 ** 2) / (1 + 2 * Math.exp(-0.5 / 0.55 ** 2))).toFixed(9),
+};
+const RANGE = [0.005, 200]; // metres, of the light's map
+const EMPTY = 1e30;
+
+class Renderer {
+  constructor(canvas, shaders, scene) {
+    const gl = this.gl = openWebgl(canvas);
+    Object.assign(this, { canvas, shaders, scene, programs: {}, targets: {}, kept: {} });
+    gl.disable(gl.DITHER);
+    this.screen = gl.createVertexArray();
+    this.surface = makeProgram(gl, shaders.surface_vert, shaders.surface_frag);
+    this.depths = makeProgram(gl, shaders.depths_vert, shaders.depths_frag);
+    this.parts = [scene.staying, scene.moving].map((part) => {
+      const { position, faceNormal } = part;
+      return { seen: makeVertices(gl, this.surface, part), casting: makeVertices(gl, this.depths, { position, faceNormal }) };
+    });
+    this.trees = null;
+  }
+
+  target(name, formats, width, height, deep = false) {
+    const { [name]: known } = this.targets;
+    if (known && known.width === width && known.height === height) return known;
+    known?.free();
+    delete this.kept[name];
+    this.targets[name] = makeTarget(this.gl, formats, width, height, deep);
+    return this.targets[name];
+  }
+
+  // The target of a name, drawn anew if what it shows has changed.
+  keep(name, dependsOn, formats, [width, height], draw, deep = false) {
+    const target = this.target(name, formats, width, height, deep), key = JSON.stringify(dependsOn);
+    if (this.kept[name] !== key) draw(target);
+    this.kept[name] = key;
+    return target.textures;
+  }
+
+  // Draws a program's fragment over a whole target. sources: names of shaders, joined.
+  fill(sources, target, uniforms) {
+    const { gl, shaders } = this, name = sources.join("+");
+    this.programs[name] ??= makeProgram(
+      gl, shaders.screen_vert, sources.map((source) => shaders[source] ?? source).join("\n"), CONSTANTS);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target?.framebuffer ?? null);
+    gl.viewport(0, 0, target?.width ?? this.canvas.width, target?.height ?? this.canvas.height);
+    setUniforms(gl, this.programs[name], uniforms);
+    gl.bindVertexArray(this.screen);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  motion(state) {
+    return motionOf(this.scene.rest, state.move);
+  }
+
+  surfaces(state, name = "surfaces") {
+    const { gl } = this, { view, size, move } = state;
+    const textures = this.keep(name, [view, move, size], [FLOATS, FLOATS, FLOATS, BYTES], size, (target) => {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+      gl.viewport(0, 0, ...size);
+      for (let i = 0; i < 4; i++) gl.clearBufferfv(gl.COLOR, i, [0, 0, 0, 0]);
+      gl.clearBufferfv(gl.DEPTH, 0, [1]);
+      this.#drawParts(this.surface, "seen", state, {
+        camera: cameraMatrix(view, size[0] / size[1]), pixels: pixelMatrix(view, ...size), height: size[1], eye: view.eye,
+      });
+    }, true);
+    const [points, normals, faces, colours] = textures;
+    return { points, normals, faces, colours };
+  }
+
+  #drawParts(program, kind, state, uniforms) {
+    const { gl } = this;
+    gl.enable(gl.DEPTH_TEST);
+    this.parts.forEach((part, i) => {
+      setUniforms(gl, program, { ...uniforms, motion: i ? this.motion(state).forwards : IDENTITY });
+      gl.bindVertexArray(part[kind].vertices);
+      gl.drawArrays(gl.TRIANGLES, 0, part[kind].count);
+    });
+    gl.disable(gl.DEPTH_TEST);
+  }
+
+  // Distances from the light's centre in all directions, with the uniforms that look them up.
+  lightMap(state) {
+    const { gl } = this, { light: { centre }, move, resolution } = state, size = [3 * resolution, 2 * resolution];
+    const [depths] = this.keep("map", [centre, move, resolution], [DEPTHS], size, (target) => {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+      gl.clearBufferfv(gl.COLOR, 0, [EMPTY, 0, 0, 0]);
+      gl.clearBufferfv(gl.DEPTH, 0, [1]);
+      gl.enable(gl.SCISSOR_TEST);
+      for (let face = 0; face < 6; face++) {
+        const place = [resolution * (face % 3), resolution * Math.floor(face / 3), resolution, resolution];
+        gl.viewport(...place);
+        gl.scissor(...place);
+        this.#drawParts(this.depths, "casting", state, {
+          centre, axes: faceAxes(face), range: RANGE, begin: place.slice(0, 2), side: resolution,
+        });
+      }
+      gl.disable(gl.SCISSOR_TEST);
+    }, true);
+    return { depths, resolution, centre, sceneSize: this.scene.size };
+  }
+
+  buffers(state) {
+    const { view, light: { centre }, move, size, resolution } = state;
+    const [lengths, visibilities, pcf] = this.keep(
+      "buffers", [view, centre, move, size, resolution], [FLOATS, FLOATS, FLOATS], size, (target) => {
+        const sources = ["light_map", "moments", "receiver", "buffers_frag"];
+        this.fill(sources, target, { ...this.surfaces(state), ...this.lightMap(state), eye: view.eye });
+      });
+    return { lengths, visibilities, pcf };
+  }
+
+  // Uniforms of rays through the scene. The trees are made when a ray first needs them.
+  rayUniforms(state) {
+    this.trees ??= [this.scene.staying, this.scene.moving].map(({ position }) => {
+      const { nodes, triangles } = buildTree(position), table = (data) => makeTable(this.gl, FLOATS, 4, data);
+      return { nodes: table(nodes), triangles: table(triangles), count: nodes.length / 8 };
+    });
+    const [staying, moving] = this.trees;
+    return {
+      stayingNodes: staying.nodes, stayingTriangles: staying.triangles, stayingCount: staying.count,
+      movingNodes: moving.nodes, movingTriangles: moving.triangles, movingCount: moving.count,
+      backwards: this.motion(state).backwards,
+    };
+  }
+
+  // Sends rays until a pixel has `count`, some at a time; goes on where an earlier call of this name
+  // stopped. Gives the texture of rays.frag.
+  *rays(name, state, count, penumbrae = false) {
+    const { view, light: { centre, radius }, move, size } = state;
+    const goal = radius > 0 ? count : 1; // to a point all rays are the same
+    const key = JSON.stringify([view, centre, radius, move, size, penumbrae]);
+    const pair = [0, 1].map((k) => this.target(`${name}_${k}`, [FLOATS], ...size));
+    let sent = this.kept[`${name}_1`] === undefined ? undefined : this.kept[name];
+    if (sent?.key !== key || sent.count > goal) sent = { key, count: 0, side: 0 };
+    while (sent.count < goal) {
+      const more = Math.min(RAYS_AT_ONCE, goal - sent.count), [target, other] = [pair[1 - sent.side], pair[sent.side]];
+      this.fill(["receiver", "numbers", "trees", "rays_frag"], target, {
+        ...this.surfaces(state), ...this.rayUniforms(state), before: other.textures[0], centre, radius,
+        sceneSize: this.scene.size, first: sent.count, count: more, penumbrae,
+      });
+      sent = { key, count: sent.count + more, side: 1 - sent.side };
+      this.kept[name] = sent;
+      this.kept[`${name}_1`] = key;
+      yield;
+    }
+    return pair[sent.side].textures[0];
+  }
+
+  // A texture's numbers, rows from the top: (height · width, 4) float32.
+  read(texture, [width, height]) {
+    const { gl } = this, pixels = new Float32Array(4 * width * height), framebuffer = gl.createFramebuffer();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture.texture, 0);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
+    gl.deleteFramebuffer(framebuffer);
+    return pixels;
+  }
+
+  // Waits until all that was asked for is drawn: a pixel can be read only then.
+  finish() {
+    const { gl } = this;
+    this.probe ??= makeTarget(gl, [BYTES], 1, 1);
+    this.fill(["#define PROBE\nlayout(location = 0) out vec4 c; void main() { c = vec4(1.0); }"], this.probe, {});
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+}
+
+const RAYS_AT_ONCE = 2; // of a pixel: a drag interrupts between two passes
+const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+// Columns right, down and forward of a cube map's face (shadow_maps/light_map.py).
+function faceAxes(face) {
+  const axis = Math.floor(face / 2), sign = face % 2 ? -1 : 1, along = (k, x) => [0, 1, 2].map((i) => i === k % 3 ? x : 0);
+  return [...along(axis + 1, 1), ...along(axis + 2, sign), ...along(axis, sign)];
+}

@@ -1,0 +1,37 @@
+// More rays from each pixel's centre to the light (frames/ray_tracing.py): x the mean of all so far, y
+// the summed radii of blockers' penumbrae, z how many blocked, w how many in all.
+uniform sampler2D before;
+uniform vec3 centre;
+uniform float sceneSize;
+uniform float radius;
+uniform int first, count; // rays before, and of this pass
+uniform bool penumbrae;   // asks for the first hits, not for any
+layout(location = 0) out vec4 sums;
+
+// Fractions of the plane's golden ratio, in 32 bits (Roberts 2018).
+const uint SHARES = 3242174889u, TURNS = 2447445413u, SALT = 67108864u;
+
+void main() {
+  Receiver r;
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  sums = vec4(1.0, 0.0, 0.0, 1.0);
+  if (!receive(at, centre, r)) return;
+  sums = first > 0 ? texelFetch(before, at, 0) : vec4(0.0);
+  float free = 0.0;
+  vec3 start = r.p + 1e-4 * sceneSize * r.face, towards = centre - start, u, v;
+  across(normalize(towards), u, v);
+  uint key = (uint(at.y * textureSize(points, 0).x + at.x) + SALT) * 16u;
+  float turn = 6.283185307 * fraction(hashed(key));
+  uint shift = hashed(key + 1u);
+  for (int k = first; k < first + count; k++) {
+    float share = fraction(uint(k) * SHARES + SHARES / 2u + shift);
+    float angle = turn + 6.283185307 * fraction(uint(k) * TURNS + TURNS / 2u);
+    vec3 way = towards + radius * sqrt(share) * (cos(angle) * u + sin(angle) * v);
+    if (dot(r.face, way) <= 0.0) continue;
+    float part = freeShare(start, way, !penumbrae);
+    if (part >= NEARLY_ALL) free += 1.0;
+    else sums.yz += vec2(radius * part / (1.0 - part), 1.0);
+  }
+  sums.x = (sums.x * sums.w + free) / (sums.w + float(count));
+  sums.w += float(count);
+}
