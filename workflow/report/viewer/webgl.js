@@ -119,6 +119,7 @@ function setUniforms(gl, { program, uniforms }, values) {
     } else if (type === gl.FLOAT) gl.uniform1f(place, value);
     else if (type === gl.FLOAT_VEC2) gl.uniform2fv(place, value);
     else if (type === gl.FLOAT_VEC3) gl.uniform3fv(place, value);
+    else if (type === gl.FLOAT_VEC4) gl.uniform4fv(place, value);
     else if (type === gl.INT_VEC2) gl.uniform2iv(place, value);
     else if (type === gl.FLOAT_MAT3) gl.uniformMatrix3fv(place, false, value);
     else if (type === gl.FLOAT_MAT4) gl.uniformMatrix4fv(place, false, value);
