@@ -1,15 +1,18 @@
 """A page with the viewer's executor of screen-space networks, and networks and planes for it."""
 
 import base64
-from pathlib import Path
 
 import numpy as np
 import torch
+from built_networks import make_screen_network
+from checkout import ROOT
 from scipy.ndimage import gaussian_filter
+from shipped import shipped
 
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
+from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 
-REPORT = Path(__file__).parents[1] / "workflow/report"
+REPORT = ROOT / "workflow/report"
 EXECUTOR = [
     REPORT / "soft_viewer/screen_network.js",
     *sorted((REPORT / "soft_viewer/shaders").glob("network_*")),
@@ -31,19 +34,19 @@ MAKE = """async ([name, data, shaders, planes, width, height, float]) => {
   gl.texSubImage3D(network.planes.kind, 0, 0, 0, 0, width, height, numbers.length / width / height / 4,
     gl.RGBA, gl.FLOAT, numbers);
 }"""
-# Its visibility, rows from the top, and the number of draws.
-RUN = """(name) => {
-  const { width, height } = networks[name], steps = networks[name].run();
-  let draws = 0, step = steps.next();
-  for (; !step.done; step = steps.next()) draws++;
-  gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
-  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, step.value.kind, step.value.texture, 0);
-  const pixels = new Float32Array(4 * width * height);
+DRAW = """(name) => {
+  for (const step of networks[name].run());
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array(4)); // waits for it
+}"""
+COUNT_DRAWS = "(name) => [...networks[name].run()].length"
+READ = """(name) => {
+  const { width, height, targets } = networks[name], pixels = new Float32Array(4 * width * height);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, targets.at(-1).framebuffer);
   gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
   const bytes = new Uint8Array(pixels.filter((_, i) => i % 4 === 0).buffer);
   let text = "";
   for (let i = 0; i < bytes.length; i += 4096) text += String.fromCharCode(...bytes.subarray(i, i + 4096));
-  return { visibility: btoa(text), size: [height, width], draws, error: gl.getError() };
+  return { visibility: btoa(text), size: [height, width], error: gl.getError() };
 }"""
 
 
@@ -63,12 +66,32 @@ def make(page, data: dict, planes: torch.Tensor, float: bool = False, name: str 
     page.evaluate(MAKE, [name, data, _shaders(), numbers, width, height, float])
 
 
-def run(page, name: str = "") -> tuple[np.ndarray, int]:
-    """Visibility (H, W) by a network of the page, and its draws."""
-    result = page.evaluate(RUN, name)
+def draw(page, name: str = "") -> None:
+    """Draw all layers of a network of the page."""
+    page.evaluate(DRAW, name)
+
+
+def count_draws(page, name: str = "") -> int:
+    """Draw all layers, and count them."""
+    return page.evaluate(COUNT_DRAWS, name)
+
+
+def read(page, name: str = "") -> np.ndarray:
+    """Visibility (H, W) that a network of the page has drawn."""
+    result = page.evaluate(READ, name)
     assert result["error"] == 0
     visibility = np.frombuffer(base64.b64decode(result["visibility"]), np.float32)
-    return visibility.reshape(result["size"]), result["draws"]
+    return visibility.reshape(result["size"])
+
+
+def opened(name: str) -> tuple[ScreenNetwork, dict]:
+    """A network of the default configuration, and its header.
+
+    Of shipped weights, or as before a training, with statistics by chance."""
+    if (path := ROOT / f"workflow/weights/{name}.safetensors").exists():
+        return load_screen_network(path)
+    settings = shipped()["networks"][name]
+    return with_random_statistics(make_screen_network(settings)), HEADER | {"network": settings}
 
 
 def smooth_planes(count: int, height: int, width: int, seed: int = 0) -> torch.Tensor:

@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only rays labels training queries viewpoint soft screen default]
+        [--only rays labels training queries viewpoint soft screen viewer default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -21,6 +21,7 @@ import bench_screen
 import bench_screen_training
 import bench_soft
 import bench_training
+import bench_viewer
 import bench_viewpoint
 from measurement import Row, table
 
@@ -30,7 +31,17 @@ from neural_shadows.meshes.get_mesh import get_mesh
 from neural_shadows.meshes.prepare_mesh import prepare_mesh
 from neural_shadows.running.hardware import describe_machine
 
-STAGES = ("rays", "labels", "training", "queries", "viewpoint", "soft", "screen", "default")
+STAGES = (
+    "rays",
+    "labels",
+    "training",
+    "queries",
+    "viewpoint",
+    "soft",
+    "screen",
+    "viewer",
+    "default",
+)
 TABLE = Path("reports/benchmarks.csv")
 
 
@@ -45,6 +56,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
         "soft": lambda: bench_soft.rows(quick),
         "screen": lambda: bench_screen.rows(quick) + bench_screen_training.rows(quick),
+        "viewer": lambda: bench_viewer.rows(quick),
         "default": bench_default.rows,
     }
     for stage in arguments.only:

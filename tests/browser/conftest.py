@@ -1,13 +1,7 @@
-"""Debian's `chromium`, driven by Playwright, with WebGL2 in software."""
-
-import shutil
+"""A browser, driven by Playwright."""
 
 import pytest
-
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-# Without its sandbox, which containers do not allow; the pages are our own. Chromium no longer
-# falls back to software by itself, and then has no WebGL at all.
-ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+from chromium import ARGUMENTS, CHROMIUM
 
 
 @pytest.fixture(scope="session")
