@@ -1,16 +1,20 @@
 """The soft viewer in a browser, against the pipeline's buffers, maps, rays, filters and networks."""
 
+import base64
 import json
 import re
+from contextlib import contextmanager
+from io import BytesIO
 
 import numpy as np
 import pytest
 import torch
+from PIL import Image
 from soft_viewer_page import NETWORKS, frame_of, images_of, make_soft_viewer
 
 from neural_shadows.denoising.ffx import FfxFilter, ffx_like
 from neural_shadows.evaluation.methods import moments, pcf, pcss
-from neural_shadows.frames.feature_names import TRACED, buffers_of, channels_of
+from neural_shadows.frames.feature_names import FEATURES, TRACED, buffers_of, channels_of
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.light_size import light_size
 from neural_shadows.frames.ray_tracing import ray_traced, traced_images
@@ -21,8 +25,12 @@ from neural_shadows.viewer.screen_arrays import with_half_weights
 SIZE = WIDTH, HEIGHT = 512, 256  # in half of it two percent of the pixels are edges
 RAYS = 8  # of the reference
 SHARES = (0.0, 0.5, 1.0)  # of the largest radius
-# Of visibility and features, in steps of 1/255: rasterised edges lie up to 1/16 of a pixel elsewhere.
-MEAN, MOST_OF_99 = 1 / 255, 4 / 255
+# Of visibility and features, in steps of 1/255. Rasterisers put corners on a grid of 1/16 (here) to
+# 1/256 of a pixel: pixels and texels at edges differ. A filtered map spreads a texel over its taps, which
+# in this room of lattices and spokes are up to 1.7 % of the pixels.
+MEAN, MOST = 1 / 255, 4 / 255
+SHARE, SHARE_OF_FILTERED = 0.99, 0.98
+FILTERED = ("pcf", "pcss", "msm")
 HALF_MAPS = 2e-3  # of kernels in half precision
 
 
@@ -39,20 +47,23 @@ def data(soft_page):
     return json.loads(found[1])
 
 
+@contextmanager
 def opened(browser, html, fragment="", **options):
-    """The page, and what its console says."""
+    """The page, and what its console says. Closed at the end: it refines its picture for minutes."""
     page = browser.new_page(**{"viewport": {"width": 640, "height": 480}} | options)
     said = []
     page.on("console", lambda message: said.append(message.text))
     page.on("pageerror", lambda error: said.append(str(error)))
     page.goto(f"file://{html}#{fragment}")
     page.wait_for_selector("#viewer.ready,#viewer.failed", timeout=120_000)
-    return page, said
+    yield page, said
+    page.close()
 
 
 @pytest.fixture(scope="module")
 def page(browser, soft_page):
-    return opened(browser, soft_page.html, "left=hard&right=hard")[0]
+    with opened(browser, soft_page.html, "left=hard&right=hard") as (page, _):
+        yield page
 
 
 @pytest.fixture(scope="module")
@@ -78,8 +89,9 @@ def answers(page, key, question):
 
 def assert_alike(shown, expected, name):
     off = np.abs(np.asarray(shown, float) - expected)
+    share = SHARE_OF_FILTERED if any(word in name for word in FILTERED) else SHARE
     assert off.mean() <= MEAN, (name, off.mean())
-    assert np.quantile(off, 0.99) <= MOST_OF_99, (name, np.quantile(off, 0.99))
+    assert np.quantile(off, share) <= MOST, (name, np.quantile(off, share))
 
 
 def test_buffers(page, data, frame):
@@ -143,10 +155,11 @@ def test_networks(page, data, frame, soft_page, name, share):
     planes = np.array(
         page.evaluate("([key, asked]) => viewer.planes(key, asked)", [name, asked(data)])
     )
+    names = [name for name in network.features for _ in range(FEATURES[name])]
     planes = planes.reshape(channels_of(network.features), HEIGHT, WIDTH).astype(np.float32)
     for number, (plane, values) in enumerate(zip(planes, expected, strict=True)):
         spread = max(1.0, float(np.ptp(values)))
-        assert_alike(plane / spread, values / spread, (name, number))
+        assert_alike(plane / spread, values / spread, f"{name}, {names[number]}")
     with torch.inference_mode():
         whole = network(torch.from_numpy(planes)[None])[0, 0].numpy()
     assert np.abs(shown - whole).max() <= HALF_MAPS
@@ -162,46 +175,44 @@ def test_a_motion_moves_shadows_with_their_object(page, data, soft_page):
 
 
 def test_a_picture_without_errors(browser, soft_page):
-    page, said = opened(browser, soft_page.html, "left=pcss&right=kernels_rays")
-    page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
-    page.wait_for_timeout(1000)
-    assert not page.inner_text(".reason")
-    faults = [text for text in said if "INVALID" in text or "rror" in text]
-    assert not faults
-    pixels = page.evaluate(
-        "() => { const c = document.querySelector('canvas'); viewer.redraw(); return c.toDataURL().length; }"
-    )
-    assert pixels > 10_000  # a picture of one colour takes 3,000
+    with opened(browser, soft_page.html, "left=pcss&right=kernels_rays") as (page, said):
+        page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
+        picture = page.evaluate(
+            "() => { viewer.redraw(); return document.querySelector('canvas').toDataURL(); }"
+        )
+        assert not page.inner_text(".reason")
+    assert not [text for text in said if "INVALID" in text or "rror" in text]
+    shown = np.array(Image.open(BytesIO(base64.b64decode(picture.split(",")[1]))).convert("L"))
+    assert shown.std() > 10  # of 255: neither black nor of one colour
 
 
 def test_dragging_the_light_moves_it_and_the_address_keeps_it(browser, soft_page):
-    page, _ = opened(browser, soft_page.html, "left=hard&right=msm_3")
-    page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
-    before = page.evaluate("() => viewer.state.light.centre")
-    box = page.locator(".light").bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + 40, y + 25, steps=4)
-    page.mouse.up()
-    page.wait_for_selector("#viewer[data-moving=false]", timeout=120_000)
-    after = page.evaluate("() => viewer.state.light.centre")
+    with opened(browser, soft_page.html, "left=hard&right=msm_3") as (page, _):
+        page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
+        before = page.evaluate("() => viewer.state.light.centre")
+        box = page.locator(".light").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 40, y + 25, steps=4)
+        page.mouse.up()
+        page.wait_for_selector("#viewer[data-moving=false]", timeout=120_000)
+        after = page.evaluate("() => viewer.state.light.centre")
+        address = page.url.split("#")[1]
     assert np.linalg.norm(np.subtract(after, before)) > 0.02
-    again, _ = opened(browser, soft_page.html, page.url.split("#")[1])
-    kept = again.evaluate("() => viewer.state.light.centre")
-    assert kept == pytest.approx(after, abs=1e-3)
-    assert again.evaluate("() => viewer.state.right") == "msm_3"
+    with opened(browser, soft_page.html, address) as (page, _):
+        assert page.evaluate("() => viewer.state.light.centre") == pytest.approx(after, abs=1e-3)
+        assert page.evaluate("() => viewer.state.right") == "msm_3"
 
 
 def test_a_phone(browser, soft_page):
-    page, _ = opened(browser, soft_page.html, viewport={"width": 375, "height": 700})
-    page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
-    width = page.evaluate("() => document.documentElement.scrollWidth")
-    assert width <= 375
-    assert page.locator("canvas").bounding_box()["height"] >= 200
+    with opened(browser, soft_page.html, viewport={"width": 375, "height": 700}) as (page, _):
+        page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
+        assert page.evaluate("() => document.documentElement.scrollWidth") <= 375
+        assert page.locator("canvas").bounding_box()["height"] >= 200
 
 
 def test_without_webgl(launch, soft_page):
-    page, _ = opened(launch("--disable-gpu", "--disable-3d-apis"), soft_page.html)
-    assert "no WebGL2" in page.inner_text(".reason")
-    assert page.locator(".poster").is_visible()
+    with opened(launch("--disable-gpu", "--disable-3d-apis"), soft_page.html) as (page, _):
+        assert "no WebGL2" in page.inner_text(".reason")
+        assert page.locator(".poster").is_visible()
