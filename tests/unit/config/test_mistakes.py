@@ -33,6 +33,9 @@ viewers.viewer.networks | [shadow_map_64] | 'shadow_map_64' is not an experiment
 viewers.viewer.networks | [fence] | viewers.viewer.networks: 'fence' has the scene 'fence', the viewer
 viewers.viewer.networks | [dragon_hash_grid] | is a hash_grid, without a shader. Allowed: frequency, occupancy_field
 viewers.table | {scene: dragon} | viewers.table
+viewers.viewer_soft.scene | interiors | 'interiors' has a layout of its own for each part. Name a scene without
+viewers.viewer_soft.frame_set | sun | viewers.viewer_soft.frame_set: 'sun' has no sphere as its light. Name a
+viewers.viewer_soft.networks | [dragon] | viewers.viewer_soft.networks.0: 'dragon' is not an experiment on frames
 claims.sampling.pairs | [[shadow_map_8, shadow_map_4]] | no experiment among them. Add one
 claims.learning_rate.pairs | [[dragon, dragon]] | 'dragon' is compared with itself
 claims.learning_rate.pairs | [[dragon, dragon_field]] | 'dragon_field' of encoding 'occupancy_field' has another loss
