@@ -26,7 +26,7 @@ def test_frequency_network_in_blocks(width):
         {"encoding": "frequency", "frequencies": 3, "width": width, "hidden_layers": 1}
     )
     network.initialise(1)
-    found = network_arrays(network)
+    found = network_arrays(network, trained=False)
     blocks = unpacked(found["arrays"]["weights"]).view(np.float16).astype(np.float32)
     x = np.random.default_rng(0).normal(size=6 * (1 + 2 * 3)).astype(np.float32)
     h, first = np.pad(x, (0, -len(x) % 4)), 0
@@ -51,7 +51,7 @@ def test_field_of_bricks(tmp_path):
     network.prepare(tmp_path / "mesh.ply")
     network.initialise(0)
     network.push = 0.05
-    found = network_arrays(network)
+    found = network_arrays(network, trained=False)
     grid, codes = network.grid.numpy(), unpacked(found["arrays"]["grid"])
     assert found["bricks"] == 8 and len(codes) == 8**3
     assert np.array_equal(codes == 0, grid >= 0) and (grid >= 0).any()
@@ -71,4 +71,4 @@ def test_kind_without_a_shader():
         settings | {"hidden_layers": 1, "head": "depth_confidence", "stored": "float16"}
     )
     with pytest.raises(TypeError, match="RayGrid"):
-        network_arrays(network)
+        network_arrays(network, trained=False)

@@ -12,6 +12,8 @@ import trimesh
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, depth_first_order
 
+from neural_shadows.viewer.packed import zigzag
+
 # Of a coordinate in [−1, 1]: steps of 1.2e-4 radii, an eighth of the shading points' offset.
 BITS = 14
 
@@ -38,8 +40,7 @@ def mesh_arrays(vertices: np.ndarray, faces: np.ndarray) -> MeshArrays:
         np.int64
     )
     steps = np.diff(positions, axis=0, prepend=0).T
-    zigzag = np.where(steps < 0, -2 * steps - 1, 2 * steps)
-    return MeshArrays(zigzag.astype(np.uint16), (newest + 1 - corners).astype(np.uint32))
+    return MeshArrays(zigzag(steps), (newest + 1 - corners).astype(np.uint32))
 
 
 def _newest_last(faces: np.ndarray) -> np.ndarray:

@@ -16,3 +16,8 @@ def packed(array: np.ndarray) -> dict[str, str]:
     planes = little.reshape(-1).view(np.uint8).reshape(little.size, -1).T
     data = base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode()
     return {"kind": array.dtype.name, "data": data}
+
+
+def zigzag(steps: np.ndarray) -> np.ndarray:
+    """Signed integers as uint16, small ones as small numbers: 0, −1, 1, −2 …"""
+    return np.where(steps < 0, -2 * steps - 1, 2 * steps).astype(np.uint16)

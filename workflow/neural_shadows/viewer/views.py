@@ -11,7 +11,7 @@ from neural_shadows.rendering.gbuffer import render_gbuffer
 from neural_shadows.rendering.shading import shade
 from neural_shadows.rendering.viewpoints import draw_viewpoints
 from neural_shadows.reports.drawing.hero_view import hero_view
-from neural_shadows.scenes.cameras import VIEW_SETS, Viewpoint
+from neural_shadows.scenes.cameras import Viewpoint
 from neural_shadows.scenes.lights import arc_directions
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.settings.records import ViewSettings
@@ -29,8 +29,7 @@ def shown_views(scene: Scene, frames: ViewSettings, count: int) -> list[dict[str
     sets, seed, least = frames["view_sets"], frames["seed"], frames.get("least_shadow", 0.0)
     drawn = draw_viewpoints(scene, sets, range(count), aspect, seed, least)
     named = {"Whole object": _hero_view(scene)}
-    # Named as on the page (`reports.frames`).
-    named |= {f"View {view.index}, {VIEW_SETS[view.view_set]}": view for view in drawn}
+    named |= {f"{view.view_set.capitalize()} view {view.index + 1}": view for view in drawn}
     return [
         {"name": name, "fov": view.fov}
         | {key: getattr(view, key).tolist() for key in ("eye", "target", "light")}

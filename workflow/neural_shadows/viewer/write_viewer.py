@@ -9,7 +9,7 @@ from neural_shadows.evaluation.ray_network import take_constants
 from neural_shadows.files.whole_files import read_json, whole_file, write_text
 from neural_shadows.networks.weight_file import load_network
 from neural_shadows.rendering.gbuffer import GROUND_RADIUS, SHADING_OFFSET
-from neural_shadows.rendering.shading import AMBIENT, BACKGROUND
+from neural_shadows.rendering.shading import BACKGROUND
 from neural_shadows.reports.data.phrases import describe_mesh, describe_run
 from neural_shadows.representations.meshes.decimation import decimated
 from neural_shadows.running import progress
@@ -82,7 +82,6 @@ def write_viewer(
             key: f"{value:.9g}" if value % 1 else f"{value:.1f}"
             for key, value in (
                 ("SHADING_OFFSET", SHADING_OFFSET),
-                ("AMBIENT", AMBIENT),
                 ("BACKGROUND", BACKGROUND),
             )
         },
@@ -122,7 +121,7 @@ def _network(weights: Path, row: Row, depth_biases: Mapping[str, Path]) -> dict[
         "depth_bias": depth_bias,
         "stored": network_bytes(weights),
         "resident": network.resident_bytes(),
-        **network_arrays(network),
+        **network_arrays(network, trained=header["training"] is not None),
     }
 
 

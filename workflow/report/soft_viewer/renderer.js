@@ -18,6 +18,7 @@ class Renderer {
     const gl = this.gl = openWebgl(canvas);
     Object.assign(this, { canvas, shaders, scene, programs: {}, targets: {}, kept: {} });
     gl.disable(gl.DITHER);
+    this.finish = makeFinish(gl);
     this.screen = gl.createVertexArray();
     this.surface = makeProgram(gl, shaders.surface_vert, shaders.surface_frag);
     this.depths = makeProgram(gl, shaders.depths_vert, shaders.depths_frag);
@@ -163,14 +164,6 @@ class Renderer {
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
     gl.deleteFramebuffer(framebuffer);
     return pixels;
-  }
-
-  // Waits until all that was asked for is drawn: a pixel can be read only then.
-  finish() {
-    const { gl } = this;
-    this.probe ??= makeTarget(gl, [BYTES], 1, 1);
-    this.fill(["#define PROBE\nlayout(location = 0) out vec4 c; void main() { c = vec4(1.0); }"], this.probe, {});
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 }
 

@@ -15,3 +15,6 @@ async function unpack({ kind, data }) {
   }
   return new KINDS[kind](whole.buffer);
 }
+
+// An integer from its zigzag number.
+const signed = (zigzag) => zigzag & 1 ? -(zigzag + 1) / 2 : zigzag / 2;

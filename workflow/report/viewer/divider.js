@@ -1,6 +1,6 @@
-// The divider between both sides.
+// The divider between two pictures, by pointer and keyboard.
 
-// moved: told where the divider is, in per cent of the stage's width.
+// moved: called with the divider's place, in per cent of the stage's width; at: gives it.
 function dragDivider(handle, stage, moved, at) {
   const place = (event) => {
     const box = stage.getBoundingClientRect();

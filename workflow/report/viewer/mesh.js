@@ -6,8 +6,7 @@ async function unpackMesh({ steps, codes, bits }) {
   const vertices = new Float32Array(zigzags.length);
   for (let axis = 0; axis < 3; axis++) {
     for (let i = 0, whole = 0; i < count; i++) {
-      const zigzag = zigzags[axis * count + i];
-      whole += zigzag & 1 ? -(zigzag + 1) / 2 : zigzag / 2;
+      whole += signed(zigzags[axis * count + i]);
       vertices[3 * i + axis] = whole / last * 2 - 1;
     }
   }

@@ -1,28 +1,35 @@
-// What can answer which points are lit. Each method has a key, a name, what it keeps in bytes, and
-// what its shader is told; those made for a light (maps) are made anew when it moves.
+// What can answer which points are lit. Each method has a key, a name, its shader's files (`sources`)
+// and constants, what it keeps in bytes, and `make`, which gives its uniforms for a light; maps are
+// drawn anew when it moves. `rays`: it takes a ray to any place of the sun's disc, so its answers to
+// many are added up. `soft`: the method in its place under a sun that has a size. `underSun`: how it
+// sees such a sun, in words.
 
 const MAP_SIZES = [64, 128, 256, 512, 1024, 2048, 4096];
-const SOLID = -(1 << 20); // in the grid: a brick that the surface encloses
-const ROW_BRICKS = 32; // of the values' texture: 4,000 texels; most phones end at 4,096
 
-function mapMethod(size, filtered) {
+const MAPS = [
+  { kind: "map", name: "", source: "map", underSun: "one test a pixel: hard under any sun" },
+  { kind: "pcf", name: ", 2 × 2 PCF", source: "map", filtered: true,
+    underSun: "a filter of 2 × 2 texels, whatever the sun's size" },
+  { kind: "pcss", name: ", PCSS", source: "pcss",
+    underSun: "PCSS: 16 texels for the blockers' height, 32 for the filter" },
+];
+
+function mapMethod({ kind, name, source, underSun, filtered = false }, size) {
   return {
-    key: `${filtered ? "pcf" : "map"}_${size}`,
-    name: `Shadow map ${size}²${filtered ? ", 2 × 2 PCF" : ""}`,
-    source: "map",
-    resident: 4 * size * size,
-    size, // of the map that is drawn for each light
-    make: (renderer) => ({ uniforms: (light) => ({ ...renderer.mapOf(light, size), filtered }) }),
+    key: `${kind}_${size}`, name: `Shadow map ${size}²${name}`, underSun,
+    sources: ["map_heights", source], resident: 4 * size * size,
+    make: (renderer) => (light) => ({ ...renderer.mapOf(light, size), filtered }),
   };
 }
 
 const noShadow = {
-  key: "no_shadow", name: "No shadow", source: "no_shadow", resident: 0,
-  make: () => ({ uniforms: () => ({}) }),
+  key: "no_shadow", name: "No shadow", sources: ["no_shadow"], resident: 0,
+  make: () => () => ({}),
 };
 
 const reference = {
-  key: "reference", name: "Ray traced (reference)", source: "ray",
+  key: "reference", name: "Ray traced (reference)", sources: ["sun_rays", "ray"], rays: true,
+  ofMesh: true, // made anew for another mesh
   make(renderer) {
     const { gl } = renderer, { nodes, triangles } = buildTree(renderer.positions);
     const format = ["RGBA32F", "RGBA", "FLOAT"];
@@ -30,69 +37,25 @@ const reference = {
       nodes: makeTable(gl, format, 4, nodes), triangles: makeTable(gl, format, 4, triangles),
       nodeCount: nodes.length / 8,
     };
-    return { uniforms: () => told };
+    return () => told;
   },
 };
 
-function fieldMethod(data) {
-  return {
-    ...data, source: "field",
-    constants: { SOLID, ROW_BRICKS, SAMPLES_PER_CELL: `${data.samples_per_cell}.0` },
-    make({ gl }) {
-      const size = data.bricks, grid = Int32Array.from(data.arrays.grid);
-      let bricks = 0;
-      grid.forEach((code, i) => { grid[i] = code === 0 ? bricks++ : code === 255 ? SOLID : -code; });
-      const told = {
-        grid: makeTexture(gl, ["R32I", "RED_INTEGER", "INT"], [size, size, size], grid),
-        values: makeTable(gl, ["R8I", "RED_INTEGER", "BYTE"], 1,
-          brickValues(grid, size, bricks, data.arrays.values), 125 * ROW_BRICKS),
-        level: data.level, depthBias: data.depth_bias, sheet: data.surface === "sheet",
-      };
-      return { uniforms: () => told };
-    },
-  };
-}
-
-// The 125 values of each brick, from those of all vertices, which bricks share, in order of place.
-function brickValues(grid, size, bricks, values) {
-  const whole = 4 * size + 1, count = 125 * bricks, found = new Int8Array(count);
-  const places = new Uint32Array(count);
-  grid.forEach((brick, i) => {
-    if (brick < 0) return;
-    const x = 4 * Math.floor(i / size / size), y = 4 * (Math.floor(i / size) % size), z = 4 * (i % size);
-    for (let k = 0; k < 125; k++) {
-      const row = (x + Math.floor(k / 25)) * whole + y + Math.floor(k / 5) % 5;
-      places[125 * brick + k] = row * whole + z + k % 5;
-    }
-  });
-  const sorted = places.slice().sort().filter((place, i, all) => i === 0 || place !== all[i - 1]);
-  places.forEach((place, at) => {
-    let low = 0, high = sorted.length - 1;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (sorted[middle] < place) low = middle + 1;
-      else high = middle;
-    }
-    found[at] = values[low];
-  });
-  return found;
-}
-
 function networkMethod(data) {
   return {
-    ...data, source: "network",
+    ...data, sources: ["sun_rays", "unit_sphere", "network"], rays: true, ofShipped: true,
     constants: {
       FREQUENCIES: data.frequencies, WIDTH: data.width / 4, HIDDEN_LAYERS: data.hidden_layers,
     },
     make({ gl }) {
       const weights = makeTable(gl, ["RGBA16F", "RGBA", "HALF_FLOAT"], 4, data.arrays.weights, 256);
-      return { uniforms: () => ({ weights, depthBias: data.depth_bias }) };
+      return () => ({ weights, depthBias: data.depth_bias });
     },
   };
 }
 
 async function allMethods(networks) {
-  const maps = [false, true].flatMap((filtered) => MAP_SIZES.map((size) => mapMethod(size, filtered)));
+  const maps = MAPS.flatMap((kind) => MAP_SIZES.map((size) => mapMethod(kind, size)));
   const found = await Promise.all(networks.map(async (data) => {
     const names = Object.keys(data.arrays);
     const arrays = await Promise.all(names.map((name) => unpack(data.arrays[name])));

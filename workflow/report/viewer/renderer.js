@@ -1,45 +1,48 @@
 // Passes: surface points of a camera; each method's answer at them; the picture.
 
-const FLOATS = ["RGBA32F", "RGBA", "FLOAT"], BYTES = ["RGBA8", "RGBA", "UNSIGNED_BYTE"];
+const FLOATS = ["RGBA32F", "RGBA", "FLOAT"];
+const SUMS = ["RG16F", "RG", "HALF_FLOAT"]; // exact up to 2,048 rays
 
 class Renderer {
-  // mesh: of `unpackMesh`; ground: its height along `up`, or null.
-  constructor(canvas, shaders, constants, mesh, { up, ground, ground_radius: groundRadius }) {
+  // up, groundRadius: of the scene.
+  constructor(canvas, shaders, constants, { up, ground_radius: groundRadius }) {
     const gl = this.gl = openWebgl(canvas);
-    Object.assign(this, { canvas, shaders, up, height: ground, vertices: mesh.vertices });
+    Object.assign(this, { canvas, shaders, up, groundRadius });
     this.surface = makeProgram(gl, shaders.surface_vert, shaders.surface_frag, constants);
     this.heights = makeProgram(gl, shaders.heights_vert, shaders.heights_frag);
     this.picture = makeProgram(gl, shaders.screen_vert, shaders.picture_frag, constants);
-    const { positions, vertexNormals, faceNormals } = corners(mesh);
-    this.positions = positions;
+    this.screen = gl.createVertexArray();
+    this.finish = makeFinish(gl);
+    this.made = new Map(); // by method's key: its program and uniforms
+    this.maps = new Map(); // by size: a shadow map and the light it is of
+    this.surfaces = new Map(); // by size: surface points and the view they are of
+    this.targets = new Map(); // by name: sums of answers
+  }
+
+  // mesh: vertices (3 a vertex) and faces; ground: its height along `up`, or null.
+  setMesh(mesh, ground) {
+    const { gl, up, groundRadius } = this, { positions, vertexNormals, faceNormals } = corners(mesh);
+    Object.assign(this, { vertices: mesh.vertices, positions, height: ground });
     this.object = makeVertices(gl, this.surface, {
       position: positions, normal: vertexNormals, faceNormal: faceNormals,
     });
     this.occluder = makeVertices(gl, this.heights, { position: positions });
     this.rim = ground === null ? 0 : groundRadius ** 2 + ground ** 2;
     this.ground = ground === null ? null : makeVertices(gl, this.surface, groundQuad(up, ground, groundRadius));
-    this.screen = gl.createVertexArray();
-    this.made = new Map(); // by method's key: its program and what it told
-    this.maps = new Map(); // by size: a shadow map and the light it is of
-    this.targets = {};
-    this.seen = "";
+    this.dropMaps();
+    for (const surface of this.surfaces.values()) surface.seen = "";
+    for (const [key, { method }] of this.made) if (method.ofMesh) this.made.delete(key);
   }
 
-  #target(name, formats, width, height, deep = false) {
-    const { [name]: known } = this.targets;
-    if (known && known.width === width && known.height === height) return known;
-    known?.free();
-    if (name === "points") this.seen = "";
-    this.targets[name] = makeTarget(this.gl, formats, width, height, deep);
-    return this.targets[name];
-  }
-
-  // The surface points that a viewpoint sees, kept while it stands still.
-  look(view, width, height) {
-    const { gl } = this, points = this.#target("points", [FLOATS, FLOATS, FLOATS], width, height, true);
-    const seen = JSON.stringify([view.eye, view.target, view.up, view.fov]);
-    if (seen === this.seen) return points.textures;
-    this.seen = seen;
+  // The surface points that a viewpoint sees, kept while it stands still: of the last two sizes.
+  look(view, [width, height]) {
+    const { gl, surfaces } = this;
+    const points = surfaces.get(`${width} × ${height}`)
+      ?? makeTarget(gl, [FLOATS, FLOATS, FLOATS], width, height, true);
+    keepNewest(surfaces, `${width} × ${height}`, points);
+    const seen = viewText(view);
+    if (seen === points.seen) return points.textures;
+    points.seen = seen;
     gl.bindFramebuffer(gl.FRAMEBUFFER, points.framebuffer);
     gl.viewport(0, 0, width, height);
     for (let i = 0; i < 3; i++) gl.clearBufferfv(gl.COLOR, i, [0, 0, 0, 0]);
@@ -82,82 +85,98 @@ class Renderer {
     }
     const side = Math.max(high[0] - low[0], high[1] - low[1]);
     const corner = [(low[0] + high[0] - side) / 2, (low[1] + high[1] - side) / 2, low[2]];
-    const basis = rows.flat(), target = known?.target ?? makeTarget(gl, [["R32F", "RED", "FLOAT"]], size, size, true);
+    const target = known ?? makeTarget(gl, [["R32F", "RED", "FLOAT"]], size, size, true);
+    const sizes = { basis: rows.flat(), corner, side, highest: high[2] };
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
     gl.viewport(0, 0, size, size);
     gl.clearBufferfv(gl.COLOR, 0, [-1e30, 0, 0, 0]);
     gl.clearBufferfv(gl.DEPTH, 0, [1]);
     gl.enable(gl.DEPTH_TEST);
-    setUniforms(gl, this.heights, { basis, corner, side, highest: high[2] });
+    setUniforms(gl, this.heights, sizes);
     gl.bindVertexArray(this.occluder.vertices);
     gl.drawArrays(gl.TRIANGLES, 0, this.occluder.count);
     gl.disable(gl.DEPTH_TEST);
-    const uniforms = { heights: target.textures[0], basis, corner, side };
-    this.maps.delete(size);
-    this.maps.set(size, { light: [...light], target, uniforms });
-    const [oldest] = this.maps.keys();
-    if (this.maps.size > 2) {
-      this.maps.get(oldest).target.free();
-      this.maps.delete(oldest);
-    }
-    return uniforms;
+    target.light = [...light];
+    target.uniforms = { heights: target.textures[0], ...sizes };
+    keepNewest(this.maps, size, target);
+    return target.uniforms;
   }
 
-  // A method's program, and what it is told of a light; made when it is first asked for.
+  // A method's program, and its uniforms of a light; made when it is first needed.
   prepare(method) {
     if (!this.made.has(method.key)) {
-      const source = this.shaders.visibility_frag + this.shaders[method.source];
+      const source = ["visibility_frag", ...method.sources].map((name) => this.shaders[name]).join("\n");
       const program = makeProgram(this.gl, this.shaders.screen_vert, source, method.constants);
-      this.made.set(method.key, { program, ...method.make(this) });
+      this.made.set(method.key, { method, program, uniforms: method.make(this) });
     }
     return this.made.get(method.key);
   }
 
-  // A method's answers at the points of a viewpoint, between two columns: a texture.
-  answer(method, name, view, light, width, height, from = 0, to = width) {
-    const { gl } = this;
-    const [points, faceNormals] = this.look(view, width, height);
-    const { program, uniforms } = this.prepare(method), told = uniforms(light);
-    const target = this.#target(name, [BYTES], width, height);
+  // A method's answers at the points of a viewpoint, in some columns, and in rows from the top;
+  // `rays` of them from the `first` on, added to those before.
+  answer(method, name, { view, size, sun }, { from = 0, to = size[0], top = 0, end = size[1], first = 0, rays = 1 } = {}) {
+    const { gl } = this, [points, faceNormals] = this.look(view, size);
+    const { program, uniforms } = this.prepare(method), told = uniforms(sun.light);
+    let target = this.targets.get(name);
+    if (target?.width !== size[0] || target.height !== size[1]) {
+      target?.free();
+      this.targets.set(name, target = makeTarget(gl, [SUMS], ...size));
+    }
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
-    gl.viewport(0, 0, width, height);
+    gl.viewport(0, 0, ...size);
     gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(from, 0, Math.max(0, to - from), height);
-    setUniforms(gl, program, { points, faceNormals, light, ...told });
+    gl.scissor(from, size[1] - end, Math.max(0, to - from), end - top);
+    if (first > 0) gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE);
+    setUniforms(gl, program, { points, faceNormals, sun: sun.light, slope: sun.slope, first, rays, ...told });
     gl.bindVertexArray(this.screen);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.disable(gl.BLEND);
     gl.disable(gl.SCISSOR_TEST);
-    return target.textures[0];
   }
 
-  // The same read back, rows from the top: (height · width, 4) bytes; see visibility.frag.
-  read(name) {
-    const { gl } = this, { framebuffer, width, height } = this.targets[name];
-    const pixels = new Uint8Array(4 * width * height), row = 4 * width;
+  // Visibilities of some rows, those from below first; −1 where there is no surface.
+  read(name, low = 0, high = Infinity) {
+    const { gl } = this, { framebuffer, width, height } = this.targets.get(name);
+    const rows = Math.min(high, height) - low, sums = new Float32Array(4 * width * rows);
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    const turned = new Uint8Array(pixels.length);
-    for (let y = 0; y < height; y++) turned.set(pixels.subarray(y * row, (y + 1) * row), (height - 1 - y) * row);
-    return turned;
+    gl.readPixels(0, low, width, rows, gl.RGBA, gl.FLOAT, sums);
+    return Float32Array.from({ length: width * rows }, (_, i) => sums[4 * i + 1] ? sums[4 * i] / sums[4 * i + 1] : -1);
   }
 
-  // Waits until all that was asked for is drawn: one pixel can only be read then.
-  finish() {
-    const { gl } = this;
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-  }
-
-  show({ left, right, reference, light, divider, errors }) {
-    const { gl, canvas, targets: { points } } = this;
+  // The picture, or some of its rows from the top, of the answers by these names.
+  show({ left, right, reference }, { view, sun }, { divider, errors }, top = 0, end = this.canvas.height) {
+    const { gl, canvas, targets } = this, [any] = targets.values();
+    // Answers that are not seen need not be there.
+    const texture = (name) => (targets.get(name) ?? any).textures[0];
+    const seen = viewText(view), finest = [...this.surfaces.values()]
+      .filter((surface) => surface.seen === seen).sort((a, b) => b.width - a.width)[0];
+    keepNewest(this.surfaces, `${finest.width} × ${finest.height}`, finest);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(0, canvas.height - end, canvas.width, end - top);
     setUniforms(gl, this.picture, {
-      shadingNormals: points.textures[2], left, right, reference, light, divider,
-      errors, share: [points.width / canvas.width, points.height / canvas.height],
+      shadingNormals: finest.textures[2], left: texture(left), right: texture(right),
+      reference: texture(reference), sun: sun.light, up: this.up, errors, divider,
+      canvas: [canvas.width, canvas.height],
     });
     gl.bindVertexArray(this.screen);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.disable(gl.SCISSOR_TEST);
   }
+}
+
+const viewText = ({ eye, target, up, fov }) => JSON.stringify([eye, target, up, fov]);
+
+// Puts a target into a map of targets, of which the last two are kept.
+function keepNewest(targets, key, target) {
+  targets.delete(key);
+  targets.set(key, target);
+  const [oldest] = targets.keys();
+  if (targets.size <= 2) return;
+  targets.get(oldest).free();
+  targets.delete(oldest);
 }
 
 // Two triangles that hold the ground's disc.
@@ -167,17 +186,4 @@ function groundQuad(up, height, radius) {
   const position = [[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]].flatMap(([a, b]) => at(a, b));
   const normal = Float32Array.from({ length: 18 }, (_, i) => up[i % 3]);
   return { position: Float32Array.from(position), normal, faceNormal: normal };
-}
-
-// Shares of the points seen that a method calls dark where the reference is lit, and lit where it is
-// dark, as metrics/shadow_error.py counts them.
-function wrongShares(answers, truth) {
-  let dark = 0, lit = 0, seen = 0;
-  for (let i = 0; i < answers.length; i += 4) {
-    seen += truth[i + 1] > 0;
-    const wrong = (answers[i] - truth[i]) / 255;
-    if (wrong < 0) dark -= wrong;
-    else lit += wrong;
-  }
-  return { falseShadow: dark / Math.max(1, seen), lightLeak: lit / Math.max(1, seen) };
 }

@@ -3,7 +3,8 @@
 class Unavailable extends Error {}
 
 function openWebgl(canvas) {
-  const gl = canvas.getContext("webgl2", { antialias: false, alpha: false });
+  // Kept, so that a band of it can be drawn anew and the rest stays.
+  const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, preserveDrawingBuffer: true });
   if (!gl) throw new Unavailable("This browser has no WebGL2, or it is switched off.");
   if (!gl.getExtension("EXT_color_buffer_float")) {
     throw new Unavailable("This browser's WebGL2 cannot draw floating-point numbers.");
@@ -16,7 +17,7 @@ function beginProgram(gl, vertex, fragment, constants = {}) {
   const defines = Object.entries(constants).map(([name, value]) => `#define ${name} ${value}\n`);
   // Without the latter phones may read positions and heights as half floats.
   const exact = [
-    "float", "int", "sampler2D", "isampler2D", "isampler3D", "usampler2D", "sampler2DArray", "usampler2DArray",
+    "float", "int", "sampler2D", "isampler2D", "sampler3D", "isampler3D", "usampler2D", "sampler2DArray", "usampler2DArray",
   ];
   const precisions = exact.map((type) => `precision highp ${type};\n`);
   const head = ["#version 300 es\n", ...precisions, ...defines].join("");
@@ -104,6 +105,17 @@ function makeLayerFramebuffer(gl, { texture }, first, count) {
   places.forEach((place, i) => gl.framebufferTextureLayer(gl.FRAMEBUFFER, place, texture, 0, first + i));
   gl.drawBuffers(places);
   return framebuffer;
+}
+
+// A function that waits until all that was drawn before it is there. It reads a target of its own:
+// of another it depends on the format what may be read.
+function makeFinish(gl) {
+  const { framebuffer } = makeTarget(gl, [["RGBA8", "RGBA", "UNSIGNED_BYTE"]], 1, 1);
+  const pixel = new Uint8Array(4);
+  return () => {
+    gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+  };
 }
 
 function setUniforms(gl, { program, uniforms }, values) {

@@ -1,23 +1,8 @@
 // Whether an occupancy field blocks a ray; see field_occlusion.py for a solid and field_marching.py
-// for a sheet, of which this is a translation. Only the values of bricks that the surface touches
-// are there.
-uniform isampler3D grid;   // a brick's number; −how many may be skipped; or SOLID
-uniform isampler2D values; // ROW_BRICKS bricks a row, 125 values each
+// for a sheet, of which this is a translation.
 uniform float level;
 uniform float depthBias;
 uniform bool sheet;
-
-const float CELLS = 4.0; // of a brick along an axis
-
-float value(ivec2 brick, vec3 at) {
-  ivec3 cell = min(ivec3(at), ivec3(3));
-  vec3 w = at - vec3(cell);
-  ivec2 first = brick + ivec2((cell.x * 5 + cell.y) * 5 + cell.z, 0);
-  #define AT(i) float(texelFetch(values, first + ivec2(i, 0), 0).x)
-  float a = mix(AT(0), AT(1), w.z), b = mix(AT(5), AT(6), w.z);
-  float c = mix(AT(25), AT(26), w.z), e = mix(AT(30), AT(31), w.z);
-  return mix(mix(a, b, w.y), mix(c, e, w.y), w.x);
-}
 
 float firstCrossing(vec3 o, vec3 d, float chord) {
   int size = textureSize(grid, 0).x;
@@ -42,7 +27,7 @@ float firstCrossing(vec3 o, vec3 d, float chord) {
       t = (float(i) + 0.5) * step;
       continue;
     }
-    ivec2 first = ivec2(found % ROW_BRICKS * 125, found / ROW_BRICKS);
+    ivec2 first = firstValue(found);
     do {
       at = origin + t * speed;
       float now = value(first, clamp((at - vec3(brick)) * CELLS, 0.0, CELLS));
@@ -64,16 +49,16 @@ bool isInside(vec3 p) {
   ivec3 brick = clamp(ivec3(at), 0, size - 1);
   int found = texelFetch(grid, brick.zyx, 0).x;
   if (found < 0) return found == SOLID;
-  ivec2 first = ivec2(found % ROW_BRICKS * 125, found / ROW_BRICKS);
+  ivec2 first = firstValue(found);
   return value(first, clamp((at - vec3(brick)) * CELLS, 0.0, CELLS)) > level;
 }
 
-float visibility(vec3 p, float cosGeometric) {
+bool lit(vec3 p, vec3 light) {
   vec3 o;
   float s, chord;
-  if (!sphereRay(p, o, s, chord)) return 1.0;
-  if (sheet) return min(s, chord) <= firstCrossing(o, -light, chord) + depthBias ? 1.0 : 0.0;
+  if (!sphereRay(p, light, o, s, chord)) return true;
+  if (sheet) return min(s, chord) <= firstCrossing(o, -light, chord) + depthBias;
   // Of a solid no depth is needed: a sample before the point lies inside, or the point itself.
   float end = min(s - depthBias, chord);
-  return end <= 0.0 || firstCrossing(o, -light, end) > end && !isInside(o - light * end) ? 1.0 : 0.0;
+  return end <= 0.0 || firstCrossing(o, -light, end) > end && !isInside(o - light * end);
 }

@@ -54,9 +54,9 @@ float shadowDepth(vec3 o, vec3 d) {
   return 2.0 * max(t, 0.0);
 }
 
-float visibility(vec3 p, float cosGeometric) {
+bool lit(vec3 p, vec3 light) {
   vec3 o;
   float s, chord;
-  if (!sphereRay(p, o, s, chord)) return 1.0;
-  return min(s, chord) <= shadowDepth(o, -light) + depthBias ? 1.0 : 0.0;
+  if (!sphereRay(p, light, o, s, chord)) return true;
+  return min(s, chord) <= shadowDepth(o, -light) + depthBias;
 }

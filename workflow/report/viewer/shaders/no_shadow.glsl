@@ -1,3 +1,3 @@
-float visibility(vec3 p, float cosGeometric) {
-  return 1.0;
+vec2 visibility(vec3 p, vec3 n) {
+  return vec2(dot(n, sun) > 0.0, 1.0);
 }

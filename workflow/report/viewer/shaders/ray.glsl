@@ -9,7 +9,7 @@ vec4 at(sampler2D data, int i) {
   return texelFetch(data, ivec2(i % width, i / width), 0);
 }
 
-bool meets(vec3 p, int triangle) {
+bool meets(vec3 p, vec3 light, int triangle) {
   vec3 a = at(triangles, 3 * triangle).xyz;
   vec3 ab = at(triangles, 3 * triangle + 1).xyz - a, ac = at(triangles, 3 * triangle + 2).xyz - a;
   vec3 across = cross(light, ac);
@@ -22,7 +22,7 @@ bool meets(vec3 p, int triangle) {
   return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && dot(ac, other) / volume > 0.0;
 }
 
-float visibility(vec3 p, float cosGeometric) {
+bool lit(vec3 p, vec3 light) {
   vec3 inverse = 1.0 / mix(vec3(1e-20), light, greaterThan(abs(light), vec3(1e-20)));
   int node = 0;
   while (node < nodeCount) {
@@ -33,8 +33,8 @@ float visibility(vec3 p, float cosGeometric) {
     int leaf = int(high.w); // first triangle · 8 + how many; 0 for an inner node
     if (crossed)
       for (int k = 0; k < leaf % 8; k++)
-        if (meets(p, leaf / 8 + k)) return 0.0;
+        if (meets(p, light, leaf / 8 + k)) return false;
     node = crossed && leaf == 0 ? node + 1 : int(low.w);
   }
-  return 1.0;
+  return true;
 }

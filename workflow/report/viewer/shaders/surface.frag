@@ -9,7 +9,7 @@ uniform mat3 pixels; // from (column, row, 1) to the ray through a pixel
 uniform float drop;  // from the eye to the ground, along up, which is the ground's normal
 layout(location = 0) out vec4 point;         // moved by the shading offset; w: kind
 layout(location = 1) out vec4 faceNormal;    // on the camera's side
-layout(location = 2) out vec4 shadingNormal; // on the face normal's side
+layout(location = 2) out vec4 shadingNormal; // on the face normal's side; w: 1
 
 void main() {
   vec3 seen = p;
@@ -23,5 +23,5 @@ void main() {
   point = vec4(seen + SHADING_OFFSET * face, kind);
   faceNormal = vec4(face, 0.0);
   vec3 shading = dot(n, n) > 0.0 ? normalize(n) : face;
-  shadingNormal = vec4(dot(shading, face) < 0.0 ? -shading : shading, 0.0);
+  shadingNormal = vec4(dot(shading, face) < 0.0 ? -shading : shading, 1.0);
 }

@@ -1,31 +1,35 @@
-// A method's answer at each surface point: x visibility, y kind / 2. The method's own file,
-// which comes after this, defines `visibility`.
+// A method's answer at each surface point: x the sum of its visibilities, y how many those are; 0
+// where there is no surface. More are added by blending. The files after this define `visibility`.
 uniform sampler2D points;
 uniform sampler2D faceNormals;
-uniform vec3 light;
+uniform vec3 sun;    // unit vector to the middle of the sun's disc
+uniform float slope; // tangent of the disc's angular radius; 0 for a point
 layout(location = 0) out vec4 answer;
 
-float visibility(vec3 p, float cosGeometric);
+// Of a point and the normal of its face, on the camera's side.
+vec2 visibility(vec3 p, vec3 n);
 
-// The ray from the light to p where it enters the unit sphere; see networks' sphere_rays.py. False
-// for a point that is culled, and lit.
-bool sphereRay(vec3 p, out vec3 o, out float s, out float chord) {
-  float along = dot(p, light);
-  vec3 across = p - along * light;
-  float square = 1.0 - dot(across, across);
-  if (square <= 0.0) return false;
-  float halfChord = sqrt(square);
-  s = halfChord - along;
-  o = across + halfChord * light;
-  chord = 2.0 * halfChord;
-  return s > 0.0;
+// Two numbers in [0, 1) of this pixel (Jarzynski and Olano 2020).
+vec2 noise() {
+  uvec2 v = uvec2(gl_FragCoord.xy) * 1664525u + 1013904223u;
+  v.x += v.y * 1664525u;
+  v.y += v.x * 1664525u;
+  v ^= v >> 16u;
+  v.x += v.y * 1664525u;
+  v.y += v.x * 1664525u;
+  v ^= v >> 16u;
+  return vec2(v >> 8u) / 16777216.0;
+}
+
+// Unit vectors across a direction (Duff et al. 2017).
+mat2x3 sidesOf(vec3 d) {
+  float side = d.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (side + d.z), b = d.x * d.y * a;
+  return mat2x3(1.0 + side * d.x * d.x * a, side * b, -side * d.x, b, side + d.y * d.y * a, -d.y);
 }
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec4 point = texelFetch(points, at, 0);
-  answer = vec4(0.0, point.w / 2.0, 0.0, 1.0);
-  if (point.w == 0.0) return;
-  float cosGeometric = dot(texelFetch(faceNormals, at, 0).xyz, light);
-  if (cosGeometric > 0.0) answer.x = visibility(point.xyz, cosGeometric);
+  answer = vec4(0.0);
+  if (point.w > 0.0) answer.xy = visibility(point.xyz, texelFetch(faceNormals, at, 0).xyz);
 }
