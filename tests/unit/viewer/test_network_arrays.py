@@ -8,6 +8,7 @@ import pytest
 from built_networks import make_network
 from shapes import bumpy_sphere
 
+from neural_shadows.representations.distance_bricks.distances_around import distances_around
 from neural_shadows.representations.distance_bricks.field_marching import SOLID
 from neural_shadows.viewer.network_arrays import SOLID_CODE, network_arrays
 
@@ -61,8 +62,28 @@ def test_field_of_bricks(tmp_path):
     values = unpacked(found["arrays"]["values"])
     shares = network.shares().detach().numpy()
     assert np.abs(values * np.abs(shares).max() / 127 - shares).max() < 0.005
+    # A solid's distances, for cones: those around it, in steps, from differences along three axes.
+    size = found["bricks"] + 1
+    zigzags = unpacked(found["arrays"]["around"]).astype(int).reshape(size, size, size)
+    steps = np.where(zigzags & 1, -(zigzags + 1) // 2, zigzags // 2)
+    for axis in range(3):
+        steps = steps.cumsum(axis)
+    bricks, scale = network._brick_values()
+    around = distances_around(network.grid.view(8, 8, 8).numpy(), bricks)
+    assert np.abs(steps * found["step"] - around).max() <= found["step"] / 2 + 1e-6
+    assert found["unit"] == pytest.approx(scale / 0.45 * 2 / 32) and found["push"] == 0.05
     # Pushed out by a twentieth of a cell: a level below zero, in the values' steps.
     assert found["level"] == pytest.approx(-0.05 * 0.45 / np.abs(shares).max() * 127, rel=0.01)
+
+
+@pytest.mark.parametrize("changes, trained", [({}, True), ({"start": "undecided"}, False)])
+def test_values_that_are_no_distances_are_for_rays_alone(tmp_path, changes, trained):
+    bumpy_sphere(3).export(tmp_path / "mesh.ply")
+    settings = {"encoding": "occupancy_field", "resolution": 32, "stored": "int8"}
+    network = make_network(settings | {"surface": "solid", "start": "distances"} | changes)
+    network.prepare(tmp_path / "mesh.ply")
+    network.initialise(0)
+    assert set(network_arrays(network, trained)["arrays"]) == {"grid", "values"}
 
 
 def test_kind_without_a_shader():

@@ -42,7 +42,7 @@ def network_arrays(network: ShadowNetwork, trained: bool) -> dict[str, Any]:
 def _field(network: OccupancyFieldNetwork, trained: bool) -> dict[str, Any]:
     """Field with one byte per brick and per value.
 
-    Values are shares of the largest. A solid's untrained ones are distances, for cones.
+    Values are shares of the largest. Untrained ones are distances, for cones.
     """
     values, scale = quantise({"": network.shares().detach()}, "int8").values()
     size = network.resolution // BRICK
@@ -56,8 +56,7 @@ def _field(network: OccupancyFieldNetwork, trained: bool) -> dict[str, Any]:
         "level": network.level() / float(scale),
         "arrays": {"grid": packed(codes.astype(np.uint8)), "values": packed(values.numpy())},
     }
-    distances = network.start != "undecided" and network.storage != "sign" and not trained
-    if distances and network.surface == "solid":
+    if network.start != "undecided" and network.storage != "sign" and not trained:
         cell = 2 / network.resolution
         bricks = values.numpy()[network.table.view(-1, BRICK_VERTICES).numpy()]
         step = cell * STEP_CELLS
