@@ -1,1 +1,18 @@
 """Methods for shadows, hard and soft, on the same frames; workflow/README.md has the rooms."""
+
+from importlib import import_module
+from typing import Any
+
+# What the installed package is called for; field/README.md shows it. Imported when asked for: every
+# module of the pipeline imports this one.
+_HOMES = {
+    "InputError": "neural_shadows.errors",
+    "ShadowField": "neural_shadows.representations.shadow_field.shadow_field",
+}
+__all__ = ["InputError", "ShadowField"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

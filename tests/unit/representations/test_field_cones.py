@@ -54,7 +54,7 @@ def marched(shape, x, walks, push=0.0, cell=0.04):
     points = points_below(x)
     to_light, normals = np.tile(FAR * UP, (len(x), 1)), np.tile(UP, (len(x), 1))
     visible = above_plane(normals, to_light, np.float32(SLOPE * FAR))
-    around = field.centre, field.radius, field.cone_field
+    around = field.centre.astype(np.float32), np.float32(field.radius), field.cone_field
     arguments = split_disc(walks), np.float32(push)
     dim_by_field(points, normals, to_light, np.float32(SLOPE * FAR), *around, *arguments, visible)
     return visible

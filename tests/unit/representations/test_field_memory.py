@@ -16,7 +16,7 @@ def test_a_field_that_does_not_fit_is_refused_with_its_size(tmp_path, monkeypatc
     trimesh.creation.icosphere(3, radius=0.9).export(tmp_path / "mesh.ply")
     available = 40 * field_memory.BYTES_PER_BRICK
     monkeypatch.setattr(field_memory, "available_bytes", lambda: available)
-    refused = r"resolution: 64 makes 9\d\d bricks, which need \d+\.\d GiB .* 0\.0 GiB are free"
+    refused = r"resolution: 64: makes 9\d\d bricks, which need \d+\.\d GiB .* 0\.0 GiB are free"
     network = make_network(FIELD | {"resolution": 64})
     with pytest.raises(InputError, match=refused) as error:
         network.prepare(tmp_path / "mesh.ply")

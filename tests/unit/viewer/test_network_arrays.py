@@ -10,7 +10,8 @@ from shapes import bumpy_sphere
 
 from neural_shadows.representations.distance_bricks.distances_around import distances_around
 from neural_shadows.representations.distance_bricks.field_marching import SOLID
-from neural_shadows.viewer.network_arrays import SOLID_CODE, network_arrays
+from neural_shadows.representations.shadow_field.grid_codes import SOLID_CODE
+from neural_shadows.viewer.network_arrays import network_arrays
 
 
 def unpacked(array):

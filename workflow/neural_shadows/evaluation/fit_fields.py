@@ -3,9 +3,10 @@
 from pathlib import Path
 
 from neural_shadows.evaluation.measured_frames import measured_frames
-from neural_shadows.evaluation.method_parts.object_field import ObjectField, write_fields
+from neural_shadows.evaluation.method_parts.object_field import write_fields
 from neural_shadows.evaluation.method_parts.scene_fields import fields_in
 from neural_shadows.frames.frame_set import FrameSetPart
+from neural_shadows.representations.shadow_field.shadow_field import ShadowField
 from neural_shadows.running.progress import progress_bar
 from neural_shadows.running.stage import run_stage
 
@@ -22,7 +23,7 @@ def fit_fields(parts: list[Path], meshes: list[Path], fields_npz: Path) -> None:
     Raises:
         InputError: an input file cannot be read.
     """
-    fields: dict[str, ObjectField] = {}
+    fields: dict[str, ShadowField] = {}
     total = sum(len(FrameSetPart(path)) for path in parts)
     with progress_bar(total, "frames", "fit fields") as bar:
         for measured in measured_frames(parts, meshes):

@@ -3,21 +3,16 @@
 import hashlib
 from pathlib import Path
 
-import numpy as np
 import trimesh
 
 from neural_shadows.files.whole_files import sha256_of, whole_file, write_json
-from neural_shadows.meshes.bounding_sphere import minimal_bounding_sphere
-from neural_shadows.meshes.cleaning import clean_mesh, closedness
-from neural_shadows.meshes.open_sides import is_sheet
+from neural_shadows.meshes.normalised import normalised
 from neural_shadows.meshes.reading import mesh_bytes, read_mesh
 from neural_shadows.meshes.thesis_meshes import is_thesis_mesh
 from neural_shadows.running import progress
 from neural_shadows.running.origin import describe_origin
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import MeshSource
-
-_DROPPED = ("merged_vertices", "unreferenced_vertices", "degenerate_faces", "duplicate_faces")
 
 
 def prepare_mesh(
@@ -39,25 +34,17 @@ def prepare_mesh(
     Raises:
         InputError: as `read_mesh` and `clean_mesh`, before anything is written.
     """
-    vertices, faces, report = clean_mesh(*read_mesh(source), str(source))
-    centre, radius = minimal_bounding_sphere(vertices)
-    normalised = ((vertices - centre) / radius).astype(np.float32)
-    # Rounding to float32 (spacing 6e-8 at 1) may merge distinct vertices: clean once more.
-    normalised, faces, again = clean_mesh(normalised, faces, str(source))
-    closed = closedness(faces)
+    mesh_in_sphere = normalised(*read_mesh(source), str(source))
     content = hashlib.sha256(mesh_bytes(source)).hexdigest()
     report = {
         "name": name,
         "source": source.name,
         "sha256": sha256_of(source),
         "thesis_mesh": is_thesis_mesh(mesh, content),
-        "centre": centre.tolist(),
-        "radius": radius,
-        **again,
-        **{key: report[key] for key in ("source_vertices", "source_faces")},
-        **{key: report[key] + again[key] for key in _DROPPED},
-        **closed,
-        "sheet": not closed["watertight"] and is_sheet(normalised, faces),
+        "centre": mesh_in_sphere.centre.tolist(),
+        "radius": mesh_in_sphere.radius,
+        **mesh_in_sphere.report,
+        "sheet": mesh_in_sphere.sheet,
     }
     if report["sheet"]:
         print(
@@ -66,7 +53,8 @@ def prepare_mesh(
             file=progress.TERMINAL,
         )
     with whole_file(mesh_ply) as part:
-        part.write_bytes(trimesh.Trimesh(normalised, faces, process=False).export(file_type="ply"))
+        shape = trimesh.Trimesh(mesh_in_sphere.vertices, mesh_in_sphere.faces, process=False)
+        part.write_bytes(shape.export(file_type="ply"))
         write_json(mesh_json, report | describe_origin())
 
 

@@ -18,12 +18,11 @@ from neural_shadows.representations.distance_bricks.field_marching import (
     BRICK,
     BRICK_VERTICES,
     SAMPLES_PER_CELL,
-    SOLID,
 )
+from neural_shadows.representations.shadow_field.grid_codes import grid_codes
 from neural_shadows.viewer.packed import packed, zigzag
 
 STEP_CELLS = 1 / 8  # of a distance around a field
-SOLID_CODE = 255  # of a brick; 0: has values, others: number of bricks to skip
 
 
 def network_arrays(network: ShadowNetwork, trained: bool) -> dict[str, Any]:
@@ -47,14 +46,12 @@ def _field(network: OccupancyFieldNetwork, trained: bool) -> dict[str, Any]:
     values, scale = quantise({"": network.shares().detach()}, "int8").values()
     size = network.resolution // BRICK
     grid = network.grid.view(size, size, size).numpy()
-    codes = np.where(grid >= 0, 0, np.minimum(-grid, SOLID_CODE - 1))
-    codes[grid == SOLID] = SOLID_CODE
     field = {
         "bricks": size,
         "surface": network.surface,
         "samples_per_cell": SAMPLES_PER_CELL,
         "level": network.level() / float(scale),
-        "arrays": {"grid": packed(codes.astype(np.uint8)), "values": packed(values.numpy())},
+        "arrays": {"grid": packed(grid_codes(grid.ravel())), "values": packed(values.numpy())},
     }
     if network.start != "undecided" and network.storage != "sign" and not trained:
         cell = 2 / network.resolution

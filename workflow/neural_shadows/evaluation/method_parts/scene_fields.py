@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 
 from neural_shadows.evaluation.method_parts.object_field import (
-    ObjectField,
     StoredFields,
     field_key,
     fitted_field,
@@ -15,12 +14,13 @@ from neural_shadows.evaluation.method_parts.object_field import (
 from neural_shadows.frames.ray_tracing import ray_traced
 from neural_shadows.frames.soft_frame import SoftFrame
 from neural_shadows.meshes.prepared_mesh import PreparedMesh, joined_meshes
+from neural_shadows.representations.shadow_field.shadow_field import ShadowField
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.scenes.tracing import Tracer
 
 CELL = 0.0005  # of the scene's size: preferred width of a field's cells
 _MOST_CACHED = 64  # objects of about 5 MiB each
-_cache: dict[str, ObjectField | None] = {}
+_cache: dict[str, ShadowField | None] = {}
 _stored: list[StoredFields] = []
 
 
@@ -44,7 +44,7 @@ class SceneFields:
         return blocked
 
 
-def _field_of(mesh: PreparedMesh, cell: float) -> ObjectField | None:
+def _field_of(mesh: PreparedMesh, cell: float) -> ShadowField | None:
     """The field of an object in place; None of an open one.
 
     Cached until other scenes need the memory: in a sequence with one moving object, all others are
@@ -68,7 +68,7 @@ def take_stored(paths: Iterable[Path]) -> None:
     _stored[:] = map(StoredFields, paths)
 
 
-def fields_in(scene: Scene) -> dict[str, ObjectField]:
+def fields_in(scene: Scene) -> dict[str, ShadowField]:
     """The fields of a scene's closed objects by `field_key`."""
     cell = CELL * scene.size
     fields = {field_key(mesh, cell): _field_of(mesh, cell) for mesh in scene.objects}

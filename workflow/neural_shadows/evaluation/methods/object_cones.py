@@ -53,8 +53,9 @@ def cone_traced(frame: "SoftFrame", radius: float, *, walks: int, push: float) -
         visible = ray_traced(frame, radius, samples=_OPEN_RAYS, blocked=fields.tracer.blocked)
     discs, push = split_disc(walks), np.float32(push)
     for field in fields.fields:
-        grid = field.centre, field.radius, field.cone_field
-        dim_by_field(frame.starts, normals, to_light, size, *grid, discs, push, visible)
+        sphere = field.centre.astype(np.float32), np.float32(field.radius)
+        around = *sphere, field.cone_field
+        dim_by_field(frame.starts, normals, to_light, size, *around, discs, push, visible)
     return visible
 
 

@@ -44,8 +44,10 @@ from neural_shadows.representations.distance_bricks.field_bricks import FieldBri
 from neural_shadows.representations.distance_bricks.field_marching import (
     BRICK,
     BRICK_VERTICES,
+    NO_CELLS,
     SAMPLES_PER_CELL,
     SOLID,
+    all_cells,
     first_crossings,
 )
 from neural_shadows.representations.distance_bricks.field_memory import check_memory
@@ -276,7 +278,7 @@ class OccupancyFieldNetwork(ShadowNetwork):
             self.grid.view(size, size, size).numpy(),
             bricks,
             SAMPLES_PER_CELL * self.resolution,
-            self.surface == "sheet",
+            all_cells(bricks) if self.surface == "sheet" else NO_CELLS,
             np.float32(self.level() / scale),
         )
         return torch.from_numpy(t_pred)

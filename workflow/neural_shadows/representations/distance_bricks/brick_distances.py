@@ -87,13 +87,13 @@ def _scatter(corners, grid, table, reach, squared):
                             ):
                                 at = ((x - BRICK * bx) * 5 + y - BRICK * by) * 5 + z - BRICK * bz
                                 vertex = table[brick, at]
-                                distance = _squared_distance(corners[f], x, y, z)
+                                distance = squared_distance(corners[f], x, y, z)
                                 if distance < squared[vertex]:
                                     squared[vertex] = distance
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _squared_distance(corners, x, y, z):
+def squared_distance(corners, x, y, z):
     """Squared distance of a point to a triangle (3, 3) (Ericson 2005, 5.1.5)."""
     a = corners[0]
     ax, ay, az = a[0] - x, a[1] - y, a[2] - z

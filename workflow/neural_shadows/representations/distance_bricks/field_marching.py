@@ -1,4 +1,4 @@
-"""First crossing of rays with an occupancy field, by CPU."""
+"""First crossing of rays with a field's surface, by CPU."""
 
 import numpy as np
 from numba import njit
@@ -52,13 +52,22 @@ _FAR = np.float32(1e9)  # beyond any distance
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, level):
+def _in_cells(cells, x, y, z):
+    """Test the cell at x, y, z in [0, 1] of a brick; `cells` as in `first_crossings`."""
+    most = np.int64(BRICK - 1)
+    i, j, k = min(int(x * BRICK), most), min(int(y * BRICK), most), min(int(z * BRICK), most)
+    bit = BRICK**2 * max(i, 0) + BRICK * max(j, 0) + max(k, 0)
+    return cells >> np.uint64(bit) & np.uint64(1) != 0
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, cells, level):
     """First crossing of a ray with the surface; `end` for none.
 
     The ray is o + t d, in bricks from the corner −1; sample i, from `first` on, is at t = (i + 0.5)
     step.
     """
-    size = len(grid)
+    size, sheet, near = len(grid), len(cells) > 0, False
     # Inverses: 0 for an axis the ray does not move along, which never ends a brick.
     ix = 1 / dx if abs(dx) > 1e-9 else np.float32(0)
     iy = 1 / dy if abs(dy) > 1e-9 else np.float32(0)
@@ -100,7 +109,9 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, lev
             )
             crossed = value > level
             if sheet:
+                near_before, near = near, _in_cells(cells[brick], x - bx, y - by, z - bz)
                 crossed = last_sample == i - 1 and crossed != (before > level)
+                crossed = crossed and (near or near_before)
             if crossed:
                 if last_sample == i - 1:
                     return t - step * (value - level) / (value - before)
@@ -114,8 +125,16 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, sheet, lev
     return end
 
 
+NO_CELLS = np.empty(0, np.uint64)  # of a solid
+
+
+def all_cells(bricks: np.ndarray) -> np.ndarray:
+    """Cells of a sheet that may be crossed anywhere in its bricks; see `first_crossings`."""
+    return np.full(len(bricks), ~np.uint64(0))
+
+
 @njit(cache=True, nogil=True)
-def first_crossings(origins, d, grid, bricks, steps, sheet, level):
+def first_crossings(origins, d, grid, bricks, steps, cells, level):
     """t_pred (k,) float32 of parallel rays; `LIT` for misses.
 
     Args:
@@ -124,7 +143,9 @@ def first_crossings(origins, d, grid, bricks, steps, sheet, level):
         grid: (B, B, B) int32, see `BrickLayout`.
         bricks: (bricks, 125), values of each brick's vertices on any one scale.
         steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
-        sheet: cross at any change of sign, else above the level.
+        cells: of a sheet (bricks,) uint64, bit 16 x + 4 y + z for each cell that may be crossed; of
+            a solid `NO_CELLS`. A sheet is crossed at any change of sign next to such a cell, a solid
+            above the level.
         level: float32, the value at the surface, on the scale of `bricks`.
     """
     t_pred = np.empty(len(origins), np.float32)
@@ -135,55 +156,78 @@ def first_crossings(origins, d, grid, bricks, steps, sheet, level):
         o = origins[ray]
         chord = -2 * (o[0] * d[0] + o[1] * d[1] + o[2] * d[2])
         ox, oy, oz = (o[0] + 1) * scale, (o[1] + 1) * scale, (o[2] + 1) * scale
-        t = _crossing(ox, oy, oz, dx, dy, dz, 0, chord, step, grid, bricks, sheet, level)
+        t = _crossing(ox, oy, oz, dx, dy, dz, 0, chord, step, grid, bricks, cells, level)
         t_pred[ray] = t if t < chord else np.float32(LIT)
     return t_pred
 
 
 @njit(cache=True, nogil=True)
-def mark_blocked(points, to_light, centre, radius, grid, bricks, steps, level, blocked):
-    """Mark in `blocked` (n,) bool occluded segments of a solid's field.
+def mark_blocked(points, to_target, grid, bricks, steps, cells, level, blocked):
+    """Mark in `blocked` (n,) bool segments through a field's surface.
 
     Args:
-        points, to_light: (n, 3) float32, in the unit of `centre` and `radius`, of the sphere in the
-            field's [−1, 1]³; `to_light` from each point to its light.
-        grid, bricks, steps, level: see `first_crossings`. Already blocked ones are skipped.
+        points, to_target: (n, 3) float32 in radii of the field's sphere; `to_target` from each
+            point to the end of its segment.
+        grid, bricks, steps, cells, level: see `first_crossings`. Already blocked ones are skipped.
     """
-    scale, half = np.float32(len(grid) / 2), np.float32(0.5)
+    one = np.float32(1)
+    scale, step = np.float32(len(grid) / 2), np.float32(2 / steps)
     for ray in range(len(points)):
         if blocked[ray]:
             continue
-        x = (points[ray, 0] - centre[0]) / radius
-        y = (points[ray, 1] - centre[1]) / radius
-        z = (points[ray, 2] - centre[2]) / radius
-        u, v, w = to_light[ray, 0] / radius, to_light[ray, 1] / radius, to_light[ray, 2] / radius
+        x, y, z = points[ray]
+        u, v, w = to_target[ray]
         length = np.sqrt(u * u + v * v + w * w)
         u, v, w = u / length, v / length, w / length
-        # The part inside the sphere.
+        # The part inside the sphere, by distances from the point next to its middle: squares of
+        # far points' distances would cancel.
         along = x * u + y * v + z * w
-        inside = along * along - (x * x + y * y + z * z - 1)
+        a, b, c = x - along * u, y - along * v, z - along * w
+        inside = one - (a * a + b * b + c * c)
         if inside <= 0:
             continue
         root = np.sqrt(inside)
-        begin, end = max(-along - root, np.float32(0)), min(-along + root, length)
+        begin, end = max(along, -root), min(along + length, root)
         if begin >= end:
             continue
-        step = np.float32(2 / steps)
-        end = np.float32(end)
-        first = max(int(np.ceil(begin / step - half)), 0)
+        # From the light to the point, as in `occluded`: samples then lie at the same places.
         t = _crossing(
-            np.float32((x + 1) * scale),
-            np.float32((y + 1) * scale),
-            np.float32((z + 1) * scale),
-            np.float32(u * scale),
-            np.float32(v * scale),
-            np.float32(w * scale),
-            first,
-            end,
+            (a + end * u + one) * scale,
+            (b + end * v + one) * scale,
+            (c + end * w + one) * scale,
+            -u * scale,
+            -v * scale,
+            -w * scale,
+            0,
+            end - begin,
             step,
             grid,
             bricks,
-            False,
+            cells,
             level,
         )
-        blocked[ray] = t < end
+        blocked[ray] = t < end - begin
+        if t >= end - begin and len(cells) == 0:
+            x, y, z = a + begin * u, b + begin * v, c + begin * w
+            blocked[ray] = _inside(x, y, z, grid, bricks, level)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _inside(x, y, z, grid, bricks, level):
+    """Test a place of [−1, 1]³ against the level."""
+    size, scale = len(grid), np.float32(len(grid) / 2)
+    zero, one, brick_cells = np.float32(0), np.float32(1), np.float32(BRICK)
+    x, y, z = (x + one) * scale, (y + one) * scale, (z + one) * scale
+    bx = min(max(int(x), 0), size - 1)
+    by = min(max(int(y), 0), size - 1)
+    bz = min(max(int(z), 0), size - 1)
+    brick = grid[bx, by, bz]
+    if brick < 0:
+        return brick == SOLID
+    value = _value(
+        bricks[brick],
+        min(max((x - bx) * brick_cells, zero), brick_cells),
+        min(max((y - by) * brick_cells, zero), brick_cells),
+        min(max((z - bz) * brick_cells, zero), brick_cells),
+    )
+    return value > level

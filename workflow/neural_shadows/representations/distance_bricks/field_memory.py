@@ -21,7 +21,7 @@ def check_memory(resolution: int, bricks: int) -> None:
         # The number of touched bricks grows with the square of the resolution.
         maximum = int(resolution * (available / needed) ** 0.5) // BRICK * BRICK
         raise InputError(
-            f"network: resolution: {resolution} makes {bricks:,} bricks, which need "
+            f"resolution: {resolution}: makes {bricks:,} bricks, which need "
             f"{needed / _GIB:,.1f} GiB of memory; {available / _GIB:,.1f} GiB are free. Set a "
             f"resolution of at most {maximum}."
         )

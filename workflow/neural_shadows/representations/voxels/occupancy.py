@@ -8,19 +8,23 @@ from scipy import ndimage
 SLACK = 1.001
 
 
-def surface_cells(vertices: np.ndarray, faces: np.ndarray, resolution: int) -> np.ndarray:
+def surface_cells(
+    vertices: np.ndarray, faces: np.ndarray, resolution: int, margin: float = 0.0
+) -> np.ndarray:
     """Cells touched by a triangle, by separating axes (Akenine-Möller 2001).
 
     Args:
         vertices: (V, 3) positions in normalised space, inside [−1, 1]³.
         faces: (F, 3) vertex indices.
         resolution: cells along an axis, n.
+        margin: around each cell, in sides.
 
     Returns:
         (n, n, n) bool, indexed by x, y, z.
     """
     touched = np.zeros((resolution,) * 3, bool)
-    _mark_touched(np.asarray(vertices, np.float64), np.asarray(faces, np.int64), touched)
+    whole = np.asarray(vertices, np.float64), np.asarray(faces, np.int64)
+    _mark_touched(*whole, SLACK + 2 * margin, touched)
     return touched
 
 
@@ -34,10 +38,10 @@ def enclosed_cells(surface: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True, nogil=True)
-def _mark_touched(vertices, faces, touched):
+def _mark_touched(vertices, faces, slack, touched):
     n = len(touched)
     size = 2.0 / n
-    half = size / 2 * SLACK
+    half = size / 2 * slack
     first = np.empty(3, np.int64)
     last = np.empty(3, np.int64)
     centre = np.empty(3)
