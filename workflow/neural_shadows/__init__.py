@@ -8,8 +8,10 @@ from typing import Any
 _HOMES = {
     "InputError": "neural_shadows.errors",
     "ShadowField": "neural_shadows.representations.shadow_field.shadow_field",
+    "sky_patches": "neural_shadows.scenes.sky",
+    "sun_directions": "neural_shadows.scenes.sky",
 }
-__all__ = ["InputError", "ShadowField"]
+__all__ = ["InputError", "ShadowField", "sky_patches", "sun_directions"]
 
 
 def __getattr__(name: str) -> Any:
