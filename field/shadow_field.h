@@ -177,9 +177,10 @@ void shadow_field_free(shadow_field *field)
 
 static int shadow_field_clamp(int i, int most) { return i < 0 ? 0 : i > most ? most : i; }
 
-/* A brick's value at x, y, z in [0, 4], and whether a sheet touches the cell there. */
+/* A brick's value at x, y, z in [0, 4], and whether the cell there has sides: a sheet touches it, or
+ * it is all on one side. */
 static float shadow_field_value(
-    const shadow_field *field, int brick, float x, float y, float z, int *touched)
+    const shadow_field *field, int brick, float x, float y, float z, int *sided)
 {
     int i = shadow_field_clamp((int)x, 3), j = shadow_field_clamp((int)y, 3);
     int k = shadow_field_clamp((int)z, 3);
@@ -188,7 +189,10 @@ static float shadow_field_value(
     float u = x - (float)i, w = y - (float)j, t = z - (float)k;
     float a = v[0] + (v[1] - v[0]) * t, b = v[5] + (v[6] - v[5]) * t;
     float c = v[25] + (v[26] - v[25]) * t, e = v[30] + (v[31] - v[30]) * t;
-    *touched = !field->cells || field->cells[(size_t)brick * 8 + cell / 8] >> cell % 8 & 1;
+    int inside = (v[0] > 0) + (v[1] > 0) + (v[5] > 0) + (v[6] > 0) + (v[25] > 0) + (v[26] > 0)
+                 + (v[30] > 0) + (v[31] > 0);
+    *sided = !field->cells || inside % 8 == 0
+             || field->cells[(size_t)brick * 8 + cell / 8] >> cell % 8 & 1;
     a += (b - a) * w;
     c += (e - c) * w;
     return a + (c - a) * u;
@@ -225,7 +229,7 @@ static int shadow_field_crossed(
 {
     float scale = (float)field->size / 2, step = 1 / (scale * shadow_field_CELLS * shadow_field_SAMPLES);
     float start[3], speed[3], inverse[3], at[3], before = 0, t = 0.5f * step;
-    int axis, brick[3], i = 0, last = -2, near = 0, near_before = 0;
+    int axis, brick[3], i = 0, last = -2, sided = 0, sided_before = 0;
     for (axis = 0; axis < 3; axis++) {
         start[axis] = (o[axis] + 1) * scale;
         speed[axis] = d[axis] * scale;
@@ -248,11 +252,11 @@ static int shadow_field_crossed(
                 float x = (start[axis] + t * speed[axis] - (float)brick[axis]) * shadow_field_CELLS;
                 in[axis] = fminf(fmaxf(x, 0), shadow_field_CELLS);
             }
-            near_before = near;
-            float value = shadow_field_value(field, held, in[0], in[1], in[2], &near);
+            sided_before = sided;
+            float value = shadow_field_value(field, held, in[0], in[1], in[2], &sided);
             if (!field->cells) {
                 if (value > 0) return 1;
-            } else if (last == i - 1 && (value > 0) != (before > 0) && (near || near_before)) {
+            } else if (last == i - 1 && (value > 0) != (before > 0) && sided && sided_before) {
                 return 1;
             }
             before = value;
@@ -263,16 +267,17 @@ static int shadow_field_crossed(
     return 0;
 }
 
-/* Whether a place lies within a solid. */
-static int shadow_field_inside(const shadow_field *field, const float place[3])
+/* On which side of the surface a place lies: 0, 1 within a solid or behind a sheet, or 2 for neither. */
+static int shadow_field_side(const shadow_field *field, const float place[3])
 {
     float at[3];
-    int axis, brick[3], touched;
+    int axis, brick[3], sided;
     for (axis = 0; axis < 3; axis++) at[axis] = (place[axis] + 1) * (float)field->size / 2;
     int32_t held = shadow_field_brick(field, at, brick);
-    if (held < 0) return held == shadow_field_SOLID;
+    if (held < 0) return held == shadow_field_SOLID ? 1 : 2;
     for (axis = 0; axis < 3; axis++) at[axis] = (at[axis] - (float)brick[axis]) * shadow_field_CELLS;
-    return shadow_field_value(field, held, at[0], at[1], at[2], &touched) > 0;
+    int inside = shadow_field_value(field, held, at[0], at[1], at[2], &sided) > 0;
+    return sided ? inside : 2;
 }
 
 /* The part of p + t d, 0 <= t < length, that lies in the sphere: its two ends; 0 if there is none. */
@@ -304,18 +309,21 @@ static void shadow_field_normalise(const shadow_field *field, const float point[
 static int shadow_field_segment(
     const shadow_field *field, const float p[3], const float d[3], float length)
 {
-    float across[3], from[3], back[3], begin, end;
+    float across[3], from[3], back[3], point[3], before[3], begin, end;
+    float step = 2 / ((float)field->size * shadow_field_CELLS * shadow_field_SAMPLES);
     int axis;
     if (!shadow_field_clip(p, d, length, across, &begin, &end)) return 0;
-    /* From the light to the point, as Python's: samples then lie at the same places. */
+    /* From the light to the point; `last` is the last sample before it. */
+    float last = (ceilf((end - begin) / step - 0.5f) - 0.5f) * step;
     for (axis = 0; axis < 3; axis++) {
         from[axis] = across[axis] + end * d[axis];
         back[axis] = -d[axis];
+        point[axis] = across[axis] + begin * d[axis];
+        before[axis] = from[axis] + last * back[axis];
     }
     if (shadow_field_crossed(field, from, back, end - begin)) return 1;
-    if (field->cells) return 0;
-    for (axis = 0; axis < 3; axis++) from[axis] = across[axis] + begin * d[axis];
-    return shadow_field_inside(field, from);
+    if (!field->cells) return shadow_field_side(field, point) == 1;
+    return last > 0 && shadow_field_side(field, point) + shadow_field_side(field, before) == 1;
 }
 
 int shadow_field_occluded(const shadow_field *field, const float point[3], const float direction[3])

@@ -12,6 +12,7 @@ SOLID = -(1 << 20)  # in the grid: a brick enclosed by the surface
 # Samples of a ray along an axis. Four were no better on the Stanford dragon at 256³ (40.2 and 40.3
 # dB), and each sample is a look-up.
 SAMPLES_PER_CELL = 2
+OUTSIDE, INSIDE, VOID = 0, 1, 2  # sides of a surface; void: where a sheet has none
 
 
 def skips(surface: np.ndarray) -> np.ndarray:
@@ -52,12 +53,17 @@ _FAR = np.float32(1e9)  # beyond any distance
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _in_cells(cells, x, y, z):
-    """Test the cell at x, y, z in [0, 1] of a brick; `cells` as in `first_crossings`."""
+def _has_sides(cells, values, level, x, y, z):
+    """Test a sheet's cell at x, y, z in [0, 1] of a brick: touched, or all on one side."""
     most = np.int64(BRICK - 1)
     i, j, k = min(int(x * BRICK), most), min(int(y * BRICK), most), min(int(z * BRICK), most)
-    bit = BRICK**2 * max(i, 0) + BRICK * max(j, 0) + max(k, 0)
-    return cells >> np.uint64(bit) & np.uint64(1) != 0
+    i, j, k = max(i, 0), max(j, 0), max(k, 0)
+    if cells >> np.uint64(BRICK**2 * i + BRICK * j + k) & np.uint64(1):
+        return True
+    at, positive = (i * (BRICK + 1) + j) * (BRICK + 1) + k, 0
+    for c in (0, 1, 5, 6, 25, 26, 30, 31):
+        positive += values[at + c] > level
+    return positive == 0 or positive == 8
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -67,7 +73,7 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, cells, lev
     The ray is o + t d, in bricks from the corner −1; sample i, from `first` on, is at t = (i + 0.5)
     step.
     """
-    size, sheet, near = len(grid), len(cells) > 0, False
+    size, sheet, sided = len(grid), len(cells) > 0, False
     # Inverses: 0 for an axis the ray does not move along, which never ends a brick.
     ix = 1 / dx if abs(dx) > 1e-9 else np.float32(0)
     iy = 1 / dy if abs(dy) > 1e-9 else np.float32(0)
@@ -109,9 +115,10 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, cells, lev
             )
             crossed = value > level
             if sheet:
-                near_before, near = near, _in_cells(cells[brick], x - bx, y - by, z - bz)
+                sided_before = sided
+                sided = _has_sides(cells[brick], values, level, x - bx, y - by, z - bz)
                 crossed = last_sample == i - 1 and crossed != (before > level)
-                crossed = crossed and (near or near_before)
+                crossed = crossed and sided and sided_before
             if crossed:
                 if last_sample == i - 1:
                     return t - step * (value - level) / (value - before)
@@ -144,8 +151,8 @@ def first_crossings(origins, d, grid, bricks, steps, cells, level):
         bricks: (bricks, 125), values of each brick's vertices on any one scale.
         steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
         cells: of a sheet (bricks,) uint64, bit 16 x + 4 y + z for each cell that may be crossed; of
-            a solid `NO_CELLS`. A sheet is crossed at any change of sign next to such a cell, a solid
-            above the level.
+            a solid `NO_CELLS`. A sheet is crossed at any change of sign, but where other cells have
+            corners of both signs; a solid above the level.
         level: float32, the value at the surface, on the scale of `bricks`.
     """
     t_pred = np.empty(len(origins), np.float32)
@@ -170,7 +177,7 @@ def mark_blocked(points, to_target, grid, bricks, steps, cells, level, blocked):
             point to the end of its segment.
         grid, bricks, steps, cells, level: see `first_crossings`. Already blocked ones are skipped.
     """
-    one = np.float32(1)
+    one, half = np.float32(1), np.float32(0.5)
     scale, step = np.float32(len(grid) / 2), np.float32(2 / steps)
     for ray in range(len(points)):
         if blocked[ray]:
@@ -190,31 +197,32 @@ def mark_blocked(points, to_target, grid, bricks, steps, cells, level, blocked):
         begin, end = max(along, -root), min(along + length, root)
         if begin >= end:
             continue
-        # From the light to the point, as in `occluded`: samples then lie at the same places.
+        # From the light to the point.
+        length = end - begin
+        x, y, z = a + end * u, b + end * v, c + end * w
         t = _crossing(
-            (a + end * u + one) * scale,
-            (b + end * v + one) * scale,
-            (c + end * w + one) * scale,
-            -u * scale,
-            -v * scale,
-            -w * scale,
-            0,
-            end - begin,
-            step,
-            grid,
-            bricks,
-            cells,
-            level,
-        )
-        blocked[ray] = t < end - begin
-        if t >= end - begin and len(cells) == 0:
-            x, y, z = a + begin * u, b + begin * v, c + begin * w
-            blocked[ray] = _inside(x, y, z, grid, bricks, level)
+            (x + one) * scale, (y + one) * scale, (z + one) * scale,
+            -u * scale, -v * scale, -w * scale,
+            0, length, step, grid, bricks, cells, level,
+        )  # fmt: skip
+        if t < length:
+            blocked[ray] = True
+            continue
+        field = grid, bricks, cells, level
+        side = _side(a + begin * u, b + begin * v, c + begin * w, field)
+        if len(cells) == 0:
+            blocked[ray] = side == INSIDE
+            continue
+        last = (np.ceil(length / step - half) - half) * step  # the last sample
+        if last > 0:
+            side += _side(x - last * u, y - last * v, z - last * w, field)
+            blocked[ray] = side == OUTSIDE + INSIDE
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _inside(x, y, z, grid, bricks, level):
-    """Test a place of [−1, 1]³ against the level."""
+def _side(x, y, z, field):
+    """`OUTSIDE`, `INSIDE` or `VOID` at a position in [−1, 1]³."""
+    grid, bricks, cells, level = field
     size, scale = len(grid), np.float32(len(grid) / 2)
     zero, one, brick_cells = np.float32(0), np.float32(1), np.float32(BRICK)
     x, y, z = (x + one) * scale, (y + one) * scale, (z + one) * scale
@@ -222,12 +230,17 @@ def _inside(x, y, z, grid, bricks, level):
     by = min(max(int(y), 0), size - 1)
     bz = min(max(int(z), 0), size - 1)
     brick = grid[bx, by, bz]
+    if brick == SOLID:
+        return INSIDE
     if brick < 0:
-        return brick == SOLID
+        return VOID
+    values = bricks[brick]
+    if len(cells) and not _has_sides(cells[brick], values, level, x - bx, y - by, z - bz):
+        return VOID
     value = _value(
-        bricks[brick],
+        values,
         min(max((x - bx) * brick_cells, zero), brick_cells),
         min(max((y - by) * brick_cells, zero), brick_cells),
         min(max((z - bz) * brick_cells, zero), brick_cells),
     )
-    return value > level
+    return INSIDE if value > level else OUTSIDE
