@@ -6,7 +6,7 @@ import torch
 
 from neural_shadows.networks.object_space import sphere_rays
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.shadow_query import on_device
 
 BALL = 0.5  # radius of the occluder about the origin
 BORDER = 1e-5  # points this near to a border of the shadow may go either way: float32 at |p| = 8
@@ -47,7 +47,7 @@ class Constant(Oracle):
 
 
 def lit(network, p, light, depth_bias=0.0) -> np.ndarray:
-    return network_lit(network, *tensors(p, light), dtype=torch.float32)(depth_bias).numpy()
+    return network.points_lit(*tensors(p, light), torch.float32)(depth_bias).numpy()
 
 
 def tensors(p: np.ndarray, light: np.ndarray) -> tuple[torch.Tensor, torch.Tensor]:

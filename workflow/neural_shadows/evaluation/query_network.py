@@ -12,7 +12,7 @@ from neural_shadows.evaluation.ray_network import open_network, take_constants
 from neural_shadows.evaluation.references import References
 from neural_shadows.evaluation.violations import Violations, count_violations
 from neural_shadows.meshes.prepared_mesh import read_prepared
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.shadow_query import on_device
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.rays.labels import dual_bounds
 from neural_shadows.running.progress import progress_bar
@@ -63,7 +63,7 @@ def query_network(
             rays, t_pred = sphere_rays(p, light), None
             if tracer:
                 t_pred = network.depths(rays.origins, -light, dtype)
-            lit = network_lit(network, p, light, dtype=dtype, t_pred=t_pred)(depth_bias)
+            lit = network.points_lit(p, light, dtype, t_pred)(depth_bias)
             lit_points.append(lit.cpu().numpy())
             if tracer:
                 index = rays.index.cpu().numpy()

@@ -19,11 +19,11 @@ def network_method(network: "ShadowNetwork", dtype: "torch.dtype") -> ShadowMeth
     Args:
         dtype: of the matrix products.
     """
-    from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+    from neural_shadows.networks.object_space.shadow_query import on_device
 
     def answer(frame: GBuffer) -> OfBias:
         p, light = on_device(frame.p, frame.view.light, network.device)
-        lit = network_lit(network, p, light, dtype=dtype)
+        lit = network.points_lit(p, light, dtype)
         return lambda depth_bias: frame.visibility(lit(depth_bias).cpu().numpy())
 
     return answer

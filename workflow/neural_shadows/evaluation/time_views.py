@@ -14,7 +14,7 @@ from neural_shadows.evaluation.ray_network import open_network
 from neural_shadows.evaluation.registry import classic_method, is_network, unbiased
 from neural_shadows.networks.compute import choose_device, choose_dtype
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
-from neural_shadows.networks.object_space.shadow_query import network_lit, on_device
+from neural_shadows.networks.object_space.shadow_query import on_device
 from neural_shadows.networks.object_space.sphere_rays import sphere_rays
 from neural_shadows.rendering.gbuffer import GBuffer, render_gbuffer
 from neural_shadows.rendering.shading import shade
@@ -58,7 +58,7 @@ def timed_network(network: ShadowNetwork, dtype: torch.dtype) -> TimedMethod:
     def answer(frame: GBuffer) -> tuple[np.ndarray, float]:
         p, light = on_device(frame.p, frame.view.light, network.device)
         started = _finished(network.device)
-        lit = network_lit(network, p, light, dtype=dtype)(0.0)
+        lit = network.points_lit(p, light, dtype)(0.0)
         ended = _finished(network.device)
         visibility = frame.visibility(lit.cpu().numpy())
         if network.device.type == "cpu":

@@ -96,6 +96,8 @@ def _sorted(paths: Iterable[Path]) -> list[Path]:
 
 @cache
 def _content(module: Path) -> bytes:
-    """A module's name and a digest of its content."""
-    content = hashlib.sha256(module.read_bytes()).hexdigest()
-    return f"{module.relative_to(PACKAGE)} {content} ".encode()
+    """A module's name and a digest of its content, with the C file beside it of its name."""
+    content, in_c = module.read_bytes(), module.with_suffix(".c")
+    if in_c.exists():
+        content += in_c.read_bytes()
+    return f"{module.relative_to(PACKAGE)} {hashlib.sha256(content).hexdigest()} ".encode()

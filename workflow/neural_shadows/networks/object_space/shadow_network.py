@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from neural_shadows.networks.object_space.dead_zone_loss import DeadZone
-from neural_shadows.networks.object_space.sphere_rays import SphereRays
+from neural_shadows.networks.object_space.sphere_rays import SphereRays, sphere_rays
 
 # Rays per forward pass. On a CPU one layer's activations of 256 × bfloat16 then take 2 MiB and stay
 # in the cache; on a GPU a whole frame goes at once.
@@ -121,6 +121,28 @@ class ShadowNetwork(nn.Module, ABC):
             t_pred = self.depths(rays.origins, d, dtype)
         s = torch.minimum(rays.s, rays.chord)
         return lambda depth_bias: s <= t_pred + depth_bias
+
+    def points_lit(
+        self, p: Tensor, light: Tensor, dtype: torch.dtype, t_pred: Tensor | None = None
+    ) -> Callable[[float], Tensor]:
+        """Evaluate once for any number of depth biases [3.6.2]; see `lit`.
+
+        Args:
+            p, light: as for `sphere_rays`, in normalised space and on the network's device.
+            t_pred: `depths` of their rays, if already predicted.
+
+        Returns:
+            a function from the depth bias, in sphere radii, to (m,) bool: lit points. Culled ones
+            are lit.
+        """
+        rays = sphere_rays(p, light)
+        rays_lit = self.lit(rays, -light, dtype, t_pred)
+
+        def lit(depth_bias: float) -> Tensor:
+            points = torch.ones(len(p), dtype=torch.bool, device=p.device)
+            return points.scatter_(0, rays.index, rays_lit(depth_bias))
+
+        return lit
 
     def resident_bytes(self) -> int:
         """Memory read by a query on the present device: all weights and buffers."""

@@ -11,7 +11,12 @@ times as long.
 import numpy as np
 from numba import njit
 
-from neural_shadows.representations.distance_bricks.field_marching import BRICK
+from neural_shadows.representations.distance_bricks.field_marching import (
+    BRICK,
+    INSIDE,
+    OUTSIDE,
+    VOID,
+)
 
 # By bits b of a corner. Corner (i, j, k) has the bits from b (4 i + 2 j + k) on of a word of 8 b:
 # its value plus 2^(b − 1) − 0.5.
@@ -62,24 +67,26 @@ def positive_at(word, wide, x, y, z):
 
 
 @njit(cache=True, nogil=True, inline="always")
-def positive_in_brick(any_mask, all_mask, first, words, x, y, z):
-    """Test a brick field's sign: position in 2^−CELL cells from any brick's corner.
+def cell_state(some, every, first, words, x, y, z):
+    """State at a position in 2^−CELL cells from any brick's corner: OUTSIDE, INSIDE or VOID.
 
     Args:
-        any_mask, all_mask: cells with any, and with all corners positive, see `FieldBricks.masks`.
+        some, every: of the brick, see `FieldBricks.masks`.
         first: the number of the brick's first word.
     """
     one = np.uint64(1)
     i, j, k = x >> CELL & BRICK - 1, y >> CELL & BRICK - 1, z >> CELL & BRICK - 1
     bit = one << np.uint64(BRICK**2 * i + BRICK * j + k)
-    if any_mask & bit == 0:
-        return False
-    if all_mask & bit:
-        return True
-    word = words[first + _count(any_mask & ~all_mask & bit - one)]
+    if some & bit == 0:
+        return VOID if every & bit else OUTSIDE
+    if every & bit:
+        return INSIDE
+    word = words[first + _count(some & ~every & bit - one)]
     part, whole = CELL - PART, (1 << PART) - 1
     wide = words.itemsize == 8
-    return positive_at(word, wide, x >> part & whole, y >> part & whole, z >> part & whole)
+    return np.int64(
+        positive_at(word, wide, x >> part & whole, y >> part & whole, z >> part & whole)
+    )
 
 
 @njit(cache=True, nogil=True, inline="always")

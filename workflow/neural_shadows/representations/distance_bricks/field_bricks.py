@@ -1,18 +1,19 @@
-"""A solid's field in CPU memory for shadow tests."""
+"""A field in CPU memory for shadow tests."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from neural_shadows.representations.distance_bricks.cell_words import WORDS, fill_words
-from neural_shadows.representations.distance_bricks.field_marching import BRICK, SOLID
+from neural_shadows.representations.distance_bricks.cell_words import CELL, WORDS, fill_words
+from neural_shadows.representations.distance_bricks.field_marching import BRICK, NO_CELLS, SOLID
 
 # Rows of `FieldBricks.masks` before those of crossed bricks.
-EMPTY, ENCLOSED, FIRST = 0, 1, 2
-# Empty bricks around the box. A ray's tile is half a brick wide and its four bricks two: a ray
-# reading a brick may read those up to two beside it.
+EMPTY, ENCLOSED, OUTER, FIRST = 0, 1, 2, 3
+# Empty bricks around the box. A ray samples the cells that others of its tile pass, a few beside it.
 PAD = 2
 NODE = 4  # bricks along a node
+# Bits of a coordinate in 2^−CELL cells, within a brick and within a node.
+BRICK_BITS, NODE_BITS = CELL + 2, CELL + 4
 
 
 class FieldBricks(NamedTuple):
@@ -23,12 +24,15 @@ class FieldBricks(NamedTuple):
     crossed cells with lower bits.
     """
 
+    sheet: bool  # an open surface, which has sides and no inside
     size: int  # bricks along an axis of the whole cube [−1, 1]³
     corner: np.ndarray  # (3,) int64, the cube's brick at the box's corner, may be negative
     shape: tuple[int, int, int]  # of the box, in bricks
     nodes: np.ndarray  # (X, Y, Z) uint32, each node's first row; empty nodes share theirs
     rows: np.ndarray  # (64 a nonempty node, and 64,) uint16 or uint32
-    masks: np.ndarray  # (rows, 2) uint64, bit 16 x + 4 y + z: any, and every corner is positive
+    # (rows, 2) uint64, bit 16 x + 4 y + z: any, and every corner is positive. A sheet's cell
+    # whose sides are unknown has the latter alone.
+    masks: np.ndarray
     first: np.ndarray  # (rows,) uint32
     words: np.ndarray  # (crossed cells,) uint32 or uint64, see `cell_words`
 
@@ -39,7 +43,11 @@ class FieldBricks(NamedTuple):
 
 
 def field_bricks(
-    grid: np.ndarray, values: np.ndarray, level: float, corner_bits: int
+    grid: np.ndarray,
+    values: np.ndarray,
+    level: float,
+    corner_bits: int,
+    cells: np.ndarray = NO_CELLS,
 ) -> FieldBricks:
     """Build the bricks of a field.
 
@@ -48,14 +56,23 @@ def field_bricks(
         values: (bricks, 125), float or int8.
         level: the value at the surface, on their scale.
         corner_bits: 4 or 8, of each corner of a crossed cell.
+        cells: those that a sheet may cross, see `first_crossings`; of a solid `NO_CELLS`.
     """
-    level = np.float32(level)
+    level, sheet = np.float32(level), len(cells) > 0
     positive = (values > level).reshape(-1, *[BRICK + 1] * 3)
     any_in, all_in = (_cells(positive, combined) for combined in (np.logical_or, np.logical_and))
+    if sheet:
+        unknown = any_in & ~all_in & ~cells
+        any_in, all_in = any_in & ~unknown, all_in | unknown
     crossed = any_in & ~all_in
     held = crossed != 0
-    # Surface bricks not crossed by the field; the last row is for all others.
-    row = np.append(np.where(all_in != 0, ENCLOSED, EMPTY), EMPTY)
+    if sheet:
+        held |= all_in & ~any_in != 0
+        uniform = np.where(any_in != 0, ENCLOSED, OUTER)
+    else:
+        uniform = np.where(any_in != 0, ENCLOSED, EMPTY)
+    # The last row is for bricks without values.
+    row = np.append(uniform, EMPTY)
     row[:-1][held] = FIRST + np.arange(held.sum())
     rows = np.where(grid == SOLID, ENCLOSED, row[np.maximum(grid, -1)])
     occupied = np.argwhere(rows != EMPTY)
@@ -63,6 +80,7 @@ def field_bricks(
     rows = np.pad(rows[tuple(slice(*ends) for ends in zip(low, high))], PAD)
 
     masks = np.zeros((FIRST + held.sum(), 2), np.uint64)
+    masks[EMPTY] = 0, ~np.uint64(0) if sheet else 0
     masks[ENCLOSED] = ~np.uint64(0)
     masks[FIRST:] = np.stack([any_in, all_in], axis=1)[held]
     first = np.zeros(len(masks) + 1, np.uint32)
@@ -72,7 +90,7 @@ def field_bricks(
     dtype = np.uint16 if len(masks) <= 1 << 16 else np.uint32
     nodes, rows_of_nodes = _in_nodes(rows.astype(dtype))
     bricks = nodes, rows_of_nodes, masks, first[:-1].copy(), words
-    return FieldBricks(len(grid), low - PAD, rows.shape, *bricks)
+    return FieldBricks(sheet, len(grid), low - PAD, rows.shape, *bricks)
 
 
 def _in_nodes(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,182 +1,227 @@
-"""Shadow of a solid's field under a directional light.
+"""Occlusion of points by a field under one light.
 
-A point is in shadow if the field is positive at any of its ray's samples before the point, those of
-`first_crossings`, or at the point itself. Their order does not matter, and only crossed cells have
-to be interpolated.
+A ray is sampled in the planes a quarter and three quarters through each slab of `LightTables`, so
+at least once a cell, between light and point, and at the point itself. A solid occludes a point if
+any sample is inside it; a sheet, if two samples in succession lie on different sides of it and one
+of them in a cell that it crosses. All samples lie at multiples of 2^−20 cells, so that
+`field_occlusion.c`, the same in C, has the same answers to the bit.
 """
 
 import numpy as np
 from numba import njit
 from numba.cpython.unsafe.numbers import trailing_zeros
 
-from neural_shadows.representations.distance_bricks.cell_words import CELL, positive_in_brick
-from neural_shadows.representations.distance_bricks.field_bricks import NODE, PAD, FieldBricks
-from neural_shadows.representations.distance_bricks.field_marching import BRICK
+from neural_shadows.representations.distance_bricks.cell_words import CELL, cell_state
+from neural_shadows.representations.distance_bricks.compiled_occlusion import compiled_occlusion
+from neural_shadows.representations.distance_bricks.field_bricks import (
+    BRICK_BITS,
+    NODE_BITS,
+    FieldBricks,
+)
+from neural_shadows.representations.distance_bricks.field_marching import BRICK, INSIDE, OUTSIDE
 from neural_shadows.representations.distance_bricks.light_tables import (
-    NEVER,
-    PARTS,
-    TILES,
-    light_tables,
+    DARK,
+    FIRST,
+    MERGED,
+    LightTables,
+    directional_tables,
+    point_tables,
 )
 
-_BRICK = CELL + 2  # bits of a coordinate within a brick of BRICK cells
-_NODE = _BRICK + 2  # within a node of NODE bricks
-_PART = _BRICK - 4  # within one of PARTS of a brick's side
 _ONE = np.uint64(1)
+_HALF = np.float32(0.5)
+_DIFFER = OUTSIDE + INSIDE  # two states, of both sides
 
 
 def occluded(
-    origins: np.ndarray, d: np.ndarray, ends: np.ndarray, bricks: FieldBricks, steps: int
+    points: np.ndarray, to_light: np.ndarray, bricks: FieldBricks, depth_bias: float = 0.0
 ) -> np.ndarray:
-    """Test rays from origins to ends for occlusion, (k,) bool.
+    """Test points for occlusion from a directional light, (n,) bool.
 
     Args:
-        origins: (k, 3) float32, on the unit sphere.
-        d: (3,) float32 unit vector, pointing inward.
-        ends: (k,) float32, at most the chord; not occluded at 0 or below.
-        steps: samples on a diameter; sample i lies at t = 2 (i + 0.5) / steps.
+        points: (n, 3) float32, in the space of the field's cube [−1, 1]³, anywhere; one with a NaN
+            or an infinity is not occluded.
+        to_light: (3,) unit vector.
+        depth_bias: how far the points are moved towards the light.
     """
-    occlusion = np.zeros(len(origins), bool)
-    light = light_tables(bricks, d, bricks.size / steps)
-    _mark_occlusion(origins, np.asarray(d, np.float64), ends, bricks, light, steps, occlusion)
+    occlusion = np.zeros(len(points), bool)
+    light = directional_tables(bricks, to_light)
+    cells = depth_bias * bricks.size * BRICK / 2
+    _mark(points, light, bricks, cells * float(np.abs(to_light).max()), occlusion)
     return occlusion
 
 
-@njit(cache=True, nogil=True)
-def _mark_occlusion(origins, d, ends, bricks, light, steps, occlusion):
-    """Fill in `occlusion`."""
-    m, a, b = light.axes
-    slope_a, slope_b = light.slopes
-    low_u, low_v = light.low
-    offsets, ends_of, layers, enclosed = light.offsets, light.ends, light.layers, light.enclosed
-    passed, slabs = light.cells, light.slabs
-    shape, back, half = bricks.shape, d[m] < 0, bricks.size / 2  # bricks a radius
-    nodes, rows, masks = bricks.nodes.ravel(), bricks.rows, bricks.masks
-    field = nodes, bricks.nodes.shape, rows, masks, bricks.first, bricks.words
-    index_m, index_a, index_b = (
-        _index_terms(bricks, m),
-        _index_terms(bricks, a),
-        _index_terms(bricks, b),
-    )
-    starts = _layer_starts(shape[m], index_m, light.slopes, back)
-    # Samples in a radius, in a layer, and in a quarter of one, a cell.
-    per_radius = steps / 2
-    per_layer = np.float32(steps / (bricks.size * abs(d[m])))
-    per_slab = per_layer / np.float32(BRICK)
-    front = shape[m] - PAD if back else PAD
-    ahead = -per_layer if back else per_layer
-    # The cube's middle from the box's corner, in bricks; the step between samples.
-    mx, my, mz = half - bricks.corner[0], half - bricks.corner[1], half - bricks.corner[2]
-    mm, ma, mb = half - bricks.corner[m], half - bricks.corner[a], half - bricks.corner[b]
-    sx, sy, sz = d[0] * half / per_radius, d[1] * half / per_radius, d[2] * half / per_radius
-    dx, dy, dz = _fixed(sx), _fixed(sy), _fixed(sz)
-    for ray in range(len(origins)):
-        o, end = origins[ray], np.float64(ends[ray])
-        m_start = o[m] * half + mm
-        u = o[a] * half + ma - slope_a * m_start
-        v = o[b] * half + mb - slope_b * m_start
-        i, j = np.int64((u - low_u) * TILES), np.int64((v - low_v) * TILES)
-        if end <= 0 or u < low_u or v < low_v or i >= len(offsets):
+def occluded_from(points: np.ndarray, position: np.ndarray, bricks: FieldBricks) -> np.ndarray:
+    """Test points for occlusion from a point light, (n,) bool; see `occluded`.
+
+    Args:
+        position: (3,), in the space of the points, anywhere.
+    """
+    occlusion = np.zeros(len(points), bool)
+    for light in point_tables(bricks, position):
+        _mark(points, light, bricks, 0.0, occlusion)
+    return occlusion
+
+
+def _mark(points, light, bricks, bias, occlusion) -> None:
+    points = np.ascontiguousarray(points, np.float32)
+    compiled = compiled_occlusion()
+    if compiled:
+        compiled(points, light, bricks, bias, occlusion)
+    else:
+        mark_occluded(points, light, bricks, np.float32(bias), occlusion)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def mark_occluded(
+    points: np.ndarray,
+    light: LightTables,
+    bricks: FieldBricks,
+    bias: np.float32,
+    occlusion: np.ndarray,
+) -> None:
+    """Set `occlusion` (n,) of points (n, 3) float32 whose rays are in these tables.
+
+    Args:
+        bias: float32, how far the points are moved towards the light, in cells of depth.
+    """
+    m, a, b = np.uint64(light.axes[0]), np.uint64(light.axes[1]), np.uint64(light.axes[2])
+    f32, deep, near, sheet = np.float32, light.deep, light.near, bricks.sheet
+    offsets, ends, ranges, slabs = light.offsets, light.ends, light.ranges, light.slabs
+    # From points to depths, and to a and b from the first tile on.
+    scale, far = f32(BRICK * bricks.size / 2), f32(deep)
+    shift = BRICK * (bricks.size / 2 - bricks.corner)
+    scale_m = -scale if light.back else scale
+    shift_m = f32(deep - shift[m] if light.back else shift[m])
+    shift_a, shift_b = f32(shift[a] - light.low[0]), f32(shift[b] - light.low[1])
+    light_m, slope_a, slope_b = f32(light.source[0]), f32(light.source[1]), f32(light.source[2])
+    light_a, light_b = f32(light.source[1] - light.low[0]), f32(light.source[2] - light.low[1])
+    low_a, low_b = light.low[0] << CELL, light.low[1] << CELL
+    rows = f32(len(offsets))
+    step_m = -(1 << CELL - 1) if light.back else 1 << CELL - 1
+    start_m = (deep << CELL if light.back else 0) + (step_m >> 1)
+    lit_planes = max(np.int64(np.ceil(2 * light.source[0] - 0.5)), 0) if near else 0
+    nodes, shape = bricks.nodes.ravel(), bricks.nodes.shape
+    field = nodes, shape, bricks.rows, bricks.masks, bricks.first, bricks.words
+    for ray in range(len(points)):
+        depth = points[ray, m] * scale_m + shift_m
+        at_a, at_b = points[ray, a] * scale + shift_a, points[ray, b] * scale + shift_b
+        if near:
+            beyond, from_a, from_b = depth - light_m, at_a - light_a, at_b - light_b
+            if not (beyond > 0 and abs(from_a) <= beyond and abs(from_b) <= beyond):
+                continue
+            slope_a, slope_b = from_a / beyond, from_b / beyond
+        left = far - depth
+        u, v = at_a + slope_a * left, at_b + slope_b * left
+        if not (u >= 0 and v >= 0 and u < rows):  # also for NaN
             continue
-        tile = offsets[i] + j
-        if tile < ends_of[i] or tile >= ends_of[i + 1]:
+        row = np.int64(u)
+        tile = offsets[row] + np.int64(v)
+        if tile < ends[row] or tile >= ends[row + 1]:
             continue
-        # The ray enters layer k at sample `begin` + k per_layer, counted in parts of one.
-        begin = np.float32((front - m_start) * ahead - 0.5)
-        last = np.float32(end * per_radius - 0.5)
-        sure = enclosed[tile]
-        if sure != NEVER and begin + np.float32(sure + 1) * per_layer < last:
+        span = np.int64(ranges[tile])
+        first = span & (1 << FIRST) - 1
+        depth = min(depth - bias, far + f32(1))
+        if depth <= f32(first):
+            continue
+        if depth > f32((span >> DARK) + 1):
             occlusion[ray] = True
             continue
-        samples = np.int64(np.ceil(last))
-        x, y, z = _fixed(o[0] * half + mx), _fixed(o[1] * half + my), _fixed(o[2] * half + mz)
-        in_a, in_b = _fixed(u), _fixed(v)
-        hit = near = False
-        for word in range(layers.shape[1]):
-            left = layers[tile, word]
-            near |= left != 0
-            while left and not hit:
-                layer = np.int64(trailing_zeros(left)) + 64 * word
-                left &= left - _ONE
-                enter = begin + np.float32(layer) * per_layer
-                if enter >= last:
-                    break
-                # Cells of four bricks possibly passed by the ray and not all outside.
-                at_a, at_b = in_a + starts[layer, 0], in_b + starts[layer, 1]
-                in_m, k_a, k_b = starts[layer, 2], at_a >> _BRICK, at_b >> _BRICK
-                part = (at_a >> _PART & PARTS - 1) * PARTS + (at_b >> _PART & PARTS - 1)
-                low_a, high_a = in_m + index_a[k_a], in_m + index_a[k_a + 1]
-                low_b, high_b = index_b[k_b], index_b[k_b + 1]
-                cells = masks[_row(low_a + low_b, nodes, rows), 0] & passed[part, 0]
-                cells |= masks[_row(low_a + high_b, nodes, rows), 0] & passed[part, 1]
-                cells |= masks[_row(high_a + low_b, nodes, rows), 0] & passed[part, 2]
-                cells |= masks[_row(high_a + high_b, nodes, rows), 0] & passed[part, 3]
-                if cells == 0:
-                    continue
-                for slab in range(BRICK):
-                    if cells & slabs[slab]:
-                        first = np.int64(np.ceil(enter + np.float32(slab) * per_slab))
-                        until = np.int64(np.ceil(enter + np.float32(slab + 1) * per_slab))
-                        for k in range(max(first, 0), min(until, samples)):
-                            # Sample k is k + 0.5 steps from the origin.
-                            at = x + (dx >> 1) + k * dx, y + (dy >> 1) + k * dy
-                            if _positive(at[0], at[1], z + (dz >> 1) + k * dz, field):
-                                hit = True
-                                break
-                        if hit:
-                            break
-        if near and not hit:
-            along = end * per_radius
-            x += np.int64(along * dx)
-            y += np.int64(along * dy)
-            z += np.int64(along * dz)
-            inside = 0 <= x >> _BRICK < shape[0] and 0 <= y >> _BRICK < shape[1]
-            hit = inside and 0 <= z >> _BRICK < shape[2] and _positive(x, y, z, field)
-        occlusion[ray] = hit
+        planes = min(np.int64(np.ceil(depth + depth - _HALF)), 2 * deep)
+        # On the far side, in the plane before the first one, and at the point.
+        far_a, far_b = _fixed(u) + low_a, _fixed(v) + low_b
+        step_a, step_b = _fixed(slope_a * _HALF), _fixed(slope_b * _HALF)
+        start_a = far_a - 2 * deep * step_a + (step_a >> 1)
+        start_b = far_b - 2 * deep * step_b + (step_b >> 1)
+        start = _in_order(m, start_m, start_a, start_b)
+        step = _in_order(m, step_m, step_a, step_b)
+        span_of = first, span >> MERGED & 7, slabs[tile], lit_planes, planes
+        if sheet:
+            hit = _crosses(start, step, span_of, field)
+        else:
+            hit = _passes_inside(start, step, span_of, field)
+        left = far - depth
+        if not hit and left >= 0:
+            end_a, end_b = far_a - _fixed(slope_a * left), far_b - _fixed(slope_b * left)
+            end_m = (deep << CELL) - _fixed(depth) if light.back else _fixed(depth)
+            end = _in_order(m, end_m, end_a, end_b)
+            if _is_within(end, bricks.shape):
+                state = _state(end, field)
+                if not sheet:
+                    hit = state == INSIDE
+                elif planes > lit_planes:
+                    hit = _state(_sample(start, step, planes - 1), field) + state == _DIFFER
+        occlusion[ray] |= hit
+
+
+@njit(cache=True, nogil=True)
+def _passes_inside(start, step, span, field):
+    """Test a ray's samples."""
+    first, merged, bits, lit_planes, planes = span
+    while bits:
+        slab = first + (np.int64(trailing_zeros(bits)) << merged)
+        bits &= bits - _ONE
+        for k in range(max(2 * slab, lit_planes), min(2 * (slab + (1 << merged)), planes)):
+            if _state(_sample(start, step, k), field) == INSIDE:
+                return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def _crosses(start, step, span, field):
+    """Test pairs of a ray's samples in succession, one of each pair in its slabs."""
+    first, merged, bits, lit_planes, planes = span
+    before, last = OUTSIDE, -2
+    while bits:
+        slab = first + (np.int64(trailing_zeros(bits)) << merged)
+        bits &= bits - _ONE
+        for k in range(max(2 * slab - 1, lit_planes), min(2 * (slab + (1 << merged)) + 1, planes)):
+            if k <= last:
+                continue
+            state = _state(_sample(start, step, k), field)
+            if k == last + 1 and before + state == _DIFFER:
+                return True
+            before, last = state, k
+    return False
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _fixed(bricks):
+def _sample(start, step, k):
+    return start[0] + k * step[0], start[1] + k * step[1], start[2] + k * step[2]
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _in_order(m, at_m, at_a, at_b):
+    """Coordinates x, y and z of those along m, a and b."""
+    if m == 0:
+        return at_m, at_a, at_b
+    if m == 1:
+        return at_b, at_m, at_a
+    return at_a, at_b, at_m
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _fixed(cells):
     """Convert a length to 2^−20 cells."""
-    return np.int64(np.floor(bricks * (1 << _BRICK) + 0.5))
-
-
-@njit(cache=True, nogil=True)
-def _index_terms(bricks, axis):
-    """Index terms of coordinates along an axis: the node's, times 64, plus the brick's."""
-    _, columns, depth = bricks.nodes.shape
-    stride = (columns * depth, depth, 1)[axis] * NODE**3
-    step = (NODE**2, NODE, 1)[axis]
-    indices = np.empty(bricks.nodes.shape[axis] * NODE, np.int64)
-    for k in range(len(indices)):
-        indices[k] = k // NODE * stride + k % NODE * step
-    return indices
+    return np.int64(np.floor(cells * np.float32(1 << CELL) + _HALF))
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _row(index, nodes, rows):
-    """Row of the brick at a sum of `_index_terms`."""
-    return rows[nodes[index >> 6] + (index & 63)]
-
-
-@njit(cache=True, nogil=True)
-def _layer_starts(count, indices, slopes, back):
-    """By layer: minima of slope_a m and slope_b m, and m's index."""
-    starts = np.empty((count, 3), np.int64)
-    for layer in range(count - 2 * PAD):
-        at = count - PAD - 1 - layer if back else layer + PAD
-        for k in range(2):
-            least = min(slopes[k] * at, slopes[k] * (at + 1))
-            starts[layer, k] = np.int64(np.floor(least * (1 << _BRICK)))
-        starts[layer, 2] = indices[at]
-    return starts
+def _is_within(at, shape):
+    """Test for the box without its outermost bricks, which are empty."""
+    return (
+        0 < at[0] >> BRICK_BITS < shape[0] - 1
+        and 0 < at[1] >> BRICK_BITS < shape[1] - 1
+        and 0 < at[2] >> BRICK_BITS < shape[2] - 1
+    )
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _positive(x, y, z, field):
-    """Test the field's sign in the box, at 2^−20 cells."""
+def _state(at, field):
+    """`cell_state` at a position in the box, in 2^−20 cells."""
     nodes, shape, rows, masks, first, words = field
-    node = ((x >> _NODE) * shape[1] + (y >> _NODE)) * shape[2] + (z >> _NODE)
-    within = (x >> _BRICK & 3) << 4 | (y >> _BRICK & 3) << 2 | z >> _BRICK & 3
-    row = rows[nodes[node] + within]
-    return positive_in_brick(masks[row, 0], masks[row, 1], first[row], words, x, y, z)
+    x, y, z = at
+    node = ((x >> NODE_BITS) * shape[1] + (y >> NODE_BITS)) * shape[2] + (z >> NODE_BITS)
+    inner = (x >> BRICK_BITS & 3) << 4 | (y >> BRICK_BITS & 3) << 2 | z >> BRICK_BITS & 3
+    row = rows[nodes[node] + inner]
+    return cell_state(masks[row, 0], masks[row, 1], first[row], words, x, y, z)

@@ -129,11 +129,12 @@ class ShadowField:
         Raises:
             InputError: as `occluded`.
         """
+        from neural_shadows.representations.distance_bricks.field_occlusion import occluded_from
         from neural_shadows.representations.shadow_field.given_rays import vector_of
 
         points = self._in_radii(points, "points")
         light = (vector_of(position, "position") - self.centre) / self.radius
-        return self._blocked(points, light.astype(np.float32) - points)
+        return occluded_from(points, light, self._field_bricks)
 
     def soft(self, points: Any, direction: Any, angular_radius: float) -> np.ndarray:
         """Visible share of a round distant light, (n,) float32 in [0, 1].
@@ -238,15 +239,13 @@ class ShadowField:
     def _field_bricks(self) -> "FieldBricks":
         from neural_shadows.representations.distance_bricks.field_bricks import field_bricks
 
-        return field_bricks(self.grid, self.bricks, 0.0, CORNER_BITS)
+        return field_bricks(self.grid, self.bricks, 0.0, CORNER_BITS, self.cells)
 
     def _occluded(self, points: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """See `occluded`; points in radii, of a unit direction."""
-        from neural_shadows.representations.distance_bricks.point_occlusion import occluded_points
+        from neural_shadows.representations.distance_bricks.field_occlusion import occluded
 
-        if self.sheet:
-            return self._blocked(points, np.tile(np.float32(_FAR * direction), (len(points), 1)))
-        return occluded_points(points, direction, self._field_bricks, self._steps)
+        return occluded(points, direction, self._field_bricks)
 
     def _blocked(self, points: np.ndarray, to_target: np.ndarray) -> np.ndarray:
         blocked = np.zeros(len(points), bool)
