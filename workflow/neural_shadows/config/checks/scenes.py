@@ -8,6 +8,7 @@ from neural_shadows.sections.sections import Sections
 def check(config: Sections) -> None:
     """Check lights and views of meshes; use and objects of arrangements."""
     used = {s for frames in config.soft_frame_sets.values() for s in measured_scenes(frames)}
+    used |= {viewer.scene for viewer in config.viewers.values()}
     for name, scene in config.scenes.items():
         key = f"scenes.{name}"
         if isinstance(scene, MeshScene):
@@ -15,7 +16,7 @@ def check(config: Sections) -> None:
             continue
         if name not in used:
             raise ValueError(
-                f"{key}: is in no frame set. Add it to `unseen` (or `scenes`, for training) of "
+                f"{key}: is in no frame set and no viewer. Add it to `unseen` (or `scenes`, for training) of "
                 "one of `frame_sets`, or remove it: `null`"
             )
         _check_arrangement(key, scene)
