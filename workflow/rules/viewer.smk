@@ -45,9 +45,9 @@ rule viewer:
         **usual(4000, minutes=10),
     params:
         code=lambda wildcards: code(**viewers.code_of(LAYOUT, wildcards.viewer)),
-        stage=of(viewers.stage),
+        kind=of(viewers.stage),
         settings=of(viewers.arguments),
     message:
         "Writing {wildcards.viewer}: a scene with a movable light"
     script:
-        "../neural_shadows/viewer/{params.stage}.py"
+        "../neural_shadows/viewer/{params.kind}.py"
