@@ -53,7 +53,7 @@ async function startSoftViewer(root, data) {
   function moveLight(centre) {
     const [low, high] = data.scene.bounds;
     state.light = { ...state.light, centre: centre.map((x, k) => clamped(x, low[k], high[k])) };
-    find(".hint").hidden = true;
+    find(".nudge").hidden = true;
     changed();
   }
 
