@@ -10,7 +10,7 @@ from shapes import bumpy_sphere, sheet
 
 from neural_shadows import ShadowField
 
-FOLDER = Path(__file__).parents[2] / "field"
+FOLDER = Path(__file__).parents[2] / "workflow/field"
 CC = shutil.which("cc")
 WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
 COMPILERS = {

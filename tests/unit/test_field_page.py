@@ -1,4 +1,4 @@
-"""The examples of field/README.md, as a user types them, one after the other."""
+"""The examples of workflow/field/README.md, as a user types them, one after the other."""
 
 import contextlib
 import io
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from shapes import bumpy_sphere
 
-PAGE = (Path(__file__).parents[2] / "field/README.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[2] / "workflow/field/README.md").read_text("utf-8")
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 from importlib import import_module
 from typing import Any
 
-# What the installed package is called for; field/README.md shows it. Imported when asked for: every
+# What the installed package is called for; workflow/field/README.md shows it. Imported when asked for: every
 # module of the pipeline imports this one.
 _HOMES = {
     "InputError": "neural_shadows.errors",
