@@ -63,6 +63,8 @@ def entries(workflow: Any, rule: Any) -> list[dict[str, str]]:
         return [{"scene": scene} for scene in ("dragon", "room_dragon")]
     if rule.name == "import_frame":
         return []  # no shipped configuration has frames of an engine: see test_engine_frames.py
+    if rule.name == "measure_sun_hours":
+        return [{"table": "sun_hours", "scene": "city"}]
     if rule.name in OF_FRAMES:
         return [SOFT]
     if rule.name == "restore_weights":

@@ -31,7 +31,7 @@ from neural_shadows.config.targets import check_targets
 from neural_shadows.errors import InputError
 from neural_shadows.evaluation.registry import REFERENCES, method_modules
 from neural_shadows.layout import evaluations, frame_methods, frame_sets, kinds, parts
-from neural_shadows.layout import previews, tables, trainings, viewers
+from neural_shadows.layout import previews, sun_hours, tables, trainings, viewers
 from neural_shadows.layout.layout import Layout
 from neural_shadows.networks.kind_module import form_module, kind_module
 from neural_shadows.reports.claims import inputs as claims

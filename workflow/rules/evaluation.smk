@@ -170,6 +170,31 @@ rule time_methods:
         "../neural_shadows/evaluation/time_methods.py"
 
 
+rule measure_sun_hours:
+    input:
+        mesh_ply=PATHS.scene("mesh.ply"),
+    output:
+        hours_npz=PATHS.sun_hours("npz"),
+        hours_json=PATHS.sun_hours("json"),
+    log:
+        PATHS.log("measure_sun_hours", "table", "scene"),
+    benchmark:
+        PATHS.benchmark("measure_sun_hours", "table", "scene")
+    conda:
+        ENVIRONMENT
+    # It computes on one thread; reserving those of a training keeps a small machine undisturbed.
+    threads: COMPUTE["threads"]
+    resources:
+        **usual(4000, minutes=60),
+    params:
+        code=code("evaluation/measure_sun_hours"),
+        settings=of(sun_hours.settings),
+    message:
+        "Measuring hours of sun of {wildcards.table}, {wildcards.scene}"
+    script:
+        "../neural_shadows/evaluation/measure_sun_hours.py"
+
+
 rule fit_fields:
     input:
         parts=of(frame_sets.fitted_parts),

@@ -60,6 +60,10 @@ class Paths:
         """Times of a table's methods on a group of frames."""
         return f"{self.results}/times/{table}/{group}.json"
 
+    def sun_hours(self, ending: str, table: str = "{table}", scene: str = "{scene}") -> str:
+        """`json`, times and errors of a table's scene; `npz`, its picture."""
+        return f"{self.results}/sun_hours/{table}/{scene}.{ending}"
+
     def frame_measure(self, measure: str = "{measure}", frame_set: str = "{frame_set}") -> str:
         """`widths.json`, `occluders.npy` of all test frames."""
         return f"{self.results}/frame_measures/{frame_set}/{measure}"

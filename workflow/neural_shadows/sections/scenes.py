@@ -31,6 +31,24 @@ class Landscape(Model):
     cells: int = Field(256, ge=16, le=2048, description="grid cells along a side")
 
 
+class City(Model):
+    """Blocks of a city with courtyards, towers, a church and trees."""
+
+    generate: Literal["city"] = Field(description="`city`: houses, a church and trees on a ground")
+    blocks: int = Field(3, ge=1, le=12, description="along each side")
+    seed: Seed = Field(5, description="of the houses and trees")
+
+
+class Terrain(Model):
+    """Eroded terrain with boulders and noise, as scanned: one open sheet."""
+
+    generate: Literal["terrain"] = Field(
+        description="`terrain`: a height field of ridges and valleys"
+    )
+    cells: int = Field(1024, ge=16, le=4096, description="grid cells along a side")
+    seed: Seed = Field(5, description="of the land")
+
+
 class DownloadedMesh(Model):
     """Mesh downloaded from the Stanford 3D Scanning Repository."""
 
@@ -57,11 +75,9 @@ def _tag(mesh: Any) -> str | None:
     return tags[0] if len(tags) == 1 else None
 
 
-WHERE_FROM = (
-    "one of {generate: wyrm, fence or landscape}, {download: stanford_dragon}, {path: FILE}"
-)
+WHERE_FROM = "one of {generate: wyrm, fence, landscape, city or terrain}, {download: stanford_dragon}, {path: FILE}"
 Mesh = Annotated[
-    Annotated[by_kind("generate", Wyrm, Fence, Landscape), Tag("Generated")]
+    Annotated[by_kind("generate", Wyrm, Fence, Landscape, City, Terrain), Tag("Generated")]
     | Annotated[DownloadedMesh, Tag("Downloaded")]
     | Annotated[MeshFile, Tag("File")],
     Discriminator(

@@ -196,6 +196,20 @@ def fit_fields(layout: Layout, frame_set: str) -> Work:
     return Work(START + 17.0 * len(frame_sets.measured_scenes(layout, frame_set)))
 
 
+# Seconds of a field's fit by its cells in a slice, of a direction's tables likewise, and of a ray: all
+# 217 directions and half of the rays face away.
+FIT_CELL, TABLE_CELL, FIELD_RAY = 3e-5, 3.5e-8, 1e-7
+
+
+def measure_sun_hours(layout: Layout, table: str, scene: str) -> Work:
+    entry = layout.entry("tables", table)
+    directions, cells = 145 + 720 / entry["minutes"], entry["resolution"] ** 2
+    pixels = 0.4 * entry["width"] ** 2 / 1.6
+    rays = directions * (entry["points"] + pixels) / 2
+    seconds = START + FIT_CELL * cells + 2 * TABLE_CELL * directions * cells + FIELD_RAY * rays
+    return Work(seconds, rays=directions * entry["points"] / 2e6)
+
+
 def measure_frames(layout: Layout, frame_set: str, measure: str) -> Work:
     tests = frame_sets.tests(layout, frame_set)
     return Work(LIGHT_START + 10.0 * _pixels(layout, frame_set, tests))
@@ -308,6 +322,7 @@ BY_RULE: dict[str, Callable[..., Work]] = {
         *(draw_directions, sample_rays, describe_rays, train),
         *(render_references, query_network),
         *(render_frames, import_frame, fit_fields, measure_frames, measure_sensitivity),
+        *(measure_sun_hours,),
         *(tune, evaluate, answer_frames, time_methods, profile_screen_network),
     )
 }

@@ -25,6 +25,9 @@ WALKS = 8  # cones of a partly covered disc
 # times as much.
 PUSH = 0.15
 SHEET_RAYS = 32  # of a disc past a sheet, whose far side no cone can measure
+# Tables of a light take as long as so many times fewer rays one by one as a slice has cells: 9 ms or
+# 20,000 rays at 512³.
+FEW = 14
 MOST_ANGLE = 45.0  # degrees of a light's radius
 _FAR = 1e9  # radii, beyond everything
 
@@ -243,6 +246,8 @@ class ShadowField:
 
     def _occluded(self, points: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """See `occluded`; points in radii, of a unit direction."""
+        if len(points) * FEW < self.resolution**2:
+            return self._blocked(points, np.tile(np.float32(_FAR * direction), (len(points), 1)))
         from neural_shadows.representations.distance_bricks.field_occlusion import occluded
 
         return occluded(points, direction, self._field_bricks)
