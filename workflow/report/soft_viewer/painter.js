@@ -3,6 +3,7 @@
 
 const STEP_MS = 24;    // of an animation frame, for our steps
 const MOVING_MS = 70;  // of a picture while something moves
+const RESTING_MS = 2000; // of a picture at rest
 const HEIGHTS = [64, 96, 128, 192, 256, 384, 512];
 const TRUTHS = [4, 16, 64, 256]; // rays of the reference, one after the other
 const MOST_FINE = 1080; // rows of a picture
@@ -61,15 +62,18 @@ class Painter {
 
   *#pictures(moving) {
     const most = this.detail(), heights = HEIGHTS.filter((height) => height <= most);
-    const quick = heights.filter((height) => this.#predicted(this.sizeOf(height)) <= MOVING_MS).at(-1) ?? heights[0];
-    if (moving) {
-      yield* this.#picture(quick, TRUTHS[0], { moving });
-      return;
+    const within = (budget) => heights.filter((height) => this.#predicted(this.sizeOf(height)) <= budget).at(-1) ?? heights[0];
+    const first = this.state().look === "error" ? TRUTHS[1] : TRUTHS[0]; // of fewer rays the error is their noise
+    let height = within(MOVING_MS);
+    yield* this.#picture(height, first, { moving });
+    if (moving) return;
+    // As large as there is patience for, which the smaller ones tell.
+    for (const larger of heights.filter((other) => other > height)) {
+      if (this.#predicted(this.sizeOf(larger)) > RESTING_MS) break;
+      height = larger;
+      yield* this.#picture(height, first);
     }
-    for (const height of heights.filter((height) => height >= quick && (height >= 128 || height === quick))) {
-      yield* this.#picture(height, TRUTHS[0]);
-    }
-    for (const count of TRUTHS.slice(1)) yield* this.#picture(most, count, { again: true });
+    for (const count of TRUTHS.slice(1)) yield* this.#picture(height, count, { again: true });
   }
 
   // One picture of both sides. again: only what more rays change is drawn.
