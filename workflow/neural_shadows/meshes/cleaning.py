@@ -3,9 +3,10 @@
 from typing import Any
 
 import numpy as np
-import trimesh
 
 from neural_shadows.errors import InputError
+from neural_shadows.meshes.equal_rows import first_equal
+from neural_shadows.meshes.sides import count_bodies, edges_by_uses
 
 # Relative to the bounding box's diagonal: vertices equal to so many digits are merged, and triangles
 # lower than a unit of the last are dropped. This is below the rounding of float32 (6e-8), used for
@@ -56,30 +57,57 @@ def clean_mesh(
     # of products. Unused vertices may lie anywhere.
     points = np.zeros_like(vertices)
     points[used] = (vertices[used] - (low + (high - low) / 2)) / diagonal
-    mesh = trimesh.Trimesh(
-        points, faces, vertex_attributes={"source": vertices}, process=False, validate=False
-    )
-    mesh.merge_vertices(digits_vertex=DIGITS)
-    merged = int(used.sum()) - len(mesh.vertices)
-    high_enough = mesh.nondegenerate_faces(height=10**-DIGITS)
+    kept, faces = _merged(points, used, faces)
+    high_enough = _high_faces(points[kept], faces)
     if not high_enough.any():
         raise InputError(
             f"mesh {name}: all {len(faces)} faces have zero area. Give a mesh with a surface"
         )
-    mesh.update_faces(high_enough)
-    mesh.update_faces(mesh.unique_faces())
-    mesh.remove_unreferenced_vertices()
+    faces = faces[high_enough]
+    once = first_equal(np.sort(faces, axis=1)) == np.arange(len(faces))
+    faces = faces[once]
+    occur = np.zeros(len(kept), dtype=bool)
+    occur[faces] = True
     report = {
         "source_vertices": len(vertices),
-        "source_faces": len(faces),
-        "vertices": len(mesh.vertices),
-        "faces": len(mesh.faces),
-        "merged_vertices": merged,
-        "unreferenced_vertices": len(vertices) - merged - len(mesh.vertices),
+        "source_faces": len(high_enough),
+        "vertices": int(occur.sum()),
+        "faces": len(faces),
+        "merged_vertices": int(used.sum()) - len(kept),
+        "unreferenced_vertices": len(vertices) - int(used.sum()) + int((~occur).sum()),
         "degenerate_faces": int((~high_enough).sum()),
-        "duplicate_faces": int(high_enough.sum()) - len(mesh.faces),
+        "duplicate_faces": int((~once).sum()),
     }
-    return mesh.vertex_attributes["source"], np.asarray(mesh.faces, np.int64), report
+    return vertices[kept[occur]], (np.cumsum(occur) - 1)[faces], report
+
+
+def _merged(
+    points: np.ndarray, used: np.ndarray, faces: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Merge used vertices that are equal to `DIGITS`.
+
+    Returns the indices of those kept, and faces of their numbers."""
+    kept = np.flatnonzero(used)
+    first = first_equal(np.round(points[kept] * 10**DIGITS))
+    new = first == np.arange(len(kept))
+    numbers = np.zeros(len(points), np.int64)
+    numbers[kept] = (np.cumsum(new) - 1)[first]
+    return kept[new], numbers[faces]
+
+
+def _high_faces(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Mask (F,) bool of faces higher than a unit of the last of `DIGITS`."""
+    a, b, c = (np.take(points, faces[:, k], axis=0) for k in range(3))
+    b -= a
+    c -= a
+    doubled = np.cross(b, c)
+    least = 10.0**-DIGITS
+    high = np.ones(len(faces), bool)
+    area = np.sqrt((doubled**2).sum(axis=1))
+    for side in (b, c):
+        length = np.sqrt((side**2).sum(axis=1))
+        high &= (length > least) & (area > least * length)
+    return high
 
 
 def closedness(faces: np.ndarray) -> dict[str, Any]:
@@ -92,11 +120,11 @@ def closedness(faces: np.ndarray) -> dict[str, Any]:
         `watertight`: two faces at every edge; `open_edges`: edges of a single face;
         `non_manifold_edges`: edges of more than two; `bodies`: connected components.
     """
-    mesh = trimesh.Trimesh(np.zeros((faces.max() + 1, 3)), faces, process=False)
-    uses = np.bincount(mesh.edges_unique_inverse)
+    count = int(faces.max()) + 1
+    once, twice, more = edges_by_uses(faces, count).tolist()
     return {
-        "watertight": bool((uses == 2).all()),
-        "open_edges": int((uses == 1).sum()),
-        "non_manifold_edges": int((uses > 2).sum()),
-        "bodies": mesh.body_count,
+        "watertight": once == more == 0,
+        "open_edges": once,
+        "non_manifold_edges": more,
+        "bodies": count_bodies(faces, count),
     }

@@ -1,7 +1,8 @@
 """Detection of sheets: open meshes without an inside."""
 
 import numpy as np
-import trimesh
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
 
 _POINTS, _RAYS = 1000, 32
 _OFFSET = 1e-4  # of ray origins from the surface, sphere radii
@@ -23,14 +24,31 @@ def is_sheet(vertices: np.ndarray, faces: np.ndarray) -> bool:
         vertices: (V, 3) in normalised space.
         faces: (F, 3) indices into them.
     """
-    mesh = trimesh.Trimesh(vertices, faces, process=False)
-    points, face = trimesh.sample.sample_surface(mesh, _POINTS, seed=0)
-    normals = mesh.face_normals[face]
-    directions = np.random.default_rng(0).normal(size=(_RAYS, _POINTS, 3))
+    scene = EmbreeScene()
+    TriangleMesh(scene, np.float32(vertices), np.int32(faces))
+    rng = np.random.default_rng(0)
+    points, normals = _drawn(vertices, faces, rng)
+    directions = rng.normal(size=(_RAYS, _POINTS, 3))
     directions *= np.sign((directions * normals).sum(axis=2))[..., None]
     escaped = []
     for side in (1, -1):
         origins = np.broadcast_to(points + side * _OFFSET * normals, directions.shape)
-        hit = mesh.ray.intersects_any(origins.reshape(-1, 3), side * directions.reshape(-1, 3))
+        rays = origins.reshape(-1, 3), side * directions.reshape(-1, 3)
+        hit = scene.run(*map(np.float32, rays), query="OCCLUDED") >= 0
         escaped.append(1 - hit.reshape(_RAYS, _POINTS).mean(axis=0))
     return bool(np.minimum(*escaped).mean() > _LEAST_ESCAPED)
+
+
+def _drawn(
+    vertices: np.ndarray, faces: np.ndarray, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    """Points of a surface, evenly by area, and the faces' normals, (n, 3) each."""
+    a, b, c = (np.take(vertices, faces[:, k], axis=0) for k in range(3))
+    across = np.cross(b - a, c - a)
+    area = np.linalg.norm(across, axis=1)
+    sums = np.cumsum(area, dtype=np.float64)
+    face = np.searchsorted(sums, rng.random(_POINTS) * sums[-1], side="right")
+    u, v = rng.random((2, _POINTS, 1))
+    u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
+    points = a[face] + u * (b - a)[face] + v * (c - a)[face]
+    return points, across[face] / area[face][:, None]

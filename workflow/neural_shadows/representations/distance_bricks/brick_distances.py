@@ -23,11 +23,11 @@ def signed_distances(mesh: PreparedMesh, layout: BrickLayout, reach: float) -> n
     (count,) float32 in cells, within [−reach, reach].
     """
     half = len(layout.grid) * BRICK / 2  # cells in a radius
-    corners = ((mesh.vertices.astype(np.float64) + 1) * half)[mesh.faces]
-    squared = np.full(layout.count, reach**2, np.float32)
-    _scatter(corners, layout.grid, layout.table, float(reach), squared)
+    vertices = (mesh.vertices.astype(np.float64) + 1) * half
+    distances = np.full(layout.count, reach)
+    _scatter(vertices, mesh.faces, layout.grid, layout.table, float(reach), distances)
     points = (layout.vertices / half - 1).astype(np.float32)
-    return np.where(inside(mesh, points), np.sqrt(squared), -np.sqrt(squared))
+    return np.where(inside(mesh, points), distances, -distances).astype(np.float32)
 
 
 def inside(mesh: PreparedMesh, points: np.ndarray) -> np.ndarray:
@@ -61,35 +61,76 @@ def _even_directions(count: int, first: int) -> np.ndarray:
     return spiral.astype(np.float32)
 
 
-@njit(cache=True, nogil=True)
-def _scatter(corners, grid, table, reach, squared):
-    """Lower `squared` (count,) to squared distances of triangles (F, 3, 3), in cells."""
-    size = len(grid)
-    first = np.empty(3, np.int64)
+@njit(cache=True, nogil=True, error_model="numpy")
+def _scatter(vertices, faces, grid, table, reach, distances):
+    """Lower `distances` (count,) to those of triangles.
+
+    Args:
+        vertices: (V, 3), in cells. faces: (F, 3).
+    """
+    corners = np.empty((3, 3))
+    first, low, high = np.empty(3, np.int64), np.empty(3, np.int64), np.empty(3, np.int64)
     last = np.empty(3, np.int64)
-    for f in range(len(corners)):
-        for axis in range(3):
-            first[axis] = np.ceil(corners[f, :, axis].min() - reach)
-            last[axis] = np.floor(corners[f, :, axis].max() + reach)
-        # A vertex on a border belongs to the bricks on either side.
-        low = np.maximum((first - 1) // BRICK, 0)
-        high = np.minimum(last // BRICK, size - 1)
+    for f in range(len(faces)):
+        cx, cy, cz, radius = take_triangle(vertices, faces[f], corners)
+        take_box(corners, reach, len(grid), first, last, low, high)
         for bx in range(low[0], high[0] + 1):
             for by in range(low[1], high[1] + 1):
                 for bz in range(low[2], high[2] + 1):
                     brick = grid[bx, by, bz]
                     if brick < 0:
                         continue
-                    for x in range(max(first[0], BRICK * bx), min(last[0], BRICK * bx + 4) + 1):
-                        for y in range(max(first[1], BRICK * by), min(last[1], BRICK * by + 4) + 1):
-                            for z in range(
-                                max(first[2], BRICK * bz), min(last[2], BRICK * bz + 4) + 1
-                            ):
-                                at = ((x - BRICK * bx) * 5 + y - BRICK * by) * 5 + z - BRICK * bz
-                                vertex = table[brick, at]
-                                distance = squared_distance(corners[f], x, y, z)
-                                if distance < squared[vertex]:
-                                    squared[vertex] = distance
+                    # Vertices on its far sides are those of the next bricks, where there are any.
+                    x0, y0, z0 = BRICK * bx, BRICK * by, BRICK * bz
+                    x_end = min(last[0], x0 + BRICK - has_brick(grid, bx + 1, by, bz))
+                    y_end = min(last[1], y0 + BRICK - has_brick(grid, bx, by + 1, bz))
+                    z_end = min(last[2], z0 + BRICK - has_brick(grid, bx, by, bz + 1))
+                    for x in range(max(first[0], x0), x_end + 1):
+                        for y in range(max(first[1], y0), y_end + 1):
+                            at = ((x - x0) * 5 + y - y0) * 5 - z0
+                            across = (x - cx) ** 2 + (y - cy) ** 2
+                            for z in range(max(first[2], z0), z_end + 1):
+                                vertex = table[brick, at + z]
+                                limit = distances[vertex] + radius
+                                if across + (z - cz) ** 2 >= limit * limit:
+                                    continue
+                                squared = squared_distance(corners, x, y, z)
+                                if squared < distances[vertex] ** 2:
+                                    distances[vertex] = np.sqrt(squared)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def take_triangle(vertices, face, corners):
+    """Fill in a triangle's corners (3, 3); return the middle and radius of a sphere around it."""
+    for k in range(3):
+        for axis in range(3):
+            corners[k, axis] = vertices[face[k], axis]
+    x = (corners[0, 0] + corners[1, 0] + corners[2, 0]) / 3
+    y = (corners[0, 1] + corners[1, 1] + corners[2, 1]) / 3
+    z = (corners[0, 2] + corners[1, 2] + corners[2, 2]) / 3
+    squared = 0.0
+    for k in range(3):
+        away = (corners[k, 0] - x) ** 2 + (corners[k, 1] - y) ** 2 + (corners[k, 2] - z) ** 2
+        squared = max(squared, away)
+    return x, y, z, np.sqrt(squared)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def take_box(corners, reach, size, first, last, low, high):
+    """Fill in the first and last vertices (3,) near a triangle, and the bricks around them."""
+    for axis in range(3):
+        a, b, c = corners[0, axis], corners[1, axis], corners[2, axis]
+        first[axis] = np.int64(np.ceil(min(a, b, c) - reach))
+        last[axis] = np.int64(np.floor(max(a, b, c) + reach))
+        # A vertex on a border belongs to the bricks on either side.
+        low[axis] = max((first[axis] - 1) // BRICK, 0)
+        high[axis] = min(last[axis] // BRICK, size - 1)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def has_brick(grid, x, y, z):
+    """1 if there is a brick with values, else 0."""
+    return 1 if max(x, y, z) < len(grid) and grid[x, y, z] >= 0 else 0
 
 
 @njit(cache=True, nogil=True, inline="always")

@@ -81,7 +81,8 @@ static inline int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
 static void decide(const Light *light, const Field *field, const float *points, int32_t n,
                    float bias, Rays *rays, uint8_t *occlusion) {
     float position[3][BLOCK], depth[BLOCK], u[BLOCK], v[BLOCK], slope_a[BLOCK], slope_b[BLOCK];
-    int32_t tile[BLOCK];
+    int32_t row[BLOCK], column[BLOCK], tile[BLOCK];
+    uint32_t range[BLOCK];
     uint8_t open[BLOCK];
     const int m = light->axes[0], a = light->axes[1], b = light->axes[2];
     const float scale = field->scale, far = (float)light->deep, rows = (float)light->rows;
@@ -121,19 +122,22 @@ static void decide(const Light *light, const Field *field, const float *points, 
             depth[i] = z;
         }
     }
-    const int32_t none = light->ends[light->rows];
     for (int32_t i = 0; i < n; i++) {
         /* Not for NaN; beyond 2^16 there are no tiles. */
         const int here = (u[i] >= 0) & (u[i] < rows) & (v[i] >= 0) & (v[i] < 65536);
-        const int32_t row = (int32_t)(here ? u[i] : 0);
-        const int32_t t = light->offsets[row] + (int32_t)(here ? v[i] : 0);
-        tile[i] = here & (t >= light->ends[row]) & (t < light->ends[row + 1]) ? t : none;
+        row[i] = (int32_t)(here ? u[i] : 0);
+        column[i] = (int32_t)(here ? v[i] : 65536);
+    }
+    const int32_t none = light->ends[light->rows];
+    for (int32_t i = 0; i < n; i++) {
+        const int32_t t = light->offsets[row[i]] + column[i];
+        tile[i] = (t >= light->ends[row[i]]) & (t < light->ends[row[i] + 1]) ? t : none;
+        range[i] = light->ranges[tile[i]];
     }
     for (int32_t i = 0; i < n; i++) {
-        const uint32_t range = light->ranges[tile[i]];
         const float z = depth[i] - bias < far + 1 ? depth[i] - bias : far + 1;
-        const int after = z > (float)(int32_t)(range & ((1 << FIRST) - 1));
-        const int dark = z > (float)(int32_t)((range >> DARK) + 1);
+        const int after = z > (float)(int32_t)(range[i] & ((1 << FIRST) - 1));
+        const int dark = z > (float)(int32_t)((range[i] >> DARK) + 1);
         depth[i] = z;
         open[i] = after & !dark;
         occlusion[i] |= after & dark;

@@ -112,15 +112,15 @@ def _filled(bricks, axes, back, near, source, low, high) -> LightTables:
     rows, columns = (int(np.ceil(end)) + 1 - start for start, end in zip(low, high))
     deep = BRICK * bricks.shape[axes[0]]
     coordinates, layers = _by_layers(bricks, axes, back)
+    sides = BRICK * bricks.shape[axes[1]], BRICK * bricks.shape[axes[2]]
     firsts, lasts = np.full(rows, columns), np.zeros(rows, np.int64)
     light = deep, near, source, low
-    _find_spans(coordinates, layers, light, firsts, lasts, columns)
+    _find_spans(coordinates, layers, light, sides[0], firsts, lasts, columns)
     ends = np.append(0, np.cumsum(np.maximum(lasts - firsts, 0))).astype(np.int32)
     offsets = (ends[:-1] - firsts).astype(np.int32)
     ranges = np.full(ends[-1] + 1, (1 << FIRST) - 1 | NEVER << DARK, np.uint32)
     slabs = np.zeros(ends[-1], np.uint64)
     masks = bricks.masks, bricks.sheet, axes[0], back
-    sides = BRICK * bricks.shape[axes[1]], BRICK * bricks.shape[axes[2]]
     _fill_tiles(coordinates, layers, masks, light, sides, columns, offsets, ranges, slabs)
     return LightTables(axes, back, deep, near, source, low, offsets, ends, ranges, slabs)
 
@@ -171,23 +171,28 @@ def _by_layers(bricks, axes, back):
 
 
 @njit(cache=True, nogil=True)
-def _find_spans(coordinates, layers, light, firsts, lasts, columns):
+def _find_spans(coordinates, layers, light, side, firsts, lasts, columns):
     """Find each row's first tile with bricks, and the end."""
     rows = len(firsts)
+    low, high = np.empty(side // BRICK, np.int64), np.empty(side // BRICK, np.int64)
     for layer in range(len(layers) - 1):
-        if layers[layer] == layers[layer + 1]:
-            continue
         seen, to_a, to_b = _projection(BRICK * layer, BRICK * (layer + 1), light)
         if not seen:
             continue
+        low[:], high[:] = np.iinfo(np.int64).max, -1
         for n in range(layers[layer], layers[layer + 1]):
-            a, b = coordinates[n, 0], coordinates[n, 1]
-            i, i_end = max(_first_tile(a, to_a), 0), min(_last_tile(a + 3, to_a) + 1, rows)
-            j, j_end = max(_first_tile(b, to_b), 0), min(_last_tile(b + 3, to_b) + 1, columns)
+            k, b = coordinates[n, 0] // BRICK, coordinates[n, 1]
+            low[k], high[k] = min(low[k], b), max(high[k], b)
+        for k in range(len(low)):
+            if high[k] < 0:
+                continue
+            a = BRICK * k
+            j, j_end = _first_tile(low[k], to_b), _last_tile(high[k] + BRICK - 1, to_b) + 1
+            j, j_end = max(j, 0), min(j_end, columns)
             if j < j_end:
-                for u in range(i, i_end):
-                    firsts[u] = min(firsts[u], j)
-                    lasts[u] = max(lasts[u], j_end)
+                i_end = min(_last_tile(a + BRICK - 1, to_a) + 1, rows)
+                for i in range(max(_first_tile(a, to_a), 0), i_end):
+                    firsts[i], lasts[i] = min(firsts[i], j), max(lasts[i], j_end)
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -263,16 +268,11 @@ def _fill_tiles(coordinates, layers, masks, light, sides, columns, offsets, rang
                 a_low += 1
             while a_low < a_high and _first_tile(a_high - 1, to_a) >= rows:
                 a_high -= 1
-            for a in range(a_low, a_high):
-                cells, tiles = (part + a) * width, a * words
-                if light[1]:
-                    spans[a, 0], spans[a, 1], spans[a, 2] = _cast_row(
-                        cells, width, any_in, all_in, to_b, columns, tiles, words, passing, within
-                    )
-                else:
-                    spans[a, 0], spans[a, 1], spans[a, 2] = _shift_row(
-                        cells, width, any_in, all_in, to_b, columns, tiles, words, passing, within
-                    )
+            rows_of = a_low, a_high, part, width, words, columns
+            if light[1]:
+                _cast_rows(rows_of, any_in, all_in, to_b, passing, within, spans)
+            else:
+                _shift_rows(rows_of, any_in, all_in, to_b, passing, within, spans)
             _enter_slab(
                 slab, whole, a_low, a_high, to_a, words, passing, within, spans, seen, dark,
                 offsets, ranges, slabs,
@@ -330,44 +330,50 @@ def _turned(mask, m):
     return mask
 
 
-@njit(cache=True, nogil=True, inline="always")
-def _cast_row(cells, width, any_in, all_in, to, columns, tiles, words, passing, within):
-    """Cast a row's cells on tiles."""
-    for k in range(tiles, tiles + words):
-        passing[k] = within[k] = 0
-    first, end = _cast_any(any_in, cells, width, to, columns, passing, tiles)
-    return first, end, first < end and _cast_all(all_in, cells, width, to, columns, within, tiles)
+@njit(cache=True, nogil=True, error_model="numpy")
+def _cast_rows(rows, any_in, all_in, to, passing, within, spans):
+    """Cast rows of cells on tiles: fill `passing`, `within` and `spans`, see `_enter_slab`."""
+    a_first, a_end, part, width, words, columns = rows
+    for a in range(a_first, a_end):
+        cells, tiles = (part + a) * width, a * words
+        for k in range(tiles, tiles + words):
+            passing[k] = within[k] = 0
+        first, end = _cast_any(any_in, cells, width, to, columns, passing, tiles)
+        spans[a, 0], spans[a, 1] = first, end
+        spans[a, 2] = first < end and _cast_all(all_in, cells, width, to, columns, within, tiles)
 
 
-@njit(cache=True, nogil=True, inline="always")
-def _shift_row(cells, width, any_in, all_in, to, columns, tiles, words, passing, within):
-    """Cast a row's cells on tiles as wide."""
+@njit(cache=True, nogil=True, error_model="numpy")
+def _shift_rows(rows, any_in, all_in, to, passing, within, spans):
+    """`_cast_rows` on tiles as wide as cells, by words."""
+    a_first, a_end, part, width, words, _ = rows
     offset, last = _first_tile(0, to), _last_tile(0, to)
-    count, q, r = last - offset, offset >> 6, np.uint64(offset & 63)
-    back = np.uint64(63) - r
-    for k in range(tiles, tiles + words):
-        passing[k] = within[k] = 0
-    first, end, inside = words, 0, np.uint64(0)
-    cell_before = all_before = any_last = all_last = np.uint64(0)
-    for k in range(width + 2):
-        some = any_in[cells + k] if k < width else np.uint64(0)
-        every = all_in[cells + k] if k < width else np.uint64(0)
-        any_tile, all_tile = some, every
-        for c in range(1, count + 1):
-            up, down = np.uint64(c), np.uint64(64 - c)
-            any_tile |= some << up | cell_before >> down
-            all_tile &= every << up | all_before >> down
-        cell_before, all_before = some, every
-        word = any_tile << r | any_last >> back >> _ONE
-        if word:
-            passing[tiles + q + k] = word
-            first, end = min(first, q + k), q + k + 1
-        word = all_tile << r | all_last >> back >> _ONE
-        if word:
-            within[tiles + q + k] = word
-            inside |= word
-        any_last, all_last = any_tile, all_tile
-    return first, end, inside != 0
+    beside, skipped, up = last - offset, offset >> 6, np.uint64(offset & 63)
+    down, none = np.uint64(63) - up, np.uint64(0)
+    for a in range(a_first, a_end):
+        cells, tiles = (part + a) * width, a * words
+        for k in range(tiles, tiles + words):
+            passing[k] = within[k] = 0
+        first, end, inside = words, 0, none
+        some_before = every_before = any_before = all_before = none
+        for k in range(width + 2):
+            some = any_in[cells + k] if k < width else none
+            every = all_in[cells + k] if k < width else none
+            any_here, all_here = some, every
+            for c in range(1, beside + 1):
+                left, right = np.uint64(c), np.uint64(64 - c)
+                any_here |= some << left | some_before >> right
+                all_here &= every << left | every_before >> right
+            some_before, every_before = some, every
+            word = any_here << up | any_before >> down >> _ONE
+            if word:
+                passing[tiles + skipped + k] = word
+                first, end = min(first, skipped + k), skipped + k + 1
+                word = all_here << up | all_before >> down >> _ONE
+                within[tiles + skipped + k] = word
+                inside |= word
+            any_before, all_before = any_here, all_here
+        spans[a, 0], spans[a, 1], spans[a, 2] = first, end, inside != 0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
