@@ -93,6 +93,7 @@ def measure_sun_hours(
         InputError: the mesh cannot be read, or a value is out of range.
     """
     mesh, rays = read_prepared(mesh_ply), _rays(up, latitude, day, minutes)
+    _compile()
     started = time.process_time()
     shadow_field = ShadowField.fit((mesh.vertices, mesh.faces), resolution)
     fitted = time.process_time()
@@ -101,8 +102,8 @@ def measure_sun_hours(
     places, normals = _surface_points(mesh, points, np.random.default_rng(seed))
     by_field = Daylight(shadow_field.occluded, places + CELLS * shadow_field.cell * normals)
     by_embree = Daylight(_by(tracer), places + np.float32(RADII) * normals)
-    for method in (by_field, by_embree):  # compiles, or reads what is compiled
-        method.occluded(method.points[:8], rays.directions[0])
+    for method in (by_field, by_embree):  # compiles, too
+        method.occluded(method.points, rays.directions[0])
     unlike = _add_all([by_field, by_embree], normals, rays)
     record = {
         "faces": len(mesh.faces),
@@ -122,6 +123,14 @@ def measure_sun_hours(
     with whole_file(hours_npz) as part, part.open("wb") as file:
         np.savez_compressed(file, **picture)
         write_json(hours_json, record | describe_origin())
+
+
+def _compile() -> None:
+    """Compile the loops of fits, of a solid and of a sheet, or read what is compiled."""
+    corners = np.concatenate([np.zeros((1, 3)), np.eye(3)])
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    for part in (faces, faces[:1]):
+        ShadowField.fit((corners, part), 8)
 
 
 def _rays(up: str, latitude: float, day: int, minutes: float) -> Rays:
