@@ -25,7 +25,7 @@ from neural_shadows.viewer.write_soft_viewer import write_soft_viewer
 
 REPORT = TEMPLATE.parent
 WEIGHTS = TEMPLATE.parents[1] / "weights"
-NETWORKS = ("kernels_enhanced", "kernels_rays")
+NETWORKS = ("kernels_enhanced", "kernels_rays", "nsm_layouts")
 RUN = {"scale": "test", "seed": 3, "width": 64, "height": 32, "reference": "exact"}
 MAP = 512  # texels along a side
 FRAMES = {"fov": 55, "radii": [0, 0.01], "radius_unit": "scene_sizes"}

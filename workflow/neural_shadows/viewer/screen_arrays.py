@@ -16,6 +16,7 @@ from neural_shadows.networks.screen_space.kernel_widths import KERNEL_TAPS
 from neural_shadows.networks.screen_space.layers import Halved, ReplicatedConvolution
 from neural_shadows.networks.screen_space.screen_network import ScreenNetwork
 from neural_shadows.networks.screen_space.shadow_unet import ShadowUnet
+from neural_shadows.viewer.balanced_unet import balanced
 from neural_shadows.viewer.packed import packed
 
 # What the shaders evaluate; first the default.
@@ -72,13 +73,15 @@ def screen_arrays(network: ScreenNetwork, header: Mapping[str, Any]) -> dict[str
 def with_half_weights(network: ScreenNetwork) -> ScreenNetwork:
     """The network as a viewer evaluates it.
 
-    Norms are folded into convolutions, whose weights are then rounded to half precision and kept in
-    float32.
+    Norms are folded into convolutions, maps without norms balanced; weights are then rounded to half
+    precision and kept in float32.
 
     Raises:
         InputError: a weight beyond the range of half precision.
     """
     rounded = deepcopy(network.for_inference()).requires_grad_(False)
+    if isinstance(rounded, ShadowUnet):
+        rounded = balanced(rounded)
     for name, weight in rounded.named_parameters():
         largest = weight.abs().max()
         if not largest <= _MOST_HALF:  # catches NaN
