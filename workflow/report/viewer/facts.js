@@ -5,7 +5,7 @@ function rateOf(milliseconds) {
   return milliseconds > 100 ? (1000 / milliseconds).toFixed(1) : Math.round(1000 / Math.max(milliseconds, 1));
 }
 
-// result: of `refinement`, or null as long as that is not known.
+// result: the side's of `refinement`, if it is there already.
 function factsOf({ stored, resident, rays, underSun }, sun, result) {
   const percent = (share) => `${(100 * share).toFixed(2)} %`, mebi = 1 << 20;
   const bytes = (count) => count < mebi / 10 ? `${(count / 1024).toFixed(0)} KiB` : `${(count / mebi).toFixed(2)} MiB`;

@@ -19,7 +19,7 @@ async function startViewer(root, data) {
   };
   const costs = new Map(); // by method's key: milliseconds of a pixel's ray, once it is measured
   let asked = 0, moving = false, pause = 0, playing = null, told = false;
-  let steps = null; // of the refinement, at rest
+  let resting = null, steps = null; // at rest: the frame, and what is left to do of its refinement
   let whole = ""; // what the answers at rest are of, once all of them are there
   let still = false; // wanted as soon as the picture is refined
   let own = null; // a reader's mesh, in place of the scene's
@@ -129,10 +129,10 @@ async function startViewer(root, data) {
   function rest() {
     root.dataset.moving = "false"; // tests wait for it
     if (!own && (told || window.parent === window)) writeAddress(stateText(state));
-    const frame = frameNow();
-    if (whole === answersOf(frame)) return refined();
-    for (const side of ["left", "right"]) showFacts(side, frame, null);
-    steps = refinement(renderer, frame, sides(), picture(), costs, () => { if (still) save(); });
+    resting = frameNow();
+    if (whole === answersOf(resting)) return refined();
+    showFacts({});
+    steps = refinement(renderer, resting, sides(), picture(), costs, () => { if (still) save(); });
     next();
   }
 
@@ -145,10 +145,9 @@ async function startViewer(root, data) {
       next();
       return;
     }
-    const frame = frameNow();
     steps = null;
-    whole = answersOf(frame);
-    for (const side of ["left", "right"]) showFacts(side, frame, value[side]);
+    whole = answersOf(resting);
+    showFacts(value);
     refined();
   }
 
@@ -158,8 +157,11 @@ async function startViewer(root, data) {
     if (still) save();
   }
 
-  function showFacts(side, { sun }, result) {
-    find(`.facts.${side}`).textContent = factsOf(sides()[side], sun, result);
+  // results: of the refinement, by side, as soon as they are there.
+  function showFacts(results) {
+    for (const [side, method] of Object.entries(sides())) {
+      find(`.facts.${side}`).textContent = factsOf(method, resting.sun, results[side]);
+    }
   }
 
   function place() {

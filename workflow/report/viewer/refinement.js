@@ -33,6 +33,7 @@ function* refinement(renderer, frame, sides, picture, costs, shown) {
       + (to - from) * raysOf(method, sun, RAYS_A_PASS) * (costs.get(method.key) ?? Infinity), 0);
     for (const { method } of given) renderer.prepare(method);
     renderer.finish();
+    const before = { ...took };
     let rows = clamped(Math.floor(BAND_MS / row), 1, height);
     for (let pass = 0; pass < passes; pass++) {
       for (let top = 0; top < height;) {
@@ -42,9 +43,7 @@ function* refinement(renderer, frame, sides, picture, costs, shown) {
           const rays = raysOf(method, sun, RAYS_A_PASS), begun = performance.now();
           renderer.answer(method, names[side], frame, { from, to, top, end, first: pass * rays, rays });
           renderer.finish();
-          const milliseconds = performance.now() - begun;
-          took[side] += milliseconds;
-          costs.set(method.key, milliseconds / ((to - from) * (end - top) * rays));
+          took[side] += performance.now() - begun;
         }
         if (given === shownParts) renderer.show(names, frame, picture, top, end);
         rows = clamped(Math.floor((end - top) * BAND_MS / (performance.now() - start)), 1, 4 * rows);
@@ -52,6 +51,10 @@ function* refinement(renderer, frame, sides, picture, costs, shown) {
         yield passes === 1 || pass === 0 && given === shownParts ? `${word}: ${(100 * top / height).toFixed(0)} %`
           : `${word}: ${pass * RAYS_A_PASS} of ${RAYS} rays to the sun`;
       }
+    }
+    for (const { side, method, from, to } of given) {
+      const rays = (to - from) * height * raysOf(method, sun, RAYS);
+      costs.set(method.key, (took[side] - before[side]) / rays);
     }
   }
 
