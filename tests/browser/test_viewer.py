@@ -106,7 +106,7 @@ def asked(page, key, frame, sun=0.0):
         frame.height,
         sun,
     ]
-    return np.array(page.evaluate("(told) => viewer.answers(...told)", told), float)
+    return np.array(page.evaluate("(given) => viewer.answers(...given)", arguments), float)
 
 
 def test_answers_are_the_pipelines(open_viewer, viewer, frames):
@@ -336,7 +336,7 @@ def test_network_s_rays_spread_over_the_sun(open_viewer, viewer, frames):
     assert abs(soft.mean() - hard.mean()) < 0.05
 
 
-def test_methods_tell_what_they_do_about_a_sun(open_viewer):
+def test_facts_hold_what_a_method_does_about_a_sun(open_viewer):
     page = open_viewer("left=map_64&right=pcss_64&sun=3")
     refined(page)
     left, right = (page.locator(f".facts.{side}").inner_text() for side in ("left", "right"))
@@ -548,7 +548,7 @@ def test_without_webgl_there_is_a_poster_and_the_reason(open_viewer, launch):
     assert faults(page) == []
 
 
-def test_lost_context_is_told_over_the_poster(open_viewer):
+def test_lost_context_leaves_the_poster_and_a_sentence(open_viewer):
     page = open_viewer("right=no_shadow&left=map_64")
     settled(page)
     lose = (

@@ -1,6 +1,6 @@
-// What is told of a method below the picture.
+// Facts of a method, for below the picture.
 
-// Frames a second; a clock may be coarse, and no more than 1,000 are told.
+// Frames a second; a clock may be coarse, and 1,000 are the most.
 function rateOf(milliseconds) {
   return milliseconds > 100 ? (1000 / milliseconds).toFixed(1) : Math.round(1000 / Math.max(milliseconds, 1));
 }

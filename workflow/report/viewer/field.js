@@ -31,8 +31,8 @@ function fieldMethod(data) {
     ...data, constants, sources: ["sun_rays", "unit_sphere", "field_values", "field"], rays: true, ofShipped: true,
     soft: data.arrays.around && cones,
     make({ gl }) {
-      const told = { level: data.level, depthBias: data.depth_bias, sheet: data.surface === "sheet" };
-      return () => ({ ...texturesOf(gl), ...told });
+      const values = { level: data.level, depthBias: data.depth_bias, sheet: data.surface === "sheet" };
+      return () => ({ ...texturesOf(gl), ...values });
     },
   };
 }

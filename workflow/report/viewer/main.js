@@ -18,7 +18,7 @@ async function startViewer(root, data) {
     view: data.views[0], light: data.views[0].light,
   };
   const costs = new Map(); // by method's key: milliseconds of a pixel's ray, once it is measured
-  let asked = 0, moving = false, pause = 0, playing = null, told = false;
+  let pending = 0, moving = false, pause = 0, playing = null, byHand = false;
   let resting = null, steps = null; // at rest: the frame, and what is left to do of its refinement
   let whole = ""; // what the answers at rest are of, once all of them are there
   let still = false; // wanted as soon as the picture is refined
@@ -39,13 +39,13 @@ async function startViewer(root, data) {
   });
 
   // Something moved; a quarter of a second after the last the picture is refined. A page's address
-  // tells what its reader did here, and not that its window was resized.
+  // follows what its reader did here, and not a window of another size.
   function changed(byReader = true) {
     moving = true;
     steps = null;
     root.dataset.moving = "true";
     root.dataset.refined = "false";
-    told ||= byReader;
+    byHand ||= byReader;
     next();
     clearTimeout(pause);
     pause = setTimeout(() => {
@@ -55,8 +55,8 @@ async function startViewer(root, data) {
   }
 
   function next() {
-    asked ||= requestAnimationFrame(() => {
-      asked = 0;
+    pending ||= requestAnimationFrame(() => {
+      pending = 0;
       guarded(moving || playing ? drawMoving : refine);
     });
   }
@@ -115,20 +115,24 @@ async function startViewer(root, data) {
 
   // Milliseconds of a method's answers, with those of a map for this light.
   function timed(method, name, frame, { from, to }, counts) {
-    const rays = raysOf(method, frame.sun, MOVING_RAYS), columns = { from: Math.max(0, from), to: Math.min(to, frame.size[0]) };
-    renderer.prepare(method).uniforms(frame.sun.light);
+    const { size, sun } = frame, rays = raysOf(method, sun, MOVING_RAYS);
+    const columns = { from: Math.max(0, from), to: Math.min(to, size[0]) };
+    const { uniforms } = renderer.prepare(method);
     renderer.finish();
     const start = performance.now();
+    uniforms(sun.light);
+    renderer.finish();
+    const begun = performance.now();
     renderer.answer(method, name, frame, { ...columns, rays });
     renderer.finish();
-    const milliseconds = performance.now() - start;
-    if (counts) costs.set(method.key, milliseconds / ((columns.to - columns.from) * frame.size[1] * rays));
-    return milliseconds;
+    const end = performance.now();
+    if (counts) costs.set(method.key, (end - begun) / ((columns.to - columns.from) * size[1] * rays));
+    return end - start;
   }
 
   function rest() {
     root.dataset.moving = "false"; // tests wait for it
-    if (!own && (told || window.parent === window)) writeAddress(stateText(state));
+    if (!own && (byHand || window.parent === window)) writeAddress(stateText(state));
     resting = frameNow();
     if (whole === answersOf(resting)) return refined();
     showFacts({});
@@ -315,8 +319,8 @@ async function startViewer(root, data) {
         sun: { light, slope: Math.tan(sun * Math.PI / 360) },
       };
       const method = sun > 0 && byKey[key].soft || byKey[key];
-      renderer.answer(method, "asked", frame, { rays: raysOf(method, frame.sun, RAYS) });
-      const rows = renderer.read("asked");
+      renderer.answer(method, "for tests", frame, { rays: raysOf(method, frame.sun, RAYS) });
+      const rows = renderer.read("for tests");
       return Array.from({ length: height }, (_, y) =>
         Array.from(rows.subarray((height - 1 - y) * width, (height - y) * width))).flat();
     },

@@ -33,11 +33,11 @@ const reference = {
   make(renderer) {
     const { gl } = renderer, { nodes, triangles } = buildTree(renderer.positions);
     const format = ["RGBA32F", "RGBA", "FLOAT"];
-    const told = {
+    const values = {
       nodes: makeTable(gl, format, 4, nodes), triangles: makeTable(gl, format, 4, triangles),
       nodeCount: nodes.length / 8,
     };
-    return () => told;
+    return () => values;
   },
 };
 

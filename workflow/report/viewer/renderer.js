@@ -47,12 +47,12 @@ class Renderer {
     gl.viewport(0, 0, width, height);
     for (let i = 0; i < 3; i++) gl.clearBufferfv(gl.COLOR, i, [0, 0, 0, 0]);
     gl.clearBufferfv(gl.DEPTH, 0, [1]);
-    const told = {
+    const camera = {
       camera: cameraMatrix(view, width / height), pixels: pixelMatrix(view, width, height),
       eye: view.eye, rim: this.rim, drop: (this.height ?? 0) - dot(view.eye, this.up),
     };
     const draw = (mesh, kind) => {
-      setUniforms(gl, this.surface, { ...told, kind });
+      setUniforms(gl, this.surface, { ...camera, kind });
       gl.bindVertexArray(mesh.vertices);
       gl.drawArrays(gl.TRIANGLES, 0, mesh.count);
     };
@@ -116,7 +116,8 @@ class Renderer {
   // `rays` of them from the `first` on, added to those before.
   answer(method, name, { view, size, sun }, { from = 0, to = size[0], top = 0, end = size[1], first = 0, rays = 1 } = {}) {
     const { gl } = this, [points, faceNormals] = this.look(view, size);
-    const { program, uniforms } = this.prepare(method), told = uniforms(sun.light);
+    const { program, uniforms } = this.prepare(method);
+    const values = uniforms(sun.light); // first: a map is drawn for them
     let target = this.targets.get(name);
     if (target?.width !== size[0] || target.height !== size[1]) {
       target?.free();
@@ -128,7 +129,7 @@ class Renderer {
     gl.scissor(from, size[1] - end, Math.max(0, to - from), end - top);
     if (first > 0) gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE);
-    setUniforms(gl, program, { points, faceNormals, sun: sun.light, slope: sun.slope, first, rays, ...told });
+    setUniforms(gl, program, { points, faceNormals, sun: sun.light, slope: sun.slope, first, rays, ...values });
     gl.bindVertexArray(this.screen);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.disable(gl.BLEND);

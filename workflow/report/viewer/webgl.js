@@ -75,7 +75,7 @@ function makeTable(gl, format, channels, data, width = 1024) {
   return makeTexture(gl, format, [width, height], whole);
 }
 
-// Textures to draw into, and a depth buffer if asked for.
+// Textures to draw into, and a depth buffer if `deep`.
 function makeTarget(gl, formats, width, height, deep = false) {
   const textures = formats.map((format) => makeTexture(gl, format, [width, height]));
   const framebuffer = gl.createFramebuffer();

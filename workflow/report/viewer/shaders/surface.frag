@@ -1,4 +1,4 @@
-// What every method is asked about; see rendering/gbuffer.py, whose frames these are.
+// Surface points and normals, for every method; see rendering/gbuffer.py, whose frames these are.
 in vec3 p;
 in vec3 n;
 flat in vec3 faceN;
