@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only rays labels training queries viewpoint soft screen viewer default]
+        [--only rays labels training queries viewpoint field soft screen viewer default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -19,6 +19,7 @@ import bench_queries
 import bench_rays
 import bench_screen
 import bench_screen_training
+import bench_shadow_field
 import bench_soft
 import bench_training
 import bench_viewer
@@ -37,6 +38,7 @@ STAGES = (
     "training",
     "queries",
     "viewpoint",
+    "field",
     "soft",
     "screen",
     "viewer",
@@ -54,6 +56,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
+        "field": lambda: bench_shadow_field.rows(mesh_ply, quick),
         "soft": lambda: bench_soft.rows(quick),
         "screen": lambda: bench_screen.rows(quick) + bench_screen_training.rows(quick),
         "viewer": lambda: bench_viewer.rows(quick),

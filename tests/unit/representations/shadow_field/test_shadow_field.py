@@ -7,6 +7,7 @@ from shapes import bumpy_sphere, sheet
 
 from neural_shadows import InputError, ShadowField
 from neural_shadows.representations.distance_bricks.field_cones import half_disc
+from neural_shadows.representations.shadow_field.shadow_field import FEW
 from neural_shadows.scenes.tracing import Tracer
 
 PLACE, SIZE = np.array([4e5, -7.0, 5.2e6]), 30.0  # metres, as a map has them
@@ -57,6 +58,11 @@ def test_every_way_to_ask_has_the_same_answers(bumps):
     }  # fmt: skip
     for name, answers in others.items():
         assert np.mean(answers != occluded) < 0.001, name
+    # Of few points no tables are built for the light.
+    few = np.concatenate(
+        [field.occluded(places[k : k + 1000], ASLANT) for k in range(0, 20_000, 1000)]
+    )
+    assert 1000 * FEW < field.resolution**2 and np.mean(few != occluded[:20_000]) < 0.001
 
 
 def test_rays_in_all_directions(bumps):

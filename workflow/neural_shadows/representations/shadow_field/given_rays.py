@@ -67,8 +67,8 @@ def in_radii(rows: np.ndarray, name: str, centre: np.ndarray, radius: float) -> 
         InputError: a row is not finite.
     """
     result = np.empty(rows.shape, np.float32)
-    invalid = _map(rows, centre, 1 / radius, result)
-    if invalid >= 0:
+    if not _map(rows, centre, 1 / radius, result):
+        invalid = int(np.argmin(np.isfinite(rows).all(axis=1)))
         raise InputError(
             f"{name}: row {invalid} (counted from 0) is {rows[invalid].tolist()}: not finite. Leave "
             "such rows out."
@@ -76,14 +76,27 @@ def in_radii(rows: np.ndarray, name: str, centre: np.ndarray, radius: float) -> 
     return result
 
 
+def all_alike(rows: np.ndarray) -> bool:
+    """Test for equal rows (n, 3), at least one; NaN equals nothing."""
+    return len(rows) > 0 and _alike(rows)
+
+
 @njit(cache=True, nogil=True)
 def _map(rows, centre, scale, result):
-    """Fill in `result`; return the first row that is not finite, or −1."""
+    """Fill in `result`; return whether all is finite."""
     x, y, z = centre
+    finite = True
     for n in range(len(rows)):
-        result[n, 0] = (rows[n, 0] - x) * scale
-        result[n, 1] = (rows[n, 1] - y) * scale
-        result[n, 2] = (rows[n, 2] - z) * scale
-        if not abs(rows[n, 0]) + abs(rows[n, 1]) + abs(rows[n, 2]) < np.inf:
-            return n
-    return -1
+        a, b, c = rows[n, 0], rows[n, 1], rows[n, 2]
+        result[n, 0], result[n, 1], result[n, 2] = (a - x) * scale, (b - y) * scale, (c - z) * scale
+        finite &= (abs(a) < np.inf) & (abs(b) < np.inf) & (abs(c) < np.inf)
+    return finite
+
+
+@njit(cache=True, nogil=True)
+def _alike(rows):
+    x, y, z = rows[0]
+    alike = True
+    for n in range(len(rows)):
+        alike &= (rows[n, 0] == x) & (rows[n, 1] == y) & (rows[n, 2] == z)
+    return alike

@@ -36,8 +36,8 @@ _FAR = 1e9  # radii, beyond everything
 class ShadowField:
     """Signed distances in sparse bricks around a mesh's surface.
 
-    All lengths and places are the mesh's own. Points on the surface should be lifted off it by
-    about a `cell` along their normals, as a field's surface is not quite at the triangles.
+    All lengths and places are the mesh's own. Points on the surface should be lifted off it
+    along their normals, by a sixth to a half of a `cell`: a field's surface is not quite there.
     """
 
     centre: np.ndarray  # (3,) float64
@@ -175,18 +175,22 @@ class ShadowField:
         Raises:
             InputError: as `occluded`, or origins and directions of different numbers.
         """
-        from neural_shadows.representations.shadow_field.given_rays import vectors_of
+        from neural_shadows.representations.shadow_field.given_rays import (
+            all_alike,
+            direction_of,
+            rows_of,
+            vectors_of,
+        )
 
         origins = self._in_radii(ray_origins, "ray_origins")
-        directions = vectors_of(ray_directions, "ray_directions")
+        directions = rows_of(ray_directions, "ray_directions")
         if len(directions) != len(origins):
             raise InputError(
                 f"ray_directions: {len(directions)} rows for {len(origins)} origins. Give one each."
             )
-        if len(directions) and (directions == directions[0]).all():
-            direction = directions[0].astype(np.float64)
-            return self._occluded(origins, direction / np.linalg.norm(direction))
-        return self._blocked(origins, _endless(directions))
+        if all_alike(directions):
+            return self._occluded(origins, direction_of(directions[0], "ray_directions"))
+        return self._blocked(origins, _endless(vectors_of(directions, "ray_directions")))
 
     def test_occlusions(self, rays: Any, tnear: float = 0.0, tfar: float = np.inf) -> np.ndarray:
         """Occlusion between two distances on each ray; as Open3D's `RaycastingScene`.

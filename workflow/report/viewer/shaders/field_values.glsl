@@ -1,6 +1,9 @@
 // An occupancy field in bricks of four cells along an axis: values of those that the surface touches.
 uniform isampler3D grid;   // a brick's number; −how many may be skipped; or SOLID
 uniform isampler2D values; // ROW_BRICKS bricks a row, 125 values each
+#ifdef TOUCHED
+uniform usampler2D touched; // of a sheet, ROW_BRICKS a row: two words each, a bit a cell that it touches
+#endif
 
 const float CELLS = 4.0; // of a brick along an axis
 
