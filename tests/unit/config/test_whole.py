@@ -87,7 +87,7 @@ def test_examples_of_the_readme_are_valid():
     for example in examples:
         update_config(values, example)
     experiments = resolved(read_config(values))["experiments"]
-    assert len(examples) == 12 and {"teapot", "dragon_small"} <= experiments.keys()
+    assert len(examples) == 13 and {"teapot", "dragon_small"} <= experiments.keys()
 
 
 def test_reference_is_checked_in():
