@@ -98,7 +98,7 @@ def frames(viewer):
 def asked(page, key, frame, sun=0.0):
     """Visibility of all pixels by the browser; −1 where there is no surface; sun: in degrees."""
     view = {key: getattr(frame.view, key).tolist() for key in ("eye", "target")}
-    told = [
+    arguments = [
         key,
         view | {"fov": frame.view.fov},
         frame.view.light.tolist(),
