@@ -112,5 +112,5 @@ def test_other_recipes_are_planned(fresh, tmp_path):
         stderr=subprocess.STDOUT,
         text=True,
     )
-    assert len(tables) == 3
+    assert len(tables) == 4
     assert [name for name in tables if f"Writing {name}" not in done.stdout] == [], done.stdout

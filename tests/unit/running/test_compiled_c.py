@@ -67,7 +67,8 @@ WITHOUT = """
 import numpy as np, trimesh
 from neural_shadows import ShadowField
 field = ShadowField.fit(trimesh.creation.icosphere(3), resolution=32)
-print(field.occluded(np.array([[0.0, 0, 0], [0, 0, 3]]), [0, 0, 1]).tolist())
+points = np.tile([[0.0, 0, 0], [0, 0, 3]], (10_000, 1))  # few are answered one by one
+print(field.occluded(points, [0, 0, 1])[:2].tolist())
 """
 
 
