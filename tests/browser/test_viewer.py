@@ -98,7 +98,7 @@ def frames(viewer):
 def asked(page, key, frame, sun=0.0):
     """Visibility of all pixels by the browser; −1 where there is no surface; sun: in degrees."""
     view = {key: getattr(frame.view, key).tolist() for key in ("eye", "target")}
-    arguments = [
+    given = [
         key,
         view | {"fov": frame.view.fov},
         frame.view.light.tolist(),
@@ -106,7 +106,7 @@ def asked(page, key, frame, sun=0.0):
         frame.height,
         sun,
     ]
-    return np.array(page.evaluate("(given) => viewer.answers(...given)", arguments), float)
+    return np.array(page.evaluate("(given) => viewer.answers(...given)", given), float)
 
 
 def test_answers_are_the_pipelines(open_viewer, viewer, frames):
