@@ -149,10 +149,10 @@ def test_network_without_shaders(settings, message):
 
 @pytest.mark.parametrize("value", [65_600.0, -1e6, float("nan")])
 def test_weight_beyond_half_precision(value):
-    network = make_screen_network(NETWORKS["shuffle"])
+    network = make_screen_network(NETWORKS["kernels"])
     network.deepest[0].weight.data[0, 0, 0, 0] = value
     with pytest.raises(InputError, match=r"deepest\.0\.weight: .*half precision.*Train"):
-        screen_arrays(network, HEADER | {"network": NETWORKS["shuffle"]})
+        screen_arrays(network, HEADER | {"network": NETWORKS["kernels"]})
 
 
 def test_a_network_keeps_its_own_weights():
@@ -160,4 +160,22 @@ def test_a_network_keeps_its_own_weights():
     before = network.deepest[0].weight.clone()
     rounded = with_half_weights(network).deepest[0].weight
     assert torch.equal(network.deepest[0].weight, before) and not torch.equal(rounded, before)
-    assert torch.equal(rounded, before.half().float())
+    assert torch.equal(rounded, rounded.half().float())
+
+
+def test_maps_beyond_half_precision_are_balanced():
+    """The same answers, by maps within its range."""
+    network = make_screen_network(NETWORKS["shuffle"]).requires_grad_(False)
+    for level in network.levels[1:]:
+        level.encoder[0].weight *= 3000
+        level.decoder[-2].weight /= 3000
+    planes = torch.rand(
+        (1, len(network.centres), 64, 64), generator=torch.Generator().manual_seed(1)
+    )
+    rounded, largest = with_half_weights(network), []
+    for layer in rounded.modules():
+        if isinstance(layer, torch.nn.ReLU):
+            layer.register_forward_hook(lambda _, __, output: largest.append(output.max()))
+    whole = network(planes)
+    assert (rounded(planes) - whole).abs().max() <= 0.01 * whole.abs().max()
+    assert max(largest) < 100
