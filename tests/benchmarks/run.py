@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only rays labels training queries viewpoint field soft screen viewer default]
+        [--only rays labels training queries viewpoint calls soft screen viewer default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -38,7 +38,7 @@ STAGES = (
     "training",
     "queries",
     "viewpoint",
-    "field",
+    "calls",
     "soft",
     "screen",
     "viewer",
@@ -56,7 +56,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),
         "viewpoint": lambda: bench_viewpoint.rows(mesh_ply, arguments.trunk, quick),
-        "field": lambda: bench_shadow_field.rows(mesh_ply, quick),
+        "calls": lambda: bench_shadow_field.rows(mesh_ply, quick),
         "soft": lambda: bench_soft.rows(quick),
         "screen": lambda: bench_screen.rows(quick) + bench_screen_training.rows(quick),
         "viewer": lambda: bench_viewer.rows(quick),
