@@ -15,7 +15,7 @@ from neural_shadows.sections.table_figures import TableFigure
 
 COLOURS = "inferno"
 DARKEST = 0.25  # of a colour where no sky is seen
-WIDTH = 9.0  # inches
+WIDTH, HIGHEST = 9.0, 8.0  # inches of a picture
 MARGIN = 0.02  # around a mesh, in widths of its picture
 
 
@@ -48,7 +48,7 @@ def draw(pictures: list[Path], measured: list[Path], meshes: list[Path], heading
     shown = [_cropped(path) for path in pictures]
     longest = max(np.nanmax(hours, initial=0.0) for hours, _ in shown) or 1.0
     scale = Normalize(0, longest)
-    heights = [WIDTH * hours.shape[0] / hours.shape[1] for hours, _ in shown]
+    heights = [min(WIDTH * hours.shape[0] / hours.shape[1], HIGHEST) for hours, _ in shown]
     figure = new_figure(heading, WIDTH + 0.9, sum(heights) + 1.2)
     panels = figure.subplots(len(shown), squeeze=False, height_ratios=heights)[:, 0]
     for axes, (hours, sky), path, record in zip(panels, shown, meshes, records):
