@@ -37,15 +37,21 @@ def table(rows: list[Row]) -> pd.DataFrame:
     return pd.DataFrame(values, columns=COLUMNS)
 
 
-def median_seconds(works: Mapping[str, Work], rounds: int) -> dict[str, float]:
-    """Median time of each work over rounds in which each is done once, after one to warm up."""
+def median_seconds(
+    works: Mapping[str, Work], rounds: int, clock: str = "perf_counter"
+) -> dict[str, float]:
+    """Median time of each work over rounds in which each is done once, after one to warm up.
+
+    Args:
+        clock: of the module `time`; `thread_time` on a machine that is shared.
+    """
     seconds: dict[str, list[float]] = {name: [] for name in works}
     for number in range(rounds + 1):
         for name, work in works.items():
-            started = time.perf_counter()
+            started = getattr(time, clock)()
             work()
             if number:
-                seconds[name].append(time.perf_counter() - started)
+                seconds[name].append(getattr(time, clock)() - started)
     return {name: float(np.median(times)) for name, times in seconds.items()}
 
 

@@ -1,7 +1,7 @@
 """Every stage's rate beside its ceiling and its peers, as one table.
 
     python tests/benchmarks/run.py [--quick]
-        [--only rays labels training queries viewpoint calls soft screen viewer default]
+        [--only rays field labels training queries viewpoint calls soft screen viewer default]
         [--mesh dragon_vrip_res2.ply.gz] [--trunk squeeze.backbone.pth]
         [--weights results/networks/*/weights.safetensors]
 
@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import bench_default
+import bench_field
 import bench_queries
 import bench_rays
 import bench_screen
@@ -34,6 +35,7 @@ from neural_shadows.running.hardware import describe_machine
 
 STAGES = (
     "rays",
+    "field",
     "labels",
     "training",
     "queries",
@@ -52,6 +54,7 @@ def measure(arguments: argparse.Namespace, mesh_ply: Path) -> Iterator[list[Row]
     quick = arguments.quick
     measured = {
         "rays": lambda: bench_rays.packet_rows(quick),
+        "field": lambda: bench_field.rows(mesh_ply, quick),
         "labels": lambda: bench_rays.label_rows(mesh_ply, quick),
         "training": lambda: bench_training.rows(quick),
         "queries": lambda: bench_queries.rows(mesh_ply, arguments.weights, quick),

@@ -26,6 +26,7 @@ from neural_shadows.representations.distance_bricks.field_occlusion import (
 )
 from neural_shadows.representations.distance_bricks.light_tables import (
     directional_tables,
+    merging,
     most_bytes,
     point_tables,
 )
@@ -196,6 +197,8 @@ def test_a_million_rays_in_c_and_in_numba(shape, corner_bits):
     """Bit for bit: on both sides numbers are rounded at the same places."""
     field = ShadowField.fit(shape)
     bricks = field_bricks(field.grid, field.bricks, 0.0, corner_bits, field.cells)
+    if corner_bits == 4:  # and rows as of a large field
+        bricks = bricks._replace(rows=bricks.rows.astype(np.uint32))
     points = around(250_000)
     lights = [[directional_tables(bricks, unit(d))] for d in ([1, 0.4, 0.3], [-0.2, -0.9, 0.3])]
     lights += [point_tables(bricks, p) for p in ([0.9, 0.8, 0.7], [0.2, 1.0, 0.1])]
@@ -204,6 +207,23 @@ def test_a_million_rays_in_c_and_in_numba(shape, corner_bits):
             both = (compiled_occlusion.compiled_occlusion(), mark_occluded)
             ours, numbas = (answers(mark, points, tables, bricks, bias) for mark in both)
             assert (ours != numbas).sum() == 0 and 0.05 < ours.mean() < 0.95
+
+
+@pytest.mark.parametrize("shape", [bumpy_sphere(4), hills()])
+def test_blocks_of_cells_change_no_answer(either, shape):
+    """Tables of fewer, larger tiles for few rays: only more samples are looked up."""
+    bricks, points = ShadowField.fit(shape, 128)._field_bricks, around(50_000)
+    mark = field_occlusion.compiled_occlusion() or mark_occluded
+    d, lamp = unit([0.5, 0.7, -0.3]), [0.5, 1.1, 0.2]
+    single = answers(mark, points, [directional_tables(bricks, d)], bricks)
+    of_lamp = answers(mark, points, point_tables(bricks, lamp), bricks)
+    for merged in (1, 2):
+        tables = directional_tables(bricks, d, merged)
+        assert tables.bytes < 0.5 * directional_tables(bricks, d, merged - 1).bytes
+        assert (answers(mark, points, [tables], bricks) != single).sum() <= 1
+        tables = point_tables(bricks, lamp, merged)
+        assert (answers(mark, points, tables, bricks) != of_lamp).sum() <= 1
+    assert [merging(rays, bricks) for rays in (10, 10**9)] == [2, 0]
 
 
 @in_c

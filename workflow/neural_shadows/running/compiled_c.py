@@ -15,7 +15,7 @@ from llvmlite import binding
 # No product is contracted with a sum: results equal those without C to the bit.
 FLAGS = (
     "-O3", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
-    "-shared", "-fPIC",
+    "-fwrapv", "-shared", "-fPIC",
 )  # fmt: skip
 
 

@@ -36,12 +36,14 @@ class _Light(ctypes.Structure):
     """`Light` of field_occlusion.c."""
 
     _fields_ = [
+        ("merged", _INT),
         ("axes", _INT * 3),
         ("back", _INT),
         ("near", _INT),
         ("deep", _INT),
         ("rows", _INT),
         ("low", _INT * 2),
+        ("middle", _INT * 2),
         ("source", ctypes.c_double * 3),
         *((name, _ADDRESS) for name in ("offsets", "ends", "ranges", "slabs")),
     ]
@@ -61,7 +63,7 @@ def marking(library: ctypes.CDLL) -> Callable[..., None]:
     function.restype = _INT
 
     def mark_occluded(points, light, bricks, bias, occlusion) -> None:
-        field, tables = _field(bricks), _light(light)
+        field, tables = _field(bricks, BRICK >> light.merged), _light(light)
         arrays = points.ctypes.data, len(points), bias, occlusion.ctypes.data
         if function(ctypes.addressof(field), ctypes.addressof(tables), *arrays):
             raise MemoryError("field_occlusion.c: no memory for its samples")
@@ -69,8 +71,9 @@ def marking(library: ctypes.CDLL) -> Callable[..., None]:
     return mark_occluded
 
 
-def _field(bricks: FieldBricks) -> _Field:
-    half = BRICK * bricks.size / 2  # cells
+def _field(bricks: FieldBricks, brick: int) -> _Field:
+    """Args: brick: blocks along one."""
+    half = brick * bricks.size / 2
     return _Field(
         bricks.sheet,
         *bricks.nodes.shape[1:],
@@ -78,19 +81,21 @@ def _field(bricks: FieldBricks) -> _Field:
         bricks.rows.itemsize,
         bricks.words.itemsize,
         half,
-        _THREE(*(half - BRICK * bricks.corner)),
+        _THREE(*(half - brick * bricks.corner)),
         *map(_address, (bricks.nodes, bricks.rows, bricks.masks, bricks.first, bricks.words)),
     )
 
 
 def _light(light: LightTables) -> _Light:
     return _Light(
+        light.merged,
         (_INT * 3)(*light.axes),
         light.back,
         light.near,
         light.deep,
         len(light.offsets),
         (_INT * 2)(*light.low),
+        (_INT * 2)(*light.middle),
         (ctypes.c_double * 3)(*light.source),
         *map(_address, (light.offsets, light.ends, light.ranges, light.slabs)),
     )

@@ -9,8 +9,9 @@ from neural_shadows.representations.distance_bricks.field_marching import BRICK,
 
 # Rows of `FieldBricks.masks` before those of crossed bricks.
 EMPTY, ENCLOSED, OUTER, FIRST = 0, 1, 2, 3
-# Empty bricks around the box. A ray samples the cells that others of its tile pass, a few beside it.
-PAD = 2
+# Empty bricks around the box. A ray is sampled where others of its tile pass cells: up to two blocks
+# beside them, of a brick at most, and a sample before and after.
+PAD = 3
 NODE = 4  # bricks along a node
 # Bits of a coordinate in 2^−CELL cells, within a brick and within a node.
 BRICK_BITS, NODE_BITS = CELL + 2, CELL + 4

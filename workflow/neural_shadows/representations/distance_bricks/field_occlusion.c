@@ -4,7 +4,7 @@
    Most stages are plain loops over short arrays, which a compiler turns into vector instructions
    where the machine has them; the one that it does not is written for AVX2 and without. Structures
    mirror those of compiled_occlusion.py, where arrays are described. Compile without contracting
-   products and sums. */
+   products and sums, and with integers that wrap: far outside the box positions are beyond 2^31. */
 
 #include <math.h>
 #include <stdint.h>
@@ -16,11 +16,12 @@
 /* Of cell_words.py, field_bricks.py and light_tables.py. */
 enum { CELL = 20, BRICK = CELL + 2, NODE = BRICK + 2, PART = 12 };
 enum { OUTSIDE, INSIDE, VOID };
-enum { FIRST = 13, MERGED = 13, DARK = 16 };
+enum { FIRST = 13, DOUBLED = 13, DARK = 16 };
 
 enum {
     BLOCK = 512,        /* points of a stage */
     EARLY = 8,          /* samples of a ray before its others are listed: most need no more */
+    FURTHER = 24,       /* and before all others */
     SAMPLES = 8192,     /* listed before they are looked up */
     MOST = 4096,        /* samples of a ray */
     ROOM = SAMPLES + MOST + 64,
@@ -28,7 +29,7 @@ enum {
 
 typedef struct {
     int32_t sheet, columns, layers, shape[3], row_bytes, word_bytes;
-    float scale, shift[3]; /* from points to cells of the box */
+    float scale, shift[3]; /* from points to blocks of the box */
     const uint32_t *nodes;
     const void *rows;
     const uint64_t *masks;
@@ -37,7 +38,7 @@ typedef struct {
 } Field;
 
 typedef struct {
-    int32_t axes[3], back, near, deep, rows, low[2];
+    int32_t merged, axes[3], back, near, deep, rows, low[2], middle[2];
     double source[3];
     const int32_t *offsets, *ends;
     const uint32_t *ranges;
@@ -64,15 +65,19 @@ typedef struct {
 typedef struct {
     Rays rays;
     Samples samples;
-    int32_t later[BLOCK];
+    int32_t listed[BLOCK], later[BLOCK]; /* samples of each ray; rays with more */
 } Work;
 
 typedef int32_t Eight __attribute__((vector_size(32), aligned(4)));
 static const Eight NUMBERS = {0, 1, 2, 3, 4, 5, 6, 7};
 
-static inline int32_t fixed(float cells) {
-    return (int32_t)floorf(cells * (float)(1 << CELL) + 0.5f);
+/* A length in 2^-CELL cells, of which `unit` are 1. */
+static inline int32_t fixed(float length, float unit) {
+    return (int32_t)floorf(length * unit + 0.5f);
 }
+
+/* Planes of samples of a slab. */
+static inline int32_t per_slab(const Light *light) { return 2 << light->merged; }
 
 static inline int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
@@ -162,25 +167,31 @@ static void decide(const Light *light, const Field *field, const float *points, 
 /* Place each ray's samples, and its end at the point. */
 static void place(const Light *light, const Field *field, Rays *rays) {
     const int m = light->axes[0], a = light->axes[1], b = light->axes[2];
-    const int32_t deep = light->deep, half = 1 << (CELL - 1), step_m = light->back ? -half : half;
-    const int32_t start_m = (light->back ? deep << CELL : 0) + (step_m >> 1);
-    const int32_t low_a = light->low[0] * (1 << CELL), low_b = light->low[1] * (1 << CELL);
-    const float far = (float)deep;
+    const int32_t block = 1 << (CELL + light->merged), planes = per_slab(light) * light->deep;
+    const int32_t half = 1 << (CELL - 1), step_m = light->back ? -half : half;
+    const int32_t far_m = light->back ? light->deep * block : 0, start_m = far_m + (step_m >> 1);
+    const int32_t low_a = (light->low[0] + light->middle[0]) * block;
+    const int32_t low_b = (light->low[1] + light->middle[1]) * block;
+    const float middle_a = (float)light->middle[0], middle_b = (float)light->middle[1];
+    const float far = (float)light->deep, unit = (float)block, cell = (float)(1 << CELL);
+    const float density = (float)per_slab(light);
     for (int32_t k = 0; k < rays->count; k++) {
         const float depth = rays->depth[k], left = far - depth;
         const float slope_a = rays->slope_a[k], slope_b = rays->slope_b[k];
-        const int32_t far_a = fixed(rays->u[k]) + low_a, far_b = fixed(rays->v[k]) + low_b;
-        const int32_t step_a = fixed(slope_a * 0.5f), step_b = fixed(slope_b * 0.5f);
-        rays->planes[k] = least((int32_t)ceilf(depth + depth - 0.5f), 2 * deep);
+        const int32_t far_a = fixed(rays->u[k] - middle_a, unit) + low_a;
+        const int32_t far_b = fixed(rays->v[k] - middle_b, unit) + low_b;
+        const int32_t step_a = fixed(slope_a * 0.5f, cell), step_b = fixed(slope_b * 0.5f, cell);
+        const int32_t end_m = fixed(depth, unit);
+        rays->planes[k] = least((int32_t)ceilf(depth * density - 0.5f), planes);
         rays->step[m][k] = step_m;
         rays->step[a][k] = step_a;
         rays->step[b][k] = step_b;
         rays->start[m][k] = start_m;
-        rays->start[a][k] = far_a - 2 * deep * step_a + (step_a >> 1);
-        rays->start[b][k] = far_b - 2 * deep * step_b + (step_b >> 1);
-        rays->end[m][k] = light->back ? (deep << CELL) - fixed(depth) : fixed(depth);
-        rays->end[a][k] = far_a - fixed(slope_a * left);
-        rays->end[b][k] = far_b - fixed(slope_b * left);
+        rays->start[a][k] = far_a - planes * step_a + (step_a >> 1);
+        rays->start[b][k] = far_b - planes * step_b + (step_b >> 1);
+        rays->end[m][k] = light->back ? far_m - end_m : end_m;
+        rays->end[a][k] = far_a - fixed(slope_a * left, unit);
+        rays->end[b][k] = far_b - fixed(slope_b * left, unit);
     }
     for (int32_t k = 0; k < rays->count; k++) {
         int within = rays->depth[k] <= far;
@@ -225,9 +236,10 @@ typedef struct {
 static inline Run first_run(const Light *light, int32_t tile) {
     const uint32_t range = light->ranges[tile];
     const uint64_t slabs = light->slabs[tile];
-    const int32_t start = 2 * (range & ((1 << FIRST) - 1)), merged = range >> MERGED & 7;
+    const int32_t start = per_slab(light) * (int32_t)(range & ((1 << FIRST) - 1));
     const int32_t length = ~slabs ? __builtin_ctzll(~slabs) : 64;
-    return (Run){start, start + (2 * length << merged), length < 64 && slabs >> length};
+    const int32_t end = start + length * (per_slab(light) << (range >> DOUBLED & 7));
+    return (Run){start, end, length < 64 && slabs >> length};
 }
 
 /* List the first samples of all rays, and their ends; return the number of rays with more samples,
@@ -241,6 +253,7 @@ static int32_t list_first(const Light *light, const Field *field, int32_t lit, W
         const int32_t planes = rays->planes[ray], start = most(run.start - field->sheet, lit);
         const int32_t wanted = most(least(run.end + field->sheet, planes) - start, 0);
         list_eight(samples, rays, ray, start, least(wanted, EARLY));
+        work->listed[ray] = least(wanted, EARLY);
         work->later[rest] = ray;
         rest += (wanted > EARLY) | (run.more & (planes > run.end));
         if (field->sheet) {
@@ -253,27 +266,37 @@ static int32_t list_first(const Light *light, const Field *field, int32_t lit, W
     return rest;
 }
 
-/* List the other samples of a ray. */
-static void list_rest(const Light *light, const Field *field, int32_t lit, int32_t ray,
-                      Work *work) {
+/* List so many further samples of a ray, if it has them; return whether there are more. */
+static int list_further(const Light *light, const Field *field, int32_t lit, int32_t ray,
+                        int32_t further, Work *work) {
     const Rays *rays = &work->rays;
     Samples *samples = &work->samples;
-    const int32_t tile = rays->tile[ray], first = light->ranges[tile] & ((1 << FIRST) - 1);
-    const int32_t merged = light->ranges[tile] >> MERGED & 7, planes = rays->planes[ray];
+    const int32_t tile = rays->tile[ray], planes = rays->planes[ray];
+    const uint32_t range = light->ranges[tile];
+    const int32_t first = per_slab(light) * (int32_t)(range & ((1 << FIRST) - 1));
+    const int32_t of_bit = per_slab(light) << (range >> DOUBLED & 7);
+    /* In all of its samples; a sheet's last one again, for its pair. */
+    const int32_t from = work->listed[ray] - field->sheet, to = work->listed[ray] + further;
     uint64_t slabs = light->slabs[tile];
-    int32_t skipped = EARLY - field->sheet; /* listed before, but a sheet's last for its pair */
+    int32_t before = 0;
+    work->listed[ray] = to;
     while (slabs) {
         const int32_t slab = __builtin_ctzll(slabs);
         const int32_t length = ~(slabs >> slab) ? __builtin_ctzll(~(slabs >> slab)) : 64;
         slabs = slab + length > 63 ? 0 : slabs >> (slab + length) << (slab + length);
-        const int32_t run = 2 * (first + (slab << merged)), run_end = run + (2 * length << merged);
-        int32_t k = most(run - field->sheet, lit) + skipped;
-        const int32_t end = least(run_end + field->sheet, planes);
-        if (run >= planes) return;
-        for (; k < end; k += 8) list_eight(samples, rays, ray, k, least(end - k, 8));
+        const int32_t run = first + slab * of_bit, run_end = run + length * of_bit;
+        if (run >= planes) return 0;
+        if (before >= to) return 1;
+        const int32_t start = most(run - field->sheet, lit);
+        const int32_t count = most(least(run_end + field->sheet, planes) - start, 0);
+        const int32_t end = least(to - before, count);
+        int32_t k = most(from - before, 0);
+        for (; k < end; k += 8) list_eight(samples, rays, ray, start + k, least(end - k, 8));
         if (field->sheet) list_gap(samples);
-        skipped = 0;
+        if (end < count) return 1;
+        before += count;
     }
+    return 0;
 }
 
 /* Test between a word's corners: `positive_at` of cell_words.py. */
@@ -411,7 +434,7 @@ static void mark(const Field *field, Samples *samples, uint8_t *occlusion) {
 /* Set `occlusion` of n points, whose rays are in the tables; returns 1 without memory. */
 int32_t mark_occluded(const Field *field, const Light *light, const float *points, int64_t n,
                       float bias, uint8_t *occlusion) {
-    const double behind = light->near ? ceil(2 * light->source[0] - 0.5) : 0;
+    const double behind = light->near ? ceil(per_slab(light) * light->source[0] - 0.5) : 0;
     const int32_t lit = behind > 0 ? (int32_t)behind : 0; /* planes before the light */
     Work *work = malloc(sizeof(Work));
     if (work == NULL) return 1;
@@ -421,15 +444,20 @@ int32_t mark_occluded(const Field *field, const Light *light, const float *point
         uint8_t *marked = occlusion + start;
         decide(light, field, points + 3 * start, count, bias, &work->rays, marked);
         place(light, field, &work->rays);
-        const int32_t rest = list_first(light, field, lit, work);
+        int32_t rest = list_first(light, field, lit, work);
         mark(field, &work->samples, marked);
-        for (int32_t r = 0; r < rest; r++) {
-            const int32_t ray = work->later[r];
-            if (marked[work->rays.point[ray]]) continue;
-            list_rest(light, field, lit, ray, work);
-            if (work->samples.count > SAMPLES) mark(field, &work->samples, marked);
+        for (int32_t further = FURTHER; rest > 0; further = MOST) {
+            int32_t after = 0;
+            for (int32_t k = 0; k < rest; k++) {
+                const int32_t ray = work->later[k];
+                if (marked[work->rays.point[ray]]) continue;
+                work->later[after] = ray;
+                after += list_further(light, field, lit, ray, further, work);
+                if (work->samples.count > SAMPLES) mark(field, &work->samples, marked);
+            }
+            mark(field, &work->samples, marked);
+            rest = after;
         }
-        mark(field, &work->samples, marked);
     }
     free(work);
     return 0;

@@ -21,15 +21,17 @@ from neural_shadows.representations.distance_bricks.field_bricks import (
 from neural_shadows.representations.distance_bricks.field_marching import BRICK, INSIDE, OUTSIDE
 from neural_shadows.representations.distance_bricks.light_tables import (
     DARK,
+    DOUBLED,
     FIRST,
-    MERGED,
     LightTables,
     directional_tables,
+    merging,
     point_tables,
 )
 
 _ONE = np.uint64(1)
 _HALF = np.float32(0.5)
+_LAMP = 4  # a point light's tables cost as much as so many directional lights'
 _DIFFER = OUTSIDE + INSIDE  # two states, of both sides
 
 
@@ -45,9 +47,9 @@ def occluded(
         depth_bias: how far the points are moved towards the light.
     """
     occlusion = np.zeros(len(points), bool)
-    light = directional_tables(bricks, to_light)
-    cells = depth_bias * bricks.size * BRICK / 2
-    _mark(points, light, bricks, cells * float(np.abs(to_light).max()), occlusion)
+    light = directional_tables(bricks, to_light, merging(len(points), bricks))
+    blocks = depth_bias * bricks.size * (BRICK >> light.merged) / 2
+    _mark(points, light, bricks, blocks * float(np.abs(to_light).max()), occlusion)
     return occlusion
 
 
@@ -58,7 +60,8 @@ def occluded_from(points: np.ndarray, position: np.ndarray, bricks: FieldBricks)
         position: (3,), in the space of the points, anywhere.
     """
     occlusion = np.zeros(len(points), bool)
-    for light in point_tables(bricks, position):
+    merged = merging(len(points) // _LAMP, bricks)
+    for light in point_tables(bricks, position, merged):
         _mark(points, light, bricks, 0.0, occlusion)
     return occlusion
 
@@ -83,24 +86,30 @@ def mark_occluded(
     """Set `occlusion` (n,) of points (n, 3) float32 whose rays are in these tables.
 
     Args:
-        bias: float32, how far the points are moved towards the light, in cells of depth.
+        bias: float32, how far the points are moved towards the light, in blocks of depth.
     """
     m, a, b = np.uint64(light.axes[0]), np.uint64(light.axes[1]), np.uint64(light.axes[2])
     f32, deep, near, sheet = np.float32, light.deep, light.near, bricks.sheet
     offsets, ends, ranges, slabs = light.offsets, light.ends, light.ranges, light.slabs
-    # From points to depths, and to a and b from the first tile on.
-    scale, far = f32(BRICK * bricks.size / 2), f32(deep)
-    shift = BRICK * (bricks.size / 2 - bricks.corner)
+    # From points to depths, and to a and b from the first tile on, in blocks.
+    brick = BRICK >> light.merged
+    scale, far = f32(brick * bricks.size / 2), f32(deep)
+    shift = brick * (bricks.size / 2 - bricks.corner)
     scale_m = -scale if light.back else scale
     shift_m = f32(deep - shift[m] if light.back else shift[m])
     shift_a, shift_b = f32(shift[a] - light.low[0]), f32(shift[b] - light.low[1])
     light_m, slope_a, slope_b = f32(light.source[0]), f32(light.source[1]), f32(light.source[2])
     light_a, light_b = f32(light.source[1] - light.low[0]), f32(light.source[2] - light.low[1])
-    low_a, low_b = light.low[0] << CELL, light.low[1] << CELL
+    block, cell = CELL + light.merged, f32(1 << CELL)  # of a block in 2^−20 cells
+    unit, per_slab = f32(1 << block), 2 << light.merged  # planes
+    most, density = per_slab * deep, f32(per_slab)
+    middle_a, middle_b = f32(light.middle[0]), f32(light.middle[1])
+    low_a = light.low[0] + light.middle[0] << block
+    low_b = light.low[1] + light.middle[1] << block
     rows = f32(len(offsets))
     step_m = -(1 << CELL - 1) if light.back else 1 << CELL - 1
-    start_m = (deep << CELL if light.back else 0) + (step_m >> 1)
-    lit_planes = max(np.int64(np.ceil(2 * light.source[0] - 0.5)), 0) if near else 0
+    start_m = (deep << block if light.back else 0) + (step_m >> 1)
+    lit_planes = max(np.int64(np.ceil(per_slab * light.source[0] - 0.5)), 0) if near else 0
     nodes, shape = bricks.nodes.ravel(), bricks.nodes.shape
     field = nodes, shape, bricks.rows, bricks.masks, bricks.first, bricks.words
     for ray in range(len(points)):
@@ -127,23 +136,27 @@ def mark_occluded(
         if depth > f32((span >> DARK) + 1):
             occlusion[ray] = True
             continue
-        planes = min(np.int64(np.ceil(depth + depth - _HALF)), 2 * deep)
-        # On the far side, in the plane before the first one, and at the point.
-        far_a, far_b = _fixed(u) + low_a, _fixed(v) + low_b
-        step_a, step_b = _fixed(slope_a * _HALF), _fixed(slope_b * _HALF)
-        start_a = far_a - 2 * deep * step_a + (step_a >> 1)
-        start_b = far_b - 2 * deep * step_b + (step_b >> 1)
+        planes = min(np.int64(np.ceil(depth * density - _HALF)), most)
+        # On the far side, and in the first plane.
+        far_a = _fixed(u - middle_a, unit) + low_a
+        far_b = _fixed(v - middle_b, unit) + low_b
+        step_a, step_b = _fixed(slope_a * _HALF, cell), _fixed(slope_b * _HALF, cell)
+        start_a = far_a - most * step_a + (step_a >> 1)
+        start_b = far_b - most * step_b + (step_b >> 1)
         start = _in_order(m, start_m, start_a, start_b)
         step = _in_order(m, step_m, step_a, step_b)
-        span_of = first, span >> MERGED & 7, slabs[tile], lit_planes, planes
+        run = per_slab << (span >> DOUBLED & 7)  # planes of a bit
+        span_of = per_slab * first, run, slabs[tile], lit_planes, planes
         if sheet:
             hit = _crosses(start, step, span_of, field)
         else:
             hit = _passes_inside(start, step, span_of, field)
         left = far - depth
         if not hit and left >= 0:
-            end_a, end_b = far_a - _fixed(slope_a * left), far_b - _fixed(slope_b * left)
-            end_m = (deep << CELL) - _fixed(depth) if light.back else _fixed(depth)
+            end_a = far_a - _fixed(slope_a * left, unit)
+            end_b = far_b - _fixed(slope_b * left, unit)
+            end_m = _fixed(depth, unit)
+            end_m = (deep << block) - end_m if light.back else end_m
             end = _in_order(m, end_m, end_a, end_b)
             if _is_within(end, bricks.shape):
                 state = _state(end, field)
@@ -157,11 +170,11 @@ def mark_occluded(
 @njit(cache=True, nogil=True)
 def _passes_inside(start, step, span, field):
     """Test a ray's samples."""
-    first, merged, bits, lit_planes, planes = span
+    first, run, bits, lit_planes, planes = span
     while bits:
-        slab = first + (np.int64(trailing_zeros(bits)) << merged)
+        start_k = first + np.int64(trailing_zeros(bits)) * run
         bits &= bits - _ONE
-        for k in range(max(2 * slab, lit_planes), min(2 * (slab + (1 << merged)), planes)):
+        for k in range(max(start_k, lit_planes), min(start_k + run, planes)):
             if _state(_sample(start, step, k), field) == INSIDE:
                 return True
     return False
@@ -170,12 +183,12 @@ def _passes_inside(start, step, span, field):
 @njit(cache=True, nogil=True)
 def _crosses(start, step, span, field):
     """Test pairs of a ray's samples in succession, one of each pair in its slabs."""
-    first, merged, bits, lit_planes, planes = span
+    first, run, bits, lit_planes, planes = span
     before, last = OUTSIDE, -2
     while bits:
-        slab = first + (np.int64(trailing_zeros(bits)) << merged)
+        start_k = first + np.int64(trailing_zeros(bits)) * run
         bits &= bits - _ONE
-        for k in range(max(2 * slab - 1, lit_planes), min(2 * (slab + (1 << merged)) + 1, planes)):
+        for k in range(max(start_k - 1, lit_planes), min(start_k + run + 1, planes)):
             if k <= last:
                 continue
             state = _state(_sample(start, step, k), field)
@@ -201,9 +214,9 @@ def _in_order(m, at_m, at_a, at_b):
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _fixed(cells):
-    """Convert a length to 2^−20 cells."""
-    return np.int64(np.floor(cells * np.float32(1 << CELL) + _HALF))
+def _fixed(length, unit):
+    """Convert a length to 2^−20 cells, of which `unit` float32 are 1."""
+    return np.int64(np.floor(length * unit + _HALF))
 
 
 @njit(cache=True, nogil=True, inline="always")
