@@ -41,7 +41,8 @@ WIDTH, HEIGHT, SEED = 1200, 800, 2026
 VIEW_SETS, VIEWS = ("shadow", "surface", "centre"), range(3)
 IN_C, IN_NUMBA, TABLES = "field in C", "field in Numba", "a light's tables alone"
 RESOLUTION = 256
-MOST = 13_000_000  # triangles with detail
+# With detail: triangles, and fields, of which the finer one holds most of it.
+MOST, RESOLUTIONS = 13_000_000, (256, 512)
 FEWER = (5_000, 10_000, 20_000, 30_000, 40_000, 60_000, 80_000, 120_000)  # triangles
 LAMP = np.array([1.2, 1.5, 0.9])  # in radii
 HILLS = 350  # vertices along a side of the sheet
@@ -97,9 +98,11 @@ def rows(mesh_ply: Path, quick: bool) -> list[Row]:
     return result + _sheet_rows(rounds)
 
 
-def _fitted(vertices: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, FieldBricks]:
+def _fitted(
+    vertices: np.ndarray, faces: np.ndarray, resolution: int = RESOLUTION
+) -> tuple[np.ndarray, FieldBricks]:
     """A mesh's vertices in its unit sphere, and the bricks of its field."""
-    field = ShadowField.fit((vertices, faces), RESOLUTION)
+    field = ShadowField.fit((vertices, faces), resolution)
     return np.float32((vertices - field.centre) / field.radius), field._field_bricks
 
 
@@ -186,24 +189,32 @@ def _equal_error_rows(
 
 
 def _detail_rows(mesh: PreparedMesh, most: int | None, rounds: int) -> list[Row]:
-    """A surface with detail in ever more triangles, each with its own fit."""
+    """A surface with detail in ever more triangles, each with its own fits."""
     arrays, result = (mesh.vertices, mesh.faces, mesh.vertex_normals), []
-    cell = 2 / RESOLUTION
-    meshes: Iterator = detailed_meshes(*arrays, cell, MOST)
-    for vertices, faces in islice(meshes, most):
-        name, started = f"{len(faces):,} triangles with detail", time.process_time()
-        vertices, bricks = _fitted(vertices, faces)
-        seconds = time.process_time() - started
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
-        result.append(Row(f"{name}: fit, of processors", "cpu", seconds, "s"))
-        result.append(Row(f"{name}: largest memory until then", "cpu", peak, "GiB"))
-        unshaded = PreparedMesh(vertices, faces, np.zeros_like(vertices), _normals(vertices, faces))
-        rest = {key: SCENE[key] for key in ("ground", "light")}
-        frames = _frames(make_scene(unshaded, up=axis_vector(SCENE["up"], "up"), **rest))
-        triangles = EmbreeTriangles(vertices, faces)
-        result += _rate_rows(name, bricks, triangles, frames, rounds)
+    meshes: Iterator = detailed_meshes(*arrays, 2 / RESOLUTION, MOST)
+    for given, faces in islice(meshes, most):
+        frames, triangles = [], None
+        for resolution in RESOLUTIONS:
+            name = f"{len(faces):,} triangles with detail, {resolution}³"
+            started = time.process_time()
+            vertices, bricks = _fitted(given, faces, resolution)
+            seconds = time.process_time() - started
+            result.append(Row(f"{name}: fit, of processors", "cpu", seconds, "s"))
+            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+            result.append(Row(f"{name}: largest memory until then", "cpu", peak, "GiB"))
+            if triangles is None:
+                frames = _frames(_scene_of(vertices, faces))
+                triangles = EmbreeTriangles(vertices, faces)
+            result += _rate_rows(name, bricks, triangles, frames, rounds)
         triangles.close()
     return result
+
+
+def _scene_of(vertices: np.ndarray, faces: np.ndarray) -> Scene:
+    """A scene that is not shaded."""
+    mesh = PreparedMesh(vertices, faces, np.zeros_like(vertices), _normals(vertices, faces))
+    up = axis_vector(SCENE["up"], "up")
+    return make_scene(mesh, up=up, ground=SCENE["ground"], light=SCENE["light"])
 
 
 def _normals(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:

@@ -20,16 +20,15 @@ def detailed_meshes(
         vertices, normals: (V, 3) of a mesh in the unit sphere, which the surfaces stay in.
         faces: (F, 3).
         cell: the side of a field's cell.
-        most: triangles; where a fourfold number would be more, as many of them are divided as fit.
+        most: triangles.
 
     Yields:
         Vertices (V', 3) float32 and faces (F', 3) int32.
     """
     attributes = {"normals": normals}
-    while len(faces) < most - 3:
-        some = np.arange(min(len(faces), (most - len(faces)) // 3))
+    while 4 * len(faces) <= most:
         vertices, faces, attributes = trimesh.remesh.subdivide(
-            vertices, faces, some, vertex_attributes=attributes
+            vertices, faces, vertex_attributes=attributes
         )
         yield _displaced(vertices, attributes["normals"], cell), faces.astype(np.int32)
 

@@ -339,6 +339,13 @@ def test_a_lamp_under_a_roof():
     assert np.mean((result != inside)[~at_post]) < 0.005
 
 
+def test_a_lamp_within_a_solid_lights_nothing(either):
+    """Deep within: all bricks around it are enclosed, which no ray from outside meets first."""
+    bricks, points = ShadowField.fit(trimesh.creation.icosphere(4), 128)._field_bricks, around(5000)
+    for lamp in ([0.11, 0.02, -0.03], [0.0, 0.6, 0.1]):
+        assert occluded_from(points, lamp, bricks).all()
+
+
 def test_no_light_exceeds_the_largest_tables():
     grid, values = shell(13, np.array([0.3, 0.9, 0.5]))
     bricks = field_bricks(grid, values, 0.0, 4)

@@ -3,12 +3,15 @@
 from typing import NamedTuple
 
 import numpy as np
+from scipy import ndimage
 
 from neural_shadows.representations.distance_bricks.cell_words import CELL, WORDS, fill_words
 from neural_shadows.representations.distance_bricks.field_marching import BRICK, NO_CELLS, SOLID
 
-# Rows of `FieldBricks.masks` before those of crossed bricks.
-EMPTY, ENCLOSED, OUTER, FIRST = 0, 1, 2, 3
+# Rows of `FieldBricks.masks` before those of crossed bricks. A sheet's bricks may be all on one side,
+# `OUTER` or `ENCLOSED`; a solid's, with enclosed ones all around, `DEEP`: no ray from outside
+# meets them first.
+EMPTY, ENCLOSED, OUTER, DEEP, FIRST = 0, 1, 2, 3, 4
 # Empty bricks around the box. A ray is sampled where others of its tile pass cells: up to two blocks
 # beside them, of a brick at most, and a sample before and after.
 PAD = 3
@@ -76,13 +79,15 @@ def field_bricks(
     row = np.append(uniform, EMPTY)
     row[:-1][held] = FIRST + np.arange(held.sum())
     rows = np.where(grid == SOLID, ENCLOSED, row[np.maximum(grid, -1)])
+    if not sheet:
+        rows[ndimage.binary_erosion(rows == ENCLOSED, np.ones((3, 3, 3)))] = DEEP
     occupied = np.argwhere(rows != EMPTY)
     low, high = (occupied.min(0), occupied.max(0) + 1) if len(occupied) else (np.zeros(3, int),) * 2
     rows = np.pad(rows[tuple(slice(*ends) for ends in zip(low, high))], PAD)
 
     masks = np.zeros((FIRST + held.sum(), 2), np.uint64)
     masks[EMPTY] = 0, ~np.uint64(0) if sheet else 0
-    masks[ENCLOSED] = ~np.uint64(0)
+    masks[[ENCLOSED, DEEP]] = ~np.uint64(0)
     masks[FIRST:] = np.stack([any_in, all_in], axis=1)[held]
     first = np.zeros(len(masks) + 1, np.uint32)
     first[1:] = np.cumsum(np.bitwise_count(masks[:, 0] & ~masks[:, 1]))

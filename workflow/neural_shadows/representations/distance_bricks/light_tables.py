@@ -22,7 +22,12 @@ from neural_shadows.representations.distance_bricks.block_rows import (
     project_rows,
     shift_rows,
 )
-from neural_shadows.representations.distance_bricks.field_bricks import EMPTY, NODE, FieldBricks
+from neural_shadows.representations.distance_bricks.field_bricks import (
+    DEEP,
+    EMPTY,
+    NODE,
+    FieldBricks,
+)
 from neural_shadows.representations.distance_bricks.field_marching import BRICK
 from neural_shadows.representations.distance_bricks.light_projection import (
     CLOSE,
@@ -86,19 +91,30 @@ def directional_tables(bricks: FieldBricks, to_light: np.ndarray, merged: int = 
 def point_tables(bricks: FieldBricks, position: np.ndarray, merged: int = 0) -> list[LightTables]:
     """Build a field's tables for a point light at (3,), in the cube's [−1, 1]³."""
     light = np.asarray(position, np.float64)
-    light = (BRICK >> merged) * ((light + 1) * (bricks.size / 2) - bricks.corner)
+    light = (light + 1) * (bricks.size / 2) - bricks.corner  # in bricks
+    within = _is_deep(bricks, light)
+    light *= BRICK >> merged
     sides = ((m, back) for m in range(3) for back in (False, True))
-    tables = (_side(bricks, merged, light, m, back) for m, back in sides)
+    tables = (_side(bricks, merged, light, within, m, back) for m, back in sides)
     return [each for each in tables if each is not None and len(each.slabs)]
 
 
+def _is_deep(bricks: FieldBricks, at: np.ndarray) -> bool:
+    """Test for a deep brick at a position (3,) in bricks from the box's corner."""
+    if not ((at >= 0) & (at < bricks.shape)).all():
+        return False
+    x, y, z = at.astype(int)
+    node = bricks.nodes[x // NODE, y // NODE, z // NODE]
+    return bool(bricks.rows[node + 16 * (x % NODE) + NODE * (y % NODE) + z % NODE] == DEEP)
+
+
 def _side(
-    bricks: FieldBricks, merged: int, light: np.ndarray, m: int, back: bool
+    bricks: FieldBricks, merged: int, light: np.ndarray, within: bool, m: int, back: bool
 ) -> LightTables | None:
     """Tables of rays from a point light along one axis; None if the box is not there.
 
     Args:
-        light: its position in blocks from the box's corner.
+        light: its position in blocks from the box's corner. within: a deep brick.
     """
     axes = m, (m + 1) % 3, (m + 2) % 3
     deep, *across = ((BRICK >> merged) * bricks.shape[axis] for axis in axes)
@@ -116,16 +132,20 @@ def _side(
         if low[-1] >= high[-1]:
             return None
     source = float(z), float(light[axes[1]]), float(light[axes[2]])
-    return _filled(bricks, merged, axes, back, True, source, low, high)
+    return _filled(bricks, merged, axes, back, True, source, low, high, within)
 
 
-def _filled(bricks, merged, axes, back, near, source, low, high) -> LightTables:
-    """Tables of the rays that meet the far side from `low` to `high`."""
+def _filled(bricks, merged, axes, back, near, source, low, high, within=False) -> LightTables:
+    """Tables of the rays that meet the far side from `low` to `high`.
+
+    Args:
+        within: the light is, so that rays meet deep bricks first.
+    """
     # One more tile on each side, for the slack.
     low = tuple(int(np.floor(each)) - 1 for each in low)
     rows, columns = (int(np.ceil(end)) + 1 - start for start, end in zip(low, high))
     deep, *sides = ((BRICK >> merged) * bricks.shape[axis] for axis in axes)
-    coordinates, layers = _by_layers(bricks, merged, axes, back)
+    coordinates, layers = _by_layers(bricks, merged, axes, back, EMPTY if within else DEEP)
     firsts, lasts = np.full(rows, columns), np.zeros(rows, np.int64)
     light = deep, near, source, low
     _find_spans(coordinates, layers, merged, light, sides[0], firsts, lasts, columns)
@@ -157,8 +177,8 @@ def most_bytes(bricks: FieldBricks) -> int:
 
 
 @njit(cache=True, nogil=True)
-def _by_layers(bricks, merged, axes, back):
-    """Sort nonempty bricks by layers across an axis, from the light on.
+def _by_layers(bricks, merged, axes, back, left_out):
+    """Sort bricks by layers across an axis, from the light on, without empty and other ones.
 
     Returns (n, 3) int32: blocks a and b of their corners, and rows; and (layers + 1,) int64: each
     layer's first brick.
@@ -173,7 +193,7 @@ def _by_layers(bricks, merged, axes, back):
             continue
         for inner in range(NODE**3):
             row = rows[nodes[x, y, z] + inner]
-            if row == EMPTY:
+            if row == EMPTY or row == left_out:
                 continue
             at[0] = x * NODE + (inner >> 4)
             at[1] = y * NODE + (inner >> 2 & 3)

@@ -1,5 +1,4 @@
-// Whether an occupancy field blocks a ray; see field_occlusion.py for a solid and field_marching.py
-// for a sheet, of which this is a translation.
+// Whether an occupancy field blocks a ray: a translation of field_marching.py.
 uniform float level;
 uniform float depthBias;
 uniform bool sheet;

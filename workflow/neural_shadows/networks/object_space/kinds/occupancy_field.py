@@ -30,8 +30,8 @@ class Settings(NetworkModel):
     )
     corner_bits: Literal[4, 8] = Field(
         8,
-        description="bits of each corner of a solid's crossed cells in a CPU's memory; 4 take three "
-        "fifths of the memory and cost the dragon at 256³ 0.6 dB",
+        description="bits of each corner of crossed cells in a CPU's memory; 4 take three fifths of the "
+        "memory and cost the dragon at 256³ 0.6 dB",
     )
 
     @property
