@@ -1,6 +1,7 @@
 """The shader of workflow/field and its sample in a real browser: Python's answers for a million rays."""
 
 import base64
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +12,13 @@ from shapes import bumpy_sphere, sheet
 
 from neural_shadows import ShadowField
 
-FIELD = Path(__file__).parents[2] / "workflow/field"
+WORKFLOW = Path(__file__).parents[2] / "workflow"
 TO_SUN = [1.0, 0.4, 0.3]
 RAYS = {"solid": 1_000_000, "sheet": 200_000}
 ASK = """async ([url, points]) => {
   const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
   const field = readField(await (await fetch(url)).arrayBuffer());
-  const shader = await (await fetch("shadow_field.glsl")).text();
-  const dark = occluded(shader, field, new Float32Array(bytes(points)), [1, 0.4, 0.3]);
+  const dark = occluded(await loadShader(), field, new Float32Array(bytes(points)), [1, 0.4, 0.3]);
   let text = "";
   for (let i = 0; i < dark.length; i += 8192) text += String.fromCharCode(...dark.subarray(i, i + 8192));
   return btoa(text);
@@ -36,14 +36,14 @@ def shape_of(name: str) -> trimesh.Trimesh:
 @pytest.fixture
 def page(browser, tmp_path):
     """The sample, with room for fields beside it."""
-    for path in FIELD.iterdir():
-        (tmp_path / path.name).write_bytes(path.read_bytes())
+    for folder in ("field", "report/viewer/shaders"):
+        shutil.copytree(WORKFLOW / folder, tmp_path / folder)
     with served(tmp_path) as address:
         page = browser.new_page(viewport={"width": 700, "height": 800})
         page.faults = []
         page.on("pageerror", lambda error: page.faults.append(str(error)))
         page.on("console", lambda message: page.faults.append(message.text))
-        page.goto(f"{address}sample.html")
+        page.goto(f"{address}field/sample.html")
         yield page
         page.close()
 
@@ -57,7 +57,7 @@ def test_a_million_rays(page, tmp_path, name):
     rng = np.random.default_rng(0)
     points = rng.uniform(-1.2, 1.2, (RAYS[name], 3)) * field.radius + field.centre
     points = points.astype(np.float32)
-    text = page.evaluate(ASK, ["some.field", base64.b64encode(points.tobytes()).decode()])
+    text = page.evaluate(ASK, ["../some.field", base64.b64encode(points.tobytes()).decode()])
     answers = np.frombuffer(base64.b64decode(text), np.uint8).astype(bool)
     expected = field.occluded(points, TO_SUN)
     assert 0.1 < expected.mean() < 0.6 and np.mean(answers != expected) < 0.001
