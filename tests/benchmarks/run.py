@@ -10,9 +10,12 @@ default main job out: under five minutes on two cores.
 """
 
 import argparse
+import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).parents[1]))  # what benchmarks share with tests
 
 import bench_default
 import bench_field

@@ -1,5 +1,8 @@
 """What the benchmarks print is right; how fast anything is they measure and no test asserts."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -9,6 +12,14 @@ from measurement import COLUMNS, Row, median_seconds, table
 
 def test_run_imports_every_benchmark():
     assert {path.stem for path in Path(run.__file__).parent.glob("bench_*.py")} <= vars(run).keys()
+
+
+def test_the_readme_s_command_finds_its_modules():
+    """Without pytest's own paths."""
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    command = [sys.executable, run.__file__, "--help"]
+    usage = subprocess.check_output(command, text=True, env=environment)
+    assert "--quick" in usage
 
 
 def test_shares_and_ratios():

@@ -40,7 +40,7 @@ class City(Model):
 
 
 class Terrain(Model):
-    """Eroded terrain with boulders and noise, as scanned: one open sheet."""
+    """Eroded terrain with boulders, noisy as scans are: one open sheet."""
 
     generate: Literal["terrain"] = Field(
         description="`terrain`: a height field of ridges and valleys"
