@@ -93,12 +93,15 @@ def make_page(folder: Path, **changes) -> Path:
         "trainings": [samples.write_record(folder / "training.json", samples.TRAINING)],
         "lpips_json": samples.write_record(folder / "lpips.json", samples.LPIPS),
         "titles": {"figure_4_1": HOSTILE},
-        "front": "figure_front",
         "data": {"figure_front": "beyond"},
         "chapters": {
             **dict.fromkeys(("table_4_3", "tables", "figure_4_1", "figure_front"), "thesis"),
             "beyond": "extensions",
         },
+        "questions": [
+            {"claim": "less", "question": "Is less more?", "figure": "figure_4_1"},
+            {"claim": "unjudged", "question": "Is nothing?", "figure": ""},
+        ],
         "networks": [],
         "soft_parts": [],
         "soft_answers": [],

@@ -37,7 +37,7 @@ def test_null_drops_a_key(message, values):
     assert config.scenes["dragon"].mesh == MeshFile(path="x.ply")
     assert "ablations" not in config.tables
     # The message names the referring key.
-    assert "tables.table_4_3.figures.0: 'figure_4_4'" in message("figures.figure_4_4", None)
+    assert "tables.table_4_3.figures.1: 'figure_4_5'" in message("figures.figure_4_5", None)
 
 
 def test_mesh_files(values, tmp_path, monkeypatch):

@@ -316,13 +316,25 @@ def test_what_is_made_by_default(desk):
     assert len(names) == len(set(names)) and ("dragon", "ray_traced") not in names
 
 
-def test_a_page_is_told_its_first_figure_and_every_method_s_kind(desk):
-    assert targets.front(desk) == "figure_front" and targets.front(layout_of("claims")) is None
+def test_a_page_is_told_its_questions_and_every_method_s_kind(desk):
     told = targets.page_arguments(desk)
+    assert len(told["questions"]) == 5
+    bytes_stored = {"claim": "coded_mesh_better_than_field", "figure": "figure_stored"}
+    assert any(bytes_stored.items() <= one.items() for one in told["questions"])
     assert told["data"]["figure_front"] == "beyond"
     assert told["missing"] == []
     looks = {"Poisson-disk quadtree sampling": "frequency", "No shadow": "no_shadow"}
     assert looks.items() <= told["kinds"].items()
+
+
+def test_a_figure_has_its_table_s_chapter(desk):
+    of = targets.chapters(desk)
+    expected = {
+        **{"figure_4_4": "thesis", "figure_3_1": "thesis", "figure_stored": "extensions"},
+        **{"soft_methods": "soft", "figure_soft_pictures": "soft", "kpnsm_table_1": "networks"},
+        **{"kpnsm_equal_time": "networks", "figure_kpnsm_equal_time": "networks"},
+    }
+    assert expected.items() <= of.items()
 
 
 def test_a_page_is_made_of_the_frames_of_soft_shadows_that_figures_show(desk):

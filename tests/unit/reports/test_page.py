@@ -3,8 +3,10 @@ import re
 from collections import Counter
 
 import pytest
-from report_page import HOSTILE, LABELS, SHARED, VIEWER, make_page
+from report_page import HOSTILE, LABELS, SHARED, VIEWER, make_page, table
 from soft_pictures import write_soft_pictures
+
+from neural_shadows.reports.data.table import write_table
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +40,8 @@ def test_every_link_leads_to_one_place(text):
     ids = Counter(attributes(text, "id"))
     assert ids.most_common(1)[0][1] == 1
     links = {address[1:] for address in attributes(text, "href") if address[0] == "#"}
-    assert {"claims", "tables", "extensions", "table-tables", "table-beyond"} <= links <= set(ids)
+    assert {"claims", "thesis", "extensions", "table-tables", "table-beyond"} <= links <= set(ids)
+    assert {"claim-less", "figure-figure_4_1", "facts"} <= links
 
 
 def test_notes_are_shown_once_and_what_is_past_the_thesis_apart(text):
@@ -52,7 +55,7 @@ def test_page_shows_what_is_there(tmp_path, there):
     parts = {"tables", "figures", "claims_json", "references", "meshes", "trainings", "lpips_json"}
     missing = {name: None if "_" in name else [] for name in parts - {there}}
     text = make_page(tmp_path, **missing, viewers=[], kinds={}).read_text()
-    section = {"claims_json": "claims", "references": "compare"}.get(there, there)
+    section = {"claims_json": "claims", "references": "compare"}.get(there, "thesis")
     sections = re.findall(r'<section id="(\w+)"', text)
     assert [name for name in sections if name != "extensions"] == [section, "run"]
 
@@ -63,10 +66,26 @@ def test_a_contact_sheet_is_folded_and_no_other_figure(text):
     assert [name for name, inside in figures if "<details>" in inside] == ["figure_4_1"]
 
 
-def test_the_first_screen_has_the_viewer_and_the_front(text):
+def test_the_first_screen_has_the_findings_that_were_judged_and_the_viewer(text):
     first = text[text.index('<header id="found">') : text.index("</header>")]
-    assert first.index('id="viewer"') < first.index('id="figure-figure_front"')
-    assert text.count('id="figure-figure_front"') == 1
+    assert first.index("Is less more?") < first.index('id="viewer"')
+    assert re.search(
+        r'class="finding supported">\s*<a href="#figure-figure_4_1"><img alt=""', first
+    )
+    assert "Is nothing?" not in text
+
+
+def test_many_tables_are_folded_and_claims_by_text(tmp_path, text):
+    assert text.count("<details open>") == 3 and '<details class="source" open>' in text
+    many = [tmp_path / f"t{number}.json" for number in range(4)]
+    for path in many:
+        write_table(table(), path.with_suffix(".csv"), path.with_suffix(".md"), path)
+    chapters = {path.stem: "networks" for path in many} | {"figure_4_1": "thesis"}
+    chapters |= {"figure_front": "extensions"}
+    folded = make_page(tmp_path, tables=many, data={}, chapters=chapters).read_text()
+    assert "<details open>" not in folded
+    sections = re.findall(r'<section id="(\w+)"', folded)
+    assert sections == ["compare", "thesis", "extensions", "networks", "claims", "run"]
 
 
 def test_nothing_of_the_machine_s_paths_enters_the_page(tmp_path):
@@ -84,10 +103,10 @@ def test_what_is_not_made_yet_is_folded_at_the_end(tmp_path):
 
 
 def test_a_run_of_ones_own_is_no_reproduction(tmp_path, text):
-    none = {"claims_json": None, "front": None, "tables": [], "trainings": []}
+    none = {"claims_json": None, "tables": [], "trainings": []}
     own = make_page(tmp_path, **none).read_text()
-    assert "A reproduction of" in text and "a diamond the thesis" in text
-    assert "A reproduction of" not in own and "<h1>Neural shadows: wyrm, " in own
+    assert "Three texts say so" in text and "a diamond the text" in text
+    assert "Three texts say so" not in own and "<h1>Neural shadows: wyrm, " in own
 
 
 def test_the_first_viewer_is_in_the_page_and_the_others_are_named(text):

@@ -3,6 +3,7 @@
 import re
 from typing import Any
 
+from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.frame_sets import VIEWS
 from neural_shadows.sections.own_frames import OwnFrames, own_settings
 from neural_shadows.sections.rows import row_of
@@ -55,12 +56,18 @@ def _viewer(config: Sections, viewer: HardViewer | SoftViewer) -> Section:
 
 def _figure(config: Sections, name: str) -> Section:
     figure = config.figures[name]
-    of_thesis = re.fullmatch(r"figure_\d+_\d+", name)
     return figure.resolved(config) | {
-        "chapter": "thesis" if of_thesis else figure.chapter,
+        "chapter": _chapter(config, name),
         "folded": figure.folded,
         "needs_opengl": figure.needs_opengl,
     }
+
+
+def _chapter(config: Sections, figure: str) -> Chapter:
+    if re.fullmatch(r"figure_\d+_\d+", figure):
+        return "thesis"
+    table = getattr(config.figures[figure], "table", None)
+    return config.tables[table].chapter_of() if table else config.figures[figure].chapter
 
 
 def _scene(config: Sections, name: str) -> Section:

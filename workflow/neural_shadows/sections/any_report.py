@@ -6,7 +6,7 @@ from pydantic import Field
 
 from neural_shadows.settings.base import Model, name_in
 
-Chapter = Literal["thesis", "extensions", "soft"]
+Chapter = Literal["thesis", "extensions", "soft", "networks"]
 
 
 class AnyReport(Model):
@@ -31,14 +31,13 @@ class AnyReport(Model):
 class AnyTable(AnyReport):
     """Common base of tables."""
 
-    chapter: ClassVar[Chapter] = "thesis"  # of the page
-
     title: str = Field(min_length=1, description="heading of the table")
     published: str | None = Field(
         None, pattern=r"^4\.[1-7]$", description="its number in the thesis"
     )
     figures: list[name_in("figures")] = Field([], description="names in `figures`, shown with it")
     on_request: bool = Field(False, description="built only if requested by name")
+    chapter: Chapter | None = Field(None, description="of the page; by default its kind's")
 
     def methods_shown(self) -> list[str]:
         """Keys of the compared methods on frames; empty for other kinds."""
@@ -46,13 +45,18 @@ class AnyTable(AnyReport):
 
     def chapter_of(self) -> Chapter:
         """Chapter of the page."""
-        return self.chapter
+        return self.chapter or self.usual_chapter()
+
+    def usual_chapter(self) -> Chapter:
+        """Chapter of its kind."""
+        return "thesis"
 
 
 class AnyFigure(AnyReport):
     """Common base of figures."""
 
-    chapter: ClassVar[Chapter] = "extensions"  # of the page; numbered figures: `thesis`
+    # Of the page, without a number of the thesis and without a table, whose chapter it has.
+    chapter: ClassVar[Chapter] = "extensions"
     needs_opengl: ClassVar[bool] = False  # for drawing
     folded: ClassVar[bool] = False  # collapsed on the page
 
@@ -94,4 +98,10 @@ class AnyClaim(AnyReport):
         description="section of the source, such as 4.2.1; without meaning for `text: own`",
     )
     statement: str = Field(min_length=1, description="the claim in one sentence")
+    question: str | None = Field(
+        None, min_length=1, description="that it answers among the page's findings"
+    )
+    figure: name_in("figures") | None = Field(
+        None, description="a name in `figures`: the picture of that finding"
+    )
     needs: Needs = Field(Needs(), description="requirements for deciding the claim")

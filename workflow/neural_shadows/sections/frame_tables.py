@@ -1,6 +1,6 @@
 """Base classes of tables on frame sets."""
 
-from typing import Any, ClassVar
+from typing import Any
 
 from pydantic import Field
 
@@ -19,19 +19,21 @@ from neural_shadows.settings.base import Name, check_among, of_another_kind
 class FramesTable(AnyTable):
     """Common base of tables on a frame set."""
 
-    chapter: ClassVar[Chapter] = "soft"
-
     frame_set: FrameSetName = Field(description="a name in `frame_sets`, but `views`")
+
+    def usual_chapter(self) -> Chapter:
+        return "networks"
 
 
 class NsmTable(AnyTable):
     """Table of untrained screen-space networks (Datta et al. 2022, S3, S4.1)."""
 
-    chapter: ClassVar[Chapter] = "soft"
-
     published: str | None = Field(
         None, pattern=r"^nsm\.s[2-5]$", description="`nsm.` and the table's number in the paper"
     )
+
+    def usual_chapter(self) -> Chapter:
+        return "networks"
 
 
 class ProfileTable(NsmTable):

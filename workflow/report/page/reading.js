@@ -31,6 +31,17 @@ contents.addEventListener("click", (event) => {
   if (narrow.matches && event.target.closest("a")) contents.open = false;
 });
 
+// What an address leads to is unfolded: the details around it, and a table's own.
+function unfold() {
+  const place = document.getElementById(location.hash.slice(1));
+  if (!place) return;
+  for (let one = place; one; one = one.parentElement) if (one.tagName === "DETAILS") one.open = true;
+  if (place.firstElementChild?.tagName === "DETAILS") place.firstElementChild.open = true;
+  place.scrollIntoView();
+}
+addEventListener("hashchange", unfold);
+unfold();
+
 // Claims of one verdict, or all of them.
 const filter = document.querySelector(".filter");
 if (filter) {
@@ -43,6 +54,9 @@ if (filter) {
     }
     for (const card of document.querySelectorAll(".card")) {
       card.hidden = !["", card.dataset.verdict].includes(chosen.dataset.verdict);
+    }
+    for (const source of document.querySelectorAll(".source")) {
+      source.open = Boolean(chosen.dataset.verdict && source.querySelector(".card:not([hidden])"));
     }
   });
 }

@@ -6,7 +6,7 @@ Of screen-space networks squared errors over training frames.
 from collections.abc import Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -26,7 +26,6 @@ from neural_shadows.reports.drawing.chart import (
 from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import learning_curves
 from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, by_kind
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import RowsFigure
 from neural_shadows.settings.records import Row
 
@@ -46,8 +45,6 @@ class Settings(RowsFigure):
     """Loss and quality over training samples, with predictions."""
 
     tables = (learning_curves.Settings,)
-    chapter: ClassVar[Chapter] = "thesis"
-
     kind: Literal["learning_curves"] = Field(description="`learning_curves`")
 
 

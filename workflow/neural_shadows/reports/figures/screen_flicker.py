@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
@@ -10,7 +10,6 @@ from pydantic import Field
 from neural_shadows.evaluation.answers import flicker_name, read_answer
 from neural_shadows.reports.drawing.style import Figure, new_figure, note_below, run_figure
 from neural_shadows.reports.tables import screen_temporal
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
 
 # As in the paper: purple is stable, gold flickers.
@@ -23,8 +22,6 @@ class Settings(TableFigure):
     """The flicker of methods in a frame set's sequences."""
 
     tables = (screen_temporal.Settings,)
-    chapter: ClassVar[Chapter] = "soft"
-
     kind: Literal["screen_flicker"] = Field(description="`screen_flicker`")
     methods: list[str] = Field(min_length=1, description="methods of the table")
 

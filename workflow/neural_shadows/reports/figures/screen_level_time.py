@@ -1,7 +1,7 @@
 """Time of a screen-space network by level and part."""
 
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 import pandas as pd
 from pydantic import Field
@@ -14,7 +14,6 @@ from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
 from neural_shadows.reports.drawing.style import GRID, Axes, Figure, legend_below, new_figure
 from neural_shadows.reports.tables import screen_parts
 from neural_shadows.reports.tables.screen_parts import NAMES, PRINTED
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
 
 NUMBERS = ("level", "ms", "share", "printed_ms", "printed_share")
@@ -25,8 +24,6 @@ class Settings(TableFigure):
     """Time of a screen-space network, by level and part."""
 
     tables = (screen_parts.Settings,)
-    chapter: ClassVar[Chapter] = "soft"
-
     kind: Literal["screen_level_time"] = Field(description="`screen_level_time`")
 
 

@@ -1,7 +1,7 @@
 """Sensitivity to each feature [Datta et al. 2022, figure 3]."""
 
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 import pandas as pd
 from pydantic import Field
@@ -12,7 +12,6 @@ from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
 from neural_shadows.reports.drawing.style import GRID, Figure, new_figure, note_below
 from neural_shadows.reports.tables import screen_features
 from neural_shadows.reports.tables.screen_features import LEAST_SHARE
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
 
 SHARE = "share_"
@@ -47,8 +46,6 @@ class Settings(TableFigure):
     """Sensitivity of screen-space networks to their features."""
 
     tables = (screen_features.Settings,)
-    chapter: ClassVar[Chapter] = "soft"
-
     kind: Literal["screen_sensitivity"] = Field(description="`screen_sensitivity`")
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import ceil, isnan
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 import pandas as pd
 from pydantic import Field
@@ -17,7 +17,6 @@ from neural_shadows.reports.drawing import style
 from neural_shadows.reports.drawing.chart import point_with_interval, run_chart
 from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.reports.tables import soft_methods
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import RadiiFigure
 
 NUMBERS = ("number", "radius", "ms", *ERROR_COLUMNS)
@@ -27,8 +26,6 @@ class Settings(RadiiFigure):
     """Error over milliseconds of methods for soft shadows."""
 
     tables = (soft_methods.Settings,)
-    chapter: ClassVar[Chapter] = "soft"
-
     kind: Literal["soft_equal_time"] = Field(description="`soft_equal_time`")
     radii: list[int] | None = Field(
         None,

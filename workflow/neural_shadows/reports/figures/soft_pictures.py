@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
@@ -13,7 +13,6 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import frame_set, unique
 from neural_shadows.reports.drawing.style import Figure, run_figure
 from neural_shadows.reports.tables import soft_methods, soft_summary
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.frame_sets import measured_scenes
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import RadiiFigure
@@ -28,8 +27,6 @@ class Settings(RadiiFigure):
     """
 
     tables = (soft_methods.Settings, soft_summary.Settings)
-    chapter: ClassVar[Chapter] = "soft"
-
     kind: Literal["soft_pictures"] = Field(description="`soft_pictures`")
     scene: name_in("scenes") = Field(description="its first test frame is shown")
     methods: list[str] = Field(min_length=1, description="methods of the table")

@@ -2,7 +2,7 @@
 
 from itertools import product
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 import pandas as pd
 from pydantic import Field
@@ -15,7 +15,6 @@ from neural_shadows.reports.drawing import style
 from neural_shadows.reports.drawing.chart import add_tooltip, run_chart
 from neural_shadows.reports.drawing.style import Figure
 from neural_shadows.reports.tables import soft_summary
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.sections import Sections
 from neural_shadows.sections.table_figures import TableFigure
 from neural_shadows.settings.base import Name
@@ -28,8 +27,6 @@ class Settings(TableFigure):
     """Error over the light's radius of soft-shadow methods."""
 
     tables = (soft_summary.Settings,)
-    chapter: ClassVar[Chapter] = "soft"
-
     kind: Literal["soft_radii"] = Field(description="`soft_radii`")
     table: Name = Field(description="a table of `soft_summary` in `tables`, `by: radius`")
 

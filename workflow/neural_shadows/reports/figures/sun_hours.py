@@ -1,7 +1,7 @@
 """Hours of sun as colour on meshes seen from above aslant."""
 
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 import numpy as np
 from pydantic import Field
@@ -10,7 +10,6 @@ from neural_shadows.files.whole_files import read_json
 from neural_shadows.layout.layout import Layout
 from neural_shadows.reports.drawing.style import Figure, new_figure, note_below, run_figure
 from neural_shadows.reports.tables import sun_hours
-from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.table_figures import TableFigure
 
 COLOURS = "inferno"
@@ -23,8 +22,6 @@ class Settings(TableFigure):
     """Hours of sun as colour, dimmed by the sky that is seen."""
 
     tables = (sun_hours.Settings,)
-    chapter: ClassVar[Chapter] = "extensions"
-
     kind: Literal["sun_hours"] = Field(description="`sun_hours`")
 
 

@@ -5,9 +5,12 @@ from pathlib import Path
 
 import pandas as pd
 
-from neural_shadows.reports.data.phrases import describe_samples, section_of
+from neural_shadows.reports.data.phrases import TEXTS, describe_samples, section_of
 from neural_shadows.reports.data.verdicts import MEANINGS, SYMBOLS, css_class
 from neural_shadows.settings.kinds import kinds
+
+# Of a claim, by its `text`.
+SOURCES = {"thesis": "Spanhoff 2026", **TEXTS, "own": "Claims of ours"}
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,7 @@ class Card:
     """A claim; `number` is of the least favourable comparison, or empty."""
 
     name: str
+    source: str
     statement: str
     section: str
     verdict: Verdict
@@ -59,7 +63,7 @@ def read_cards(csv: Path) -> list[Card]:
         evidence = claim.evidence.split("\n")
         number = number_text(claim.number_of, claim.number, len(evidence))
         section = section_of({"text": claim.text, "section": claim.section})
-        texts = claim.claim, claim.statement, section
+        texts = claim.claim, SOURCES[claim.text], claim.statement, section
         judgement = Verdict(claim.verdict), claim.reason, number, evidence, _without_run(claim.kind)
         cards.append(Card(*texts, *judgement))
     return cards
@@ -77,6 +81,12 @@ def number_text(metric: str, number: str, comparisons: int) -> str:
     advantage = "advantage in " if number.startswith(("+", "-")) else ""
     of = f" ({comparisons} comparisons)" if comparisons > 1 else ""
     return f"{advantage}{metric}: {number.replace('-', '−')}{of}"
+
+
+def by_source(cards: list[Card]) -> dict[str, list[Card]]:
+    """Cards of each text, in the order of `SOURCES`."""
+    of = {source: [card for card in cards if card.source == source] for source in SOURCES.values()}
+    return {source: own for source, own in of.items() if own}
 
 
 def counted(cards: list[Card]) -> list[Verdict]:

@@ -11,15 +11,17 @@ from markupsafe import Markup
 from neural_shadows.evaluation.registry import LABELS, NETWORK_LOOK, look_of
 from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.data.inputs import read_meshes
-from neural_shadows.reports.data.method_look import LOOKS, look_of_kind
+from neural_shadows.reports.data.method_look import look_of_kind
 from neural_shadows.reports.data.phrases import describe_mesh
-from neural_shadows.reports.page.blocks import Block, data_uri
-from neural_shadows.reports.page.claim_cards import budget, counted, read_cards
+from neural_shadows.reports.page.blocks import data_uri
+from neural_shadows.reports.page.chapters import chapters as page_chapters
+from neural_shadows.reports.page.claim_cards import budget, by_source, counted, read_cards
 from neural_shadows.reports.page.figure_blocks import figure_blocks, themed
+from neural_shadows.reports.page.findings import findings
 from neural_shadows.reports.page.hard_comparison import hard_comparisons
 from neural_shadows.reports.page.run_facts import run_facts, run_sentence
 from neural_shadows.reports.page.soft_comparison import soft_comparisons
-from neural_shadows.reports.page.table_blocks import has_printed, shown_looks, table_block
+from neural_shadows.reports.page.table_blocks import has_printed, table_block
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
@@ -43,9 +45,9 @@ def write_page(
     trainings: list[Path],
     lpips_json: Path | None,
     titles: Mapping[str, str],
-    front: str | None,
     data: Mapping[str, str],
     chapters: Mapping[str, str],
+    questions: Sequence[Mapping[str, str]],
     networks: Sequence[str],
     soft_pictures: Sequence[Mapping[str, Any]],
     folded: Sequence[str],
@@ -68,9 +70,9 @@ def write_page(
             first is within the page and the others are named.
         references, visibilities, metrics: of all batches of each scene, and of each method.
         soft_parts, soft_answers, soft_pictures: see `soft_comparisons`.
-        front: the figure of quality over bytes shown first, or None.
         data: the tables that figures show, by the figures' names.
-        chapters: of the tables and figures, by name: `thesis`, `extensions` or `soft`.
+        chapters: of the tables and figures, by name: a key of `chapters.CHAPTERS`.
+        questions: see `findings`.
         networks: labels of screen-space networks.
         folded: names of collapsed figures: contact sheets.
         missing: reports and frames of a whole run that are not made yet.
@@ -93,14 +95,7 @@ def write_page(
     csvs = {path.stem: path.with_suffix(".csv") for path in tables}
     shown = {figure: csvs[table] for figure, table in data.items() if table in csvs}
     drawings = figure_blocks(figures, titles, shown)
-    figures = [block for block in drawings if block.name != front]
-    first = next((block for block in drawings if block.name == front), None)
     meshes_text = f"{[*scenes.values()][0]['mesh_name']}, " if scenes else ""
-
-    def of_chapter(candidates: Sequence[Block], chapter: str) -> list[Block]:
-        return [block for block in candidates if chapters[block.name] == chapter]
-
-    hard = [block for block in blocks if chapters[block.name] != "soft"]
     # Notes of several tables are shown once.
     notes = Counter(note for block in [claims, *blocks] if block for note in block.notes)
     facts = run_facts(run, described, trainings, lpips_json, benchmarks)
@@ -116,30 +111,25 @@ def write_page(
     scripts = [(folder / name).read_text(encoding="utf-8") for name in SCRIPTS]
     page = environment.get_template("template.html").render(
         title=f"Neural shadows: {meshes_text}{run['scale']} scale",
-        reproduction=bool(claims or first or any(map(has_printed, blocks))),
+        reproduction=bool(claims or any(map(has_printed, blocks))),
         style=Markup((folder / "style.css").read_text(encoding="utf-8")),
         script=Markup("\n".join(scripts)),
         sentence=run_sentence(run, scenes, facts),
         facts=facts,
         folded=folded,
-        legend=[look for look in dict.fromkeys(LOOKS.values()) if look in shown_looks(hard)],
-        soft_legend=shown_looks(of_chapter(blocks, "soft")),
         claims=claims,
-        cards=cards,
+        findings=findings(questions, cards, figures),
+        cards={source: (own, counted(own)) for source, own in by_source(cards).items()},
         verdicts=counted(cards),
         budget=budget(claims_csv) if claims_csv else "",
         viewer=_viewer(viewers[0]) if viewers else None,
         other_viewers=[path.name for path in viewers[1:]],
         missing=missing,
-        front=first,
         comparisons=[
             *hard_comparisons(references, visibilities, metrics, rows, described),
             *soft_comparisons(soft_parts, soft_answers, soft_pictures),
         ],
-        tables=of_chapter(blocks, "thesis"),
-        figures=sorted(of_chapter(figures, "thesis"), key=lambda block: block.name),
-        soft=of_chapter([*blocks, *figures], "soft"),
-        extensions=of_chapter([*blocks, *figures], "extensions"),
+        chapters=page_chapters(blocks, drawings, chapters),
         shared_notes=[note for note, count in notes.items() if count > 1],
     )
     write_text(html, page)

@@ -114,9 +114,9 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
     figures = layout.settings["figures"]
     return {
         "titles": {name: one["title"] for name, one in figures.items()},
-        "front": front(layout),
         "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "chapters": chapters(layout),
+        "questions": questions(layout),
         "networks": [
             one["label"]
             for section in ("experiments", "networks_by_scene")
@@ -187,12 +187,13 @@ def chapters(layout: Layout) -> dict[str, str]:
     return {name: entry["chapter"] for name, entry in entries}
 
 
-def front(layout: Layout) -> str | None:
-    """The first figure of quality over stored bytes alone, the page's first."""
-    for name in default_figures(layout):
-        if layout.settings["figures"][name].get("costs") == ["stored_bytes"]:
-            return name
-    return None
+def questions(layout: Layout) -> list[dict[str, str]]:
+    """Questions of the page's findings, each with its claim and figure."""
+    return [
+        {"claim": name, "question": claim["question"], "figure": claim["figure"] or ""}
+        for name, claim in layout.settings["claims"].items()
+        if claim["question"]
+    ]
 
 
 def closing_words(layout: Layout, outputs: Iterable[str]) -> str:

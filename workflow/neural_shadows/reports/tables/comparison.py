@@ -40,7 +40,7 @@ class Settings(TableOfOneScene):
         [], description="further metrics of `metrics/kinds`, as columns"
     )
 
-    def chapter_of(self) -> Chapter:
+    def usual_chapter(self) -> Chapter:
         return "thesis" if self.published else "extensions"
 
 

@@ -59,8 +59,8 @@ class Settings(TableByScene):
     )
     kind: Literal["learning_curves"] = Field(description="`learning_curves`")
 
-    def chapter_of(self) -> Chapter:
-        return "soft" if self.networks else super().chapter_of()
+    def usual_chapter(self) -> Chapter:
+        return "networks" if self.networks else super().usual_chapter()
 
     def experiments_allowed(self, config: Sections) -> list[str]:
         return [name for name in config.points if name in config.ray_experiments]

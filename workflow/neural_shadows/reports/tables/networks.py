@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -45,12 +45,13 @@ class Settings(TableByScene):
 
     null_rows = tuple(NULL)
     timed = True
-    chapter: ClassVar[Chapter] = "extensions"
-
     kind: Literal["networks"] = Field(description="`networks`")
     against: dict[MeshName, str] = Field(
         {}, description="the row whose paired differences to all others are given, by scene"
     )
+
+    def usual_chapter(self) -> Chapter:
+        return "extensions"
 
 
 def params(layout: Layout, table: str) -> dict[str, Any]:

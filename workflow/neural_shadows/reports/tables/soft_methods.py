@@ -28,6 +28,7 @@ from neural_shadows.reports.data.quality_cells import metric_column
 from neural_shadows.reports.data.soft_costs import cost, describe_bytes, describe_times
 from neural_shadows.reports.data.soft_frames import SoftFrames, describe_trainings, read_trainings
 from neural_shadows.reports.data.table import Table, filled, numbers, run_table
+from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.frame_tables import MethodsTable
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import Name
@@ -58,6 +59,9 @@ class Settings(MethodsTable):
     more_metrics: list[metric_in("soft")] = Field(
         [], description="further metrics of `metrics/kinds`, as columns"
     )
+
+    def usual_chapter(self) -> Chapter:
+        return "soft"
 
     def methods_shown(self) -> list[str]:
         return self.methods

@@ -1,7 +1,7 @@
 """Hours of sun and view of the sky: a field's rays beside Embree's packets."""
 
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 import pandas as pd
 from pydantic import Field
@@ -18,8 +18,6 @@ SUN, SKY = "hours_difference", "sky_difference"
 class Settings(AnyTable):
     """Time and error of sun hours and sky view by a field, beside Embree."""
 
-    chapter: ClassVar[Chapter] = "extensions"
-
     kind: Literal["sun_hours"] = Field(description="`sun_hours`")
     scenes: list[MeshName] = Field(min_length=1, description="meshes in `scenes`")
     resolution: int = Field(512, ge=8, le=1024, multiple_of=4, description="cells of the field")
@@ -32,6 +30,9 @@ class Settings(AnyTable):
     def check(self, config: Any, key: str) -> None:
         if 1440 % self.minutes:
             raise ValueError(f"{key}.minutes: {self.minutes} does not divide a day. Give 10 or 20.")
+
+    def usual_chapter(self) -> Chapter:
+        return "extensions"
 
 
 def files(layout: Layout, table: str) -> dict[str, Any]:
