@@ -1,0 +1,70 @@
+"""Numbers of tables in our texts, and the CSVs that they are of.
+
+A table names its CSVs in a comment before it: `<!-- numbers: FILE.csv -->`. The numbers of each of its
+rows, without the first cell, must be those of one method in these files, whatever their columns; with
+`<!-- numbers by column: … -->` those of each column; with `of 2: ` before the files, of two methods.
+"""
+
+import csv
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from itertools import combinations
+from pathlib import Path
+
+MARK = re.compile(r"<!-- numbers( by column)?:(?: of (\d):)? ([^>]+\.csv) -->\n\n?((?:\|.*\n)+)")
+NUMBER = re.compile(r"(?<![\w.])[-−+]?\d[\d,]*(?:\.\d+)?")
+# What a column's numbers may be multiplied by: percent, × 10⁻⁴, KiB, MiB, 10⁶.
+UNITS = (1, 1e2, 1e4, 1 / 1024, 1 / 1024**2, 1e-6)
+
+
+def mistakes(text: str, folder: Path) -> list[str]:
+    """Lines of marked tables whose numbers no method has, one message each."""
+    found = []
+    for by_column, count, names, table in MARK.findall(text):
+        methods = _methods(folder / name for name in names.split())
+        for line in _lines(table, bool(by_column)):
+            tokens = [number for cell in line[1:] for number in NUMBER.findall(cell)]
+            of_each = [{t for t in tokens if _has(method, t)} for method in methods]
+            sets = combinations([own for own in of_each if own], int(count or 1))
+            if tokens and not any(set().union(*own) >= {*tokens} for own in sets):
+                found.append(f"{names}: no method has all numbers of {' | '.join(line)}")
+    return found
+
+
+def _lines(table: str, by_column: bool) -> Iterator[list[str]]:
+    """Cells of each row or column, the heading first."""
+    rows = [[cell.strip() for cell in row.strip()[1:-1].split("|")] for row in table.splitlines()]
+    head, _, *body = rows
+    columns = [list(cells) for cells in zip(head, *body)]
+    yield from columns[1:] if by_column else body
+
+
+def _methods(paths: Iterable[Path]) -> list[tuple[set[str], list[float]]]:
+    """Of each method of CSVs the words of its labels, and all numbers of every row that it has."""
+    methods: dict[str, tuple[set[str], list[float]]] = defaultdict(lambda: (set(), []))
+    for path in paths:
+        for row in csv.DictReader(path.read_text(encoding="utf-8").splitlines()):
+            labels = [row[key] for key in ("method", "label", "mesh") if key in row]
+            words, numbers = methods[labels[0]]
+            words.update(word.strip(",²³") for label in labels for word in label.split())
+            numbers += [float(cell) for cell in row.values() if _is_number(cell)]
+    return [*methods.values()]
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _has(method: tuple[set[str], list[float]], token: str) -> bool:
+    words, numbers = method
+    text = token.replace(",", "").replace("−", "-").rstrip(".")
+    half = 0.5 * 10.0 ** -len(text.partition(".")[2]) * 1.001
+    stated = float(text)
+    return token.rstrip(",") in words or any(
+        abs(number * unit - stated) <= half for number in numbers for unit in UNITS
+    )

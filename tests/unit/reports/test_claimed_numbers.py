@@ -1,0 +1,44 @@
+"""Tables of the README and of the reference have the numbers of their CSVs."""
+
+from pathlib import Path
+
+import pytest
+from claimed_numbers import MARK, mistakes
+
+ROOT = Path(__file__).parents[3]
+REFERENCE = ROOT / "reports/reference"
+CSV = "method,label,mse,ms,bytes\nmap,Map of 512²,0.0232,11.04,1048576\npcss,PCSS,0.00246,92.7,0\n"
+TABLE = """<!-- numbers: some.csv -->
+
+| | error | ms | KiB |
+| --- | --- | --- | --- |
+| map | 232 | 11 | 1,024 |
+| PCSS | 24.6 | 92.7 | 0 |
+"""
+
+
+@pytest.mark.parametrize("text", ["README.md", "reports/reference/README.md"])
+def test_tables_have_the_numbers_of_their_files(text):
+    content = (ROOT / text).read_text(encoding="utf-8")
+    assert len(MARK.findall(content)) >= 2
+    assert mistakes(content, REFERENCE) == []
+
+
+@pytest.mark.parametrize(
+    "wrong", [("232", "233"), ("11 |", "12 |"), ("| 92.7", "| 11.0"), ("24.6", "232")]
+)
+def test_another_number_or_another_method_s_is_a_mistake(tmp_path, wrong):
+    (tmp_path / "some.csv").write_text(CSV)
+    assert mistakes(TABLE, tmp_path) == []
+    (fault,) = mistakes(TABLE.replace(*wrong), tmp_path)
+    assert "no method has all numbers of" in fault
+
+
+def test_methods_side_by_side(tmp_path):
+    (tmp_path / "some.csv").write_text(CSV)
+    table = "<!-- numbers by column: some.csv -->\n\n| | map | PCSS |\n|---|---|---|\n| error | 232 | 24.6 |\n| ms | 11 | 93 |\n"
+    assert mistakes(table, tmp_path) == []
+    assert len(mistakes(table.replace("93", "94"), tmp_path)) == 1
+    pair = "<!-- numbers: of 2: some.csv -->\n\n| | map | PCSS |\n|---|---|---|\n| error | 232 | 24.6 |\n"
+    assert mistakes(pair, tmp_path) == []
+    assert len(mistakes(pair.replace("of 2: ", ""), tmp_path)) == 1
