@@ -243,11 +243,11 @@ def test_files_of_learning_curves_over_frames():
     layout = layout_of("layout_curves")
     point = "kernels_pcf_64_frames_600_steps_seed_2027"
     made = kinds.table_files(layout, "learning_layouts")
-    assert len(made["trainings"]) == 4 * 3 * 2 * 3
-    assert f"results/curves/networks/{point}/training.json" in made["trainings"]
+    assert len(made["trainings"]) == 4 * 3 * 3
+    assert f"results/retrain/networks/{point}/training.json" in made["trainings"]
     assert made["metrics"] == made["meshes"] == made["lpips_json"] == []
     rows = kinds.params(layout, "figures", "figure_learning_layouts")["rows"]
-    assert [row["steps"] for row in rows] == [600, 2400] * 4
+    assert [row["steps"] for row in rows] == [600] * 4
     assert rows[0]["label"].endswith("84 layouts, 600 steps") and rows[0]["scene"] == "layouts"
     # The first files of each scene to train on, and all to validate.
     files, whole = (trainings.files(layout, name) for name in (point, "kernels_pcf"))

@@ -4,9 +4,9 @@ import pytest
 from report_samples import row, written_figure
 
 from neural_shadows.evaluation.look import COLOURS
+from neural_shadows.reports.data.curve_lines import EXTRAPOLATED, MEASURED
 from neural_shadows.reports.data.trained import THESIS_SAMPLES
 from neural_shadows.reports.figures.learning_curves import curves_figure, draw
-from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, MEASURED
 
 BUDGETS = 1e6 * np.array([1, 2, 4, 8])
 

@@ -16,6 +16,7 @@ from neural_shadows.evaluation.look import COLOURS
 from neural_shadows.metrics import power_law
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.metrics.registry import error_of, metrics, value_of
+from neural_shadows.reports.data.curve_lines import EXTRAPOLATED, PREDICTED, by_kind
 from neural_shadows.reports.data.table import read_table
 from neural_shadows.reports.drawing import style
 from neural_shadows.reports.drawing.chart import (
@@ -25,7 +26,6 @@ from neural_shadows.reports.drawing.chart import (
 )
 from neural_shadows.reports.drawing.style import Axes, Figure
 from neural_shadows.reports.tables import learning_curves
-from neural_shadows.reports.tables.learning_curves import EXTRAPOLATED, PREDICTED, by_kind
 from neural_shadows.sections.table_figures import RowsFigure
 from neural_shadows.settings.records import Row
 

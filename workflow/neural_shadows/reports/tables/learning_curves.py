@@ -18,16 +18,24 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.layout.tables import curves as curves_of
 from neural_shadows.layout.tables import metrics as metrics_of
 from neural_shadows.layout.tables import networks, unique, unshadowed, with_curves
-from neural_shadows.metrics import power_law
 from neural_shadows.metrics.power_law import Curve
 from neural_shadows.metrics.registry import error_of, value_of
 from neural_shadows.metrics.registry import metrics as metrics_by_key
 from neural_shadows.reports.data import phrases
+from neural_shadows.reports.data.curve_lines import (
+    COLUMNS,
+    EXTRAPOLATED,
+    MEASURED,
+    PREDICTED,
+    by_kind,
+    metric_lines,
+)
 from neural_shadows.reports.data.digits import short
+from neural_shadows.reports.data.frame_curves import FURTHER, frames_table
 from neural_shadows.reports.data.inputs import by_folder, read_meshes
 from neural_shadows.reports.data.published import read_published
 from neural_shadows.reports.data.quality import values_by_view
-from neural_shadows.reports.data.table import Column, Table, number_cells, run_table, with_ends
+from neural_shadows.reports.data.table import Column, Table, number_cells, run_table
 from neural_shadows.reports.data.trained import THESIS_SAMPLES, Row, Trained
 from neural_shadows.sections.any_report import Chapter
 from neural_shadows.sections.experiments import ScreenExperimentName
@@ -36,18 +44,8 @@ from neural_shadows.sections.rows import TableByScene
 from neural_shadows.sections.scenes import MeshName
 from neural_shadows.sections.sections import Sections
 from neural_shadows.settings.base import check_among
-from neural_shadows.settings.records import CurvePoint, Run, SceneInfo, TrainingRecord
+from neural_shadows.settings.records import CurvePoint, Run, SceneInfo
 from neural_shadows.training.loss_curve import read_loss
-
-PREDICTED = with_ends("predicted")
-COLUMNS = [
-    *("scene", "method", "metric", "kind", "samples", "mean", "spread", "by_seed", "exponent"),
-    *(*PREDICTED, "step", "error", "unlicensed", "no_shadow", "thesis"),
-]
-# Of screen-space networks also the error of their base, and both on training frames.
-FRAMES_COLUMNS = [*COLUMNS, "base", "train_mean", "train_base", "steps"]
-FURTHER = 4  # times the frames of the largest budget, for an extrapolation
-MEASURED, EXTRAPOLATED = "measured", "extrapolated"  # kinds of rows
 
 
 class Settings(TableByScene):
@@ -212,66 +210,12 @@ def curve_table(
         for metric, (errors, null) in errors_and_null.items():
             curve = Curve(samples, errors)
             diverged = data.diverged(row, budgets)
-            lines = _metric_lines(metric, curve, THESIS_SAMPLES, data.seed, diverged)
+            lines = metric_lines(metric, curve, THESIS_SAMPLES, data.seed, diverged)
             if data.meshes[row["scene"]]["thesis_mesh"]:
                 lines[-1]["thesis"] = printed.get((row["published"], metric), np.nan)
             key = method | {"metric": metric, "no_shadow": value_of(metric, null)}
             records += [key | line for line in lines]
     return pd.DataFrame(records, columns=COLUMNS)
-
-
-def frames_table(
-    rows: Sequence[Row],
-    curves: Mapping[str, Sequence[CurvePoint]],
-    trainings: Mapping[str, TrainingRecord],
-    seed: int,
-) -> pd.DataFrame:
-    """Tabulate squared errors of screen-space networks by training frames.
-
-    Columns as of `curve_table`, `scene` the frame set, `samples` frames, on the fixed images of
-    validation, mean over the lights of the training; `EXTRAPOLATED` to `FURTHER` times the largest
-    budget. And `steps`, `base` (the error of the network's base there, of one without that of the
-    light map; `no_shadow` is on the same images), and both on training frames of each budget,
-    `train_mean` and `train_base`.
-    """
-    records = []
-    for row in rows:
-        points = [p for p in curves[row["experiment"]] if p["steps"] == row["steps"]]
-        runs = {
-            frames: [trainings[p["experiment"]] for p in points if p["samples"] == frames]
-            for frames in unique(p["samples"] for p in points)
-        }
-        errors = [
-            [_of_lights(run, run["validation_mse"]) for run in same] for same in runs.values()
-        ]
-        curve = Curve(np.array([*runs]), np.array(errors))
-        diverged = any(run["died_at_step"] is not None for same in runs.values() for run in same)
-        lines = _metric_lines("mse", curve, FURTHER * max(runs), seed, diverged)
-        for line, same in zip(lines, runs.values()):
-            line["train_mean"] = np.mean([_of_lights(run, run["train_mse"]) for run in same])
-            line["train_base"] = _null(same[0], "train_null_mse")
-        last = same[-1]
-        key = {
-            "scene": row["scene"],
-            "method": row["label"],
-            "metric": "mse",
-            "steps": row["steps"],
-        }
-        key["no_shadow"] = _of_lights(last, last["null_mse"]["no_shadow"])
-        records += [key | {"base": _null(last, "null_mse")} | line for line in lines]
-    return pd.DataFrame(records, columns=FRAMES_COLUMNS)
-
-
-def _of_lights(record: TrainingRecord, errors: Sequence[float | None]) -> float:
-    """Mean error over the lights of a training."""
-    lights = record["training"]["lights"] or range(len(errors))
-    return float(np.mean([errors[light] for light in lights], dtype=float))  # of None NaN
-
-
-def _null(record: TrainingRecord, key: str) -> float:
-    """Error of a network's base, of one without that of the light map; NaN without a map."""
-    *_, name = ["no_shadow", *record[key]]
-    return np.nan if name == "no_shadow" else _of_lights(record, record[key][name])
 
 
 def _of_frames(table: pd.DataFrame) -> Table:
@@ -293,47 +237,6 @@ def _of_frames(table: pd.DataFrame) -> Table:
         "Where both ratios to the base agree nothing is overfitted.",
     ]
     return Table(table, _cells(table), notes, text_columns=2)
-
-
-def _metric_lines(
-    metric: str, curve: Curve, further: int, seed: int, diverged: bool
-) -> list[dict[str, Any]]:
-    """Tabulate a curve of errors by budget, and its extrapolation.
-
-    Args:
-        further: samples of the extrapolation. diverged: one of its trainings did.
-    """
-    lines = []
-    for count, errors in zip(curve.samples, curve.values):
-        each = value_of(metric, errors)
-        lines.append(
-            {
-                "kind": MEASURED,
-                "samples": count,
-                "mean": value_of(metric, errors.mean()),
-                "spread": each.std(ddof=1) if len(each) > 1 else np.nan,
-                "by_seed": " ".join(f"{value:.6g}" for value in each),
-            }
-        )
-    for line, exponent in zip(lines[1:], power_law.local_exponents(curve)):
-        line["exponent"] = exponent
-    if power_law.can_hold_out(curve) and (held_out := power_law.hold_out(curve, seed)):
-        lines[-1] |= _prediction(metric, held_out.predicted, held_out.low, held_out.high)
-        lines[-1] |= {"step": held_out.step, "error": held_out.error}
-    allowed, reason = power_law.licensed([curve], further, seed, diverged)
-    step = further / curve.samples[-1]
-    lines.append(
-        {"kind": EXTRAPOLATED, "samples": further, "step": step, "unlicensed": reason},
-    )
-    if allowed:
-        lines[-1] |= _prediction(metric, *power_law.extrapolate(curve, further, seed))
-    return lines
-
-
-def _prediction(metric: str, *errors: float) -> dict[str, float]:
-    """A predicted error and the ends of its interval as values, the lower end first."""
-    value, *ends = (value_of(metric, error) for error in errors)
-    return dict(zip(PREDICTED, (value, *sorted(ends))))
 
 
 def _describe_steps(table: pd.DataFrame) -> list[str]:
@@ -403,12 +306,6 @@ def _beside(last: pd.Series, form: str) -> dict[str, str]:
 def _printed(extrapolated: pd.Series, form: str) -> dict[str, str]:
     thesis = extrapolated["thesis"]
     return {"thesis": "" if np.isnan(thesis) else form.format(thesis)}
-
-
-def by_kind(part: pd.DataFrame) -> tuple[pd.DataFrame, pd.Series]:
-    """Split a method's rows of a metric into measured and extrapolated."""
-    measured = part["kind"] == MEASURED
-    return part[measured], part[~measured].iloc[0]
 
 
 def _interval(line: pd.Series, form: str) -> str:
