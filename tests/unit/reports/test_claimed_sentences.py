@@ -56,7 +56,7 @@ def test_sentences_that_are_right_pass():
 
 @pytest.mark.parametrize("sentence", BAD)
 def test_sentences_that_are_wrong_are_named(sentence):
-    (found,) = mistakes(f"### Neural Shadow Mapping\n- One.\n- {sentence}", VERDICTS)
+    (found,) = mistakes(f"### Datta et al. 2022 and others\n- One.\n- {sentence}", VERDICTS)
     assert BAD[sentence] in found
 
 
