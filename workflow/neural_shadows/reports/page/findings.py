@@ -17,35 +17,39 @@ class Finding:
     """A question and the claim that answers it.
 
     Args:
-        figure: name of the figure that shows it; picture: its upper left part, an address within
-            the page; both empty without the figure.
+        figure, title: of the figure that shows it; picture: its upper part, an address within the
+            page; all empty without the figure.
     """
 
     question: str
     card: Card
     figure: str = ""
+    title: str = ""
     picture: str = ""
 
 
 def findings(
-    questions: Sequence[Mapping[str, str]], cards: Sequence[Card], figures: Sequence[Path]
+    questions: Sequence[Mapping[str, str]],
+    cards: Sequence[Card],
+    figures: Sequence[Path],
+    titles: Mapping[str, str],
 ) -> list[Finding]:
     """Findings whose claims were judged, in the order of `questions`.
 
     Args:
         questions: `claim`, `question` and `figure`, a name, or "".
-        figures: `.svg` and `.png` of each that is there.
+        figures: `.svg` and `.png` of each that is there; titles: by name.
     """
     judged = {card.name: card for card in cards}
     drawn = {path.stem: path for path in figures if path.suffix == ".png"}
     return [
-        _finding(one["question"], judged[one["claim"]], drawn.get(one["figure"]))
+        _finding(one["question"], judged[one["claim"]], drawn.get(one["figure"]), titles)
         for one in questions
         if one["claim"] in judged
     ]
 
 
-def _finding(question: str, card: Card, png: Path | None) -> Finding:
+def _finding(question: str, card: Card, png: Path | None, titles: Mapping[str, str]) -> Finding:
     if png is None:
         return Finding(question, card)
     with Image.open(png) as image:
@@ -53,4 +57,5 @@ def _finding(question: str, card: Card, png: Path | None) -> Finding:
     width, height = SIZE
     picture.thumbnail((width, picture.height))
     part = picture.crop((0, 0, picture.width, min(picture.height, height)))
-    return Finding(question, card, png.stem, webp_uri(part, lossless=False))
+    title = titles.get(png.stem, png.stem)
+    return Finding(question, card, png.stem, title, webp_uri(part, lossless=False))

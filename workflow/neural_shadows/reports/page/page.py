@@ -118,7 +118,7 @@ def write_page(
         facts=facts,
         folded=folded,
         claims=claims,
-        findings=findings(questions, cards, figures),
+        findings=findings(questions, cards, figures, titles),
         cards={source: (own, counted(own)) for source, own in by_source(cards).items()},
         verdicts=counted(cards),
         budget=budget(claims_csv) if claims_csv else "",
