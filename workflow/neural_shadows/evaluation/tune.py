@@ -69,7 +69,7 @@ def tune(
             best["at_end"] += ends
             for name in ends:
                 value = f"{name.replace('_', ' ')}, {settings[chosen][name]}"
-                print(f"warning: {method}: the best {value}, ends the search")
+                print(f"{method}: the best {value}, ends the search")  # the table says so, too
     about = {"method": method, "frames": kind.count_frames(frames), "candidates": candidates}
     write_json(constants_json, about | {"radii": by_radius} | describe_origin())
 

@@ -1,12 +1,11 @@
 """Steps of a training, with checkpoints and progress."""
 
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from neural_shadows.files.whole_files import write_text
-from neural_shadows.running.progress import progress_bar
+from neural_shadows.running.progress import progress_bar, warn
 from neural_shadows.training.checkpoints import STATE
 from neural_shadows.training.training_state import TrainingState
 
@@ -70,11 +69,10 @@ def train_to_end(
                 write_text(checkpoint / "loss.csv", run.curve_csv())
                 last_saved, saved_step = time.monotonic(), step
     if run.died_at_step is not None:
-        print(
-            f"warning: training {name} diverged at step {run.died_at_step}: its loss is not finite, "
+        warn(
+            f"training {name} diverged at step {run.died_at_step}: its loss is not finite, "
             "or its output is the same everywhere. Its weights are written as they are. Set a lower "
-            "`learning_rate` or another `seed`.",
-            file=sys.stderr,
+            "`learning_rate` or another `seed`."
         )
     if 0 < saved_step < step:
         run.save(checkpoint / STATE)
