@@ -60,7 +60,7 @@ def shell(size: int, radii) -> tuple[np.ndarray, np.ndarray]:
     return layout.grid, values.astype(np.int8).reshape(-1, 125)
 
 
-def every_sample(points, lights, grid, values, level, cells=NO_CELLS):
+def every_sample(points, lights, grid, values, level, cells=NO_CELLS, density=2):
     """The definition, at every plane of each ray: whether anything is between point and light.
 
     Args:
@@ -71,7 +71,7 @@ def every_sample(points, lights, grid, values, level, cells=NO_CELLS):
     for ray, (point, light) in enumerate(zip(points.astype(np.float64), lights)):
         start, end = (point + 1) * half, (light + 1) * half
         m = np.abs(end - start).argmax()
-        planes = np.arange(4 * half) / 2 + 0.25
+        planes = (np.arange(2 * density * half) + 0.5) / density
         share = (planes - start[m]) / (end[m] - start[m])
         share = share[(share > 0) & (share <= 1)]
         share = np.sort(np.append(share, 0))[::-1]  # from the light to the point
@@ -130,15 +130,17 @@ SHELLS = pytest.mark.parametrize(
 
 
 @SHELLS
-@pytest.mark.parametrize(("level", "corner_bits"), [(0.0, 4), (-4.0, 4), (-4.0, 8)])
-def test_equals_a_test_of_every_sample(either, size, radii, level, corner_bits):
+@pytest.mark.parametrize(
+    ("level", "corner_bits", "density"), [(0.0, 4, 2), (-4.0, 4, 4), (-4.0, 8, 2), (0.0, 8, 4)]
+)
+def test_equals_a_test_of_every_sample(either, size, radii, level, corner_bits, density):
     grid, values = shell(size, np.array(radii))
-    bricks = field_bricks(grid, values, level, corner_bits)
+    bricks = field_bricks(grid, values, level, corner_bits, density=density)
     points, differ = around(120), []
     points[::2] *= np.float32(radii)
     for d in (*np.random.default_rng(1).normal(size=(4, 3)), *AXES):
         result = occluded(points, unit(d), bricks)
-        expected = every_sample(points, far(points, unit(d)), grid, values, level)
+        expected = every_sample(points, far(points, unit(d)), grid, values, level, density=density)
         differ.append(result != expected)
         assert 0.05 < expected.mean() < 0.95
     # Of a sample on a brick's border, where these values jump, rounding decides.

@@ -311,7 +311,11 @@ class OccupancyFieldNetwork(ShadowNetwork):
             values, scale = self._brick_values()
             grid = self.grid.view(size, size, size).numpy()
             level, cells = self.level() / scale, self._cells(values)
-            self._field = state, field_bricks(grid, values, level, self.corner_bits, cells)
+            density = 4 if self.start == "undecided" else 2  # it is trained
+            self._field = (
+                state,
+                field_bricks(grid, values, level, self.corner_bits, cells, density),
+            )
         return self._field[1]
 
     def _cells(self, bricks: np.ndarray) -> np.ndarray:

@@ -21,6 +21,7 @@ class _Field(ctypes.Structure):
 
     _fields_ = [
         ("sheet", _INT),
+        ("density", _INT),
         ("columns", _INT),
         ("layers", _INT),
         ("shape", _INT * 3),
@@ -76,6 +77,7 @@ def _field(bricks: FieldBricks, brick: int) -> _Field:
     half = brick * bricks.size / 2
     return _Field(
         bricks.sheet,
+        bricks.density,
         *bricks.nodes.shape[1:],
         (_INT * 3)(*bricks.shape),
         bricks.rows.itemsize,

@@ -28,7 +28,7 @@ enum {
 };
 
 typedef struct {
-    int32_t sheet, columns, layers, shape[3], row_bytes, word_bytes;
+    int32_t sheet, density, columns, layers, shape[3], row_bytes, word_bytes;
     float scale, shift[3]; /* from points to blocks of the box */
     const uint32_t *nodes;
     const void *rows;
@@ -77,7 +77,9 @@ static inline int32_t fixed(float length, float unit) {
 }
 
 /* Planes of samples of a slab. */
-static inline int32_t per_slab(const Light *light) { return 2 << light->merged; }
+static inline int32_t per_slab(const Light *light, const Field *field) {
+    return field->density << light->merged;
+}
 
 static inline int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
@@ -167,20 +169,21 @@ static void decide(const Light *light, const Field *field, const float *points, 
 /* Place each ray's samples, and its end at the point. */
 static void place(const Light *light, const Field *field, Rays *rays) {
     const int m = light->axes[0], a = light->axes[1], b = light->axes[2];
-    const int32_t block = 1 << (CELL + light->merged), planes = per_slab(light) * light->deep;
-    const int32_t half = 1 << (CELL - 1), step_m = light->back ? -half : half;
+    const int32_t block = 1 << (CELL + light->merged), planes = per_slab(light, field) * light->deep;
+    const int32_t step = (1 << CELL) / field->density, step_m = light->back ? -step : step;
+    const float share = 1.0f / (float)field->density;
     const int32_t far_m = light->back ? light->deep * block : 0, start_m = far_m + (step_m >> 1);
     const int32_t low_a = (light->low[0] + light->middle[0]) * block;
     const int32_t low_b = (light->low[1] + light->middle[1]) * block;
     const float middle_a = (float)light->middle[0], middle_b = (float)light->middle[1];
     const float far = (float)light->deep, unit = (float)block, cell = (float)(1 << CELL);
-    const float density = (float)per_slab(light);
+    const float density = (float)per_slab(light, field);
     for (int32_t k = 0; k < rays->count; k++) {
         const float depth = rays->depth[k], left = far - depth;
         const float slope_a = rays->slope_a[k], slope_b = rays->slope_b[k];
         const int32_t far_a = fixed(rays->u[k] - middle_a, unit) + low_a;
         const int32_t far_b = fixed(rays->v[k] - middle_b, unit) + low_b;
-        const int32_t step_a = fixed(slope_a * 0.5f, cell), step_b = fixed(slope_b * 0.5f, cell);
+        const int32_t step_a = fixed(slope_a * share, cell), step_b = fixed(slope_b * share, cell);
         const int32_t end_m = fixed(depth, unit);
         rays->planes[k] = least((int32_t)ceilf(depth * density - 0.5f), planes);
         rays->step[m][k] = step_m;
@@ -233,12 +236,12 @@ typedef struct {
     int32_t start, end, more;
 } Run;
 
-static inline Run first_run(const Light *light, int32_t tile) {
+static inline Run first_run(const Light *light, const Field *field, int32_t tile) {
     const uint32_t range = light->ranges[tile];
     const uint64_t slabs = light->slabs[tile];
-    const int32_t start = per_slab(light) * (int32_t)(range & ((1 << FIRST) - 1));
+    const int32_t start = per_slab(light, field) * (int32_t)(range & ((1 << FIRST) - 1));
     const int32_t length = ~slabs ? __builtin_ctzll(~slabs) : 64;
-    const int32_t end = start + length * (per_slab(light) << (range >> DOUBLED & 7));
+    const int32_t end = start + length * (per_slab(light, field) << (range >> DOUBLED & 7));
     return (Run){start, end, length < 64 && slabs >> length};
 }
 
@@ -249,7 +252,7 @@ static int32_t list_first(const Light *light, const Field *field, int32_t lit, W
     Samples *samples = &work->samples;
     int32_t rest = 0;
     for (int32_t ray = 0; ray < rays->count; ray++) {
-        const Run run = first_run(light, rays->tile[ray]);
+        const Run run = first_run(light, field, rays->tile[ray]);
         const int32_t planes = rays->planes[ray], start = most(run.start - field->sheet, lit);
         const int32_t wanted = most(least(run.end + field->sheet, planes) - start, 0);
         list_eight(samples, rays, ray, start, least(wanted, EARLY));
@@ -273,8 +276,8 @@ static int list_further(const Light *light, const Field *field, int32_t lit, int
     Samples *samples = &work->samples;
     const int32_t tile = rays->tile[ray], planes = rays->planes[ray];
     const uint32_t range = light->ranges[tile];
-    const int32_t first = per_slab(light) * (int32_t)(range & ((1 << FIRST) - 1));
-    const int32_t of_bit = per_slab(light) << (range >> DOUBLED & 7);
+    const int32_t first = per_slab(light, field) * (int32_t)(range & ((1 << FIRST) - 1));
+    const int32_t of_bit = per_slab(light, field) << (range >> DOUBLED & 7);
     /* In all of its samples; a sheet's last one again, for its pair. */
     const int32_t from = work->listed[ray] - field->sheet, to = work->listed[ray] + further;
     uint64_t slabs = light->slabs[tile];
@@ -434,7 +437,7 @@ static void mark(const Field *field, Samples *samples, uint8_t *occlusion) {
 /* Set `occlusion` of n points, whose rays are in the tables; returns 1 without memory. */
 int32_t mark_occluded(const Field *field, const Light *light, const float *points, int64_t n,
                       float bias, uint8_t *occlusion) {
-    const double behind = light->near ? ceil(per_slab(light) * light->source[0] - 0.5) : 0;
+    const double behind = light->near ? ceil(per_slab(light, field) * light->source[0] - 0.5) : 0;
     const int32_t lit = behind > 0 ? (int32_t)behind : 0; /* planes before the light */
     Work *work = malloc(sizeof(Work));
     if (work == NULL) return 1;

@@ -1,6 +1,6 @@
 """Occlusion of points by a field under one light.
 
-A ray is sampled in the planes a quarter and three quarters through each slab of `LightTables`, so
+A ray is sampled in two planes through each slab of `LightTables`, or four (`FieldBricks.density`), so
 at least once a cell, between light and point, and at the point itself. A solid occludes a point if
 any sample is inside it; a sheet, if two samples in succession lie on different sides of it and one
 of them in a cell that it crosses. All samples lie at multiples of 2^−20 cells, so that
@@ -101,13 +101,14 @@ def mark_occluded(
     light_m, slope_a, slope_b = f32(light.source[0]), f32(light.source[1]), f32(light.source[2])
     light_a, light_b = f32(light.source[1] - light.low[0]), f32(light.source[2] - light.low[1])
     block, cell = CELL + light.merged, f32(1 << CELL)  # of a block in 2^−20 cells
-    unit, per_slab = f32(1 << block), 2 << light.merged  # planes
-    most, density = per_slab * deep, f32(per_slab)
+    unit, per_slab = f32(1 << block), bricks.density << light.merged  # planes
+    most, density, share = per_slab * deep, f32(per_slab), f32(1 / bricks.density)
     middle_a, middle_b = f32(light.middle[0]), f32(light.middle[1])
     low_a = light.low[0] + light.middle[0] << block
     low_b = light.low[1] + light.middle[1] << block
     rows = f32(len(offsets))
-    step_m = -(1 << CELL - 1) if light.back else 1 << CELL - 1
+    step_m = (1 << CELL) // bricks.density
+    step_m = -step_m if light.back else step_m
     start_m = (deep << block if light.back else 0) + (step_m >> 1)
     lit_planes = max(np.int64(np.ceil(per_slab * light.source[0] - 0.5)), 0) if near else 0
     nodes, shape = bricks.nodes.ravel(), bricks.nodes.shape
@@ -140,7 +141,7 @@ def mark_occluded(
         # On the far side, and in the first plane.
         far_a = _fixed(u - middle_a, unit) + low_a
         far_b = _fixed(v - middle_b, unit) + low_b
-        step_a, step_b = _fixed(slope_a * _HALF, cell), _fixed(slope_b * _HALF, cell)
+        step_a, step_b = _fixed(slope_a * share, cell), _fixed(slope_b * share, cell)
         start_a = far_a - most * step_a + (step_a >> 1)
         start_b = far_b - most * step_b + (step_b >> 1)
         start = _in_order(m, start_m, start_a, start_b)
