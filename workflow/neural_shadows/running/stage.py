@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 from neural_shadows.errors import InputError
-from neural_shadows.running import origin, progress
+from neural_shadows.running import origin, progress, provenance
 
 # Used by Snakemake only: the digest of the code behind a result, files to be built along with a
 # table or beside an input, and the kind of a table or figure, which names its script.
@@ -50,6 +50,7 @@ def run_stage(
         sys.stdout.reconfigure(line_buffering=True)  # to be read while the job runs
         progress.TERMINAL = terminal
         origin.CODE = dict(job.params.items()).get("code")
+        provenance.JOB = job
         try:
             made_by = origin.describe_origin()
             print("Made by commit {commit}, code {code}, {machine}".format(**made_by), file=log)

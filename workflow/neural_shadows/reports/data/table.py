@@ -14,7 +14,7 @@ from neural_shadows.errors import InputError
 from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.data.phrases import describe_run, titled
 from neural_shadows.running.bundles import argument_types, call
-from neural_shadows.running.origin import describe_origin
+from neural_shadows.running.provenance import describe_provenance, provenance_line
 from neural_shadows.running.stage import run_stage
 
 PARTING = ("scene", "light")  # first columns that part a table
@@ -115,12 +115,10 @@ def write_table(table: Table, csv: Path, md: Path, json: Path) -> None:
         colalign=["left"] * table.text_columns + ["right"] * (len(columns) - table.text_columns),
     )
     items = "\n".join(f"- {note}" for note in table.notes)
-    origin = describe_origin()
+    provenance = describe_provenance()
     # Not a note: it differs by table, and the page shows equal notes once.
-    comment = (
-        f"<!-- commit {origin['commit']}, code {origin['code']}, {origin['machine']['cpu']} -->"
-    )
-    parts = [f"# {table.title}", table.lead, text, items, comment]
+    made = f"<sub>{provenance_line(provenance)}</sub>"
+    parts = [f"# {table.title}", table.lead, text, items, made]
     write_text(md, "\n\n".join(part for part in parts if part) + "\n")
     record = {
         "title": table.title,
@@ -128,7 +126,7 @@ def write_table(table: Table, csv: Path, md: Path, json: Path) -> None:
         "parted": [*columns][0] in PARTING,
         "columns": [_as_json(heading, column) for heading, column in columns.items()],
         "notes": [*table.notes],
-        "origin": origin,
+        "provenance": provenance,
     }
     write_text(json, json_text.dumps(record, ensure_ascii=False, indent=1) + "\n")
 

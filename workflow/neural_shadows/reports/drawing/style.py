@@ -1,15 +1,18 @@
 """Style of all figures: resolution, title, legend, writing."""
 
+import json
 import textwrap
 from collections.abc import Callable, Iterable
 from math import ceil, log10
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
+from xml.etree import ElementTree
 
 import pandas as pd
 
 from neural_shadows.files.whole_files import whole_file
 from neural_shadows.running.bundles import argument_types, call
+from neural_shadows.running.provenance import describe_provenance
 from neural_shadows.running.stage import run_stage
 
 if TYPE_CHECKING:
@@ -28,6 +31,7 @@ MOST_IN_LINE = 8  # entries of a legend below panels
 TITLE_LETTERS, NOTE_LETTERS = 9.5, 12.5  # an inch
 MOST_DECADES = 2.2  # of a logarithmic axis with labels between powers of ten
 GRID = {"linewidth": 0.4, "alpha": 0.4}
+DESCRIPTION = "{http://purl.org/dc/elements/1.1/}description"  # of an SVG by matplotlib
 
 
 def new_figure(title: str, width: float, height: float) -> Figure:
@@ -132,12 +136,19 @@ def whole_figure(draw: Callable[..., Any]) -> Callable[..., Any]:
 def write_figure(figure: Figure, png: Path, svg: Path) -> None:
     """Write a figure as PNG and as SVG.
 
-    Each is written whole or not at all, with pictures embedded. The same figure gives the same
-    bytes: no date, and identifiers from a fixed salt.
+    Each is written whole or not at all, with pictures embedded, and its provenance as a description
+    (`provenance_of`). The same figure gives the same bytes: no date, and identifiers from a fixed salt.
     """
     from matplotlib import rc_context
 
+    made = {"Description": json.dumps(describe_provenance())}
     with rc_context({"svg.hashsalt": "neural_shadows"}):
-        for path, metadata in ((png, None), (svg, {"Date": None})):
+        for path, metadata in ((png, made), (svg, made | {"Date": None})):
             with whole_file(path) as part:
                 figure.savefig(part, metadata=metadata)
+
+
+def provenance_of(svg: bytes) -> dict[str, Any]:
+    """The provenance in a figure's SVG; empty without one."""
+    description = ElementTree.fromstring(svg).find(f".//{DESCRIPTION}")
+    return {} if description is None else json.loads(description.text)

@@ -1,0 +1,91 @@
+"""What made a report: in a table's files and in a figure's, the same."""
+
+import hashlib
+import json
+from types import SimpleNamespace
+
+import pandas as pd
+import pytest
+from PIL import Image
+
+from neural_shadows.reports.data.table import Table, write_table
+from neural_shadows.reports.drawing.chart import write_chart
+from neural_shadows.reports.drawing.style import new_figure, provenance_of, write_figure
+from neural_shadows.running import provenance
+from neural_shadows.running.origin import CHECKOUT, describe_origin
+
+SCRIPT = "workflow/neural_shadows/reports/tables/comparison.py"
+
+
+@pytest.fixture
+def job(monkeypatch, tmp_path):
+    """A table's job, in a folder with its two inputs."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("a.csv", "b.csv", "figure.png"):
+        (tmp_path / name).write_text(name)
+    named = {"metrics": ["b.csv", "a.csv"], "mesh": "a.csv", "beside": ["figure.png"]}
+    job = SimpleNamespace(
+        rule="table",
+        input=named,
+        params={"settings": {"run": {"scale": "desk", "seed": 2026}}},
+        wildcards={"table": "table_4_3"},
+    )
+    monkeypatch.setattr(provenance, "JOB", job)
+    main = SimpleNamespace(__file__=str(CHECKOUT / SCRIPT))
+    monkeypatch.setitem(provenance.sys.modules, "__main__", main)
+    return job
+
+
+def test_a_job_s_provenance(job):
+    record = provenance.describe_provenance()
+    assert record["script"] == SCRIPT and record["section"] == "tables.table_4_3"
+    assert record["seed"] == 2026
+    # Each once, and without the figure, which is made along with the table.
+    digests = {name: hashlib.sha256(name.encode()).hexdigest() for name in ("a.csv", "b.csv")}
+    assert record["inputs"] == digests
+    assert describe_origin().items() <= record.items()
+    line = provenance.provenance_line(record)
+    assert f"`{SCRIPT}`; section `tables.table_4_3`; 2 inputs, SHA-256 of their list `" in line
+    assert f"seed 2026; commit {record['commit']}" in line and record["machine"]["cpu"] in line
+
+
+def test_a_line_names_other_inputs_otherwise(job, tmp_path):
+    before = provenance.provenance_line(provenance.describe_provenance())
+    (tmp_path / "a.csv").write_text("edited")
+    after = provenance.provenance_line(provenance.describe_provenance())
+    assert before != after and before.split("`;")[0] == after.split("`;")[0]
+
+
+def test_a_rule_without_wildcards_is_its_own_section(job):
+    job.wildcards, job.rule, job.params = {}, "claims", {}
+    record = provenance.describe_provenance()
+    assert record["section"] == "claims" and record["seed"] is None
+    assert "seed" not in provenance.provenance_line(record)
+
+
+def test_outside_of_a_job_there_is_the_origin_alone():
+    assert provenance.describe_provenance() == describe_origin()
+    line = provenance.provenance_line(describe_origin())
+    assert line.startswith("Made by commit ") and "input" not in line
+
+
+def test_a_table_says_what_made_it(job, tmp_path):
+    csv, md, json_file = (tmp_path / f"table.{ending}" for ending in ("csv", "md", "json"))
+    write_table(Table(pd.DataFrame({"a": [1]}), {"a": ["1"]}, [], "A table"), csv, md, json_file)
+    record = provenance.describe_provenance()
+    assert json.loads(json_file.read_text())["provenance"] == record
+    assert provenance.provenance_line(record) in md.read_text().splitlines()[-1]
+
+
+@pytest.mark.parametrize("write", [write_figure, write_chart])
+def test_a_figure_says_what_made_it(job, tmp_path, write):
+    png, svg = tmp_path / "figure.png", tmp_path / "figure.svg"
+    write(new_figure("A figure", 4, 3), png, svg)
+    record = provenance.describe_provenance()
+    assert provenance_of(svg.read_bytes()) == record
+    with Image.open(png) as picture:
+        assert json.loads(picture.text["Description"]) == record
+
+
+def test_a_figure_of_another_program_says_nothing():
+    assert provenance_of(b'<svg xmlns="http://www.w3.org/2000/svg"/>') == {}
