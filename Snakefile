@@ -32,6 +32,7 @@ rule all:
     default_target: True
     input:
         targets.all_reports(LAYOUT),
+        PATHS.report("manifest.json"),
 
 
 onsuccess:

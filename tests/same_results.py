@@ -26,8 +26,9 @@ MEASURED = {
 # Folders below results/<scale> of what jobs say on the way, and of what is not finished.
 NO_RESULTS = re.compile(r"(^|/)(logs|benchmarks|checkpoints|[^/]+\.unfinished)/")
 
-# The page says how long the jobs took.
+# The page says how long the jobs took. A manifest has times, and checksums of the page.
 CHANGING = re.compile(rb"<dt>durations</dt><dd>[^<]*")
+OF_ONE_RUN = ("manifest.json", "ro-crate-metadata.json")
 
 
 def results_of(checkout: Checkout) -> dict[str, bytes]:
@@ -40,10 +41,11 @@ def results_of(checkout: Checkout) -> dict[str, bytes]:
 
 
 def reports_of(checkout: Checkout) -> dict[str, bytes]:
-    """Content of each report by its path, without durations."""
+    """Content of each report by its path, without durations and the manifest."""
     return {
         str(path): CHANGING.sub(b"", (checkout.reports / path).read_bytes())
         for path in _files(checkout.reports)
+        if path.name not in OF_ONE_RUN
     }
 
 

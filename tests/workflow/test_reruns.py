@@ -6,7 +6,7 @@ import pytest
 from checkout import SMOKE, Checkout, write_overlay
 
 # What shows the networks' pictures, and all that is made of a network.
-SHOWN = {"table", "figure", "claims", "page"}
+SHOWN = {"table", "figure", "claims", "page", "manifest"}
 ANSWERED = SHOWN | {"query_network", "evaluate"}
 TRAINED = ANSWERED | {"tune", "time_methods"}
 MAPPED = SHOWN | {"tune", "evaluate", "time_methods"}  # of the methods by maps
@@ -78,7 +78,7 @@ def test_edited_kinds(edited):
 @pytest.mark.parametrize(
     ("edit", "rules"),
     [
-        ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "page"}),
+        ({"tables": {"table_4_3": {"title": "Another title"}}}, {"table", "page", "manifest"}),
         ({"experiments": {"dragon": {"bias": 0.01}}}, ANSWERED),
         ({"experiments": {"dragon": {"label": "Another"}}}, SHOWN),
         ({"trainings": {"base": {"learning_rate": 0.002}}}, TRAINED | {"train"}),

@@ -34,7 +34,7 @@ SCREEN = {"network": "nsm", "experiment": "nsm", "frame_set": "nsm"}
 
 # Of a function that does not have the rule's name.
 FUNCTIONS = {"figure": "draw", "preview_scene": "draw"}
-FUNCTIONS |= {"page": "write_page", "viewer": "write_viewer"}
+FUNCTIONS |= {"page": "write_page", "viewer": "write_viewer", "manifest": "write_manifest"}
 # Rules whose function returns a table, which `write_table` writes.
 RETURNED = ("table", "claims", "expected_minutes")
 

@@ -4,6 +4,7 @@ import functools
 import gc
 import inspect
 import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -19,6 +20,11 @@ sys.path.insert(0, str(WORKFLOW))
 SEARCH_PATH = "PYTHONPATH"
 inherited = [path for path in [os.environ.get(SEARCH_PATH)] if path]
 os.environ[SEARCH_PATH] = os.pathsep.join([str(WORKFLOW), *inherited])
+
+# Of this run, also in jobs that Snakemake starts by commands of its own.
+os.environ.setdefault(
+    "NEURAL_SHADOWS_COMMAND", shlex.join(["snakemake", *sys.argv[1:]])
+)
 
 # glibc returns arrays to the system and requests them again, which clears their pages: 3.2 of 20 CPU
 # seconds of `evaluate`. Keep up to 256 MiB, and serve arrays below 32 MiB from them.
@@ -37,6 +43,7 @@ from neural_shadows.networks.kind_module import form_module, kind_module
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.costs.plan import plan
 from neural_shadows.reports.page import targets
+from neural_shadows.reports.runs import inputs as runs
 from neural_shadows.running.module_graph import digest, modules_of
 from neural_shadows.scenes.generated import generator_module
 from neural_shadows.training.checkpoints import remove_finished
@@ -117,7 +124,7 @@ wildcard_constraints:
     measure=r"widths\.json|occluders\.npy",
     part="[a-z]+_[0-9]+",
     # Names without an entry in the configuration are refused by the functions below.
-    table=r"(?!(claims|expected_minutes)\b)[a-z][a-z0-9_]*",
+    table=r"(?!(claims|expected_minutes|manifest)\b)[a-z][a-z0-9_]*",
     figure="figure_[a-z0-9_]+",
     viewer="viewer(_[a-z0-9_]+)?",
 

@@ -1,4 +1,4 @@
-"""Tables, figures, claims and the page."""
+"""Tables, figures, claims, the page and the manifest."""
 
 
 rule table:
@@ -181,3 +181,24 @@ rule page:
         "Writing the page {wildcards.page}"
     script:
         "../neural_shadows/reports/page/page.py"
+
+
+rule manifest:
+    input:
+        **runs.files(LAYOUT),
+    output:
+        manifest_json=PATHS.report("manifest.json"),
+        crate_json=PATHS.report("ro-crate-metadata.json"),
+    log:
+        PATHS.log("manifest"),
+    conda:
+        ENVIRONMENT
+    resources:
+        **usual(2000, minutes=10),
+    params:
+        code=code("reports/runs/manifest"),
+        settings=lambda wildcards: runs.arguments(LAYOUT),
+    message:
+        "Writing the manifest"
+    script:
+        "../neural_shadows/reports/runs/manifest.py"

@@ -28,7 +28,7 @@ RESERVED_SCALES = {
     *("frames", "imported_frames", "frame_measures"),
     *("screen_profiles", "screen_sensitivities", "soft_fields"),
 }
-RESERVED_TABLES = ("claims", "expected_minutes", "index")
+RESERVED_TABLES = ("claims", "expected_minutes", "index", "manifest")
 
 
 class Config(Sections):

@@ -111,9 +111,14 @@ class Paths:
         """LPIPS as ONNX, empty where it is not available."""
         return f"{self.results}/lpips.onnx"
 
+    @cached_property
+    def logs(self) -> str:
+        """Folder of all logs."""
+        return f"{self.results}/logs"
+
     def log(self, rule: str, *wildcards: str) -> str:
         """Log of a rule's job."""
-        return f"{self.results}/logs/{rule}/{_of(rule, wildcards)}.log"
+        return f"{self.logs}/{rule}/{_of(rule, wildcards)}.log"
 
     @cached_property
     def benchmarks(self) -> str:

@@ -1,6 +1,8 @@
 """Provenance of a table or figure: script, section of the configuration, inputs, origin."""
 
+import ast
 import hashlib
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -27,6 +29,23 @@ def describe_provenance() -> dict[str, Any]:
         **describe_origin(),
         "inputs": {path: sha256_of(path) for path in _inputs()},
     }
+
+
+def log_line(origin: dict[str, Any]) -> str:
+    """The first line of a job's log."""
+    return "Made by commit {commit}, code {code}, {machine}".format(**origin)
+
+
+def read_log_line(line: str) -> dict[str, Any] | None:
+    """Commit and machine of `log_line`; None of another line."""
+    match = re.fullmatch(r"Made by commit (.+), code \w+, (\{.+\})", line)
+    return match and {"commit": match[1], "machine": ast.literal_eval(match[2])}
+
+
+def describe_hardware(machine: dict[str, Any]) -> str:
+    """Name a machine's processor, cores and GPU."""
+    cores = f"{machine['cores']} core{'s' * (machine['cores'] != 1)}"
+    return ", ".join(filter(None, (machine["cpu"], cores, machine["gpu"])))
 
 
 def _script() -> str:
@@ -58,8 +77,7 @@ def provenance_line(record: dict[str, Any]) -> str:
         f"seed {record['seed']}" if record.get("seed") is not None else "",
         f"commit {record['commit']}",
         f"code `{record['code']}`" if record["code"] else "",
-        f"{machine['cpu']}, {machine['cores']} core{'s' * (machine['cores'] != 1)}"
-        + (f", {machine['gpu']}" if machine["gpu"] else ""),
+        describe_hardware(machine),
         f"Python {machine['python']}, torch {machine['torch']}",
     ]
     return f"Made by {'; '.join(filter(None, parts))}."

@@ -52,8 +52,7 @@ def run_stage(
         origin.CODE = dict(job.params.items()).get("code")
         provenance.JOB = job
         try:
-            made_by = origin.describe_origin()
-            print("Made by commit {commit}, code {code}, {machine}".format(**made_by), file=log)
+            print(provenance.log_line(origin.describe_origin()), file=log)
             arguments = arguments_of(job, function)
             if write is None:
                 function(**arguments)

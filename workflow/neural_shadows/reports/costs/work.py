@@ -315,6 +315,7 @@ def profile_screen_network(layout: Layout, network: str) -> Work:
 CONSTANT = {"get_mesh": 5.0, "prepare_mesh": 2.5, "find_lpips": 6.5, "export_network": 6.0}
 CONSTANT |= {"table": 4.0, "figure": 6.0, "preview_scene": 5.0, "viewer": 6.0, "claims": 10.0}
 CONSTANT |= {"page": 20.0, "all": 0.0, "expected_minutes": 15.0, "restore_weights": START}
+CONSTANT |= {"manifest": 6.0}
 
 BY_RULE: dict[str, Callable[..., Work]] = {
     function.__name__: function
