@@ -36,6 +36,15 @@ def test_the_dependencies_are_what_a_field_imports():
     assert {NAMES.get(name, name) for name in others} == named
 
 
+def test_its_version_is_the_same_everywhere():
+    """A release is refused where it is not, see .github/workflows/release.yaml."""
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text()
+    latest = re.search(r"^## (.+), (.+)$", (ROOT / "CHANGELOG.md").read_text(), re.M)
+    assert latest[1] == version
+    assert f"\ndate-released: {latest[2]}\n" in (ROOT / "CITATION.cff").read_text()
+
+
 def test_importing_it_loads_nothing_that_computes():
     """numpy alone: numba, trimesh and Embree come with the first fit."""
     heavy = "{'numba', 'trimesh', 'scipy', 'torch', 'embreex', 'safetensors', 'pydantic'}"

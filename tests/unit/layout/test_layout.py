@@ -14,6 +14,7 @@ from neural_shadows.layout.parts import HELD_OUT, batches, part_range, view_rang
 from neural_shadows.layout.paths import ALL
 from neural_shadows.reports.claims import inputs as claims
 from neural_shadows.reports.page import targets
+from neural_shadows.reports.runs import inputs as runs
 from neural_shadows.sections.frame_sets import VIEWS
 from neural_shadows.sections.views import Views
 
@@ -366,6 +367,24 @@ def test_a_page_of_what_is_there(desk, monkeypatch, tmp_path):
     (tmp_path / second).unlink()
     assert told["figures"] == told["claims_json"] == told["lpips_json"] == []
     assert targets.newest(desk, "available") == made.stat().st_mtime
+
+
+def test_a_manifest_lists_default_reports_and_those_on_request_that_are_there(
+    desk, monkeypatch, tmp_path
+):
+    monkeypatch.chdir(tmp_path)
+    ablations = tmp_path / "reports" / "ablations.csv"
+    default = {*runs.files(desk)["reports"]}
+    assert {"reports/index.html", "reports/table_4_3.csv", "reports/viewer.png"} < default
+    assert runs.on_request(desk) == {} and "reports/ablations.csv" not in default
+    ablations.parent.mkdir()
+    for path in (
+        ablations,
+        tmp_path / "reports" / "table_4_3.csv",
+        tmp_path / "reports" / "my.csv",
+    ):
+        path.touch()
+    assert runs.on_request(desk) == {"reports/ablations.csv": ablations.stat().st_mtime}
 
 
 def test_the_words_at_the_end(desk, monkeypatch, tmp_path):
