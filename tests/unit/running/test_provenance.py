@@ -3,6 +3,7 @@
 import hashlib
 import json
 from types import SimpleNamespace
+from xml.etree import ElementTree
 
 import pandas as pd
 import pytest
@@ -11,6 +12,8 @@ from PIL import Image
 from neural_shadows.reports.data.table import Table, write_table
 from neural_shadows.reports.drawing.chart import write_chart
 from neural_shadows.reports.drawing.style import new_figure, provenance_of, write_figure
+from neural_shadows.reports.page.figure_blocks import figure_blocks
+from neural_shadows.reports.page.table_blocks import table_block
 from neural_shadows.running import provenance
 from neural_shadows.running.origin import CHECKOUT, describe_origin
 
@@ -75,6 +78,7 @@ def test_a_table_says_what_made_it(job, tmp_path):
     record = provenance.describe_provenance()
     assert json.loads(json_file.read_text())["provenance"] == record
     assert provenance.provenance_line(record) in md.read_text().splitlines()[-1]
+    assert f"<code>{SCRIPT}</code>" in table_block(json_file, {}).made
 
 
 @pytest.mark.parametrize("write", [write_figure, write_chart])
@@ -82,10 +86,13 @@ def test_a_figure_says_what_made_it(job, tmp_path, write):
     png, svg = tmp_path / "figure.png", tmp_path / "figure.svg"
     write(new_figure("A figure", 4, 3), png, svg)
     record = provenance.describe_provenance()
-    assert provenance_of(svg.read_bytes()) == record
-    with Image.open(png) as picture:
-        assert json.loads(picture.text["Description"]) == record
+    assert provenance_of(png) == record
+    described = ElementTree.parse(svg).find(".//{http://purl.org/dc/elements/1.1/}description")
+    assert json.loads(described.text) == record
+    (block,) = figure_blocks([svg, png], {}, {})
+    assert f"<code>{SCRIPT}</code>" in block.made and "metadata" not in block.html
 
 
-def test_a_figure_of_another_program_says_nothing():
-    assert provenance_of(b'<svg xmlns="http://www.w3.org/2000/svg"/>') == {}
+def test_a_figure_without_a_provenance_says_nothing(tmp_path):
+    Image.new("L", (2, 2)).save(tmp_path / "figure.png")
+    assert provenance_of(tmp_path / "figure.png") == provenance_of(tmp_path / "no.png") == {}

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable
 from math import ceil, log10
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
-from xml.etree import ElementTree
 
 import pandas as pd
 
@@ -31,7 +30,6 @@ MOST_IN_LINE = 8  # entries of a legend below panels
 TITLE_LETTERS, NOTE_LETTERS = 9.5, 12.5  # an inch
 MOST_DECADES = 2.2  # of a logarithmic axis with labels between powers of ten
 GRID = {"linewidth": 0.4, "alpha": 0.4}
-DESCRIPTION = "{http://purl.org/dc/elements/1.1/}description"  # of an SVG by matplotlib
 
 
 def new_figure(title: str, width: float, height: float) -> Figure:
@@ -148,7 +146,11 @@ def write_figure(figure: Figure, png: Path, svg: Path) -> None:
                 figure.savefig(part, metadata=metadata)
 
 
-def provenance_of(svg: bytes) -> dict[str, Any]:
-    """The provenance in a figure's SVG; empty without one."""
-    description = ElementTree.fromstring(svg).find(f".//{DESCRIPTION}")
-    return {} if description is None else json.loads(description.text)
+def provenance_of(png: Path) -> dict[str, Any]:
+    """The provenance in a figure's PNG; empty without one."""
+    from PIL import Image
+
+    if not png.exists():
+        return {}
+    with Image.open(png) as picture:
+        return json.loads(picture.info.get("Description", "{}"))

@@ -7,8 +7,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from markdown_it import MarkdownIt
 from markupsafe import Markup
 from PIL import Image
+
+from neural_shadows.running.provenance import provenance_line
+
+MARKDOWN = MarkdownIt("commonmark", {"html": False})
 
 
 @dataclass(frozen=True)
@@ -21,6 +26,7 @@ class Block:
         parts: of a table, one for each scene (`table_blocks.Part`).
         notes: below a table; the first says how to read it.
         files: its downloads: addresses within the page, by file name.
+        made: its provenance, a line.
     """
 
     kind: str
@@ -31,11 +37,22 @@ class Block:
     parts: Sequence[Any] = ()
     notes: tuple[Markup, ...] = ()
     files: Mapping[str, str] = field(default_factory=dict)
+    made: Markup = Markup()
 
     @property
     def anchor(self) -> str:
         """Unique anchor on the page."""
         return f"{self.kind}-{self.name}"
+
+
+def inline(text: str) -> Markup:
+    """A line of Markdown as HTML."""
+    return Markup(MARKDOWN.renderInline(text))
+
+
+def made_line(provenance: Mapping[str, Any]) -> Markup:
+    """The line of a provenance; empty of an older report without one."""
+    return inline(provenance_line(provenance)) if provenance else Markup()
 
 
 def csv_file(path: Path) -> dict[str, str]:

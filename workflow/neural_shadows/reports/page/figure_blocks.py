@@ -9,7 +9,8 @@ from markupsafe import Markup
 from PIL import Image
 
 from neural_shadows.reports.drawing.chart import data_of
-from neural_shadows.reports.page.blocks import Block, csv_file, data_uri, webp_uri
+from neural_shadows.reports.drawing.style import provenance_of
+from neural_shadows.reports.page.blocks import Block, csv_file, data_uri, made_line, webp_uri
 
 LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
 WIDEST = 1400  # of these; the page is 1,008 wide, and 23 figures take 2.9 MB in place of 4.5
@@ -61,7 +62,8 @@ def _block(svg: Path, drawn: bool, title: str, table: Path | None) -> Block:
             source = webp_uri(picture, lossless=False)
         html = Markup('<img alt="{}" src="{}">').format(title, source)
     title = f"{caption}: {title}" if caption else title
-    return Block("figure", svg.stem, title, html, caption, files=files)
+    made = made_line(provenance_of(svg.with_suffix(".png")))
+    return Block("figure", svg.stem, title, html, caption, files=files, made=made)
 
 
 def inline_svg(content: bytes, name: str, title: str) -> Markup:

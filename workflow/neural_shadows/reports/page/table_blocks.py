@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from markdown_it import MarkdownIt
 from markupsafe import Markup
 
 from neural_shadows.evaluation.look import Look
@@ -14,12 +13,11 @@ from neural_shadows.evaluation.null_predictors import NULL
 from neural_shadows.files.whole_files import read_json
 from neural_shadows.reports.data.method_look import LOOKS
 from neural_shadows.reports.data.published import NETWORKS
-from neural_shadows.reports.page.blocks import Block, csv_file
+from neural_shadows.reports.page.blocks import Block, csv_file, inline, made_line
 
 LOGARITHMIC = 20  # times the smallest: values so far apart are drawn so
 DRAWN = 82  # width of a cell's drawing, px
 NEVER_BEST = (*NETWORKS.values(), *NULL.values())
-MARKDOWN = MarkdownIt("commonmark", {"html": False})
 NAN = float("nan")
 
 
@@ -81,6 +79,7 @@ def table_block(path: Path, looks: Mapping[str, Look]) -> Block:
         parts=[_part(name, columns, rows, looks) for name, rows in parts.items()],
         notes=tuple(map(inline, table["notes"])),
         files=csv_file(path.with_suffix(".csv")),
+        made=made_line(table.get("provenance", {})),
     )
 
 
@@ -93,11 +92,6 @@ def shown_looks(blocks: Iterable[Block]) -> list[Look]:
 def has_printed(block: Block) -> bool:
     """Check a table for printed numbers beside ours."""
     return any(cell.theirs for part in block.parts for row in part.rows for cell in row)
-
-
-def inline(text: str) -> Markup:
-    """A line of Markdown as HTML."""
-    return Markup(MARKDOWN.renderInline(text))
 
 
 def _part(
