@@ -119,7 +119,7 @@ def jobs_of(logs: Sequence[Path]) -> dict[str, dict[str, int]]:
 def time_of(benchmarks: Iterable[Path]) -> dict[str, Any]:
     """First start and last end of jobs, and the seconds in which at least one ran.
 
-    A job ends when its benchmark is written: copies without times have no true ones.
+    A job ends when its benchmark is written: of files that were copied without their times it is wrong.
     """
     ends = [(path.stat().st_mtime, float(read_seconds([path]))) for path in benchmarks]
     spans = sorted((end - seconds, end) for end, seconds in ends)
