@@ -136,3 +136,10 @@ def test_lines_of_logs_are_read_as_they_are_written():
     origin = {"commit": "not a git checkout", "machine": MACHINE}
     assert read_log_line(log_line({**origin, "code": None})) == origin
     assert read_log_line("train: 27 % of 6.14M samples") is None
+
+
+def test_files_of_reference_runs_are_those_of_their_manifests():
+    for path in (ROOT / "reports" / "reference").glob("*/manifest.json"):
+        for name, file in json.loads(path.read_text())["files"].items():
+            if (path.parent / name).exists():  # some are left out
+                assert sha256_of(path.parent / name) == file["sha256"], path.parent / name
