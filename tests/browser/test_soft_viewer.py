@@ -13,14 +13,17 @@ from PIL import Image
 from soft_viewer_page import NETWORKS, frame_of, images_of, make_soft_viewer
 
 from neural_shadows.denoising.ffx import FfxFilter, ffx_like
-from neural_shadows.evaluation.methods import moments, pcf, pcss
+from neural_shadows.evaluation.method_parts import scene_fields
+from neural_shadows.evaluation.methods import moments, object_cones, pcf, pcss
 from neural_shadows.frames.feature_names import FEATURES, TRACED, buffers_of, channels_of
 from neural_shadows.frames.features import named_features
 from neural_shadows.frames.light_size import light_size
 from neural_shadows.frames.ray_tracing import ray_traced, traced_images
 from neural_shadows.networks.screen_space.screen_networks import load_screen_network
 from neural_shadows.rendering.gbuffer import lens_of
+from neural_shadows.representations.shadow_field.shadow_field import PUSH
 from neural_shadows.viewer.screen_arrays import with_half_weights
+from neural_shadows.viewer.soft_scene_arrays import FIELD_CELL
 
 SIZE = WIDTH, HEIGHT = 512, 256  # in half of it two percent of the pixels are edges
 RAYS = 8  # of the reference
@@ -133,6 +136,17 @@ def test_classic_methods(page, data, frame, share):
         assert_alike(answers(page, key, asked(data, share)), values, key)
 
 
+@pytest.mark.parametrize("share", SHARES)
+def test_cones(page, data, frame, share, monkeypatch):
+    """Past fields of the page's cells; of a point, rays through them."""
+    monkeypatch.setattr(scene_fields, "CELL", FIELD_CELL)
+    scene_fields.fields_of.cache_clear()
+    visibility = object_cones.cone_traced(frame, share * data["radius"], walks=8, push=PUSH)
+    shown = answers(page, "cones", asked(data, share))
+    assert_alike(shown, image(frame, visibility), "cones")
+    scene_fields.fields_of.cache_clear()
+
+
 def image(frame, visibility):
     """Image of visibilities, dark where the surface is turned from the light."""
     return frame.surface.image((visibility * (frame.cosines > 0)).astype(np.float32), 1.0)
@@ -166,12 +180,13 @@ def test_networks(page, data, frame, soft_page, name, share):
     assert np.abs(shown - whole).max() <= HALF_MAPS[header["network"]["form"]]
 
 
-def test_a_motion_moves_shadows_with_their_object(page, data, soft_page):
+@pytest.mark.parametrize("key", ["rays_1", "cones"])
+def test_a_motion_moves_shadows_with_their_object(page, data, key):
     """Turned once round, the object casts its shadow as at rest; moved, another."""
     question = asked(data, 0.5)
-    rest = answers(page, "rays_1", question)
-    turned = answers(page, "rays_1", question | {"move": [0, 0, 2 * np.pi]})
-    moved = answers(page, "rays_1", question | {"move": [0.2, 0.1, 0.4]})
+    rest = answers(page, key, question)
+    turned = answers(page, key, question | {"move": [0, 0, 2 * np.pi]})
+    moved = answers(page, key, question | {"move": [0.2, 0.1, 0.4]})
     assert np.mean(np.abs(turned - rest)) < MEAN < np.mean(np.abs(moved - rest))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from neural_shadows.frames.soft_scene import SoftScene
-from neural_shadows.viewer.soft_scene_arrays import _kept, shown_scene
+from neural_shadows.viewer.soft_scene_arrays import FIELD_CELL, _kept, shown_fields, shown_scene
 
 
 @pytest.fixture(scope="module")
@@ -35,3 +35,15 @@ def test_bounds_lie_within_the_scene(room):
     vertices = room.at_rest.joined.vertices
     assert np.all(vertices.min(0) < low) and np.all(high < vertices.max(0))
     assert data["mover"] == room.arrangement.mover_index
+
+
+def test_closed_objects_have_fields_in_their_places(room):
+    scene = room.at_rest
+    fields = shown_fields(scene)
+    assert fields["cell"] == FIELD_CELL * scene.size
+    names = [part.name for part in room.arrangement.objects]
+    held = {name: field for name, field in zip(names, fields["objects"]) if field}
+    assert names[0] == "floor" and fields["objects"][0] is None  # two triangles have no inside
+    vase = scene.objects[names.index("vase")].vertices
+    reach = np.linalg.norm(vase - np.array(held["vase"]["centre"]), axis=1)
+    assert reach.max() < held["vase"]["radius"] < 1.1 * reach.max()

@@ -8,8 +8,17 @@ from neural_shadows.layout.layout import Layout
 _HARD, _SOFT = "write_viewer", "write_soft_viewer"
 # Files of `report/viewer` that the viewer of an area light has as well.
 SHARED = (
-    *("arrays.js", "bvh.js", "divider.js", "mesh.js", "orbit.js", "vectors.js", "webgl.js"),
-    *("page.js", "viewer.css", "screen.vert"),
+    *(
+        "arrays.js",
+        "bvh.js",
+        "divider.js",
+        "field_textures.js",
+        "mesh.js",
+        "orbit.js",
+        "vectors.js",
+    ),
+    *("webgl.js", "page.js", "viewer.css", "screen.vert", "discs.glsl", "unit_sphere.glsl"),
+    *("field_values.glsl", "field.glsl", "cones.glsl"),
 )
 
 

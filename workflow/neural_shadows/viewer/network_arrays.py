@@ -13,16 +13,14 @@ from neural_shadows.networks.object_space.occupancy_field_network import (
 )
 from neural_shadows.networks.object_space.shadow_network import ShadowNetwork
 from neural_shadows.networks.quantisation import quantise
-from neural_shadows.representations.distance_bricks.distances_around import distances_around
 from neural_shadows.representations.distance_bricks.field_marching import (
     BRICK,
     BRICK_VERTICES,
     SAMPLES_PER_CELL,
 )
 from neural_shadows.representations.shadow_field.grid_codes import grid_codes
-from neural_shadows.viewer.packed import packed, zigzag
-
-STEP_CELLS = 1 / 8  # of a distance around a field
+from neural_shadows.viewer.field_arrays import cone_arrays
+from neural_shadows.viewer.packed import packed
 
 
 def network_arrays(network: ShadowNetwork, trained: bool) -> dict[str, Any]:
@@ -56,21 +54,9 @@ def _field(network: OccupancyFieldNetwork, trained: bool) -> dict[str, Any]:
     if network.start != "undecided" and network.storage != "sign" and not trained:
         cell = 2 / network.resolution
         bricks = values.numpy()[network.table.view(-1, BRICK_VERTICES).numpy()]
-        step = cell * STEP_CELLS
-        field |= {"unit": float(scale) / CELL_SHARE * cell, "push": network.push, "step": step}
-        field["arrays"]["around"] = packed(_differences(distances_around(grid, bricks), step))
+        cones = cone_arrays(grid, bricks, float(scale) / CELL_SHARE * cell, network.push)
+        return {**field, **cones, "arrays": field["arrays"] | cones["arrays"]}
     return field
-
-
-def _differences(distances: np.ndarray, step: float) -> np.ndarray:
-    """A cube's values in steps, as differences along all three axes; zigzag uint16.
-
-    Of the Stanford dragon at 256³ 104 KiB, deflated; as halves 299.
-    """
-    steps = np.round(distances / step).astype(np.int64)
-    for axis in range(3):
-        steps = np.diff(steps, axis=axis, prepend=0)
-    return zigzag(steps)
 
 
 def _frequency_network(network: FrequencyNetwork) -> dict[str, Any]:

@@ -23,7 +23,7 @@ from neural_shadows.running.stage import run_stage
 from neural_shadows.scenes.scene import Scene
 from neural_shadows.settings.records import FrameSettings, GeneratedScene, Run
 from neural_shadows.viewer.screen_arrays import screen_arrays
-from neural_shadows.viewer.soft_scene_arrays import shown_scene
+from neural_shadows.viewer.soft_scene_arrays import shown_fields, shown_scene
 from neural_shadows.viewer.template import fill_template, shaders
 
 MOST_BYTES = 6 << 20
@@ -80,6 +80,7 @@ def write_soft_viewer(
         data={
             "name": name,
             "scene": data,
+            "fields": shown_fields(opened.at_rest),
             "radius": radius,
             "resolution": resolution,
             "views": [_view(number, setting) for number, setting in enumerate(settings, 1)],

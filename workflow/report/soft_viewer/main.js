@@ -5,10 +5,10 @@ const WALK = { w: [0, 1], s: [0, -1], a: [-1, 0], d: [1, 0] }; // right, ahead
 
 async function startSoftViewer(root, data) {
   const find = (selector) => root.querySelector(selector), canvas = find("canvas"), stage = find(".stage");
-  const scene = await unpackScene(data.scene);
+  const scene = await unpackScene(data.scene, data.fields);
   const networks = await Promise.all(data.networks.map(async (network) => (
     { ...network, arrays: { weights: await unpack(network.arrays.weights) } })));
-  const all = allMethods(networks), methods = Object.fromEntries(all.map((method) => [method.key, method]));
+  const all = allMethods(networks, scene.fields), methods = Object.fromEntries(all.map((method) => [method.key, method]));
   const renderer = new Renderer(canvas, data.shaders, scene), { gl } = renderer;
   const first = data.views[0], start = ({ eye, target, fov, light }) => (
     { view: { eye, target, fov, up: [0, 1, 0] }, light: { centre: light, radius: data.radius / 2 } });
@@ -83,7 +83,7 @@ async function startSoftViewer(root, data) {
   function tell(side, { size, ms, error, rays }) {
     const method = methods[state[side]], facts = [];
     const map = method.usesMap ? 24 * state.resolution ** 2 : 0; // six faces of four bytes
-    if (method.stored) facts.push(`${KIB(method.stored)} of weights`);
+    if (method.stored) facts.push(`${KIB(method.stored)} of ${method.storedAs}`);
     if (map) facts.push(`map ${KIB(map)}`);
     if (ms !== null && ms !== undefined) facts.push(`${ms.toFixed(0)} ms at ${size.join(" × ")}`);
     if (rays) facts.push(error === undefined || error === null ? `${rays} rays a pixel` : `error ${(1e4 * error).toFixed(1)} × 10⁻⁴ of ${rays} rays`);

@@ -33,7 +33,7 @@ function bufferMethod(key, name, buffer, channel) {
   };
 }
 
-const BOX = ["light_map", "receiver", "box_frag"], SEARCH = ["light_map", "numbers", "receiver", "blockers_frag"];
+const BOX = ["light_map", "receiver", "box_frag"], SEARCH = ["light_map", "numbers", "discs", "receiver", "blockers_frag"];
 const ofPoint = ({ light: { radius } }) => radius === 0;
 const MAP_METHODS = [
   bufferMethod("hard", "Shadow map", "visibilities", 2),
@@ -86,12 +86,21 @@ const truth = {
   },
 };
 
+function conesMethod(fields) {
+  return {
+    key: "cones", name: "Cones, distance fields", storedAs: "fields", stored: fields.reduce((sum, { stored }) => sum + stored, 0),
+    *answer(renderer, state) {
+      return { texture: yield* renderer.cones(state), channel: 0 };
+    },
+  };
+}
+
 // A trained network of the page. data: see viewer/write_soft_viewer.py.
 function networkMethod(data) {
   let network = null, planes = null;
   const usesMap = data.features.some((name) => MAP_FEATURES.includes(name));
   return {
-    key: data.key, name: data.name, stored: data.stored, reach: data.largest, usesMap,
+    key: data.key, name: data.name, stored: data.stored, storedAs: "weights", reach: data.largest, usesMap,
     // Its input planes, rows from the top, for tests: (planes, height · width).
     planes: (renderer, size) => Array.from({ length: data.planes }, (_, k) => {
       const { gl } = renderer, layer = makeLayerFramebuffer(gl, network.planes, k >> 2, 1);
@@ -108,7 +117,7 @@ function networkMethod(data) {
         planes = makeLayerFramebuffer(renderer.gl, network.planes, 0, Math.ceil(data.planes / 4));
         yield;
       }
-      const traced = data.rays ? yield* renderer.rays("base_rays", state, data.rays, true) : null;
+      const traced = data.rays ? yield* renderer.rays("base_rays", state, data.rays, { penumbrae: true }) : null;
       const made = usesMap ? renderer.buffers(state) : {};
       yield;
       const [, , forward] = cameraAxes(view), { points, normals } = renderer.surfaces(state);
@@ -123,8 +132,9 @@ function networkMethod(data) {
   };
 }
 
-function allMethods(networks) {
+function allMethods(networks, fields) {
   return [
-    truth, ...networks.map(networkMethod), ...RAY_COUNTS.map(rayMethod), ...RAY_COUNTS.map(filteredMethod), ...MAP_METHODS,
+    truth, ...networks.map(networkMethod), ...RAY_COUNTS.map(rayMethod), ...RAY_COUNTS.map(filteredMethod),
+    ...(fields.length ? [conesMethod(fields)] : []), ...MAP_METHODS,
   ];
 }

@@ -6,7 +6,7 @@ const FLOATS = ["RGBA32F", "RGBA", "FLOAT"], BYTES = ["RGBA8", "RGBA", "UNSIGNED
 const DEPTHS = ["R32F", "RED", "FLOAT"];
 const MOST_TAPS = 9; // of a filter of moments, along an axis
 const CONSTANTS = {
-  MOST_TAPS, SEARCHED: 64, FILTERED: 128,
+  ROW_BRICKS, SOLID, MOST_TAPS, SEARCHED: 64, FILTERED: 128,
   SPREAD: "0.01", // of depths round a receiver: about 1 in moments' units
   GAUSSIAN_SIDE: (Math.exp(-0.5 / 0.55 ** 2) / (1 + 2 * Math.exp(-0.5 / 0.55 ** 2))).toFixed(9),
 };
@@ -26,7 +26,9 @@ class Renderer {
       const { position, faceNormal } = part;
       return { seen: makeVertices(gl, this.surface, part), casting: makeVertices(gl, this.depths, { position, faceNormal }) };
     });
-    this.trees = null;
+    this.constants = { ...CONSTANTS, SAMPLES_PER_CELL: `${scene.samplesPerCell}.0` };
+    this.trees = {};
+    this.fields = scene.fields.map(() => null); // textures, made when a cone first needs them
   }
 
   target(name, formats, width, height, deep = false) {
@@ -50,7 +52,7 @@ class Renderer {
   fill(sources, target, uniforms) {
     const { gl, shaders } = this, name = sources.join("+");
     this.programs[name] ??= makeProgram(
-      gl, shaders.screen_vert, sources.map((source) => shaders[source] ?? source).join("\n"), CONSTANTS);
+      gl, shaders.screen_vert, sources.map((source) => shaders[source] ?? source).join("\n"), this.constants);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target?.framebuffer ?? null);
     gl.viewport(0, 0, target?.width ?? this.canvas.width, target?.height ?? this.canvas.height);
     setUniforms(gl, this.programs[name], uniforms);
@@ -119,13 +121,14 @@ class Renderer {
     return { lengths, visibilities, pcf };
   }
 
-  // Uniforms of rays through the scene. The trees are made when a ray first needs them.
-  rayUniforms(state) {
-    this.trees ??= [this.scene.staying, this.scene.moving].map(({ position }) => {
-      const { nodes, triangles } = buildTree(position), table = (data) => makeTable(this.gl, FLOATS, 4, data);
-      return { nodes: table(nodes), triangles: table(triangles), count: nodes.length / 8 };
+  // Uniforms of rays through the scene, or only what is open there. Trees are made when a ray first needs them.
+  rayUniforms(state, open) {
+    const { staying: { position: still }, moving: { position: mobile }, openStaying, openMoving } = this.scene;
+    this.trees[open] ??= (open ? [openStaying, openMoving] : [still, mobile]).map((positions) => {
+      const { nodes, triangles } = buildTree(positions), table = (data) => makeTable(this.gl, FLOATS, 4, data);
+      return { nodes: table(nodes), triangles: table(triangles), count: positions.length ? nodes.length / 8 : 0 };
     });
-    const [staying, moving] = this.trees;
+    const [staying, moving] = this.trees[open];
     return {
       stayingNodes: staying.nodes, stayingTriangles: staying.triangles, stayingCount: staying.count,
       movingNodes: moving.nodes, movingTriangles: moving.triangles, movingCount: moving.count,
@@ -135,7 +138,7 @@ class Renderer {
 
   // Sends rays until a pixel has `count`, some at a time; goes on where an earlier call of this name
   // stopped. Gives the texture of rays.frag.
-  *rays(name, state, count, penumbrae = false) {
+  *rays(name, state, count, { penumbrae = false, open = false } = {}) {
     const { view, light: { centre, radius }, move, size } = state;
     const goal = radius > 0 ? count : 1; // to a point all rays are the same
     const key = JSON.stringify([view, centre, radius, move, size, penumbrae]);
@@ -144,8 +147,8 @@ class Renderer {
     if (sent?.key !== key || sent.count > goal) sent = { key, count: 0, side: 0 };
     while (sent.count < goal) {
       const more = Math.min(RAYS_AT_ONCE, goal - sent.count), [target, other] = [pair[1 - sent.side], pair[sent.side]];
-      this.fill(["receiver", "numbers", "trees", "rays_frag"], target, {
-        ...this.surfaces(state), ...this.rayUniforms(state), before: other.textures[0], centre, radius,
+      this.fill(["receiver", "numbers", "discs", "trees", "rays_frag"], target, {
+        ...this.surfaces(state), ...this.rayUniforms(state, open), before: other.textures[0], centre, radius,
         sceneSize: this.scene.size, first: sent.count, count: more, penumbrae,
       });
       sent = { key, count: sent.count + more, side: 1 - sent.side };
@@ -154,6 +157,29 @@ class Renderer {
       yield;
     }
     return pair[sent.side].textures[0];
+  }
+
+  // Cones past one field after the other, and rays past open objects. Gives a texture.
+  *cones(state) {
+    const { gl, scene } = this, { light: { centre, radius }, size } = state, { backwards } = this.motion(state);
+    const pair = ["cones_even", "cones_odd"].map((name) => this.target(name, [FLOATS], ...size));
+    // A point's ray starts a cell off: fields are not quite where triangles are.
+    const past = radius > 0 ? { sources: ["cones"], values: { lift: 1e-4 * scene.size } } : {
+      sources: ["unit_sphere", "field", "field_ray"], values: { lift: scene.cell, level: 0, depthBias: 0, sheet: false },
+    };
+    const isOpen = scene.openStaying.length + scene.openMoving.length > 0;
+    let before = isOpen ? yield* this.rays("open_rays", state, OPEN_RAYS, { open: true }) : null;
+    for (const [k, field] of scene.fields.entries()) {
+      this.fields[k] ??= { ...fieldTextures(gl, field), ...coneUniforms(gl, field) };
+      const target = pair[k % 2], known = before ?? pair[1].textures[0];
+      this.fill(["discs", "receiver", "field_values", ...past.sources, "past_field_frag"], target, {
+        ...this.surfaces(state), ...this.fields[k], before: known, begins: before === null, centre, radius,
+        sceneSize: scene.size, ...past.values, backwards: field.moves ? backwards : IDENTITY, middle: field.centre, reach: field.radius,
+      });
+      [before] = target.textures;
+      yield;
+    }
+    return before;
   }
 
   // A texture's numbers, rows from the top: (height · width, 4) float32.
@@ -167,6 +193,7 @@ class Renderer {
   }
 }
 
+const OPEN_RAYS = 8; // of a pixel, past objects without a field (evaluation/methods/object_cones.py)
 const RAYS_AT_ONCE = 2; // of a pixel: a drag interrupts between two passes
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 

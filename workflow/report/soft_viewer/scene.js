@@ -2,23 +2,34 @@
 
 const TINTS = [[0.78, 0.76, 0.72], [0.72, 0.62, 0.50], [0.55, 0.63, 0.70], [0.70, 0.55, 0.50], [0.60, 0.66, 0.55], [0.74, 0.70, 0.58]];
 
-// data: `objects`, the `mover`'s index, `middle` of all, `size`. An object has its mesh (viewer/mesh_arrays.py) in its box:
-// `middle` and `half`, metres.
-async function unpackScene(data) {
+// data: `objects`, the `mover`'s index, `size`. An object has its mesh (viewer/mesh_arrays.py) in its box: `middle` and
+// `half`, metres. fields: of the closed objects (viewer/field_arrays.py), null for others.
+async function unpackScene(data, { cell, samples_per_cell: samplesPerCell, objects: fields }) {
   const objects = await Promise.all(data.objects.map(async ({ mesh, middle, half }, i) => {
     const { vertices, faces } = await unpackMesh(mesh);
     for (let k = 0; k < vertices.length; k++) vertices[k] = vertices[k] * half + middle[k % 3];
     const { positions, vertexNormals, faceNormals } = corners({ vertices, faces });
     const tint = TINTS[i % TINTS.length];
-    return { position: positions, normal: vertexNormals, faceNormal: faceNormals,
-      tint: Float32Array.from(positions, (_, k) => tint[k % 3]) };
+    return { position: positions, normal: vertexNormals, faceNormal: faceNormals, moves: i === data.mover,
+      tint: Float32Array.from(positions, (_, k) => tint[k % 3]), field: fields[i] && await unpackField(fields[i]) };
   }));
   const part = (chosen) => {
     const names = ["position", "normal", "faceNormal", "tint"];
     return Object.fromEntries(names.map((name) => [name, joinedArrays(chosen.map((object) => object[name]))]));
   };
-  const moving = objects[data.mover], staying = objects.filter((object) => object !== moving);
-  return { ...data, moving: part([moving]), staying: part(staying), rest: middleOf(moving.position) };
+  const moving = objects.filter(({ moves }) => moves), staying = objects.filter(({ moves }) => !moves);
+  const open = (all) => joinedArrays(all.filter(({ field }) => !field).map(({ position }) => position));
+  return {
+    ...data, cell, samplesPerCell, moving: part(moving), staying: part(staying), rest: middleOf(moving[0].position),
+    openMoving: open(moving), openStaying: open(staying), // triangles of objects without a field
+    fields: objects.filter(({ field }) => field).map(({ field, moves }) => ({ ...field, moves })),
+  };
+}
+
+async function unpackField(field) {
+  const names = Object.keys(field.arrays), arrays = await Promise.all(names.map((name) => unpack(field.arrays[name])));
+  const stored = names.reduce((sum, name) => sum + field.arrays[name].data.length * 3 / 4, 0);
+  return { ...field, stored, arrays: Object.fromEntries(names.map((name, i) => [name, arrays[i]])) };
 }
 
 function joinedArrays(arrays) {

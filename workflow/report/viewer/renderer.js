@@ -105,7 +105,7 @@ class Renderer {
   // A method's program, and its uniforms of a light; made when it is first needed.
   prepare(method) {
     if (!this.made.has(method.key)) {
-      const source = ["visibility_frag", ...method.sources].map((name) => this.shaders[name]).join("\n");
+      const source = ["discs", "visibility_frag", ...method.sources].map((name) => this.shaders[name]).join("\n");
       const program = makeProgram(this.gl, this.shaders.screen_vert, source, method.constants);
       this.made.set(method.key, { method, program, uniforms: method.make(this) });
     }

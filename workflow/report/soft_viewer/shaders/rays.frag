@@ -18,15 +18,15 @@ void main() {
   if (!receive(at, centre, r)) return;
   sums = first > 0 ? texelFetch(before, at, 0) : vec4(0.0);
   float free = 0.0;
-  vec3 start = r.p + 1e-4 * sceneSize * r.face, towards = centre - start, u, v;
-  across(normalize(towards), u, v);
+  vec3 start = r.p + 1e-4 * sceneSize * r.face, towards = centre - start;
+  mat2x3 sides = sidesOf(normalize(towards));
   uint key = (uint(at.y * textureSize(points, 0).x + at.x) + SALT) * 16u;
   float turn = 6.283185307 * fraction(hashed(key));
   uint shift = hashed(key + 1u);
   for (int k = first; k < first + count; k++) {
     float share = fraction(uint(k) * SHARES + SHARES / 2u + shift);
     float angle = turn + 6.283185307 * fraction(uint(k) * TURNS + TURNS / 2u);
-    vec3 way = towards + radius * sqrt(share) * (cos(angle) * u + sin(angle) * v);
+    vec3 way = towards + radius * sqrt(share) * (sides * vec2(cos(angle), sin(angle)));
     if (dot(r.face, way) <= 0.0) continue;
     float part = freeShare(start, way, !penumbrae);
     if (part >= NEARLY_ALL) free += 1.0;

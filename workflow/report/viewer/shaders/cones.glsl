@@ -1,5 +1,5 @@
-// The share of the sun that a cone sees past a field of distances: a translation of field_cones.py,
-// whose constants these are. The sun is as far as nothing in the unit sphere.
+// The share of a light that a cone sees past a field of distances: a translation of field_cones.py,
+// whose constants these are. After discs.glsl and field_values.glsl.
 uniform sampler3D around; // distances at the bricks' corners, negative inside
 uniform float unit;       // radii of a value
 uniform float push;       // of the surface outwards, in cells
@@ -28,20 +28,14 @@ float distanceAt(vec3 p) {
   return cornersBetween(brick, at - vec3(brick));
 }
 
-// Share of a unit disc on its middle's side of a straight edge at m.
-float halfDisc(float m) {
-  m = clamp(m, -1.0, 1.0);
-  return 1.0 - (acos(m) - m * sqrt(1.0 - m * m)) / 3.141592653589793;
-}
-
-// The least distance over the cone's radius, at most m, and where that first is below 1. Whole: not
-// to be split later; depths inside are corrected then.
-float march(vec3 o, vec3 d, float wide, float first, float m, bool whole, out float touched) {
+// The least distance over the cone's radius from `first` to `goal`, at most m, and where that first is
+// below 1. Whole: not to be split later; depths inside are corrected then.
+float march(vec3 o, vec3 d, float wide, float first, float goal, float m, bool whole, out float touched) {
   touched = FAR;
   float along = dot(o, d), radius = 1.0 + wide * (abs(along) + 1.0);
   float inside = along * along - (dot(o, o) - radius * radius);
   if (inside <= 0.0) return m;
-  float root = sqrt(inside), t = max(first, -along - root), end = root - along;
+  float root = sqrt(inside), t = max(first, -along - root), end = min(goal, root - along);
   float cell = 2.0 / (CELLS * float(textureSize(grid, 0).x));
   float before = 0.0, step = 0.0;
   while (t < end) {
@@ -63,19 +57,20 @@ float march(vec3 o, vec3 d, float wide, float first, float m, bool whole, out fl
   return m;
 }
 
-vec2 visibility(vec3 p, vec3 n) {
+// From a point with a normal to a disc `goal` away, whose radius is `slope` of that.
+float coneVisibility(vec3 p, vec3 n, vec3 d, float slope, float goal) {
   float begin = 2.0 / (CELLS * float(textureSize(grid, 0).x)), touched, unused;
-  float m = march(p, sun, slope, begin, min(dot(n, sun) / slope, 1.0), false, touched);
-  if (abs(m) >= 1.0) return vec2(halfDisc(m), 1.0);
+  float m = march(p, d, slope, begin, goal, min(dot(n, d) / slope, 1.0), false, touched);
+  if (abs(m) >= 1.0) return halfDisc(m);
   // Partly covered: narrower cones, each with an edge of its own, from the first contact on.
   begin = touched < FAR ? max(begin, 0.9 * touched) : FAR;
   float narrow = slope / sqrt(float(DISCS)), sum = 0.0;
-  mat2x3 sides = sidesOf(sun);
+  mat2x3 sides = sidesOf(d);
   for (int k = 0; k < DISCS; k++) {
     float angle = 6.283185307179586 * float(k - 1) / float(DISCS - 1), away = k > 0 ? sqrt(0.5) : 0.0;
-    vec3 d = normalize(sun + slope * away * (sides * vec2(cos(angle), sin(angle))));
-    float edge = min(dot(n, d) / narrow, 1.0);
-    sum += halfDisc(edge > -1.0 ? march(p, d, narrow, begin, edge, true, unused) : edge);
+    vec3 part = normalize(d + slope * away * (sides * vec2(cos(angle), sin(angle))));
+    float edge = min(dot(n, part) / narrow, 1.0);
+    sum += halfDisc(edge > -1.0 ? march(p, part, narrow, begin, goal, edge, true, unused) : edge);
   }
-  return vec2(sum / float(DISCS), 1.0);
+  return sum / float(DISCS);
 }

@@ -21,12 +21,6 @@ vec2 noise() {
   return vec2(v >> 8u) / 16777216.0;
 }
 
-// Unit vectors across a direction (Duff et al. 2017).
-mat2x3 sidesOf(vec3 d) {
-  float side = d.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (side + d.z), b = d.x * d.y * a;
-  return mat2x3(1.0 + side * d.x * d.x * a, side * b, -side * d.x, b, side + d.y * d.y * a, -d.y);
-}
-
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec4 point = texelFetch(points, at, 0);
