@@ -15,6 +15,7 @@ from neural_shadows.networks.screen_space.screen_networks import load_screen_net
 REPORT = ROOT / "workflow/report"
 EXECUTOR = [
     REPORT / "soft_viewer/screen_network.js",
+    REPORT / "soft_viewer/shaders/floats.glsl",
     *sorted((REPORT / "soft_viewer/shaders").glob("network_*")),
     *sorted((REPORT / "soft_viewer/shaders").glob("kernel_*")),
 ]
@@ -29,21 +30,20 @@ MAKE = """async ([name, data, shaders, planes, width, height, float]) => {
   const network = new ScreenNetwork(gl, shaders, { ...data, arrays }, width, height, { float });
   networks[name]?.free();
   networks[name] = network;
-  const numbers = new Float32Array(Uint8Array.from(atob(planes), (letter) => letter.charCodeAt(0)).buffer);
+  const bits = new Uint32Array(Uint8Array.from(atob(planes), (letter) => letter.charCodeAt(0)).buffer);
   gl.bindTexture(network.planes.kind, network.planes.texture);
-  gl.texSubImage3D(network.planes.kind, 0, 0, 0, 0, width, height, numbers.length / width / height / 4,
-    gl.RGBA, gl.FLOAT, numbers);
+  gl.texSubImage3D(network.planes.kind, 0, 0, 0, 0, width, height, bits.length / width / height / 4,
+    gl.RGBA_INTEGER, gl.UNSIGNED_INT, bits);
 }"""
 DRAW = """(name) => {
   for (const step of networks[name].run());
-  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array(4)); // waits for it
+  readFloats(gl, 1, 1); // waits for it
 }"""
 COUNT_DRAWS = "(name) => [...networks[name].run()].length"
 READ = """(name) => {
-  const { width, height, targets } = networks[name], pixels = new Float32Array(4 * width * height);
+  const { width, height, targets } = networks[name];
   gl.bindFramebuffer(gl.FRAMEBUFFER, targets.at(-1).framebuffer);
-  gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
-  const bytes = new Uint8Array(pixels.filter((_, i) => i % 4 === 0).buffer);
+  const bytes = new Uint8Array(readFloats(gl, width, height).filter((_, i) => i % 4 === 0).buffer);
   let text = "";
   for (let i = 0; i < bytes.length; i += 4096) text += String.fromCharCode(...bytes.subarray(i, i + 4096));
   return { visibility: btoa(text), size: [height, width], error: gl.getError() };

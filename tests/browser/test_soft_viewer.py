@@ -52,12 +52,16 @@ def data(soft_page):
 
 
 @contextmanager
-def opened(browser, html, fragment="", **options):
-    """The page, and what its console says. Closed at the end: it refines its picture for minutes."""
+def opened(browser, html, fragment="", script="", **options):
+    """The page, and what its console says. Closed at the end: it refines its picture for minutes.
+
+    A script comes before its own.
+    """
     page = browser.new_page(**{"viewport": {"width": 640, "height": 480}} | options)
     said = []
     page.on("console", lambda message: said.append(message.text))
     page.on("pageerror", lambda error: said.append(str(error)))
+    page.add_init_script(script)
     page.goto(f"file://{html}#{fragment}")
     page.wait_for_selector("#viewer.ready,#viewer.failed", timeout=120_000)
     yield page, said
@@ -226,6 +230,17 @@ def test_a_phone(browser, soft_page):
         page.wait_for_selector(".rate:not(:empty)", timeout=120_000)
         assert page.evaluate("() => document.documentElement.scrollWidth") <= 375
         assert page.locator("canvas").bounding_box()["height"] >= 200
+
+
+def test_no_method_needs_an_extension(browser, soft_page, page, data):
+    """Phones cannot draw floats: a context that is refused extensions gives the same answers."""
+    refuse = "WebGL2RenderingContext.prototype.getExtension = () => null;"
+    with opened(browser, soft_page.html, "left=hard&right=hard", script=refuse) as (bare, said):
+        for key in ("hard", "pcf", "pcss", "msm_9", "rays_2_ffx", "cones", *NETWORKS):
+            question = asked(data, 0.5)
+            assert np.array_equal(answers(bare, key, question), answers(page, key, question)), key
+        assert not bare.inner_text(".reason")
+    assert not [text for text in said if "INVALID" in text or "rror" in text]
 
 
 def test_without_webgl(launch, soft_page):

@@ -23,9 +23,9 @@ const FEATURE_PLANES = {
   ray_penumbra: ["shown(framePixels(max(rayPenumbra, 0.0), slant))"],
   log_d: ["log(max(d, 1e-3))"],
   base_hard: ["hard"],
-  base_pcf: ["texelFetch(pcf, at, 0).x"],
+  base_pcf: ["floatsAt(pcf, at).x"],
   base_msm: ["msm"],
-  base_rays: ["texelFetch(traced, at, 0).x"],
+  base_rays: ["floatsAt(traced, at).x"],
 };
 const RAY_FEATURES = ["ray_penumbra", "base_rays"];
 const MAP_FEATURES = [
@@ -38,13 +38,13 @@ function featureShader(features) {
   const expressions = planeNames(features), map = features.some((name) => MAP_FEATURES.includes(name));
   const rays = features.some((name) => RAY_FEATURES.includes(name)), pcf = features.includes("base_pcf");
   const layers = Array.from({ length: Math.ceil(expressions.length / 4) }, (_, k) => expressions.slice(4 * k, 4 * k + 4));
-  const outputs = layers.map((_, k) => `layout(location = ${k}) out vec4 plane${k};`).join("\n");
-  const writes = layers.map((layer, k) => `plane${k} = vec4(${[...layer, ...Array(4 - layer.length).fill("0.0")].join(", ")});`);
+  const outputs = layers.map((_, k) => `layout(location = ${k}) out uvec4 plane${k};`).join("\n");
+  const writes = layers.map((layer, k) => `plane${k} = bitsOf(vec4(${[...layer, ...Array(4 - layer.length).fill("0.0")].join(", ")}));`);
   return `
-uniform sampler2D points, normals;
-${map ? "uniform sampler2D lengths, visibilities;" : ""}
-${pcf ? "uniform sampler2D pcf;" : ""}
-${rays ? "uniform sampler2D traced;" : ""}
+uniform usampler2D points, normals;
+${map ? "uniform usampler2D lengths, visibilities;" : ""}
+${pcf ? "uniform usampler2D pcf;" : ""}
+${rays ? "uniform usampler2D traced;" : ""}
 uniform vec3 eye, forward, centre;
 uniform float sceneSize, share, lightStep, focal;
 ${outputs}
@@ -54,17 +54,17 @@ float shown(float pixels) { return clamp(pixels, 0.0, 50.0) / 50.0; }
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 point = texelFetch(points, at, 0), normal = texelFetch(normals, at, 0);
+  vec4 point = floatsAt(points, at), normal = floatsAt(normals, at);
   bool surface = point.w > 0.0;
   vec3 n = surface ? normal.xyz : vec3(0.0), seen = point.xyz - eye, fromLight = point.xyz - centre;
   float d = surface ? normal.w / sceneSize : 0.0, axis = surface ? dot(seen, forward) / normal.w : 1.0;
   float z = surface ? length(fromLight) / sceneSize : 0.0;
   float cosine = surface ? -dot(fromLight, n) / length(fromLight) : 0.0;
   float cosineEye = surface ? -dot(seen, n) / normal.w : 0.0;
-  ${map ? `vec4 visibility = texelFetch(visibilities, at, 0);
-  float gap = texelFetch(lengths, at, 0).y, hard = visibility.z, msm = visibility.w;
+  ${map ? `vec4 visibility = floatsAt(visibilities, at);
+  float gap = floatsAt(lengths, at).y, hard = visibility.z, msm = visibility.w;
   float zBlocker = z + (hard > 0.5 ? 0.0 : min(gap, 0.0));` : ""}
-  ${rays ? `vec4 sums = texelFetch(traced, at, 0);
+  ${rays ? `vec4 sums = floatsAt(traced, at);
   float rayPenumbra = sums.z > 0.0 ? sums.y / sums.z / sceneSize : -1.0;` : ""}
   float slant = sqrt(abs(cosineEye) / (abs(cosine) + 1e-5)), pixels = 2048.0 * focal / 983.5 / max(d, 1e-5);
 #define framePixels(blurred, by) ((blurred) * pixels * (by))

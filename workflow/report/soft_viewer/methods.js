@@ -12,7 +12,7 @@ function mapMethod(key, name, sources, uniforms = () => ({})) {
   return {
     key, name, usesMap: true,
     *answer(renderer, state) {
-      const target = renderer.target(key, [FLOATS], ...state.size);
+      const target = renderer.target(key, [BITS], ...state.size);
       const made = { ...renderer.surfaces(state), ...renderer.lightMap(state) };
       yield;
       renderer.fill(sources(state), target, { ...made, ...uniforms(state) });
@@ -59,7 +59,7 @@ function filteredMethod(count) {
     *answer(renderer, state) {
       const rays = yield* renderer.rays(`rays_${count}`, state, count), { size, view } = state;
       const [row, means, even, odd] = ["row", "means", "even", "odd"].map(
-        (name) => renderer.target(`ffx_${count}_${name}`, [FLOATS], ...size));
+        (name) => renderer.target(`ffx_${count}_${name}`, [BITS], ...size));
       renderer.fill(["means_frag"], row, { picture: rays, way: [1, 0] });
       renderer.fill(["means_frag"], means, { picture: row.textures[0], way: [0, 1] });
       yield;
@@ -104,8 +104,7 @@ function networkMethod(data) {
     // Its input planes, rows from the top, for tests: (planes, height · width).
     planes: (renderer, size) => Array.from({ length: data.planes }, (_, k) => {
       const { gl } = renderer, layer = makeLayerFramebuffer(gl, network.planes, k >> 2, 1);
-      const numbers = new Float32Array(4 * size[0] * size[1]);
-      gl.readPixels(0, 0, ...size, gl.RGBA, gl.FLOAT, numbers);
+      const numbers = readFloats(gl, ...size);
       gl.deleteFramebuffer(layer);
       return Array.from({ length: numbers.length / 4 }, (__, i) => numbers[4 * i + k % 4]);
     }),

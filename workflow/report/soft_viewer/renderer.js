@@ -2,8 +2,7 @@
 // long as what they depend on stays. A `state` has `view` (eye, target, up, fov), `light` (centre, radius),
 // `move` (see motionOf), and `size` (width, height) of the picture.
 
-const FLOATS = ["RGBA32F", "RGBA", "FLOAT"], BYTES = ["RGBA8", "RGBA", "UNSIGNED_BYTE"];
-const DEPTHS = ["R32F", "RED", "FLOAT"];
+const BYTES = ["RGBA8", "RGBA", "UNSIGNED_BYTE"], DEPTHS = ["R32UI", "RED_INTEGER", "UNSIGNED_INT"]; // floats' bits
 const MOST_TAPS = 9; // of a filter of moments, along an axis
 const CONSTANTS = {
   ROW_BRICKS, SOLID, MOST_TAPS, SEARCHED: 64, FILTERED: 128,
@@ -20,8 +19,8 @@ class Renderer {
     gl.disable(gl.DITHER);
     this.finish = makeFinish(gl);
     this.screen = gl.createVertexArray();
-    this.surface = makeProgram(gl, shaders.surface_vert, shaders.surface_frag);
-    this.depths = makeProgram(gl, shaders.depths_vert, shaders.depths_frag);
+    this.surface = makeProgram(gl, shaders.surface_vert, shaders.floats + shaders.surface_frag);
+    this.depths = makeProgram(gl, shaders.depths_vert, shaders.floats + shaders.depths_frag);
     this.parts = [scene.staying, scene.moving].map((part) => {
       const { position, faceNormal } = part;
       return { seen: makeVertices(gl, this.surface, part), casting: makeVertices(gl, this.depths, { position, faceNormal }) };
@@ -52,7 +51,7 @@ class Renderer {
   fill(sources, target, uniforms) {
     const { gl, shaders } = this, name = sources.join("+");
     this.programs[name] ??= makeProgram(
-      gl, shaders.screen_vert, sources.map((source) => shaders[source] ?? source).join("\n"), this.constants);
+      gl, shaders.screen_vert, ["floats", ...sources].map((source) => shaders[source] ?? source).join("\n"), this.constants);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target?.framebuffer ?? null);
     gl.viewport(0, 0, target?.width ?? this.canvas.width, target?.height ?? this.canvas.height);
     setUniforms(gl, this.programs[name], uniforms);
@@ -66,10 +65,11 @@ class Renderer {
 
   surfaces(state, name = "surfaces") {
     const { gl } = this, { view, size, move } = state;
-    const textures = this.keep(name, [view, move, size], [FLOATS, FLOATS, FLOATS, BYTES], size, (target) => {
+    const textures = this.keep(name, [view, move, size], [BITS, BITS, BITS, BYTES], size, (target) => {
       gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
       gl.viewport(0, 0, ...size);
-      for (let i = 0; i < 4; i++) gl.clearBufferfv(gl.COLOR, i, [0, 0, 0, 0]);
+      for (let i = 0; i < 3; i++) gl.clearBufferuiv(gl.COLOR, i, [0, 0, 0, 0]);
+      gl.clearBufferfv(gl.COLOR, 3, [0, 0, 0, 0]);
       gl.clearBufferfv(gl.DEPTH, 0, [1]);
       this.#drawParts(this.surface, "seen", state, {
         camera: cameraMatrix(view, size[0] / size[1]), pixels: pixelMatrix(view, ...size), height: size[1], eye: view.eye,
@@ -95,7 +95,7 @@ class Renderer {
     const { gl } = this, { light: { centre }, move, resolution } = state, size = [3 * resolution, 2 * resolution];
     const [depths] = this.keep("map", [centre, move, resolution], [DEPTHS], size, (target) => {
       gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
-      gl.clearBufferfv(gl.COLOR, 0, [EMPTY, 0, 0, 0]);
+      gl.clearBufferuiv(gl.COLOR, 0, new Uint32Array(new Float32Array([EMPTY, 0, 0, 0]).buffer));
       gl.clearBufferfv(gl.DEPTH, 0, [1]);
       gl.enable(gl.SCISSOR_TEST);
       for (let face = 0; face < 6; face++) {
@@ -114,7 +114,7 @@ class Renderer {
   buffers(state) {
     const { view, light: { centre }, move, size, resolution } = state;
     const [lengths, visibilities, pcf] = this.keep(
-      "buffers", [view, centre, move, size, resolution], [FLOATS, FLOATS, FLOATS], size, (target) => {
+      "buffers", [view, centre, move, size, resolution], [BITS, BITS, BITS], size, (target) => {
         const sources = ["light_map", "moments", "receiver", "buffers_frag"];
         this.fill(sources, target, { ...this.surfaces(state), ...this.lightMap(state), eye: view.eye });
       });
@@ -142,7 +142,7 @@ class Renderer {
     const { view, light: { centre, radius }, move, size } = state;
     const goal = radius > 0 ? count : 1; // to a point all rays are the same
     const key = JSON.stringify([view, centre, radius, move, size, penumbrae]);
-    const pair = [0, 1].map((k) => this.target(`${name}_${k}`, [FLOATS], ...size));
+    const pair = [0, 1].map((k) => this.target(`${name}_${k}`, [BITS], ...size));
     let sent = this.kept[`${name}_1`] === undefined ? undefined : this.kept[name];
     if (sent?.key !== key || sent.count > goal) sent = { key, count: 0, side: 0 };
     while (sent.count < goal) {
@@ -162,7 +162,7 @@ class Renderer {
   // Cones past one field after the other, and rays past open objects. Gives a texture.
   *cones(state) {
     const { gl, scene } = this, { light: { centre, radius }, size } = state, { backwards } = this.motion(state);
-    const pair = ["cones_even", "cones_odd"].map((name) => this.target(name, [FLOATS], ...size));
+    const pair = ["cones_even", "cones_odd"].map((name) => this.target(name, [BITS], ...size));
     // A point's ray starts a cell off: fields are not quite where triangles are.
     const past = radius > 0 ? { sources: ["cones"], values: { lift: 1e-4 * scene.size } } : {
       sources: ["unit_sphere", "field", "field_ray"], values: { lift: scene.cell, level: 0, depthBias: 0, sheet: false },
@@ -183,13 +183,13 @@ class Renderer {
   }
 
   // A texture's numbers, rows from the top: (height · width, 4) float32.
-  read(texture, [width, height]) {
-    const { gl } = this, pixels = new Float32Array(4 * width * height), framebuffer = gl.createFramebuffer();
+  read(texture, size) {
+    const { gl } = this, framebuffer = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture.texture, 0);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, pixels);
+    const numbers = readFloats(gl, ...size);
     gl.deleteFramebuffer(framebuffer);
-    return pixels;
+    return numbers;
   }
 }
 

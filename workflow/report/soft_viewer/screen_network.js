@@ -1,12 +1,11 @@
 // Screen-space networks (viewer/screen_arrays.py): one draw a layer.
 
-const FLOAT_MAP = ["RGBA32F", "RGBA", "FLOAT"], HALF_MAP = ["RGBA32UI", "RGBA_INTEGER", "UNSIGNED_INT"];
 const networkPrograms = new WeakMap(); // by context, then shader and constants: of frames of any size
 
 class ScreenNetwork {
   // data: of screen_arrays.py, with its weights unpacked. float: maps in float32, in two draws each, for
-  // tests. The caller draws the planes: number k into component k & 3 of layer k >> 2, with a frame's upper
-  // row in texel row 0, as in the result.
+  // tests. The caller draws the planes: number k into component k & 3 of layer k >> 2. A frame's upper
+  // row is texel row 0.
   constructor(gl, shaders, data, width, height, { float = false } = {}) {
     const deepest = Math.max(...data.plan.map(({ level }) => level));
     const across = 4 << deepest, down = 2 << deepest; // whole blocks of the deepest level
@@ -17,7 +16,7 @@ class ScreenNetwork {
     // No call fails on a lost context: its pictures are black.
     this.onLost = () => { this.lost = true; };
     gl.canvas.addEventListener("webglcontextlost", this.onLost);
-    this.planes = this.#texture(FLOAT_MAP, [width, height, Math.ceil(data.planes / 4)]);
+    this.planes = this.#texture(BITS, [width, height, Math.ceil(data.planes / 4)]);
     this.weights = new Uint32Array(data.arrays.weights.buffer);
     for (const step of data.plan) this.targets.push(this.#target(step));
   }
@@ -79,13 +78,13 @@ class ScreenNetwork {
     const ranges = new Float32Array(8 * texels).fill(1); // 1 for planes that are not used
     ranges.set(centres);
     ranges.set(spreads, 4 * texels);
-    return this.#texture(FLOAT_MAP, [texels, 2], ranges);
+    return this.#texture(FLOATS, [texels, 2], ranges);
   }
 
   #convolution(step, source) {
     const columns = 2 * step.size ** 2 + 1, inputs = Math.ceil(step.inputs / 4);
     const rows = inputs * Math.ceil(step.channels / 4), count = 4 * columns * rows;
-    const weights = this.#texture(HALF_MAP, [columns, rows], this.weights.subarray(0, count));
+    const weights = this.#texture(BITS, [columns, rows], this.weights.subarray(0, count));
     this.weights = this.weights.subarray(count);
     const constants = { SIZE: step.size, [step.border]: 1, ...(step.relu && { RELU: 1 }) };
     return this.#map("network_convolution", constants, step, { weights, inputs }, source);
@@ -95,7 +94,7 @@ class ScreenNetwork {
   #map(shader, constants, { level, channels, skip }, uniforms, source) {
     const { gl, float, width, height } = this, tile = [width >> level + 2, height >> level + 1];
     const parts = float ? [0, 1] : [0], size = [tile[0] * Math.ceil(channels / 4), tile[1], 4 * parts.length];
-    const texture = this.#texture(float ? FLOAT_MAP : HALF_MAP, size);
+    const texture = this.#texture(BITS, size);
     const skipped = skip === undefined ? {} : { SKIP: 1 };
     const maps = { tile, source: source?.texture, sourceTile: source?.tile, skip: this.targets[skip]?.texture };
     for (const part of parts) {
@@ -109,7 +108,7 @@ class ScreenNetwork {
 
   // A layer that draws float32 of pixels, or of squares of them.
   #picture(shader, constants, size, uniforms, source, count = 1) {
-    const target = makeTarget(this.gl, Array(count).fill(FLOAT_MAP), ...size);
+    const target = makeTarget(this.gl, Array(count).fill(BITS), ...size);
     this.made.push(target.free);
     const maps = { source: source?.texture ?? source?.textures[0], sourceTile: source?.tile };
     this.#addLayer(shader, constants, target, { ...maps, ...uniforms });
@@ -126,7 +125,7 @@ class ScreenNetwork {
     if (!networkPrograms.has(gl)) networkPrograms.set(gl, new Map());
     const known = networkPrograms.get(gl), key = shader + JSON.stringify(constants);
     if (!known.has(key)) {
-      const source = unrolled(shaders.network_maps + shaders[`${shader}_frag`]);
+      const source = unrolled(shaders.floats + shaders.network_maps + shaders[`${shader}_frag`]);
       known.set(key, { begun: beginProgram(gl, shaders.screen_vert, source, constants) });
     }
     return known.get(key);

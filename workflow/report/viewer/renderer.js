@@ -1,12 +1,14 @@
 // Passes: surface points of a camera; each method's answer at them; the picture.
 
-const FLOATS = ["RGBA32F", "RGBA", "FLOAT"];
 const SUMS = ["RG16F", "RG", "HALF_FLOAT"]; // exact up to 2,048 rays
 
 class Renderer {
   // up, groundRadius: of the scene.
   constructor(canvas, shaders, constants, { up, ground_radius: groundRadius }) {
     const gl = this.gl = openWebgl(canvas);
+    if (!gl.getExtension("EXT_color_buffer_float")) {
+      throw new Unavailable("This browser's WebGL2 cannot draw floating-point numbers.");
+    }
     Object.assign(this, { canvas, shaders, up, groundRadius });
     this.surface = makeProgram(gl, shaders.surface_vert, shaders.surface_frag, constants);
     this.heights = makeProgram(gl, shaders.heights_vert, shaders.heights_frag);

@@ -2,13 +2,13 @@
 
 class Unavailable extends Error {}
 
+// Formats of textures: [internal, format, type]. Any WebGL2 draws bits; floats, an extension.
+const FLOATS = ["RGBA32F", "RGBA", "FLOAT"], BITS = ["RGBA32UI", "RGBA_INTEGER", "UNSIGNED_INT"];
+
 function openWebgl(canvas) {
   // Kept, so that a band of it can be drawn anew and the rest stays.
   const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, preserveDrawingBuffer: true });
   if (!gl) throw new Unavailable("This browser has no WebGL2, or it is switched off.");
-  if (!gl.getExtension("EXT_color_buffer_float")) {
-    throw new Unavailable("This browser's WebGL2 cannot draw floating-point numbers.");
-  }
   return gl;
 }
 
@@ -49,7 +49,7 @@ function makeProgram(gl, vertex, fragment, constants) {
   return finishProgram(gl, beginProgram(gl, vertex, fragment, constants));
 }
 
-// format: [internal, format, type]; data null for a target. Texels are fetched, never filtered.
+// data: null for a target. Texels are fetched, never filtered.
 function makeTexture(gl, format, [width, height, depth], data = null, kind = depth ? gl.TEXTURE_3D : gl.TEXTURE_2D) {
   const texture = gl.createTexture();
   const most = gl.getParameter(kind === gl.TEXTURE_3D ? gl.MAX_3D_TEXTURE_SIZE : gl.MAX_TEXTURE_SIZE);
@@ -116,6 +116,13 @@ function makeFinish(gl) {
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
   };
+}
+
+// The bound framebuffer's floats, drawn as bits: four a pixel.
+function readFloats(gl, width, height) {
+  const bits = new Uint32Array(4 * width * height);
+  gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, bits);
+  return new Float32Array(bits.buffer);
 }
 
 function setUniforms(gl, { program, uniforms }, values) {

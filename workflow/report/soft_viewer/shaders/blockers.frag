@@ -1,7 +1,7 @@
 // Percentage-closer soft shadows (Fernando 2005), as shadow_maps/light_filters.py has them: a search
 // for blockers, then a filter as wide as their penumbra. Discs of Vogel's spiral round the receiver.
 uniform float radius; // of the light, metres
-layout(location = 0) out vec4 answer;
+layout(location = 0) out uvec4 answer;
 
 const float GOLDEN_ANGLE = 2.399963229728653;
 
@@ -23,19 +23,19 @@ vec2 blockers(Receiver r, mat2x3 sides, float angle, int samples, float bias) {
 
 void main() {
   Receiver r;
-  answer = vec4(1.0);
+  answer = bitsOf(vec4(1.0));
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (!receive(at, centre, r)) return;
-  answer = vec4(0.0);
+  answer = bitsOf(vec4(0.0));
   if (r.cosine <= 0.0) return;
   // A golden ratio's multiple of the pixel's number, in 32 bits.
   float turn = 6.283185307 * fraction(uint(at.y * textureSize(points, 0).x + at.x) * 2654435769u);
   mat2x3 sides = sidesOf(r.fromLight / r.z) * mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
   float bias = receiverBias(r.fromLight, r.cosine, 0.75);
   vec2 found = blockers(r, sides, radius * (4.0 / r.z - 1.0 / r.z), SEARCHED, bias);
-  answer = vec4(1.0);
+  answer = bitsOf(vec4(1.0));
   if (found.x == 0.0) return;
   float blocker = found.y / found.x;
   float angle = max(radius * (r.z - blocker) / (r.z * blocker), 1.0 / float(resolution));
-  answer = vec4(1.0 - blockers(r, sides, angle, FILTERED, bias).x / float(FILTERED));
+  answer = bitsOf(vec4(1.0 - blockers(r, sides, angle, FILTERED, bias).x / float(FILTERED)));
 }

@@ -1,10 +1,10 @@
 // Percentage-closer filtering over taps × taps bilinear tests (shadow_maps/box_filter.py).
 uniform int taps;
-layout(location = 0) out vec4 answer;
+layout(location = 0) out uvec4 answer;
 
 void main() {
   Receiver r;
-  answer = vec4(1.0);
+  answer = bitsOf(vec4(1.0));
   if (!receive(ivec2(gl_FragCoord.xy), centre, r)) return;
   vec2 place;
   int face = placeOf(r.fromLight, place);
@@ -21,5 +21,5 @@ void main() {
       total += down * right * float(depth >= planeDepth(direction, r.fromLight, r.face, bias));
     }
   }
-  answer = vec4(r.cosine > 0.0 ? total / float(taps * taps) : 0.0);
+  answer = bitsOf(vec4(r.cosine > 0.0 ? total / float(taps * taps) : 0.0));
 }

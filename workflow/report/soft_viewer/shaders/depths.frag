@@ -5,9 +5,9 @@ flat in vec3 faceN;
 uniform mat3 axes;
 uniform vec2 begin; // of the face's texels
 uniform float side; // of the face, in texels
-layout(location = 0) out vec4 depth;
+layout(location = 0) out uint depth;
 
 void main() {
   vec3 way = axes * vec3(2.0 * (gl_FragCoord.xy - begin) / side - 1.0, 1.0);
-  depth = vec4(dot(corner, faceN) / dot(way, faceN) * length(way), 0.0, 0.0, 0.0);
+  depth = bitsOf(dot(corner, faceN) / dot(way, faceN) * length(way));
 }

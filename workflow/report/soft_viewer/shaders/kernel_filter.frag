@@ -8,12 +8,12 @@ uniform int first; // group of four taps
 #ifndef ADJACENT
 uniform int dilation;
 #endif
-uniform sampler2D source;
+uniform usampler2D source;
 #ifdef EDGE
-uniform sampler2D guides;
+uniform usampler2D guides;
 uniform float edge;
 #endif
-layout(location = 0) out vec4 filtered;
+layout(location = 0) out uvec4 filtered;
 
 const float LEAST = -1e30; // as a logit: no weight
 
@@ -21,7 +21,7 @@ void main() {
   ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
   vec4 top = vec4(LEAST), total = vec4(0.0), sum = vec4(0.0);
 #ifdef EDGE
-  vec4 own = texelFetch(guides, here, 0);
+  vec4 own = floatsAt(guides, here);
 #endif
   ivec2 around[9];
 #unroll k 9
@@ -30,9 +30,9 @@ void main() {
 #ifdef ADJACENT
   vec4 squares[9], guideSquares[9];
 #unroll k 9
-  squares[k] = texelFetch(source, around[k], 0);
+  squares[k] = floatsAt(source, around[k]);
 #ifdef EDGE
-  guideSquares[k] = texelFetch(guides, around[k], 0);
+  guideSquares[k] = floatsAt(guides, around[k]);
 #endif
 #end
 #endif
@@ -67,10 +67,10 @@ void main() {
 #end
 #else
       ivec2 place = here + dilation / 2 * (tap - 2), nearest = clamp(place, ivec2(0), last);
-      values[k] = texelFetch(source, nearest, 0);
+      values[k] = floatsAt(source, nearest);
       if (place != nearest) weights[k] = vec4(LEAST);
 #ifdef EDGE
-      others = texelFetch(guides, nearest, 0);
+      others = floatsAt(guides, nearest);
 #endif
 #endif
 #ifdef EDGE
@@ -89,5 +89,5 @@ void main() {
 #end
   }
 #end
-  filtered = sum / total;
+  filtered = bitsOf(sum / total);
 }

@@ -1,6 +1,6 @@
 // A light's cube map, looked up by direction as shadow_maps/light_map.py has it: six faces of N × N
 // texels in an atlas of 3 × 2; face 2 a + s looks along axis a, forwards for s = 0.
-uniform sampler2D depths;
+uniform usampler2D depths;
 uniform int resolution;
 uniform vec3 centre; // of the light, metres
 uniform float sceneSize;
@@ -31,7 +31,7 @@ vec3 directionOf(int face, vec2 place) {
 
 float texelDepth(int face, ivec2 texel) {
   ivec2 corner = resolution * ivec2(face % 3, face / 3);
-  return texelFetch(depths, corner + clamp(texel, 0, resolution - 1), 0).r;
+  return floatsAt(depths, corner + clamp(texel, 0, resolution - 1)).r;
 }
 
 // Of a texel that may lie beyond its face's rim: there, of the face that goes on.

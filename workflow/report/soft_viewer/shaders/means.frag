@@ -1,7 +1,7 @@
 // Gaussian means over 17 pixels of a row, then of a column (denoising/mixed_blocks.py).
-uniform sampler2D picture;
+uniform usampler2D picture;
 uniform ivec2 way;
-layout(location = 0) out vec4 mean;
+layout(location = 0) out uvec4 mean;
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(picture, 0) - 1;
@@ -9,7 +9,7 @@ void main() {
   for (int k = -8; k <= 8; k++) {
     float weight = exp(-3.0 * float(k * k) / 81.0);
     total += weight;
-    sum += weight * texelFetch(picture, clamp(at + k * way, ivec2(0), last), 0).x;
+    sum += weight * floatsAt(picture, clamp(at + k * way, ivec2(0), last)).x;
   }
-  mean = vec4(sum / total);
+  mean = bitsOf(vec4(sum / total));
 }

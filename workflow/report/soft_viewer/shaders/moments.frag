@@ -2,11 +2,11 @@
 uniform int taps;
 uniform float biasScale;
 uniform float bleeding;
-layout(location = 0) out vec4 answer;
+layout(location = 0) out uvec4 answer;
 
 void main() {
   Receiver r;
-  answer = vec4(1.0);
+  answer = bitsOf(vec4(1.0));
   if (!receive(ivec2(gl_FragCoord.xy), centre, r)) return;
   float kernel[MOST_TAPS], spread = 0.0;
   for (int k = 0; k < taps; k++) {
@@ -16,5 +16,5 @@ void main() {
   }
   float receiver = r.z - biasScale * receiverBias(r.fromLight, r.cosine, 0.75 + sqrt(spread));
   float share = momentVisibility(r.fromLight, max(receiver, 0.0), taps, kernel);
-  answer = vec4(r.cosine > 0.0 ? max((share - bleeding) / (1.0 - bleeding), 0.0) : 0.0);
+  answer = bitsOf(vec4(r.cosine > 0.0 ? max((share - bleeding) / (1.0 - bleeding), 0.0) : 0.0));
 }

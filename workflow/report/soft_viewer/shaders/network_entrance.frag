@@ -1,12 +1,12 @@
 // A frame's planes as a map, normalised: as they are, 2 × 2 pixels as channels, or their mean.
-uniform sampler2DArray planes; // four a layer
+uniform usampler2DArray planes; // four a layer
 uniform sampler2D ranges;      // four a texel: centres, then spreads
 uniform ivec2 tile;
 DECLARE_STORED
 
 vec4 normalised(ivec2 pixel, int layer) {
   vec4 centre = texelFetch(ranges, ivec2(layer, 0), 0), spread = texelFetch(ranges, ivec2(layer, 1), 0);
-  return (texelFetch(planes, ivec3(pixel, layer), 0) - centre) / spread;
+  return (floatsAt(planes, ivec3(pixel, layer)) - centre) / spread;
 }
 
 mat4 square(ivec2 pixel, int layer) {

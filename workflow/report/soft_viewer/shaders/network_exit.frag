@@ -2,7 +2,7 @@
 // upper right, lower left and lower right of 2 × 2 pixels.
 uniform Map source;
 uniform ivec2 sourceTile;
-layout(location = 0) out vec4 visibility;
+layout(location = 0) out uvec4 visibility;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -12,8 +12,8 @@ void main() {
   float beside = pixelAt(source, ivec2(far.x, near.y), 0).r + pixelAt(source, ivec2(near.x, far.y), 0).r;
   float enlarged = 0.5625 * square.r + 0.1875 * beside + 0.0625 * pixelAt(source, far, 0).r;
   int corner = 2 * (pixel.y & 1) + (pixel.x & 1);
-  visibility = vec4(enlarged + (corner == 0 ? 0.0 : square[corner]));
+  visibility = bitsOf(vec4(enlarged + (corner == 0 ? 0.0 : square[corner])));
 #else
-  visibility = vec4(pixelAt(source, pixel, 0).r);
+  visibility = bitsOf(vec4(pixelAt(source, pixel, 0).r));
 #endif
 }

@@ -5,8 +5,8 @@ struct Pair { vec4 left, right; };
 
 vec4 unpacked(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
 
-#ifdef HALVES
 #define Map usampler2DArray
+#ifdef HALVES
 #define DECLARE_STORED layout(location = 0) out uvec4 stored[4];
 #define STORE(number, pair) stored[number] = halvesOf(pair)
 
@@ -25,17 +25,16 @@ vec4 pixelAt(Map map, ivec2 pixel, int column) {
   return unpacked((pixel.x & 1) == 0 ? halves.xy : halves.zw);
 }
 #else
-#define Map sampler2DArray
-#define DECLARE_STORED uniform int part; layout(location = 0) out vec4 stored[4];
+#define DECLARE_STORED uniform int part; layout(location = 0) out uvec4 stored[4];
 #define STORE(number, pair) \
-  if ((number) / 2 == part) stored[2 * (number) % 4] = pair.left, stored[2 * (number) % 4 + 1] = pair.right
+  if ((number) / 2 == part) stored[2 * (number) % 4] = bitsOf(pair.left), stored[2 * (number) % 4 + 1] = bitsOf(pair.right)
 
 Pair pairAt(Map map, ivec2 texel, int number) {
-  return Pair(texelFetch(map, ivec3(texel, 2 * number), 0), texelFetch(map, ivec3(texel, 2 * number + 1), 0));
+  return Pair(floatsAt(map, ivec3(texel, 2 * number)), floatsAt(map, ivec3(texel, 2 * number + 1)));
 }
 
 vec4 pixelAt(Map map, ivec2 pixel, int column) {
-  return texelFetch(map, ivec3((pixel.x >> 2) + column, pixel.y >> 1, (pixel.y & 1) * 4 + (pixel.x & 3)), 0);
+  return floatsAt(map, ivec3((pixel.x >> 2) + column, pixel.y >> 1, (pixel.y & 1) * 4 + (pixel.x & 3)));
 }
 #endif
 

@@ -1,13 +1,13 @@
 // One method's answer as a picture: the shaded scene, the visibility alone, or where it is wrong. Surfaces are as
 // fine as the picture; the answer may be coarser, and is taken from those of its four pixels around that
 // lie on the same surface.
-uniform sampler2D points;
-uniform sampler2D normals;
+uniform usampler2D points;
+uniform usampler2D normals;
 uniform sampler2D colours;
-uniform sampler2D coarsePoints;
-uniform sampler2D coarseNormals;
-uniform sampler2D answer;
-uniform sampler2D reference;
+uniform usampler2D coarsePoints;
+uniform usampler2D coarseNormals;
+uniform usampler2D answer;
+uniform usampler2D reference;
 uniform vec4 channel; // of the answer: one is 1
 uniform vec3 centre;
 uniform int look; // 0 shaded, 1 visibility, 2 error
@@ -25,19 +25,19 @@ vec2 visibilityAt(vec2 share, vec3 p, vec4 normal) {
   vec3 sum = vec3(0.0);
   for (int k = 0; k < 4; k++) {
     ivec2 step_ = ivec2(k & 1, k >> 1), at = clamp(ivec2(floor(place)) + step_, ivec2(0), size - 1);
-    vec4 point = texelFetch(coarsePoints, at, 0);
+    vec4 point = floatsAt(coarsePoints, at);
     vec2 near = mix(1.0 - part, part, vec2(step_));
     float off = abs(dot(point.xyz - p, normal.xyz)) / normal.w; // from the plane, in shares of the eye's distance
-    float alike = max(dot(texelFetch(coarseNormals, at, 0).xyz, normal.xyz), 0.0);
+    float alike = max(dot(floatsAt(coarseNormals, at).xyz, normal.xyz), 0.0);
     float weight = (near.x * near.y + 1e-3) * (point.w * alike * exp(-300.0 * off) + 1e-5);
-    sum += weight * vec3(dot(texelFetch(answer, at, 0), channel), texelFetch(reference, at, 0).x, 1.0);
+    sum += weight * vec3(dot(floatsAt(answer, at), channel), floatsAt(reference, at).x, 1.0);
   }
   return clamp(sum.xy / sum.z, 0.0, 1.0);
 }
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 point = texelFetch(points, at, 0), normal = texelFetch(normals, at, 0);
+  vec4 point = floatsAt(points, at), normal = floatsAt(normals, at);
   colour = vec4(BACKGROUND, 1.0);
   if (point.w == 0.0) return;
   vec2 visible = visibilityAt(gl_FragCoord.xy / vec2(textureSize(points, 0)), point.xyz, normal);

@@ -1,12 +1,12 @@
 // More rays from each pixel's centre to the light (frames/ray_tracing.py): x the mean of all so far, y
 // the summed radii of blockers' penumbrae, z how many blocked, w how many in all.
-uniform sampler2D before;
+uniform usampler2D before;
 uniform vec3 centre;
 uniform float sceneSize;
 uniform float radius;
 uniform int first, count; // rays before, and of this pass
 uniform bool penumbrae;   // asks for the first hits, not for any
-layout(location = 0) out vec4 sums;
+layout(location = 0) out uvec4 answer;
 
 // Fractions of the plane's golden ratio, in 32 bits (Roberts 2018).
 const uint SHARES = 3242174889u, TURNS = 2447445413u, SALT = 67108864u;
@@ -14,9 +14,9 @@ const uint SHARES = 3242174889u, TURNS = 2447445413u, SALT = 67108864u;
 void main() {
   Receiver r;
   ivec2 at = ivec2(gl_FragCoord.xy);
-  sums = vec4(1.0, 0.0, 0.0, 1.0);
+  answer = bitsOf(vec4(1.0, 0.0, 0.0, 1.0));
   if (!receive(at, centre, r)) return;
-  sums = first > 0 ? texelFetch(before, at, 0) : vec4(0.0);
+  vec4 sums = first > 0 ? floatsAt(before, at) : vec4(0.0);
   float free = 0.0;
   vec3 start = r.p + 1e-4 * sceneSize * r.face, towards = centre - start;
   mat2x3 sides = sidesOf(normalize(towards));
@@ -34,4 +34,5 @@ void main() {
   }
   sums.x = (sums.x * sums.w + free) / (sums.w + float(count));
   sums.w += float(count);
+  answer = bitsOf(sums);
 }

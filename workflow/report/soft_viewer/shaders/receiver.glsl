@@ -1,7 +1,7 @@
 // The pixel's surface point as a receiver of light.
-uniform sampler2D points;
-uniform sampler2D normals;
-uniform sampler2D faces;
+uniform usampler2D points;
+uniform usampler2D normals;
+uniform usampler2D faces;
 
 struct Receiver {
   vec3 p, n, face;  // metres; unit normals, interpolated and the triangle's
@@ -12,11 +12,11 @@ struct Receiver {
 
 // False where there is no surface.
 bool receive(ivec2 at, vec3 light, out Receiver r) {
-  vec4 point = texelFetch(points, at, 0), normal = texelFetch(normals, at, 0);
+  vec4 point = floatsAt(points, at), normal = floatsAt(normals, at);
   r.p = point.xyz;
   r.n = normal.xyz;
   r.d = normal.w;
-  r.face = texelFetch(faces, at, 0).xyz;
+  r.face = floatsAt(faces, at).xyz;
   r.fromLight = r.p - light;
   r.z = length(r.fromLight);
   r.cosine = -dot(r.fromLight, r.face) / r.z;

@@ -7,9 +7,9 @@ flat in vec3 corner;
 uniform vec3 eye;
 uniform mat3 pixels; // from (column, row, 1), rows from below, to the ray through a place
 uniform float height;
-layout(location = 0) out vec4 point;  // metres; w 1 where there is a surface
-layout(location = 1) out vec4 normal; // unit, on the camera's side; w distance from the eye
-layout(location = 2) out vec4 face;   // the triangle's unit normal, on the camera's side
+layout(location = 0) out uvec4 point;  // metres; w 1 where there is a surface
+layout(location = 1) out uvec4 normal; // unit, on the camera's side; w distance from the eye
+layout(location = 2) out uvec4 face;   // the triangle's unit normal, on the camera's side
 layout(location = 3) out vec4 colour;
 
 void main() {
@@ -24,8 +24,8 @@ void main() {
   vec3 seen = exact - eye;
   vec3 side = normalize(dot(faceN, seen) > 0.0 ? -faceN : faceN);
   vec3 smooth_ = dot(n, n) > 0.0 ? normalize(followed) : side;
-  point = vec4(exact, 1.0);
-  normal = vec4(dot(smooth_, side) < 0.0 ? -smooth_ : smooth_, length(seen));
-  face = vec4(side, 0.0);
+  point = bitsOf(vec4(exact, 1.0));
+  normal = bitsOf(vec4(dot(smooth_, side) < 0.0 ? -smooth_ : smooth_, length(seen)));
+  face = bitsOf(vec4(side, 0.0));
   colour = vec4(albedo, 1.0);
 }
