@@ -55,9 +55,6 @@ def page(browser):
 @pytest.mark.parametrize("name", NETWORKS)
 def test_visibility_is_torchs(page, name, size):
     network, header = opened(name)
-    if name == "nsm_layouts":
-        # Else its visibility has a deviation of 0.8, more than any picture's.
-        network.levels[0].decoder[-1].weight.data *= 0.4
     data = check(page, network, header, size, NETWORKS[name])
     assert len(data["plan"]) <= MOST_DRAWS
 
@@ -75,7 +72,7 @@ def check(page, network, header, size, most):
     if "base" in data:
         planes[data["base"]] = (planes[data["base"]] > 0.6).float()
     visibility = expected(network, planes)
-    assert visibility.std() > 0.05, "nothing to tell apart"
+    assert visibility.std() > 5 * most, "nothing to tell apart"
     for float, difference in ((True, EXACT), (False, most)):
         make(page, data, planes, float)
         draws = count_draws(page)
