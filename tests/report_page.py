@@ -81,12 +81,15 @@ def make_page(folder: Path, **changes) -> Path:
     viewer = folder / "viewer.html"
     viewer.write_text(VIEWER)
     Image.new("RGB", (96, 64), "green").save(viewer.with_suffix(".png"))
+    soft_viewer = folder / "viewer_soft.html"
+    soft_viewer.write_text("<title>Soft shadows: room &amp; dragon</title>")
     parts = {
         "html": folder / "index.html",
         "template": TEMPLATE,
         "tables": tables[:3],
         "figures": [figure, drawing],
-        "viewers": [viewer, folder / "viewer_fence.html"],
+        "viewers": [viewer, soft_viewer],
+        "soft_viewers": ["viewer_soft"],
         "claims_json": tables[3],
         **write_evaluated(folder),
         "meshes": [samples.write_mesh(folder, name=HOSTILE)],

@@ -28,4 +28,4 @@ def test_views_are_read_from_the_batch_that_has_them_in_the_order_asked_for(tmp_
         for method, image in frame.images.items():
             np.testing.assert_allclose(image, 0.25 + 0.75 * seen[method][view], atol=0.002)
     assert last.scores == {"a": {"psnr": 30}}
-    assert last.caption.startswith("View 3 (of 0 to 3), aimed at the object's surface")
+    assert last.caption.startswith("View 4 of 4, aimed at the object's surface")

@@ -1,5 +1,5 @@
-import base64
 import io
+from urllib.parse import unquote
 from xml.etree import ElementTree
 
 import pandas as pd
@@ -10,13 +10,13 @@ from neural_shadows.reports.drawing.style import new_figure, write_figure
 from neural_shadows.reports.page.figure_blocks import LARGEST_SVG, figure_blocks, inline_svg
 
 
-def test_large_drawings_are_shown_as_pixels_and_pictures_as_images(tmp_path):
+def test_large_drawings_and_pictures_are_shown_as_pixels(tmp_path):
     svg, png = tmp_path / "figure_3_1.svg", tmp_path / "figure_3_1.png"
     Image.new("RGB", (9, 9), "red").save(png)
-    for size, kind in ((LARGEST_SVG, "svg+xml"), (LARGEST_SVG + 1, "webp")):
-        svg.write_bytes(b"<image".ljust(size, b"x"))
+    for content in (b"<image", b"x" * (LARGEST_SVG + 1)):
+        svg.write_bytes(content)
         (block,) = figure_blocks([svg, png], {"figure_3_1": "How"}, {})
-        assert f'src="data:image/{kind};base64,' in block.html
+        assert 'src="data:image/avif;base64,' in block.html
         assert (block.anchor, block.title) == ("figure-figure_3_1", "Figure 3.1: How")
     # Only figures of the thesis have numbers.
     table = tmp_path / "cost.csv"
@@ -52,8 +52,8 @@ def test_a_chart_s_own_data_can_be_saved(tmp_path):
     figure = new_figure("Loss", 3, 2)
     write_chart(figure, svg.with_suffix(".png"), svg, data)
     (block,) = figure_blocks([svg], {}, {})
-    saved = base64.b64decode(block.files["figure_4_1.csv"].removeprefix("data:text/csv;base64,"))
-    pd.testing.assert_frame_equal(pd.read_csv(io.BytesIO(saved)), data)
+    saved = unquote(block.files["figure_4_1.csv"].removeprefix("data:text/csv;charset=utf-8,"))
+    pd.testing.assert_frame_equal(pd.read_csv(io.StringIO(saved)), data)
     assert "a, b" not in block.html
     assert "tabindex" not in block.html  # it has no point that the arrow keys could choose
     (point,) = figure.subplots().plot([1], [2], "o")

@@ -61,17 +61,18 @@ if (filter) {
   });
 }
 
-// The viewer is a page of its own, and starts when asked for, or by an address that has its state.
+// The viewer is a file beside this one, and starts when asked for, or by an address that has its state.
 const figure = document.querySelector(".viewer");
 if (figure) {
-  const poster = figure.querySelector(".poster"), start = figure.querySelector("button");
+  const poster = figure.querySelector(".poster"), start = figure.querySelector(".poster a");
   const mark = "#viewer?";
   let asked = location.hash.startsWith(mark) ? location.hash.slice(mark.length) : "";
-  start.hidden = false;
-  start.addEventListener("click", () => {
+  start.addEventListener("click", (event) => {
+    if (event.ctrlKey || event.metaKey || event.shiftKey) return; // a tab of its own
+    event.preventDefault();
     const frame = document.createElement("iframe");
     frame.title = "Viewer: drag the light";
-    frame.srcdoc = JSON.parse(figure.querySelector("script").textContent);
+    frame.src = start.getAttribute("href");
     poster.replaceWith(frame);
     frame.focus();
     addEventListener("message", ({ source, data }) => {

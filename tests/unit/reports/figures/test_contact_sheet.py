@@ -34,7 +34,7 @@ def test_every_method_has_a_row_of_numbered_views(tmp_path, views, shown):
     panels = [axes for axes in figure.axes if axes.images]
     texts = [axes.get_xlabel() for axes in panels]
     assert sorted(texts) == sorted(
-        text for i in shown for text in (f"{i}: equal", f"{i}: {10 + i / 100:.1f}")
+        text for i in shown for text in (f"{i + 1}: equal", f"{i + 1}: {10 + i / 100:.1f}")
     )
     for axes in panels:
         red, _, blue = np.moveaxis(np.asarray(axes.images[0].get_array()), 2, 0)

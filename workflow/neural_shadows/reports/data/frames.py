@@ -67,6 +67,6 @@ def read_frames(
 
 
 def _caption(view: View, count: int) -> str:
-    """Number of the view, and the aim of its camera."""
+    """Number of the view from 1, as viewers have it, and the aim of its camera."""
     view_set, number = view
-    return f"View {number} (of 0 to {count - 1}), {VIEW_SETS[view_set]}"
+    return f"View {number + 1} of {count}, {VIEW_SETS[view_set]}"

@@ -32,7 +32,7 @@ MOST_VIEWS = 24  # of a view set; of more, so many at even steps
 MOST_COLUMNS, FEWEST_COLUMNS = 8, 4
 PIXELS = 200  # across a small view, or a few more
 NOTE = (
-    "Below each view: its number, and its PSNR in dB or that it equals the reference. "
+    "Below each view: its number from 1, and its PSNR in dB or that it equals the reference. "
     "Wrong pixels are drawn larger than they are."
 )
 WIDTH = 12.0  # inches: on a page of 1168 px a view is 145 px wide
@@ -114,7 +114,7 @@ def contact_sheet(
                 axes.imshow(image[::step, ::step], interpolation="none")
                 psnr = frame.scores[method]["psnr"]
                 score = "equal" if identical(psnr) else f"{psnr:.1f}"
-                axes.set_xlabel(f"{frame.view[1]}: {score}", fontsize=9, labelpad=2)
+                axes.set_xlabel(f"{frame.view[1] + 1}: {score}", fontsize=9, labelpad=2)
     return figure
 
 

@@ -6,10 +6,11 @@ from pathlib import Path
 
 from PIL import Image
 
-from neural_shadows.reports.page.blocks import webp_uri
+from neural_shadows.reports.page.blocks import lossy_uri
 from neural_shadows.reports.page.claim_cards import Card
 
 SIZE = (480, 320)  # pixels of a picture: twice those it is shown in
+QUALITY = 50
 
 
 @dataclass(frozen=True)
@@ -58,4 +59,4 @@ def _finding(question: str, card: Card, png: Path | None, titles: Mapping[str, s
     picture.thumbnail((width, picture.height))
     part = picture.crop((0, 0, picture.width, min(picture.height, height)))
     title = titles.get(png.stem, png.stem)
-    return Finding(question, card, png.stem, title, webp_uri(part, lossless=False))
+    return Finding(question, card, png.stem, title, lossy_uri(part, QUALITY))

@@ -16,11 +16,12 @@ from neural_shadows.reports.data.frame_errors import error_layer
 from neural_shadows.reports.data.frames import Frame, read_frames
 from neural_shadows.reports.data.inputs import by_folder
 from neural_shadows.reports.data.method_look import LOOKS, REFERENCE, look_of
-from neural_shadows.reports.page.blocks import webp_uri
+from neural_shadows.reports.page.blocks import lossless_uri, lossy_uri
 from neural_shadows.settings.records import Row
 
 REFERENCE_NAME = f"{LOOKS[REFERENCE].symbol} Reference"
 SCORES = ("lpips", "psnr", "flip")
+MAP_QUALITY = 50
 
 
 def hard_comparisons(
@@ -94,9 +95,9 @@ def _view(frame: Frame, methods: Sequence[str]) -> dict[str, Any]:
             continue
         image, scores = frame.images[method], frame.scores[method]
         pictures[method] = {
-            "change": webp_uri(Image.fromarray(change_layer(image, reference))),
-            "errors": webp_uri(Image.fromarray(error_layer(image, reference))),
-            "map": webp_uri(map_picture(flip_map(image, reference)), lossless=False),
+            "change": lossless_uri(Image.fromarray(change_layer(image, reference))),
+            "errors": lossless_uri(Image.fromarray(error_layer(image, reference))),
+            "map": lossy_uri(map_picture(flip_map(image, reference)), MAP_QUALITY),
             "scores": ", ".join(
                 metrics_by_key()[key].score(scores[key]) for key in SCORES if key in scores
             ),
@@ -106,7 +107,7 @@ def _view(frame: Frame, methods: Sequence[str]) -> dict[str, Any]:
         "caption": frame.caption,
         "width": width,
         "height": height,
-        "reference": webp_uri(Image.fromarray(grey_levels(reference))),
+        "reference": lossless_uri(Image.fromarray(grey_levels(reference))),
         "pictures": pictures,
     }
 

@@ -1,19 +1,22 @@
 """The page of a run: claims, frames, tables, figures and facts."""
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from html import unescape
 from pathlib import Path
 from typing import Any
 
 import jinja2
 from markupsafe import Markup
+from PIL import Image
 
 from neural_shadows.evaluation.registry import LABELS, NETWORK_LOOK, look_of
 from neural_shadows.files.whole_files import write_text
 from neural_shadows.reports.data.inputs import read_meshes
 from neural_shadows.reports.data.method_look import look_of_kind
 from neural_shadows.reports.data.phrases import describe_mesh
-from neural_shadows.reports.page.blocks import data_uri
+from neural_shadows.reports.page.blocks import lossy_uri
 from neural_shadows.reports.page.chapters import chapters as page_chapters
 from neural_shadows.reports.page.claim_cards import budget, by_source, counted, read_cards
 from neural_shadows.reports.page.figure_blocks import figure_blocks, themed
@@ -25,6 +28,7 @@ from neural_shadows.reports.page.table_blocks import has_printed, table_block
 from neural_shadows.running.stage import run_stage
 from neural_shadows.settings.records import Row, Run, SceneInfo
 
+POSTER_QUALITY = 60
 SCRIPTS = ("reading.js", "hard_frames.js", "soft_frames.js", "frames.js")
 
 
@@ -35,6 +39,7 @@ def write_page(
     tables: list[Path],
     figures: list[Path],
     viewers: list[Path],
+    soft_viewers: Sequence[str],
     claims_json: Path | None,
     references: list[Path],
     visibilities: list[Path],
@@ -58,7 +63,7 @@ def write_page(
     scenes: Mapping[str, SceneInfo],
     benchmarks: Path,
 ) -> None:
-    """Write the page as one self-contained file.
+    """Write the page as one file, which links to the viewers beside it.
 
     Any of the lists may be empty.
 
@@ -66,8 +71,9 @@ def write_page(
         template: `template.html`, `style.css` and `SCRIPTS`, of one folder.
         tables: JSON, with a CSV beside each, as beside `claims_json`.
         figures: `.svg` and `.png` of each, in order; titles: of figures, by name.
-        viewers: self-contained HTML, with a poster, a PNG, beside each; 2 MiB each, so that the
-            first is within the page and the others are named.
+        viewers: HTML in the page's folder, with a poster, a PNG, beside the first, which the page
+            opens within itself; 2 to 6 MB each. Links lead to all.
+        soft_viewers: names of those under an area light.
         references, visibilities, metrics: of all batches of each scene, and of each method.
         soft_parts, soft_answers, soft_pictures: see `soft_comparisons`.
         data: the tables that figures show, by the figures' names.
@@ -122,8 +128,11 @@ def write_page(
         cards={source: (own, counted(own)) for source, own in by_source(cards).items()},
         verdicts=counted(cards),
         budget=budget(claims_csv) if claims_csv else "",
-        viewer=_viewer(viewers[0]) if viewers else None,
-        other_viewers=[path.name for path in viewers[1:]],
+        viewers=[
+            {"file": path.name, "title": _title(path), "soft": path.stem in soft_viewers}
+            for path in viewers
+        ],
+        poster=_poster(viewers[0].with_suffix(".png")) if viewers else None,
         missing=missing,
         comparisons=[
             *hard_comparisons(references, visibilities, metrics, rows, described),
@@ -135,10 +144,17 @@ def write_page(
     write_text(html, page)
 
 
-def _viewer(html: Path) -> dict[str, str]:
-    """A viewer's poster as an address within the page, and its own page."""
-    poster = data_uri("image/png", html.with_suffix(".png").read_bytes())
-    return {"poster": poster, "html": html.read_text(encoding="utf-8")}
+def _poster(png: Path) -> str:
+    """A viewer's poster as an address within the page."""
+    with Image.open(png) as image:
+        return lossy_uri(image.convert("RGB"), POSTER_QUALITY)
+
+
+def _title(html: Path) -> str:
+    """Title of a viewer, which stands in its first lines."""
+    with html.open(encoding="utf-8") as file:
+        (title,) = re.findall("<title>(.*?)</title>", file.read(2000))
+    return unescape(title)
 
 
 if "snakemake" in globals():

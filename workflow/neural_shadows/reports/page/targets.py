@@ -114,6 +114,9 @@ def page_arguments(layout: Layout) -> dict[str, Any]:
     figures = layout.settings["figures"]
     return {
         "titles": {name: one["title"] for name, one in figures.items()},
+        "soft_viewers": [
+            name for name, one in layout.settings["viewers"].items() if "frame_set" in one
+        ],
         "data": {name: one["table"] for name, one in figures.items() if "table" in one},
         "chapters": chapters(layout),
         "questions": questions(layout),
