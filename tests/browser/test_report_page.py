@@ -155,8 +155,8 @@ def test_without_script_nothing_that_is_read_is_missing(browser, address):
     page = browser.new_context(java_script_enabled=False).new_page()
     page.goto(address)
     assert page.locator(".card:visible").count() == 2 and page.locator(".filter").is_hidden()
-    assert page.get_by_role("button", name="Drag the light").is_hidden()
     assert page.locator(".poster img").is_visible()
+    assert page.get_by_role("link", name="Drag the light").get_attribute("href") == "viewer.html"
 
 
 def test_divider_follows_the_mouse_and_the_keyboard(open_page):
@@ -224,7 +224,7 @@ def test_soft_frames_are_shaded_masks_or_errors(soft_page):
     exact, answer = pictures.exact[1], pictures.answers["hard"][1]
     levels, name = painted(page, "over")
     assert name == "■ Shadow map, shaded pictures, room, light of 0.25 m radius"
-    # Of 64 levels, and of a shading with a little loss.
+    # With a little loss of visibility and shading.
     np.testing.assert_allclose(levels, 255 * grey(pictures.shown(answer)), atol=5)
     page.locator(".shown").select_option("visibility")
     np.testing.assert_allclose(painted(page, "over")[0], 255 * grey(answer), atol=2.6)

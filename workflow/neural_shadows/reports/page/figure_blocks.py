@@ -13,7 +13,7 @@ from neural_shadows.reports.drawing.style import provenance_of
 from neural_shadows.reports.page.blocks import Block, csv_file, csv_uri, lossy_uri, made_line
 
 LARGEST_SVG = 300_000  # bytes; a larger one is shown as pixels
-WIDEST, QUALITY = 1400, 50  # of these; the page is 1,008 wide
+WIDEST, QUALITY = 1280, 40  # of these; the page is 1,008 wide
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"
 
