@@ -7,19 +7,11 @@ from neural_shadows.layout.layout import Layout
 
 _HARD, _SOFT = "write_viewer", "write_soft_viewer"
 # Files of `report/viewer` that the viewer of an area light has as well.
-SHARED = (
-    *(
-        "arrays.js",
-        "bvh.js",
-        "divider.js",
-        "field_textures.js",
-        "mesh.js",
-        "orbit.js",
-        "vectors.js",
-    ),
-    *("webgl.js", "page.js", "viewer.css", "screen.vert", "discs.glsl", "unit_sphere.glsl"),
-    *("field_values.glsl", "field.glsl", "cones.glsl"),
-)
+SHARED = """
+    arrays.js bvh.js divider.js field_textures.js mesh.js orbit.js page.js vectors.js webgl.js
+    base.html viewer.css screen.vert
+    cones.glsl discs.glsl field.glsl field_values.glsl unit_sphere.glsl
+""".split()
 
 
 def stage(layout: Layout, viewer: str) -> str:

@@ -26,7 +26,7 @@ def fill_template(
         template, key=lambda path: (path.parent == html.parent, path.name == "main.js")
     )
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(html.parent),
+        loader=jinja2.FileSystemLoader({path.parent for path in template}),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
     )
