@@ -21,7 +21,7 @@ class HardViewer(Model):
 
 
 class SoftViewer(Model):
-    """Interactive scene under an area light, with maps, rays, filters and networks."""
+    """Interactive scene under an area light, with maps, rays, cones, filters and networks."""
 
     scene: name_in("scenes") = Field(
         description="an arrangement in `scenes`; a mesh stands alone on a stage"
