@@ -71,7 +71,7 @@ def test_every_image_loads_and_nothing_else(open_page, address):
     widths = page.evaluate(
         "[...document.querySelectorAll('img[src]')].map(image => image.naturalWidth)"
     )
-    assert len(widths) == 6 and min(widths) > 0
+    assert len(widths) == 7 and min(widths) > 0
     assert page.messages == []
     assert [url for url in page.requested if not url.startswith("data:")] == [address]
 
@@ -140,14 +140,14 @@ def test_contents_follow_the_reading(open_page):
     page = open_page()
     current = page.locator("nav .current")
     assert current.inner_text() == "What was found"
-    page.locator("nav").get_by_text("Tables", exact=True).click()
-    page.locator("nav .current[href='#tables']").wait_for()
+    page.locator("nav").get_by_text("Hard shadows: the thesis").click()
+    page.locator("nav .current[href='#thesis']").wait_for()
     assert page.locator("nav").get_by_text("Networks and shadow maps").first.is_visible()
     # On a narrow screen they are folded until asked for.
     narrow = open_page(width=768)
     assert narrow.locator("nav li").first.is_hidden()
     narrow.locator("nav summary").click()
-    narrow.locator("nav").get_by_text("The run").click()
+    narrow.locator("nav").get_by_text("How to repeat it").click()
     assert narrow.locator("nav li").first.is_hidden()
 
 

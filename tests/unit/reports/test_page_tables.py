@@ -38,7 +38,7 @@ def test_the_thesis_s_numbers_stand_and_are_drawn_in_the_cells_of_ours(tmp_path)
     assert part.rows[0][2].html == "<strong>supported</strong>" and not part.rows[0][2].places
     assert part.rows[1][0].html == "A &lt;b&gt;network&lt;/b&gt;"
     assert block.notes == ("Mean over 24 views; <em>thesis</em>: printed.", SHARED)
-    assert block.files == {"table.csv": "data:text/csv;base64,YQoxCg=="}
+    assert block.files == {"table.csv": "data:text/csv;charset=utf-8,a%0A1%0A"}
 
 
 def test_scenes_stand_apart_with_the_best_of_each(tmp_path):

@@ -55,8 +55,10 @@ if (filter) {
     for (const card of document.querySelectorAll(".card")) {
       card.hidden = !["", card.dataset.verdict].includes(chosen.dataset.verdict);
     }
-    for (const source of document.querySelectorAll(".source")) {
-      source.open = Boolean(chosen.dataset.verdict && source.querySelector(".card:not([hidden])"));
+    const sources = document.querySelectorAll(".source");
+    for (const source of sources) { // one alone stays open
+      const found = chosen.dataset.verdict && source.querySelector(".card:not([hidden])");
+      source.open = sources.length === 1 || Boolean(found);
     }
   });
 }
