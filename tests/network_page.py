@@ -15,7 +15,7 @@ from neural_shadows.networks.screen_space.screen_networks import load_screen_net
 REPORT = ROOT / "workflow/report"
 EXECUTOR = [
     REPORT / "soft_viewer/screen_network.js",
-    REPORT / "soft_viewer/shaders/floats.glsl",
+    REPORT / "viewer/shaders/floats.glsl",
     *sorted((REPORT / "soft_viewer/shaders").glob("network_*")),
     *sorted((REPORT / "soft_viewer/shaders").glob("kernel_*")),
 ]

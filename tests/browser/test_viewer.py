@@ -41,8 +41,9 @@ def viewer(tmp_path_factory):
 def open_viewer(browser, viewer):
     pages = []
 
-    def open_viewer(state="", width=480, height=440, browser=browser):
+    def open_viewer(state="", width=480, height=440, browser=browser, script=""):
         page = browser.new_page(viewport={"width": width, "height": height})
+        page.add_init_script(script)
         pages.append(page)
         page.set_default_timeout(60_000)
         page.messages, page.requested = [], []
@@ -546,6 +547,27 @@ def test_without_webgl_there_is_a_poster_and_the_reason(open_viewer, launch):
     assert "no WebGL2" in page.locator(".reason").inner_text()
     assert page.locator(".poster").is_visible() and not page.locator("canvas").is_visible()
     assert faults(page) == []
+
+
+REFUSE = """const given = WebGL2RenderingContext.prototype.getExtension;
+WebGL2RenderingContext.prototype.getExtension = function (name) {
+  return FORBIDDEN.test(name) ? null : given.call(this, name);
+};"""
+
+
+def test_half_floats_are_enough(open_viewer, frames):
+    """Most phones draw no others."""
+    half = REFUSE.replace("FORBIDDEN", "/buffer_float/")
+    pages = [open_viewer("left=no_shadow&right=no_shadow", script=script) for script in ("", half)]
+    for key, sun in (("reference", 2.0), ("field", 2.0), ("map_256", 0.0)):
+        whole, halves = (asked(page, key, frames[0], sun) for page in pages)
+        assert np.array_equal(whole, halves), key
+    assert faults(pages[1]) == []
+
+
+def test_without_floats_there_is_a_poster_and_the_reason(open_viewer):
+    page = open_viewer(script=REFUSE.replace("FORBIDDEN", "/buffer/"))
+    assert "cannot draw floating-point numbers" in page.locator(".reason").inner_text()
 
 
 def test_lost_context_leaves_the_poster_and_a_sentence(open_viewer):

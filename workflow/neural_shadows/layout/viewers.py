@@ -10,7 +10,7 @@ _HARD, _SOFT = "write_viewer", "write_soft_viewer"
 SHARED = """
     arrays.js bvh.js divider.js field_textures.js mesh.js orbit.js page.js vectors.js webgl.js
     base.html viewer.css screen.vert
-    cones.glsl discs.glsl field.glsl field_values.glsl unit_sphere.glsl
+    cones.glsl discs.glsl field.glsl field_values.glsl floats.glsl unit_sphere.glsl
 """.split()
 
 

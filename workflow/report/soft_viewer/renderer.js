@@ -2,7 +2,7 @@
 // long as what they depend on stays. A `state` has `view` (eye, target, up, fov), `light` (centre, radius),
 // `move` (see motionOf), and `size` (width, height) of the picture.
 
-const BYTES = ["RGBA8", "RGBA", "UNSIGNED_BYTE"], DEPTHS = ["R32UI", "RED_INTEGER", "UNSIGNED_INT"]; // floats' bits
+const BYTES = ["RGBA8", "RGBA", "UNSIGNED_BYTE"];
 const MOST_TAPS = 9; // of a filter of moments, along an axis
 const CONSTANTS = {
   ROW_BRICKS, SOLID, MOST_TAPS, SEARCHED: 64, FILTERED: 128,
@@ -93,9 +93,9 @@ class Renderer {
   // Distances from the light's centre in all directions, with the uniforms that look them up.
   lightMap(state) {
     const { gl } = this, { light: { centre }, move, resolution } = state, size = [3 * resolution, 2 * resolution];
-    const [depths] = this.keep("map", [centre, move, resolution], [DEPTHS], size, (target) => {
+    const [depths] = this.keep("map", [centre, move, resolution], [ONE_FLOATS_BITS], size, (target) => {
       gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
-      gl.clearBufferuiv(gl.COLOR, 0, new Uint32Array(new Float32Array([EMPTY, 0, 0, 0]).buffer));
+      clearFloat(gl, EMPTY);
       gl.clearBufferfv(gl.DEPTH, 0, [1]);
       gl.enable(gl.SCISSOR_TEST);
       for (let face = 0; face < 6; face++) {

@@ -1,17 +1,18 @@
 // Passes: surface points of a camera; each method's answer at them; the picture.
 
-const SUMS = ["RG16F", "RG", "HALF_FLOAT"]; // exact up to 2,048 rays
+const SUMS = ["RG16F", "RG", "HALF_FLOAT"]; // exact up to 2,048 rays; bits cannot be added by blending
+const NORMALS = ["RGBA16F", "RGBA", "HALF_FLOAT"]; // for shading
 
 class Renderer {
   // up, groundRadius: of the scene.
   constructor(canvas, shaders, constants, { up, ground_radius: groundRadius }) {
     const gl = this.gl = openWebgl(canvas);
-    if (!gl.getExtension("EXT_color_buffer_float")) {
+    if (!gl.getExtension("EXT_color_buffer_float") && !gl.getExtension("EXT_color_buffer_half_float")) {
       throw new Unavailable("This browser's WebGL2 cannot draw floating-point numbers.");
     }
     Object.assign(this, { canvas, shaders, up, groundRadius });
-    this.surface = makeProgram(gl, shaders.surface_vert, shaders.surface_frag, constants);
-    this.heights = makeProgram(gl, shaders.heights_vert, shaders.heights_frag);
+    this.surface = makeProgram(gl, shaders.surface_vert, shaders.floats + shaders.surface_frag, constants);
+    this.heights = makeProgram(gl, shaders.heights_vert, shaders.floats + shaders.heights_frag);
     this.picture = makeProgram(gl, shaders.screen_vert, shaders.picture_frag, constants);
     this.screen = gl.createVertexArray();
     this.finish = makeFinish(gl);
@@ -40,14 +41,15 @@ class Renderer {
   look(view, [width, height]) {
     const { gl, surfaces } = this;
     const points = surfaces.get(`${width} × ${height}`)
-      ?? makeTarget(gl, [FLOATS, FLOATS, FLOATS], width, height, true);
+      ?? makeTarget(gl, [BITS, BITS, NORMALS], width, height, true);
     keepNewest(surfaces, `${width} × ${height}`, points);
     const seen = viewText(view);
     if (seen === points.seen) return points.textures;
     points.seen = seen;
     gl.bindFramebuffer(gl.FRAMEBUFFER, points.framebuffer);
     gl.viewport(0, 0, width, height);
-    for (let i = 0; i < 3; i++) gl.clearBufferfv(gl.COLOR, i, [0, 0, 0, 0]);
+    for (let i = 0; i < 2; i++) gl.clearBufferuiv(gl.COLOR, i, [0, 0, 0, 0]);
+    gl.clearBufferfv(gl.COLOR, 2, [0, 0, 0, 0]);
     gl.clearBufferfv(gl.DEPTH, 0, [1]);
     const camera = {
       camera: cameraMatrix(view, width / height), pixels: pixelMatrix(view, width, height),
@@ -87,11 +89,11 @@ class Renderer {
     }
     const side = Math.max(high[0] - low[0], high[1] - low[1]);
     const corner = [(low[0] + high[0] - side) / 2, (low[1] + high[1] - side) / 2, low[2]];
-    const target = known ?? makeTarget(gl, [["R32F", "RED", "FLOAT"]], size, size, true);
+    const target = known ?? makeTarget(gl, [ONE_FLOATS_BITS], size, size, true);
     const sizes = { basis: rows.flat(), corner, side, highest: high[2] };
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
     gl.viewport(0, 0, size, size);
-    gl.clearBufferfv(gl.COLOR, 0, [-1e30, 0, 0, 0]);
+    clearFloat(gl, -1e30);
     gl.clearBufferfv(gl.DEPTH, 0, [1]);
     gl.enable(gl.DEPTH_TEST);
     setUniforms(gl, this.heights, sizes);
@@ -107,7 +109,7 @@ class Renderer {
   // A method's program, and its uniforms of a light; made when it is first needed.
   prepare(method) {
     if (!this.made.has(method.key)) {
-      const source = ["discs", "visibility_frag", ...method.sources].map((name) => this.shaders[name]).join("\n");
+      const source = ["floats", "discs", "visibility_frag", ...method.sources].map((name) => this.shaders[name]).join("\n");
       const program = makeProgram(this.gl, this.shaders.screen_vert, source, method.constants);
       this.made.set(method.key, { method, program, uniforms: method.make(this) });
     }

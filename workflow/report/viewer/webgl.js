@@ -4,6 +4,7 @@ class Unavailable extends Error {}
 
 // Formats of textures: [internal, format, type]. Any WebGL2 draws bits; floats, an extension.
 const FLOATS = ["RGBA32F", "RGBA", "FLOAT"], BITS = ["RGBA32UI", "RGBA_INTEGER", "UNSIGNED_INT"];
+const ONE_FLOATS_BITS = ["R32UI", "RED_INTEGER", "UNSIGNED_INT"];
 
 function openWebgl(canvas) {
   // Kept, so that a band of it can be drawn anew and the rest stays.
@@ -123,6 +124,11 @@ function readFloats(gl, width, height) {
   const bits = new Uint32Array(4 * width * height);
   gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, bits);
   return new Float32Array(bits.buffer);
+}
+
+// Fills the first of the bound framebuffer's textures with a float's bits.
+function clearFloat(gl, value) {
+  gl.clearBufferuiv(gl.COLOR, 0, new Uint32Array(Float32Array.of(value, 0, 0, 0).buffer));
 }
 
 function setUniforms(gl, { program, uniforms }, values) {

@@ -1,6 +1,6 @@
 in float height;
-layout(location = 0) out vec4 found;
+layout(location = 0) out uint found;
 
 void main() {
-  found = vec4(height, 0.0, 0.0, 1.0);
+  found = bitsOf(height);
 }

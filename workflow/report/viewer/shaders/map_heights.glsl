@@ -1,12 +1,12 @@
 // A shadow map of the sun's middle, and a point beside it; see shadow_maps/depth_test.py.
-uniform sampler2D heights;
+uniform usampler2D heights;
 uniform mat3 basis;    // columns u, v, light
 uniform vec3 corner;   // of the map's square, and the least height
 uniform float side;    // of the square
 uniform float highest; // of all heights
 
 float heightAt(ivec2 texel) {
-  return texelFetch(heights, clamp(texel, ivec2(0), textureSize(heights, 0) - 1), 0).x;
+  return floatsAt(heights, clamp(texel, ivec2(0), textureSize(heights, 0) - 1)).x;
 }
 
 // In texels.

@@ -1,7 +1,7 @@
 // A method's answer at each surface point: x the sum of its visibilities, y how many those are; 0
 // where there is no surface. More are added by blending. The files after this define `visibility`.
-uniform sampler2D points;
-uniform sampler2D faceNormals;
+uniform usampler2D points;
+uniform usampler2D faceNormals;
 uniform vec3 sun;    // unit vector to the middle of the sun's disc
 uniform float slope; // tangent of the disc's angular radius; 0 for a point
 layout(location = 0) out vec4 answer;
@@ -23,7 +23,7 @@ vec2 noise() {
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  vec4 point = texelFetch(points, at, 0);
+  vec4 point = floatsAt(points, at);
   answer = vec4(0.0);
-  if (point.w > 0.0) answer.xy = visibility(point.xyz, texelFetch(faceNormals, at, 0).xyz);
+  if (point.w > 0.0) answer.xy = visibility(point.xyz, floatsAt(faceNormals, at).xyz);
 }
