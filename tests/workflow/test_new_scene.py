@@ -20,9 +20,10 @@ def test_scene_of_an_overlay(finished, tmp_path):
         experiments={"torus": network | {"label": "{steps} steps"}},
         tables={"table_torus": {"title": "A torus", "rows": ["shadow_map_512", "torus"]}},
     )
-    # Only its own jobs run, and the page that shows everything.
+    # Only its own jobs run, the page that shows everything, and the manifest of all.
     others = [path for path in finished.pending(overlays=[overlay]) if "torus" not in path]
-    assert others == ["reports/smoke/index.html"]
+    of_all = ("index.html", "manifest.json", "ro-crate-metadata.json")
+    assert sorted(others) == [f"reports/smoke/{name}" for name in of_all]
     said = finished.run("reports/smoke/table_torus.csv", overlays=[overlay])
     assert "| 512² shadow map" in said and "Open reports/smoke/table_torus.md" in said
     reports = finished.reports
