@@ -7,8 +7,6 @@ of them in a cell that it crosses. All samples lie at multiples of 2^−20 cells
 `field_occlusion.c`, the same in C, has the same answers to the bit.
 """
 
-from collections.abc import Iterable
-
 import numpy as np
 from numba import njit
 from numba.cpython.unsafe.numbers import trailing_zeros
@@ -48,24 +46,10 @@ def occluded(
         to_light: (3,) unit vector.
         depth_bias: how far the points are moved towards the light.
     """
-    return occluded_in_parts([points], len(points), to_light, bricks, depth_bias)
-
-
-def occluded_in_parts(
-    parts: Iterable[np.ndarray],
-    count: int,
-    to_light: np.ndarray,
-    bricks: FieldBricks,
-    depth_bias: float = 0.0,
-) -> np.ndarray:
-    """Test points for occlusion, as `occluded`; `parts` have `count` points together, one by one."""
-    occlusion, start = np.zeros(count, bool), 0
-    light = directional_tables(bricks, to_light, merging(count, bricks))
+    occlusion = np.zeros(len(points), bool)
+    light = directional_tables(bricks, to_light, merging(len(points), bricks))
     blocks = depth_bias * bricks.size * (BRICK >> light.merged) / 2
-    bias = blocks * float(np.abs(to_light).max())
-    for points in parts:
-        _mark(points, light, bricks, bias, occlusion[start : start + len(points)])
-        start += len(points)
+    _mark(points, light, bricks, blocks * float(np.abs(to_light).max()), occlusion)
     return occlusion
 
 

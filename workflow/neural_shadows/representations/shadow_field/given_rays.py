@@ -1,14 +1,11 @@
 """Checked points and directions of a user, in radii of a field's sphere."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numba import njit
 
 from neural_shadows.errors import InputError
-
-PART = 1 << 13  # rows, 96 KiB
 
 
 def rows_of(given: Any, name: str, width: int = 3) -> np.ndarray:
@@ -63,25 +60,8 @@ def vectors_of(given: Any, name: str) -> np.ndarray:
     return vectors
 
 
-def parts_in_radii(
-    rows: np.ndarray, name: str, centre: np.ndarray, radius: float
-) -> Iterator[np.ndarray]:
-    """Parts of `in_radii`, each of which stays in a processor's cache until it is used.
-
-    Raises:
-        InputError: as `in_radii`.
-    """
-    for start in range(0, len(rows), PART):
-        yield in_radii(rows[start : start + PART], name, centre, radius, start)
-
-
-def in_radii(
-    rows: np.ndarray, name: str, centre: np.ndarray, radius: float, start: int = 0
-) -> np.ndarray:
+def in_radii(rows: np.ndarray, name: str, centre: np.ndarray, radius: float) -> np.ndarray:
     """Map rows (n, 3) to (x − centre) / radius, float32; `centre` is (3,) float64.
-
-    Args:
-        start: number of the first one, for messages.
 
     Raises:
         InputError: a row is not finite.
@@ -90,7 +70,7 @@ def in_radii(
     if not _map(rows, centre, 1 / radius, result):
         invalid = int(np.argmin(np.isfinite(rows).all(axis=1)))
         raise InputError(
-            f"{name}: row {start + invalid} (counted from 0) is {rows[invalid].tolist()}: not finite. Leave "
+            f"{name}: row {invalid} (counted from 0) is {rows[invalid].tolist()}: not finite. Leave "
             "such rows out."
         )
     return result

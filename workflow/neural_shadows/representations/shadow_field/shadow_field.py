@@ -120,10 +120,11 @@ class ShadowField:
         Raises:
             InputError: another shape, or a number that is not finite.
         """
-        from neural_shadows.representations.shadow_field.given_rays import direction_of, rows_of
+        from neural_shadows.representations.shadow_field.given_rays import direction_of
 
-        rows = rows_of(points, "points")
-        return self._occluded_rows(rows, "points", direction_of(direction, "direction"))
+        return self._occluded(
+            self._in_radii(points, "points"), direction_of(direction, "direction")
+        )
 
     def occluded_from(self, points: Any, position: Any) -> np.ndarray:
         """Occlusion of points from a light at a position (3,), (n,) bool.
@@ -181,16 +182,14 @@ class ShadowField:
             vectors_of,
         )
 
-        origins = rows_of(ray_origins, "ray_origins")
+        origins = self._in_radii(ray_origins, "ray_origins")
         directions = rows_of(ray_directions, "ray_directions")
         if len(directions) != len(origins):
             raise InputError(
                 f"ray_directions: {len(directions)} rows for {len(origins)} origins. Give one each."
             )
         if all_alike(directions):
-            direction = direction_of(directions[0], "ray_directions")
-            return self._occluded_rows(origins, "ray_origins", direction)
-        origins = self._in_radii(origins, "ray_origins")
+            return self._occluded(origins, direction_of(directions[0], "ray_directions"))
         return self._blocked(origins, _endless(vectors_of(directions, "ray_directions")))
 
     def test_occlusions(self, rays: Any, tnear: float = 0.0, tfar: float = np.inf) -> np.ndarray:
@@ -248,16 +247,6 @@ class ShadowField:
         from neural_shadows.representations.distance_bricks.field_bricks import field_bricks
 
         return field_bricks(self.grid, self.bricks, 0.0, CORNER_BITS, self.cells)
-
-    def _occluded_rows(self, rows: np.ndarray, name: str, direction: np.ndarray) -> np.ndarray:
-        """See `occluded`; of a unit direction."""
-        if len(rows) * FEW < self.resolution**2:
-            return self._occluded(self._in_radii(rows, name), direction)
-        from neural_shadows.representations.distance_bricks.field_occlusion import occluded_in_parts
-        from neural_shadows.representations.shadow_field.given_rays import parts_in_radii
-
-        parts = parts_in_radii(rows, name, self.centre, self.radius)
-        return occluded_in_parts(parts, len(rows), direction, self._field_bricks)
 
     def _occluded(self, points: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """See `occluded`; points in radii, of a unit direction."""
