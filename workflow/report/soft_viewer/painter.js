@@ -51,8 +51,9 @@ class Painter {
     });
   }
 
+  // At least as wide as the canvas, so that every size shows the same from bottom to top.
   sizeOf(height) {
-    return [64 * Math.max(1, Math.round(height * this.aspect() / 64)), height];
+    return [64 * Math.ceil(height * this.aspect() / 64), height];
   }
 
   #predicted([width, height]) {
@@ -136,8 +137,7 @@ class Painter {
 
   // Shares of the pictures that cover the canvas.
   cover(size) {
-    const share = this.aspect() * size[1] / size[0];
-    return share > 1 ? [1, 1 / share] : [share, 1];
+    return [this.aspect() * size[1] / size[0], 1];
   }
 
   show(size) {
