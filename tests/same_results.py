@@ -20,15 +20,20 @@ MEASURED = {
     "frame_measures/*/*.json": {"machine"},
     "screen_sensitivities/*/*.json": {"machine"},
     "times/*/*.json": {"ms", "own_ms", "rays_per_second", "machine"},
+    "sun_hours/*/*.json": {"seconds", "build_seconds", "machine"},
     "screen_profiles/*.json": {"whole_ms", "product_macs", "ms", "machine"},
 }
 
 # Folders below results/<scale> of what jobs say on the way, and of what is not finished.
 NO_RESULTS = re.compile(r"(^|/)(logs|benchmarks|checkpoints|[^/]+\.unfinished)/")
 
-# The page says how long the jobs took. A manifest has times, and checksums of the page.
+# The page says how long the jobs took. A manifest has times, and checksums of the page; expected minutes
+# are of the machine's rates just then.
 CHANGING = re.compile(rb"<dt>durations</dt><dd>[^<]*")
-OF_ONE_RUN = ("manifest.json", "ro-crate-metadata.json")
+OF_ONE_RUN = (
+    *("manifest.json", "ro-crate-metadata.json"),
+    *(f"expected_minutes.{end}" for end in ("csv", "md", "json")),
+)
 
 
 def results_of(checkout: Checkout) -> dict[str, bytes]:
@@ -41,7 +46,7 @@ def results_of(checkout: Checkout) -> dict[str, bytes]:
 
 
 def reports_of(checkout: Checkout) -> dict[str, bytes]:
-    """Content of each report by its path, without durations and the manifest."""
+    """Content of each report by its path, without durations and those of `OF_ONE_RUN`."""
     return {
         str(path): CHANGING.sub(b"", (checkout.reports / path).read_bytes())
         for path in _files(checkout.reports)
