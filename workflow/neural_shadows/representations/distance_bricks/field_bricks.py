@@ -29,7 +29,7 @@ class FieldBricks(NamedTuple):
     """
 
     sheet: bool  # an open surface, which has sides and no inside
-    density: int  # planes of samples along a cell's longest way, 2 or 4
+    density: int  # planes of samples through a cell, 2 or 4
     size: int  # bricks along an axis of the whole cube [−1, 1]³
     corner: np.ndarray  # (3,) int64, the cube's brick at the box's corner, may be negative
     shape: tuple[int, int, int]  # of the box, in bricks
