@@ -2,6 +2,7 @@
 
 import ctypes
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -278,6 +279,53 @@ def test_odd_points_are_lit(either):
                 assert shape.is_watertight == result[:2000].all()
         lamp = occluded_from(points, [np.nan, 0, 0], bricks)
         assert not lamp.any()
+
+
+def test_points_far_outside(either):
+    """A lamp's rays to 10^30 are those to the box's side: what rounds there was read out of memory."""
+    bricks = ShadowField.fit(bumpy_sphere(4), 64)._field_bricks
+    lamps = np.random.default_rng(1).normal(size=(50, 3))
+    beyond = np.stack([point + 1e30 * (point - lamp) for point in around(200) for lamp in lamps])
+    beyond = beyond.astype(np.float32).reshape(200, 50, 3)
+    for lamp, points in zip(lamps, beyond.swapaxes(0, 1)):
+        near = (lamp + 3e-30 * (points.astype(np.float64) - lamp)).astype(np.float32)
+        assert (
+            np.mean(occluded_from(points, lamp, bricks) != occluded_from(near, lamp, bricks))
+            <= 0.02
+        )
+
+
+_WITHIN_BOX = """
+import ctypes, sys
+import numpy as np
+import trimesh
+from neural_shadows import ShadowField
+from neural_shadows.representations.distance_bricks import compiled_occlusion, light_tables
+mark = compiled_occlusion.marking(ctypes.CDLL(sys.argv[1]))
+rng = np.random.default_rng(0)
+solid = trimesh.creation.icosphere(4)
+open_top = solid.submesh([solid.triangles_center[:, 2] < 0.3], append=True)
+for mesh in (solid, open_top):
+    bricks = ShadowField.fit(mesh, 64)._field_bricks
+    for light in range(300):
+        points = rng.normal(size=(300, 3)) * 10.0 ** rng.uniform(-6, 35, (300, 1))
+        points = np.float32(points + rng.choice([0, np.nan, np.inf], (300, 3), p=[0.98, 0.01, 0.01]))
+        lamp = rng.normal(size=3) * 10.0 ** rng.uniform(-4, 9)
+        d = np.round(lamp / np.abs(lamp).max(), light % 4)
+        tables = light_tables.point_tables(bricks, [lamp, d][light % 2], light % 3)
+        tables.append(light_tables.directional_tables(bricks, d / np.linalg.norm(d), light % 3))
+        for each in tables:
+            mark(points, each, bricks, rng.choice([0, 0.5, -3]), np.zeros(300, bool))
+"""
+
+
+@in_c
+def test_no_sample_is_out_of_the_box(tmp_path):
+    """Its assertions hold, for points and lamps near and far."""
+    library = tmp_path / "checked.so"
+    flags = [flag for flag in FLAGS if flag != "-DNDEBUG"]
+    subprocess.run(["gcc", *flags, SOURCE, "-o", library, "-lm"], check=True)
+    subprocess.run([sys.executable, "-c", _WITHIN_BOX, library], check=True)
 
 
 def test_rays_on_the_borders_of_bricks(either):

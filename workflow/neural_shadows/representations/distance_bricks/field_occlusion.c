@@ -6,6 +6,7 @@
    mirror those of compiled_occlusion.py, where arrays are described. Compile without contracting
    products and sums, and with integers that wrap: far outside the box positions are beyond 2^31. */
 
+#include <assert.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -104,18 +105,23 @@ static void decide(const Light *light, const Field *field, const float *points, 
     }
     const float *p_m = position[m], *p_a = position[a], *p_b = position[b];
     if (light->near) {
-        const float light_m = (float)light->source[0];
+        const float light_m = (float)light->source[0], reach = far - light_m;
         const float light_a = (float)(light->source[1] - light->low[0]);
         const float light_b = (float)(light->source[2] - light->low[1]);
         for (int32_t i = 0; i < n; i++) {
             const float z = p_m[i] * scale_m + shift_m, beyond = z - light_m;
             const float at_a = p_a[i] * scale + shift_a, from_a = at_a - light_a;
             const float at_b = p_b[i] * scale + shift_b, from_b = at_b - light_b;
-            const int here = (beyond > 0) & (fabsf(from_a) <= beyond) & (fabsf(from_b) <= beyond);
+            const int here = (beyond > 0) & (beyond < INFINITY) & (fabsf(from_a) <= beyond) &
+                             (fabsf(from_b) <= beyond);
+            /* From the closer end on: from far away rays round to tiles of other slopes, in which
+               their samples leave the box. */
+            const int of_light = z - far > reach;
+            const float left = of_light ? reach : far - z;
             slope_a[i] = from_a / beyond;
             slope_b[i] = from_b / beyond;
-            u[i] = here ? at_a + slope_a[i] * (far - z) : -1;
-            v[i] = at_b + slope_b[i] * (far - z);
+            u[i] = here ? (of_light ? light_a : at_a) + slope_a[i] * left : -1;
+            v[i] = (of_light ? light_b : at_b) + slope_b[i] * left;
             depth[i] = z;
         }
     } else {
@@ -392,6 +398,9 @@ static void look_up(const Field *field, Samples *samples) {
     const int32_t *restrict z = samples->at[2];
     int32_t *restrict node = samples->node, *restrict inner = samples->inner;
     for (int32_t k = 0; k < n; k++) {
+        assert(x[k] >= 0 && x[k] >> BRICK < field->shape[0]);
+        assert(y[k] >= 0 && y[k] >> BRICK < field->shape[1]);
+        assert(z[k] >= 0 && z[k] >> BRICK < field->shape[2]);
         const int32_t brick = (x[k] >> BRICK & 3) << 4 | (y[k] >> BRICK & 3) << 2 | (z[k] >> BRICK & 3);
         const int32_t cell = (x[k] >> CELL & 3) << 4 | (y[k] >> CELL & 3) << 2 | (z[k] >> CELL & 3);
         node[k] = ((x[k] >> NODE) * columns + (y[k] >> NODE)) * layers + (z[k] >> NODE);

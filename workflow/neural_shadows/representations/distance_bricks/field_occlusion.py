@@ -100,6 +100,7 @@ def mark_occluded(
     shift_a, shift_b = f32(shift[a] - light.low[0]), f32(shift[b] - light.low[1])
     light_m, slope_a, slope_b = f32(light.source[0]), f32(light.source[1]), f32(light.source[2])
     light_a, light_b = f32(light.source[1] - light.low[0]), f32(light.source[2] - light.low[1])
+    reach = far - light_m
     block, cell = CELL + light.merged, f32(1 << CELL)  # of a block in 2^−20 cells
     unit, per_slab = f32(1 << block), bricks.density << light.merged  # planes
     most, density, share = per_slab * deep, f32(per_slab), f32(1 / bricks.density)
@@ -116,12 +117,15 @@ def mark_occluded(
     for ray in range(len(points)):
         depth = points[ray, m] * scale_m + shift_m
         at_a, at_b = points[ray, a] * scale + shift_a, points[ray, b] * scale + shift_b
+        left = far - depth
         if near:
             beyond, from_a, from_b = depth - light_m, at_a - light_a, at_b - light_b
-            if not (beyond > 0 and abs(from_a) <= beyond and abs(from_b) <= beyond):
+            if not (0 < beyond < np.inf and abs(from_a) <= beyond and abs(from_b) <= beyond):
                 continue
             slope_a, slope_b = from_a / beyond, from_b / beyond
-        left = far - depth
+            # From the closer end on: from far away rays round to tiles of other slopes.
+            if depth - far > reach:
+                at_a, at_b, left = light_a, light_b, reach
         u, v = at_a + slope_a * left, at_b + slope_b * left
         if not (u >= 0 and v >= 0 and u < rows):  # also for NaN
             continue

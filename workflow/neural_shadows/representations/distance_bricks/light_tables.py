@@ -89,8 +89,10 @@ def directional_tables(bricks: FieldBricks, to_light: np.ndarray, merged: int = 
 
 
 def point_tables(bricks: FieldBricks, position: np.ndarray, merged: int = 0) -> list[LightTables]:
-    """Build a field's tables for a point light at (3,), in the cube's [−1, 1]³."""
+    """Build a field's tables for a point light at (3,), in the cube's [−1, 1]³; none at infinity."""
     light = np.asarray(position, np.float64)
+    if not np.isfinite(light).all():
+        return []
     light = (light + 1) * (bricks.size / 2) - bricks.corner  # in bricks
     within = _is_deep(bricks, light)
     light *= BRICK >> merged
