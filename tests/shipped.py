@@ -8,6 +8,8 @@ import yaml
 from checkout import ROOT
 from snakemake.utils import update_config
 
+from neural_shadows.config.reading import without_others
+
 # The files of the default configuration, in the Snakefile's order.
 DEFAULT = re.findall(r'configfile: "config/(\w+)\.yaml"', (ROOT / "Snakefile").read_text())
 
@@ -19,8 +21,8 @@ def _file(name: str) -> dict:
 
 def shipped(*overlays: str, **values) -> dict:
     """The default's values with those of overlays in `config/` and further ones."""
+    files = [*map(_file, (*DEFAULT, *overlays))]
     sections: dict = {}
-    for name in (*DEFAULT, *overlays):
-        update_config(sections, deepcopy(_file(name)))
-    update_config(sections, values)
-    return sections
+    for part in (*files, values):
+        update_config(sections, deepcopy(part))
+    return without_others(sections, files)

@@ -40,6 +40,25 @@ def test_null_drops_a_key(message, values):
     assert "tables.table_4_3.figures.1: 'figure_4_5'" in message("figures.figure_4_5", None)
 
 
+def test_a_star_drops_what_no_file_from_its_own_on_names(tmp_path, values):
+    """What the command line adds stays, and other sections stay whole."""
+    texts = [
+        "tables: {a: {}, b: {}, c: {}}",
+        'tables: {"*": null, b: {}, d: {}}',
+        "tables: {c: {}}",
+    ]
+    files = [tmp_path / f"{number}.yaml" for number in range(3)]
+    for path, text in zip(files, texts):
+        path.write_text(text)
+    table = {"title": "Maps", "scene": "dragon", "rows": ["shadow_map_64"]}
+    kept = ("b", "c", "d", "e")
+    figures = {"figure_3_2": values["figures"]["figure_3_2"]}
+    values |= {"tables": {"*": None} | dict.fromkeys(["a", *kept], table), "figures": figures}
+    values["claims"] = {}
+    config = read_config(values, files)
+    assert [*config.tables] == [*kept] and [*config.figures] == [*figures]
+
+
 def test_mesh_files(values, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("there.fbx", "there.OBJ.gz"):

@@ -1,6 +1,7 @@
 """Reading and checking the configuration."""
 
-from collections.abc import Iterable, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,32 @@ from neural_shadows.settings.base import not_among
 
 # Values of `dragon` other than a file.
 MESHES_BY_NAME = {"wyrm": {"generate": "wyrm"}, "stanford": {"download": "stanford_dragon"}}
+
+
+# The key of all entries of a section that neither its file nor a later one names.
+OTHERS = "*"
+
+
+def without_others(values: dict[str, Any], files: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    """A merged configuration without entries dropped by `"*": null`.
+
+    Args:
+        files: sections of each config file, in the order of merging.
+    """
+    defined, dropped = defaultdict(set), defaultdict(set)
+    for sections in files:
+        for name, section in sections.items():
+            if isinstance(section, dict):
+                if OTHERS in section:
+                    dropped[name] = {*defined[name]}
+                defined[name] |= section.keys()
+                dropped[name] -= section.keys()
+    return {
+        name: {key: entry for key, entry in section.items() if key not in dropped[name]}
+        if dropped[name]
+        else section
+        for name, section in values.items()
+    }
 
 
 def _without_nulls(value: Any) -> Any:
@@ -64,7 +91,7 @@ def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Con
 
     Args:
         values: the merged config files and `--config` values. files: in the order of merging, for
-            messages.
+            `"*": null` and for messages.
 
     Raises:
         InputError: a key is unknown or missing, a value has the wrong type or range, or a
@@ -72,7 +99,8 @@ def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Con
     """
     if values.get("dragon", "wyrm") in (None, ""):
         raise InputError("config: dragon: is empty. Allowed: wyrm, stanford, or a mesh file")
-    values = _without_nulls(values)
+    sections = [yaml.load(Path(path).read_bytes(), LOADER) for path in files]
+    values = _without_nulls(without_others(values, sections))
     if isinstance(shorthand := values.get("dragon"), str):
         scenes = values.get("scenes")
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):
