@@ -30,10 +30,24 @@ def _part(node: Any) -> Any:
     if "oneOf" in part:  # without its kind a section may match several
         part["anyOf"] = part.pop("oneOf")
     for key in ("properties", "patternProperties"):
-        for name, value in part.get(key, {}).items():
-            about = {"description": value.pop("description")} if "description" in value else {}
-            part[key][name] = about | {"anyOf": [value, {"type": "null"}]}
+        if key in part:
+            part[key] = {name: _or_null(value) for name, value in part[key].items()}
     return part
+
+
+def _or_null(value: dict[str, Any]) -> dict[str, Any]:
+    """A value's schema with null, in one level where that does."""
+    null = {"type": "null"}
+    if null in value.get("anyOf", ()):
+        return value
+    if "const" in value or "enum" in value:
+        allowed = value.pop("enum", None) or [value.pop("const")]
+        value.pop("type")  # follows from the values
+        return value | {"enum": [*allowed, None]}
+    if "type" in value:
+        return value | {"type": [value["type"], "null"]}
+    about = {"description": value.pop("description")} if "description" in value else {}
+    return about | {"anyOf": [value, null]}
 
 
 if __name__ == "__main__":
