@@ -89,9 +89,6 @@ experiments.no_shadow | {like: dragon} | experiments.no_shadow: a method of tabl
 experiments.dragon.training | null | experiments.dragon.training: this key is missing. A trained network
 experiments.dragon.sampling | null | experiments.dragon.sampling: this key is missing. A trained network
 claims.slower_than_shadow_maps.pairs | [[dragon, shadow_map_8]] | 'shadow_map_8' (did you me
-soft_scenes | {room: {generate: room}} | soft_scenes: is now `scenes`. Move it there
-screen_experiments | {} | screen_experiments: is now `experiments`. Move it there
-rendering | {width: 600} | rendering: is now `frame_sets.views`. Move it there
 scenes.dragon.generate | room | needs either `mesh` (a mesh in its unit sphere) or `generate`
 scenes.mine | {up: z} | needs either `mesh` (a mesh in its unit sphere) or `generate`
 scenes.room.inserted | [hall] | inserted.0: 'hall' is not a mesh (an entry with `mesh`). Allowed: dragon, fence, landscape

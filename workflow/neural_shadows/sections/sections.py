@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from functools import cached_property
 from itertools import product
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -32,14 +32,6 @@ ViewerName = Annotated[str, Field(pattern=r"^viewer(_[a-z0-9_]+)?$")]
 
 class Sections(Model):
     """A configuration; `config.whole` adds kinds of reports."""
-
-    moved: ClassVar[dict[str, str]] = {
-        "soft_scenes": "`scenes`",
-        "screen_networks": "`networks`",
-        "screen_trainings": "`trainings`",
-        "screen_experiments": "`experiments`",
-        "rendering": "`frame_sets.views`",
-    }
 
     scale: Name = Field(description="name of this configuration and of its folders of results")
     seed: Seed = Field(description="seed of all random draws")

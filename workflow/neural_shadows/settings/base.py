@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from functools import reduce
 from operator import or_
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from pydantic import (
     AfterValidator,
@@ -24,17 +24,11 @@ class Model(BaseModel):
     """Base of all sections, without unknown keys or implicit conversions."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
-    moved: ClassVar[dict[str, str]] = {}  # former keys, and where their values belong now
 
     @model_validator(mode="before")
     @classmethod
     def _check_keys(cls, values: Any) -> Any:
         for key in values if isinstance(values, dict) else ():
-            if key in cls.moved:
-                context = {"key": str(key), "new": cls.moved[key]}
-                raise PydanticCustomError(
-                    "unknown_key", "{key}: is now {new}. Move it there", context
-                )
             if key not in cls.model_fields:
                 # pydantic's own error does not list the allowed keys.
                 context = {"key": not_among(str(key), cls.model_fields)}
