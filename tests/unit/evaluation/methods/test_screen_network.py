@@ -58,17 +58,6 @@ def folder(tmp_path_factory):
     return folder
 
 
-def test_it_answers_by_buffers_what_it_answers_by_the_map(folder):
-    """That it is timed by: rasterised depths for traced ones, float32 for the buffers' float16."""
-    method = frame_method("tiny", folder / "tiny/weights.safetensors")
-    frame = next(measured_frames([folder / "blinds/test_000.json"], []))
-    asked = [frame.answered(method, radius, {}) for radius in RADII]
-    assert not np.allclose(asked[0], asked[2])  # it is told of the light's size
-    timed = frame.frame.surface.image(method.answer(frame.frame, 0.25), 1.0)
-    assert np.median(np.abs(timed - asked[2])[frame.valid]) < 2e-3
-    assert asked[0].min() >= 0 and asked[0].max() <= 1
-
-
 def test_it_filters_the_rays_of_a_frame(folder):
     """Of their own number, with neither map nor stored buffers: within what a kernel reaches."""
     settings = {"form": "kernels", "widths": [8, 8], "filters": 1, "edge": 0.1}

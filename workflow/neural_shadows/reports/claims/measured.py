@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypedDict
+from typing import Any
 
 import pandas as pd
 
@@ -19,6 +19,7 @@ TEXT_SAMPLES = {
     "kpnsm": 40_000 * 2 * 2048 * 1024,
     "own": float("nan"),
 }
+Claim = Mapping[str, Any]  # resolved, with the keys of its kind's `Settings`
 NO_SHADOW_ROW = {
     "method": NO_SHADOW,
     "label": "No shadow",
@@ -26,47 +27,6 @@ NO_SHADOW_ROW = {
     "trained": False,
     "bias": None,
 }
-
-
-class ResolvedRatio(TypedDict):
-    """A ratio of a claim, see `kinds.ratio.Ratio`."""
-
-    table: str
-    column: str
-    of: dict[str, Any]
-    to: dict[str, Any] | list[dict[str, Any]] | float | None
-    per: str | None
-    null_predictor: float | None
-    at_least: float | None
-    at_most: float | None
-
-
-class Claim(TypedDict, total=False):
-    """A resolved claim, with some of these keys by kind."""
-
-    kind: str
-    text: str
-    section: str
-    statement: str
-    needs: dict[str, Any]
-    pairs: list[list[str]]
-    methods: list[str]
-    rows: list[list[Row]]  # of methods on scenes' viewpoints, by comparison
-    metrics: list[str]
-    table: str
-    radii: list[int] | None
-    again: dict[str, list[str]]
-    networks: list[str]
-    bases: dict[str, str]
-    at_least: float | None
-    at_most: float | None
-    overhead_ms: float
-    row: str | None
-    equivalent_to: int | None
-    ratios: list[ResolvedRatio]
-    column: str
-    to: str
-    rather_than: str
 
 
 @dataclass(frozen=True, kw_only=True)

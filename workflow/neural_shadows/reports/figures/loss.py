@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, TypedDict
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -32,13 +32,6 @@ class Curve(Model):
 
     experiment: RayExperimentName = Field(description="an experiment on rays")
     label: Text | None = Field(None, description="without it the experiment's label")
-
-
-class CurveSettings(TypedDict):
-    """A curve, see `Curve`."""
-
-    experiment: str
-    label: str
 
 
 class Settings(AnyFigure):
@@ -78,14 +71,14 @@ def draw(
     losses: list[Path],
     trainings: list[Path],
     heading: str,
-    curves: Sequence[CurveSettings],
+    curves: Sequence[Mapping[str, str]],
 ) -> tuple[Figure, pd.DataFrame]:
     """Draw the loss curves of experiments.
 
     Args:
         losses: `loss.csv` of each experiment, in a folder of its name.
         trainings: `training.json` of each.
-        curves: in the legend's order.
+        curves: see `Curve`, in the legend's order.
     """
     paths = {path.parent.name: path for path in losses}
     diverged = {record["name"]: record["died_at_step"] for record in map(read_json, trainings)}

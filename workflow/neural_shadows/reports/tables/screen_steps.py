@@ -5,7 +5,7 @@ Datta et al. 2022, 3.5, figure 8; Hu et al. 2025, 4.2.1.
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal, TypedDict
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -61,14 +61,6 @@ class Step(Model):
     )
 
 
-class StepSettings(TypedDict):
-    """A step, see `Step`."""
-
-    network: str
-    precision: str
-    experiment: str | None
-
-
 class Settings(FramesTable):
     """From a large screen-space network to a fast one (Datta et al. 2022, 3.5)."""
 
@@ -111,7 +103,7 @@ def table(
     published_nsm_csv: Path,
     title: str,
     published: str | None,
-    steps: Mapping[str, StepSettings],
+    steps: Mapping[str, Mapping[str, Any]],
 ) -> Table:
     """Tabulate time, size and error by step, beside printed numbers.
 
@@ -122,7 +114,7 @@ def table(
         soft: the steps' experiments in their number formats, without frames.
         profiles: of `profile_screen_network`, of the steps' networks.
         published: `nsm.steps`; None for steps that the paper does not print.
-        steps: by its name in the paper.
+        steps: see `Step`, by its name in the paper.
     """
     profiled = {path.stem: read_json(path) for path in profiles}
     table = steps_table(steps, profiled, soft)
@@ -165,7 +157,7 @@ def table(
 
 
 def steps_table(
-    steps: Mapping[str, StepSettings], profiles: Mapping[str, Profile], soft: TrainedFrames
+    steps: Mapping[str, Mapping[str, Any]], profiles: Mapping[str, Profile], soft: TrainedFrames
 ) -> pd.DataFrame:
     """Tabulate time, size and error by step, and errors of null predictors.
 
@@ -210,7 +202,7 @@ def _describe_errors(soft: TrainedFrames) -> list[str]:
     ]
 
 
-def _without_errors(table: pd.DataFrame, steps: Mapping[str, StepSettings]) -> list[str]:
+def _without_errors(table: pd.DataFrame, steps: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """Describe trained steps without an error; nothing without such steps."""
     trained = table["row"].map(lambda name: bool(steps.get(name, {}).get("experiment")))
     lacking = table[table["error"].isna() & trained]

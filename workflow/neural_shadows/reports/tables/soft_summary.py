@@ -3,10 +3,10 @@
 Hu et al. 2025, tables 1 to 4, figures 7 and 9.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal, TypedDict
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -41,15 +41,6 @@ DIGITS = {"mse": 2, OFF_EDGES: 2, "ssim": 3}  # as the paper prints them
 
 
 MOVES = ("both", "camera", "light")  # what moves in a sequence; the first is the paper's
-
-
-class Row(TypedDict):
-    """A row, see `SummaryRow`; None if nothing is printed."""
-
-    method: str
-    label: str
-    published: str | None
-    column: str | None
 
 
 class SummaryRow(Model):
@@ -125,7 +116,7 @@ def table(
     soft_times: Path | None,
     published_kpnsm_csv: Path,
     published: str | None,
-    methods: Sequence[Row],
+    methods: Sequence[Mapping[str, Any]],
     by: str | None,
     metrics: Sequence[str],
     measured: Sequence[str],
@@ -172,7 +163,7 @@ def table(
 def summary_table(
     soft: SoftFrames,
     times: SoftTimes,
-    methods: Sequence[Row],
+    methods: Sequence[Mapping[str, Any]],
     by: str | None,
     metrics: Sequence[str],
     measured: Sequence[str],
@@ -216,7 +207,7 @@ def _row(
     frames: pd.DataFrame,
     errors: pd.DataFrame,
     times: SoftTimes,
-    row: Row,
+    row: Mapping[str, Any],
     metrics: Sequence[str],
     radii: int,
 ) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from neural_shadows.layout.layout import Layout
 from neural_shadows.metrics.intervals import LEVEL, t_interval
 from neural_shadows.reports.claims import screen_networks, setting_types
 from neural_shadows.reports.claims.comparison import Comparison, of_all_pixels, seeds_of
-from neural_shadows.reports.claims.measured import Claim, Measured, ResolvedRatio, needs
+from neural_shadows.reports.claims.measured import Claim, Measured, needs
 from neural_shadows.reports.data.digits import short
 from neural_shadows.reports.data.soft_frames import learned_rows
 from neural_shadows.sections.any_report import AnyClaim
@@ -155,7 +155,7 @@ def of_another_size(table: pd.DataFrame, column: str, device: str | None = None)
     return ""
 
 
-def _of_null(ratio: ResolvedRatio, data: Measured, null: str) -> Comparison:
+def _of_null(ratio: Mapping[str, Any], data: Measured, null: str) -> Comparison:
     """A null's ratio; supports only strictly within bounds."""
     value = _null_ratio(data.tables[ratio["table"]], ratio, null)
     inside = [SIDES[key] * (value - x) > 0 for key, x in setting_types.bounds_of(ratio).items()]
@@ -163,7 +163,7 @@ def _of_null(ratio: ResolvedRatio, data: Measured, null: str) -> Comparison:
     return Comparison(**fields, number=f"ratio {value:.3g}", supports=all(inside))
 
 
-def _null_ratio(table: pd.DataFrame, ratio: ResolvedRatio, null: str) -> float:
+def _null_ratio(table: pd.DataFrame, ratio: Mapping[str, Any], null: str) -> float:
     """The ratio with a null for networks, NaN without rows."""
     of, to = ratio["of"], ratio["to"]
     if ratio.get("null_predictor") is not None:
@@ -194,7 +194,7 @@ def _null_ratio(table: pd.DataFrame, ratio: ResolvedRatio, null: str) -> float:
         return float(np.divide(number(of), np.mean([number(row) for row in rows])))
 
 
-def _comparison(claim: Claim, ratio: ResolvedRatio, data: Measured) -> Comparison:
+def _comparison(claim: Claim, ratio: Mapping[str, Any], data: Measured) -> Comparison:
     names = (ratio["table"], *claim["again"].get(ratio["table"], ()))
     tables = [learned_rows(data.tables[name]) for name in names]
     column = f"{ratio['column']} per {ratio['per']}" if ratio["per"] else ratio["column"]
@@ -227,7 +227,7 @@ def _comparison(claim: Claim, ratio: ResolvedRatio, data: Measured) -> Compariso
     return Comparison(**fields, remark=bounds_text, **_judged(ratios, ends, bounds))
 
 
-def _values(table: pd.DataFrame, ratio: ResolvedRatio) -> list[float]:
+def _values(table: pd.DataFrame, ratio: Mapping[str, Any]) -> list[float]:
     value, to = _number_in(table, ratio, ratio["of"]), ratio["to"]
     if to is None:
         return [value, table[ratio["column"]].sum() - value]
@@ -235,7 +235,7 @@ def _values(table: pd.DataFrame, ratio: ResolvedRatio) -> list[float]:
     return [value, float(np.mean([_number_in(table, ratio, row) for row in rows]))]
 
 
-def _number_in(table: pd.DataFrame, ratio: ResolvedRatio, where: Row | float) -> float:
+def _number_in(table: pd.DataFrame, ratio: Mapping[str, Any], where: Row | float) -> float:
     """A row's number, divided by `per`; a given one."""
     if isinstance(where, float):
         return where
@@ -252,7 +252,7 @@ def _cell(table: pd.DataFrame, column: str, where: Row) -> float:
     return float(numbers.iloc[0]) if len(numbers) == 1 else float("nan")
 
 
-def _ends(tables: Sequence[pd.DataFrame], ratio: ResolvedRatio) -> np.ndarray | None:
+def _ends(tables: Sequence[pd.DataFrame], ratio: Mapping[str, Any]) -> np.ndarray | None:
     """Ends of a number's own interval over a given number."""
     columns = [f"{ratio['column']}_{end}" for end in ("low", "high")]
     alone = len(tables) == 1 and isinstance(ratio["to"], float) and not ratio["per"]
