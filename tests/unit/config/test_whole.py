@@ -3,6 +3,7 @@
 import inspect
 import json
 import re
+import shlex
 from functools import cache
 
 import jsonschema
@@ -10,6 +11,7 @@ import pytest
 import yaml
 from checkout import ROOT
 from shipped import shipped
+from snakemake.cli import get_argument_parser
 from snakemake.utils import update_config
 
 from neural_shadows.config.__main__ import json_schema
@@ -66,16 +68,20 @@ def test_every_key_is_of_use_to_a_shipped_file():
 
 
 def test_commands_name_their_targets_first():
-    """Snakemake takes all that follows `--configfile` for config files."""
-    texts = [ROOT / "README.md", *(ROOT / "config").glob("*.md"), *(ROOT / "config").glob("*.yaml")]
-    told = [
-        re.split(r"`|#|$", line.split("--configfile", 1)[1])[0].split()
-        for path in texts
-        for line in path.read_text(encoding="utf-8").splitlines()
-        if "snakemake" in line and "--configfile " in line
+    """Snakemake takes what follows `--configfile`, `--config` or `--resources` for more of these."""
+    folders = [ROOT, ROOT / "config", ROOT / "workflow" / "profiles" / "slurm"]
+    texts = [path for folder in folders for path in folder.glob("*.md")]
+    commands = [
+        command
+        for path in [*texts, *(ROOT / "config").glob("*.yaml")]
+        for line in path.read_text(encoding="utf-8").replace("\\\n", "").splitlines()
+        for command in re.findall(r"snakemake ((?:--|[A-Z]|re)[^`#|;…]*(?=$|[`#|;]))", line)
     ]
-    assert len(told) > 10
-    assert [files for files in told if not all(one.endswith(".yaml") for one in files)] == []
+    assert len(commands) > 50
+    parser = get_argument_parser()
+    for command in commands:
+        options = parser.parse_args(shlex.split(command))
+        assert all(path.suffix == ".yaml" for path in options.configfile or []), command
 
 
 def test_examples_of_the_readme_are_valid():
