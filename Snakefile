@@ -1,4 +1,4 @@
-"""Neural Shadow Ray Queries (Spanhoff 2026), see README.md."""
+"""Neural shadows beside classic ones, see README.md."""
 
 from snakemake.utils import min_version
 
