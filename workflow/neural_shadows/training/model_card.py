@@ -20,7 +20,7 @@ CARD = """\
 
     snakemake reports/answers/FRAMES/{name}.csv --configfile config/mine.yaml
 
-evaluates a frame set, {frames}; see [config/README.md](../../config/README.md).
+evaluates {frames}; see [config/README.md](../../config/README.md#frames-of-your-own).
 
 ## Training
 
@@ -30,7 +30,7 @@ evaluates a frame set, {frames}; see [config/README.md](../../config/README.md).
 | training | {train} |
 | validation | {validation} |
 | scenes | {scenes} |
-| budget | {steps:,} steps, {pixels:.0f} million pixels, {minutes:.0f} minutes on {threads} threads |
+| budget | {steps:,} steps, {pixels:.0f} million pixels, {minutes:.0f} minutes, threads: {threads} |
 | loss | {alpha:.0%} L1, perceptual term: {perceptual}, temporal weight {perturbation:g} |
 | seed, commit | {seed}, {commit} |
 | machine | {machine} |
@@ -82,7 +82,9 @@ def model_card(weights: Path) -> str:
         shape=f"a {(header['light'] or {}).get('shape', 'sphere')}",
         largest=max(radii[light] for light in lights),
         unit=_words(header["radius_unit"]),
-        frames="not of your own" if traced else "also of your own",
+        frames="frames rendered here; frames of your own have no rays"
+        if traced
+        else "frames of your own, too",
         buffers=", ".join(f"`{'z_b' if name == 'gap' else name}`" for name in channels),
         rays=f"{header['rays']} rays a pixel, " if traced else "",
         reach=network.reach,
