@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from safetensors.numpy import load, save
 from shapes import bumpy_sphere, sheet
 
 from neural_shadows import ShadowField
@@ -57,8 +58,8 @@ def fields(tmp_path_factory):
     return files
 
 
-def run_sample(program: Path, field: Path, points: Path, answers: Path):
-    sun = [str(each) for each in TO_SUN]
+def run_sample(program: Path, field: Path, points: Path, answers: Path, length: float = 1.0):
+    sun = [str(each) for each in length * TO_SUN.astype(float)]
     command = [program, field, points, *sun, answers]
     return subprocess.run(command, capture_output=True, text=True)
 
@@ -73,6 +74,17 @@ def test_a_million_rays(tmp_path, fields, name):
         answers = np.fromfile(tmp_path / "answers", np.uint8).astype(bool)
         assert 0.1 < expected.mean() < 0.6
         assert np.mean(answers != expected) < UNLIKE
+
+
+@pytest.mark.parametrize("length", [1e-30, 1e30])
+def test_directions_of_any_length(tmp_path, fields, length):
+    """Also where squares of lengths are 0 or infinite in float32."""
+    program = compiled(FOLDER / "sample.c", tmp_path / "sample", COMPILERS["native"])
+    path, expected = fields["sheet"]
+    of_path = path.with_suffix(".field"), path.with_suffix(".points"), tmp_path / "answers"
+    assert run_sample(program, *of_path, length).returncode == 0
+    answers = np.fromfile(tmp_path / "answers", np.uint8).astype(bool)
+    assert np.mean(answers != expected) < UNLIKE
 
 
 LAMPS = """
@@ -120,6 +132,10 @@ def test_other_files_are_refused_in_one_line(tmp_path, fields):
     foreign = content.replace(b"neural_shadows.ShadowField", b"neural_shadows.OtherField!")
     damaged = {"empty": b"", "cut": content[:-5], "header": content[:60], "other": b"\xff" * 100}
     damaged |= {"array": content.replace(b'"bricks":', b'"brocks":')}
+    arrays = load(content)
+    nothing = {name: arrays[name][:0] for name in ("bricks", "cells")}
+    nothing["grid"] = np.zeros((0, 0, 0), np.uint8)
+    damaged |= {"no grid": save({**arrays, **nothing}, {"format": "neural_shadows.ShadowField 1"})}
     expected = dict.fromkeys(damaged, "the file is damaged") | {"later": "another version"}
     expected |= {"foreign": "not a saved ShadowField"}
     for name, wrong in {**damaged, "later": later, "foreign": foreign}.items():

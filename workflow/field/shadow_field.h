@@ -147,8 +147,8 @@ static const char *shadow_field_parse(shadow_field *field, const char *content, 
         field->cells = (const uint8_t *)shadow_field_array(
             header, data, room, "cells", "U64", held * 8, &count);
         if (!field->grid) problem = "out of memory";
-        else if (size * size * size == i && found == held * shadow_field_VALUES && field->radius > 0
-                 && !strstr(header, "\"cells\":") == !field->cells)
+        else if (size > 0 && size * size * size == i && found == held * shadow_field_VALUES
+                 && field->radius > 0 && !strstr(header, "\"cells\":") == !field->cells)
             problem = NULL;
     }
     free(header);
@@ -328,24 +328,25 @@ static int shadow_field_segment(
 
 int shadow_field_occluded(const shadow_field *field, const float point[3], const float direction[3])
 {
-    float p[3], d[3], length = 0;
+    float p[3], d[3];
+    double square = 0; /* in float it may be 0 or infinite */
     int axis;
-    for (axis = 0; axis < 3; axis++) length += direction[axis] * direction[axis];
-    for (axis = 0; axis < 3; axis++) d[axis] = direction[axis] / sqrtf(length);
+    for (axis = 0; axis < 3; axis++) square += (double)direction[axis] * direction[axis];
+    for (axis = 0; axis < 3; axis++) d[axis] = (float)(direction[axis] / sqrt(square));
     shadow_field_normalise(field, point, p);
     return shadow_field_segment(field, p, d, HUGE_VALF);
 }
 
 int shadow_field_blocked(const shadow_field *field, const float from[3], const float to[3])
 {
-    float p[3], q[3], d[3], length = 0;
+    float p[3], q[3], d[3];
+    double square = 0;
     int axis;
     shadow_field_normalise(field, from, p);
     shadow_field_normalise(field, to, q);
-    for (axis = 0; axis < 3; axis++) length += (q[axis] - p[axis]) * (q[axis] - p[axis]);
-    length = sqrtf(length);
-    for (axis = 0; axis < 3; axis++) d[axis] = (q[axis] - p[axis]) / length;
-    return shadow_field_segment(field, p, d, length);
+    for (axis = 0; axis < 3; axis++) square += (double)(q[axis] - p[axis]) * (q[axis] - p[axis]);
+    for (axis = 0; axis < 3; axis++) d[axis] = (float)((q[axis] - p[axis]) / sqrt(square));
+    return shadow_field_segment(field, p, d, (float)sqrt(square));
 }
 
 #endif /* SHADOW_FIELD_IMPLEMENTATION */

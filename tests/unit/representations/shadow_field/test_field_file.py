@@ -52,6 +52,15 @@ OTHERS = {
         lambda content: changed(content, bricks=np.zeros((3, 125), np.int8)),
         r"damaged \(bricks is \(3, 125\), not",
     ),
+    "an empty grid": (
+        lambda content: changed(
+            content,
+            grid=np.zeros((0, 0, 0), np.uint8),
+            bricks=np.zeros((0, 125), np.int8),
+            cells=np.zeros(0, np.uint64),
+        ),
+        r"damaged \(grid is \(0, 0, 0\), not \(1, 1, 1\)\)",
+    ),
     "another type": (
         lambda content: changed(content, bricks=load(content)["bricks"].astype(np.float32)),
         r"damaged \(bricks is float32",

@@ -94,6 +94,60 @@ def test_rays_between_two_distances(bumps):
         assert found.shape == (1, 1) and found[0, 0] == expected, (tnear, tfar)
 
 
+def test_segments_of_no_length(bumps):
+    """None is blocked, not even inside."""
+    _, field = bumps
+    rays = np.concatenate([around(100) * SIZE + PLACE, around(100, seed=1)], axis=1)
+    for tnear, tfar in ((0, 0), (1, 1), (2, 1), (0, np.nan)):
+        assert not field.test_occlusions(rays, tnear, tfar).any()
+    blocked = np.zeros(100, bool)
+    for segment in (0, np.nan, np.inf):
+        field.block(rays[:, :3], np.full((100, 3), segment), blocked)
+        assert not blocked.any()
+
+
+@pytest.mark.parametrize("length", [1e-200, 1e-30, 1e30, 1e200])
+def test_directions_of_any_length(bumps, length):
+    """Also where squares of lengths are 0 or infinite."""
+    _, field = bumps
+    places, directions = around(20_000) * SIZE + PLACE, around(20_000, seed=1)
+    assert np.mean(
+        field.intersects_any(places, length * directions)
+        != field.intersects_any(places, directions)
+    ) < 1e-4  # fmt: skip
+    assert np.array_equal(field.occluded(places, length * UP), field.occluded(places, UP))
+    rays, same = (np.concatenate([places, d], axis=1) for d in (length * directions, directions))
+    few = field.test_occlusions(rays, 0, SIZE / length) != field.test_occlusions(same, 0, SIZE)
+    assert np.mean(few) < 1e-4
+
+
+@pytest.mark.parametrize("away", [1e5, 1e12, 1e20, 1e30, 1e38])
+def test_points_and_lamps_far_away(bumps, away):
+    """A lamp's rays are the sun's; points are lit, and change no others."""
+    _, field = bumps
+    places = around(20_000) * SIZE + PLACE
+    lamp = field.occluded_from(places, away * SIZE * ASLANT + PLACE)
+    assert np.mean(lamp != field.occluded(places, ASLANT)) < 0.001
+    far = away * SIZE * np.concatenate([ASLANT[None], around(100)]) + PLACE
+    for answers in (
+        field.occluded(far, ASLANT),
+        field.occluded(np.resize(far, (20_000, 3)), ASLANT),
+        field.intersects_any(far, around(101, seed=1)),
+    ):
+        assert not answers.any()
+    with_far = field.soft(np.concatenate([places, far]), ASLANT, 1.0)
+    assert np.array_equal(with_far[: len(places)], field.soft(places, ASLANT, 1.0))
+    assert np.all((with_far >= 0) & (with_far <= 1))
+
+
+@pytest.mark.parametrize("angular_radius", [1e-300, 1e-30, 1e-9, 1.1e-4])
+def test_a_light_of_hardly_any_radius_is_a_point(bumps, angular_radius):
+    _, field = bumps
+    places = around(20_000) * SIZE + PLACE
+    visible = field.soft(places, ASLANT, angular_radius)
+    assert np.mean(visible != 1 - field.occluded(places, ASLANT)) < 0.01
+
+
 @pytest.mark.parametrize("open_mesh", [False, True])
 def test_a_round_light_past_a_straight_edge(open_mesh):
     """Half a plane covers a disc up to a straight line, and so does the rim of a slab."""
@@ -178,6 +232,7 @@ BAD_RAYS = {
     "text": ([["a", "b", "c"]], UP, "points: list: no numbers"),
     "NaN": ([[0, 0, 0], [0, np.nan, 0]], UP, r"points: row 1 .* is \[0.0, nan, 0.0\]: not finite"),
     "∞": ([[0, -np.inf, 0]], UP, "points: row 0 .* not finite"),
+    "beyond float32": ([[0, 0, 0], [0, 1e300, 0]], UP, "points: row 1 .* not finite in float32"),
     "zero": (np.zeros((1, 3)), [0, 0, 0], "direction: .* has no direction"),
     "many": (np.zeros((2, 3)), np.ones((2, 3)), r"direction: shape \(1, 2, 3\)|direction: shape"),
     "NaN direction": (np.zeros((1, 3)), [0, np.nan, 0], "direction: .*: not finite"),

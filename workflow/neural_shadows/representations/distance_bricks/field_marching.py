@@ -12,6 +12,7 @@ SOLID = -(1 << 20)  # in the grid: a brick enclosed by the surface
 # Samples of a ray along an axis. Four were no better on the Stanford dragon at 256³ (40.2 and 40.3
 # dB), and each sample is a look-up.
 SAMPLES_PER_CELL = 2
+FAR = np.float32(1e9)  # radii, beyond everything
 OUTSIDE, INSIDE, VOID = 0, 1, 2  # sides of a surface; void: where a sheet has none
 
 
@@ -47,9 +48,6 @@ def _value(values, x, y, z):
     """Value of a brick at x, y, z in [0, 4]."""
     i, j, k = min(int(x), BRICK - 1), min(int(y), BRICK - 1), min(int(z), BRICK - 1)
     return trilinear(values, (i * (BRICK + 1) + j) * (BRICK + 1) + k, x - i, y - j, z - k)
-
-
-_FAR = np.float32(1e9)  # beyond any distance
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -97,9 +95,9 @@ def _crossing(ox, oy, oz, dx, dy, dz, first, end, step, grid, bricks, cells, lev
         ex = (bx + free if ahead_x else bx + 1 - free) - x
         ey = (by + free if ahead_y else by + 1 - free) - y
         ez = (bz + free if ahead_z else bz + 1 - free) - z
-        tx = ex * ix if ix != 0 else _FAR
-        ty = ey * iy if iy != 0 else _FAR
-        tz = ez * iz if iz != 0 else _FAR
+        tx = ex * ix if ix != 0 else FAR
+        ty = ey * iy if iy != 0 else FAR
+        tz = ez * iz if iz != 0 else FAR
         leave = t + max(min(tx, ty, tz), zero)
         if brick < 0:
             i = max(i + 1, int(np.ceil(leave / step - half)))
@@ -168,13 +166,13 @@ def first_crossings(origins, d, grid, bricks, steps, cells, level):
     return t_pred
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def mark_blocked(points, to_target, grid, bricks, steps, cells, level, blocked):
     """Mark in `blocked` (n,) bool segments through a field's surface.
 
     Args:
         points, to_target: (n, 3) float32 in radii of the field's sphere; `to_target` from each
-            point to the end of its segment.
+            point to the end of its segment. One of no length or a NaN is not blocked.
         grid, bricks, steps, cells, level: see `first_crossings`. Already blocked ones are skipped.
     """
     one, half = np.float32(1), np.float32(0.5)
@@ -191,7 +189,7 @@ def mark_blocked(points, to_target, grid, bricks, steps, cells, level, blocked):
         along = x * u + y * v + z * w
         a, b, c = x - along * u, y - along * v, z - along * w
         inside = one - (a * a + b * b + c * c)
-        if inside <= 0:
+        if not inside > 0:  # also for NaN
             continue
         root = np.sqrt(inside)
         begin, end = max(along, -root), min(along + length, root)

@@ -28,7 +28,7 @@ from neural_shadows.representations.distance_bricks.field_bricks import (
     NODE,
     FieldBricks,
 )
-from neural_shadows.representations.distance_bricks.field_marching import BRICK
+from neural_shadows.representations.distance_bricks.field_marching import BRICK, FAR
 from neural_shadows.representations.distance_bricks.light_projection import (
     CLOSE,
     first_tile,
@@ -93,6 +93,9 @@ def point_tables(bricks: FieldBricks, position: np.ndarray, merged: int = 0) -> 
     light = np.asarray(position, np.float64)
     if not np.isfinite(light).all():
         return []
+    # A farther light has the same rays, but its tables' rounded ends have too many tiles: from 10^16
+    # on more than memory holds.
+    light = light / max(1, np.abs(light).max() / FAR)
     light = (light + 1) * (bricks.size / 2) - bricks.corner  # in bricks
     within = _is_deep(bricks, light)
     light *= BRICK >> merged

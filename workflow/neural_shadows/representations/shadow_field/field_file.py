@@ -70,8 +70,8 @@ def _problem_of(arrays: dict[str, np.ndarray]) -> str | None:
     for name, array in arrays.items():
         if name not in _DTYPES or array.dtype != np.dtype(_DTYPES[name]):
             return f"{name} is {array.dtype}"
-    size, held = len(arrays["grid"]), int((arrays["grid"] == HELD).sum())
-    shapes = {"centre": (3,), "radius": (1,), "grid": (size,) * 3}
+    size, held = round(arrays["grid"].size ** (1 / 3)), int((arrays["grid"] == HELD).sum())
+    shapes = {"centre": (3,), "radius": (1,), "grid": (max(size, 1),) * 3}
     shapes |= {"bricks": (held, BRICK_VERTICES), "cells": (held,)}
     for name, array in arrays.items():
         if array.shape != shapes[name]:

@@ -1,5 +1,6 @@
 """Checked points and directions of a user, in radii of a field's sphere."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,7 @@ def vector_of(given: Any, name: str) -> np.ndarray:
 def direction_of(given: Any, name: str) -> np.ndarray:
     """One unit vector, (3,) float64; see `vector_of`. A zero vector is refused."""
     vector = vector_of(given, name)
-    length = np.linalg.norm(vector)
+    length = math.hypot(*vector)  # no squares, which overflow
     if length == 0:
         raise InputError(
             f"{name}: {vector.tolist()}: has no direction. Give a vector to the light."
@@ -47,31 +48,35 @@ def direction_of(given: Any, name: str) -> np.ndarray:
     return vector / length
 
 
-def vectors_of(given: Any, name: str) -> np.ndarray:
-    """Finite vectors (n, 3) float32; see `rows_of`.
+def units_of(rows: np.ndarray, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors (n, 3) float32 along rows (n, 3), and lengths (n,) float64.
 
     Raises:
-        InputError: as `rows_of`; one is zero or not finite.
+        InputError: a row is zero or not finite.
     """
-    vectors = in_radii(rows_of(given, name), name, np.zeros(3), 1.0)
-    if not (vectors.any(axis=1)).all():
-        row = int(np.argmin(vectors.any(axis=1)))
-        raise InputError(f"{name}: row {row} (counted from 0): has no direction. Give vectors.")
-    return vectors
+    x, y, z = rows.T
+    lengths = np.hypot(np.hypot(x, y), z)  # no squares, which overflow
+    valid = (lengths > 0) & (lengths < np.inf)
+    if not valid.all():
+        raise InputError(
+            f"{name}: row {int(np.argmin(valid))} (counted from 0): has no direction. Give finite "
+            "vectors, not zero."
+        )
+    return (rows / lengths[:, None]).astype(np.float32), lengths.astype(np.float64)
 
 
 def in_radii(rows: np.ndarray, name: str, centre: np.ndarray, radius: float) -> np.ndarray:
     """Map rows (n, 3) to (x − centre) / radius, float32; `centre` is (3,) float64.
 
     Raises:
-        InputError: a row is not finite.
+        InputError: a row is not finite in float32.
     """
     result = np.empty(rows.shape, np.float32)
     if not _map(rows, centre, 1 / radius, result):
-        invalid = int(np.argmin(np.isfinite(rows).all(axis=1)))
+        invalid = int(np.argmin(np.isfinite(result).all(axis=1)))
         raise InputError(
-            f"{name}: row {invalid} (counted from 0) is {rows[invalid].tolist()}: not finite. Leave "
-            "such rows out."
+            f"{name}: row {invalid} (counted from 0) is {rows[invalid].tolist()}: not finite in "
+            "float32. Leave such rows out."
         )
     return result
 
@@ -83,12 +88,14 @@ def all_alike(rows: np.ndarray) -> bool:
 
 @njit(cache=True, nogil=True)
 def _map(rows, centre, scale, result):
-    """Fill in `result`; return whether all is finite."""
+    """Fill in `result`; return whether all of it is finite."""
     x, y, z = centre
     finite = True
     for n in range(len(rows)):
-        a, b, c = rows[n, 0], rows[n, 1], rows[n, 2]
-        result[n, 0], result[n, 1], result[n, 2] = (a - x) * scale, (b - y) * scale, (c - z) * scale
+        a = np.float32((rows[n, 0] - x) * scale)
+        b = np.float32((rows[n, 1] - y) * scale)
+        c = np.float32((rows[n, 2] - z) * scale)
+        result[n, 0], result[n, 1], result[n, 2] = a, b, c
         finite &= (abs(a) < np.inf) & (abs(b) < np.inf) & (abs(c) < np.inf)
     return finite
 

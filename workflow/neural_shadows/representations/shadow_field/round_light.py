@@ -9,6 +9,7 @@ from neural_shadows.representations.distance_bricks.field_cones import (
     dim_by_field,
     split_disc,
 )
+from neural_shadows.representations.distance_bricks.field_marching import FAR
 from neural_shadows.scenes.lights import light_basis
 
 _GOLDEN = np.pi * (3 - 5**0.5)
@@ -31,12 +32,10 @@ def past_solid(
     """
     visible = np.ones(len(points), np.float32)
     normals = np.tile(np.float32(direction), (len(points), 1))
-    # As far as the far side of the sphere is from any point.
-    far = np.float32(np.linalg.norm(points, axis=1).max(initial=0) + 2)
     whole = np.zeros(3, np.float32), np.float32(1), field
     arguments = split_disc(walks), np.float32(push)
     dim_by_field(
-        points, normals, far * normals, far * np.float32(slope), *whole, *arguments, visible
+        points, normals, FAR * normals, FAR * np.float32(slope), *whole, *arguments, visible
     )
     return visible
 
