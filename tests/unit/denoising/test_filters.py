@@ -1,5 +1,9 @@
 """What every filter does to pictures whose smooth form is known."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from filtered_walls import COLUMNS, FILTERS, HEIGHT, PIXEL, RIGHT, WIDTH, denoise, two_walls, wall
@@ -33,6 +37,29 @@ def test_nothing_crosses_an_edge(key, edge):
     # On a surface without the edge it does.
     blurred = denoise(key, noise, *wall())
     assert blurred[:, 29].mean() > found[:, 29].mean() + 0.05
+
+
+_TINY = """
+import numpy as np
+from neural_shadows.denoising.ffx import FfxFilter, ffx_like
+from neural_shadows.denoising.sigma import SigmaFilter
+from neural_shadows.denoising.svgf import SvgfFilter, svgf_like
+for height, width in np.ndindex(3, 4):
+    size = height + 1, width + 1
+    dark, depth = np.random.default_rng(width).random((2, *size), np.float32)
+    place = np.stack([depth, depth, depth], axis=-1)
+    svgf_like(SvgfFilter(*size), dark, depth, place)
+    ffx_like(FfxFilter(*size), dark, depth, place)
+    sigma = SigmaFilter(*size)
+    sigma.see(place, place, depth)
+    sigma.smooth(dark, depth)
+"""
+
+
+def test_tiny_pictures():
+    """Nothing is read beyond pictures of few pixels; numpy, unlike Numba, checks."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "NUMBA_DISABLE_JIT": "1"}
+    subprocess.run([sys.executable, "-c", _TINY], check=True, env=environment)
 
 
 def test_sigma_blurs_what_is_near_the_plane_behind_a_crease():

@@ -81,9 +81,9 @@ def fill_moments(guides, mean, square, row, total, first, second):
     for y in range(height):
         for v in range(max(0, y - _REACH), min(height, y + _REACH + 1)):
             for along in range(-_REACH, _REACH + 1):
-                if v == y and along == 0:
-                    continue
                 x, u, n = max(0, -along), max(0, along), width - abs(along)
+                if n <= 0 or (v == y and along == 0):
+                    continue
                 weights = row[:n]
                 _weigh(guides, mean, flat, y, x, v, u, np.float32(1), weights)
                 for i in range(n):
