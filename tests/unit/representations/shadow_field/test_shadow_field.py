@@ -140,6 +140,16 @@ def test_points_and_lamps_far_away(bumps, away):
     assert np.all((with_far >= 0) & (with_far <= 1))
 
 
+@pytest.mark.parametrize("angular_radius, away", [(0.27, 1e4), (5, 100), (5, 1e4), (40, 10)])
+def test_an_object_far_from_its_shadow_hides_little_of_a_light(angular_radius, away):
+    """Of a ball's diameter across the light's; distances were extrapolated, and all was dark."""
+    field = ShadowField.fit(trimesh.creation.icosphere(4), 64)
+    behind = around(1000) - away * ASLANT / np.linalg.norm(ASLANT)
+    visible = field.soft(behind, ASLANT, angular_radius)
+    hidden = (1 / (away * np.tan(np.radians(angular_radius)))) ** 2
+    assert np.abs(visible - (1 - hidden)).mean() < 0.1
+
+
 @pytest.mark.parametrize("angular_radius", [1e-300, 1e-30, 1e-9, 1.1e-4])
 def test_a_light_of_hardly_any_radius_is_a_point(bumps, angular_radius):
     _, field = bumps

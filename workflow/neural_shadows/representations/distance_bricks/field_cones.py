@@ -78,10 +78,12 @@ def _trilinear(v, at, across, along, x, y, z):
 
 @njit(cache=True, nogil=True)
 def _distance(field, x, y, z):
-    """Distance to the surface from [−1, 1]³, negative inside; extrapolated outside."""
+    """Distance to the surface, negative inside; beyond [−1, 1]³ by way of the cube's border."""
     size = len(field.grid)
     half = np.float32(size / 2)
-    x, y, z = (x + _ONE) * half, (y + _ONE) * half, (z + _ONE) * half
+    a, b, c = min(max(x, -_ONE), _ONE), min(max(y, -_ONE), _ONE), min(max(z, -_ONE), _ONE)
+    beyond = np.sqrt((x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2)
+    x, y, z = (a + _ONE) * half, (b + _ONE) * half, (c + _ONE) * half
     i = min(max(int(x), 0), size - 1)
     j = min(max(int(y), 0), size - 1)
     k = min(max(int(z), 0), size - 1)
@@ -97,9 +99,9 @@ def _distance(field, x, y, z):
         p, q, r = p - np.float32(a), q - np.float32(b), r - np.float32(c)
         value = _trilinear(field.bricks[brick], at, 25, 5, p, q, r)
         if abs(value) < 120:
-            return -value * field.unit
+            return beyond - value * field.unit
     n = size + 1
-    return _trilinear(field.around, (i * n + j) * n + k, n * n, n, u, v, w)
+    return beyond + _trilinear(field.around, (i * n + j) * n + k, n * n, n, u, v, w)
 
 
 @njit(cache=True, nogil=True)

@@ -18,14 +18,15 @@ float cornersBetween(ivec3 corner, vec3 w) {
 
 float distanceAt(vec3 p) {
   int size = textureSize(grid, 0).x;
-  vec3 at = (p + 1.0) * float(size) / 2.0;
+  vec3 border = clamp(p, -1.0, 1.0), at = (border + 1.0) * float(size) / 2.0;
+  float beyond = distance(p, border);
   ivec3 brick = clamp(ivec3(at), 0, size - 1);
   int found = texelFetch(grid, brick.zyx, 0).x;
   if (found >= 0) {
     float near = value(firstValue(found), clamp((at - vec3(brick)) * CELLS, 0.0, CELLS));
-    if (abs(near) < 120.0) return -near * unit; // 127: or farther
+    if (abs(near) < 120.0) return beyond - near * unit; // 127: or farther
   }
-  return cornersBetween(brick, at - vec3(brick));
+  return beyond + cornersBetween(brick, at - vec3(brick));
 }
 
 // The least distance over the cone's radius from `first` to `goal`, at most m, and where that first is
