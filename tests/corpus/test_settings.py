@@ -10,7 +10,7 @@ from corpus.damage import check_reader, reads
 from shipped import shipped
 
 from neural_shadows.config import reading
-from neural_shadows.config.reading import check_duplicates, check_files, read_config
+from neural_shadows.config.reading import check_files, read_config, read_sections
 from neural_shadows.errors import InputError
 from neural_shadows.networks.pretrained_trunk import read_trunk
 
@@ -28,7 +28,7 @@ claims:
 
 def read_overlay(path):
     """As Snakemake merges it. Messages on a value name its key and not the file."""
-    check_duplicates([path])
+    read_sections(path)
     # By the same loader: libyaml takes some tabs that Python's does not.
     values = yaml.load(path.read_text(), reading._NoDuplicates)
     try:

@@ -31,7 +31,7 @@ os.environ.setdefault(
 os.environ.setdefault("MALLOC_MMAP_THRESHOLD_", str(32 << 20))
 os.environ.setdefault("MALLOC_TRIM_THRESHOLD_", str(256 << 20))
 
-from neural_shadows.config.reading import check_duplicates, check_files, read_config
+from neural_shadows.config.reading import check_files, read_config
 from neural_shadows.config.resolved import resolved
 from neural_shadows.config.targets import check_targets
 from neural_shadows.errors import InputError
@@ -60,7 +60,6 @@ kernels = digest({module for path in compiled for module in modules_of(path)})
 os.environ.update(NUMBA_CACHE_DIR=os.path.abspath(f".snakemake/numba/{kernels}"))
 
 try:
-    check_duplicates(workflow.configfiles)
     overlays = len(
         workflow.config_settings.configfiles
     )  # they come first, and are merged last

@@ -6,7 +6,7 @@ import re
 import pytest
 from shipped import shipped
 
-from neural_shadows.config.reading import check_duplicates, check_files, read_config
+from neural_shadows.config.reading import check_files, read_config, read_sections
 from neural_shadows.errors import InputError
 from neural_shadows.sections.scenes import DownloadedMesh, MeshFile, Wyrm
 
@@ -83,14 +83,14 @@ def test_a_link_to_nothing(values, tmp_path, monkeypatch):
 def test_what_yaml_lets_pass(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text("one:\n  a: 1\ntwo:\n  a: 1\n")
-    check_duplicates([path])
+    read_sections(path)
     for text, words in (
         ("one:\n  a: 1\ntwo:\n  a: 1\n  a: 2\n", r"mine\.yaml, line 5: 'a' is defined twice"),
         ("- 3", "has no sections"),
     ):
         path.write_text(text)
         with pytest.raises(InputError, match=words):
-            check_duplicates([path])
+            read_sections(path)
 
 
 def test_a_message_names_the_file_and_line_of_its_key(tmp_path, values):

@@ -15,7 +15,7 @@ from snakemake.cli import get_argument_parser
 from snakemake.utils import update_config
 
 from neural_shadows.config.__main__ import json_schema
-from neural_shadows.config.reading import check_duplicates, read_config
+from neural_shadows.config.reading import read_config, read_sections
 from neural_shadows.config.reference import markdown
 from neural_shadows.config.resolved import resolved
 from neural_shadows.sections.own_frames import EngineFrames
@@ -39,7 +39,7 @@ def validator():
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
 def test_shipped_files_are_valid(path, validator, recwarn):
     resolved(config_of(path.stem))
-    check_duplicates([path])
+    read_sections(path)
     assert path.read_text().startswith("# yaml-language-server: $schema=../workflow/schemas/")
     validator.validate(yaml.safe_load(path.read_text()))
     assert not recwarn.list

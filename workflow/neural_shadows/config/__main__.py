@@ -56,11 +56,12 @@ if __name__ == "__main__":
 
         print(markdown(), end="")
     elif sys.argv[1:]:
-        from neural_shadows.config.reading import check_duplicates
+        from neural_shadows.config.reading import read_sections
         from neural_shadows.errors import InputError
 
         try:
-            check_duplicates(sys.argv[1:])
+            for path in sys.argv[1:]:
+                read_sections(path)
         except InputError as error:
             sys.exit(str(error))
     else:

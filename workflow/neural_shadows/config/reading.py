@@ -69,21 +69,21 @@ class _NoDuplicates(LOADER):
         return super().construct_mapping(node, deep)
 
 
-def check_duplicates(paths: Iterable[str | Path]) -> None:
-    """Check config files for repeated keys.
+def read_sections(path: str | Path) -> dict[str, Any]:
+    """Sections of a config file.
 
     Raises:
-        InputError: a key is repeated (with file and line), or a file is not YAML or has no sections.
+        InputError: a key is repeated (with file and line), or the file is not YAML or has no sections.
     """
-    for path in paths:
-        try:
-            with Path(path).open(encoding="utf-8") as file:
-                sections = yaml.load(file, _NoDuplicates)
-        except (OSError, ValueError, yaml.YAMLError, RecursionError) as error:
-            reason = " ".join(str(error).split())[:300]
-            raise InputError(f"config: {path}: cannot be read as YAML ({reason})") from error
-        if not isinstance(sections, dict):
-            raise InputError(f"config: {path}: has no sections. Write `section: ...` at its top")
+    try:
+        with Path(path).open(encoding="utf-8") as file:
+            sections = yaml.load(file, _NoDuplicates)
+    except (OSError, ValueError, yaml.YAMLError, RecursionError) as error:
+        reason = " ".join(str(error).split())[:300]
+        raise InputError(f"config: {path}: cannot be read as YAML ({reason})") from error
+    if not isinstance(sections, dict):
+        raise InputError(f"config: {path}: has no sections. Write `section: ...` at its top")
+    return sections
 
 
 def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Config:
@@ -99,8 +99,7 @@ def read_config(values: dict[str, Any], files: Sequence[str | Path] = ()) -> Con
     """
     if values.get("dragon", "wyrm") in (None, ""):
         raise InputError("config: dragon: is empty. Allowed: wyrm, stanford, or a mesh file")
-    sections = [yaml.load(Path(path).read_bytes(), LOADER) for path in files]
-    values = _without_nulls(without_others(values, sections))
+    values = _without_nulls(without_others(values, map(read_sections, files)))
     if isinstance(shorthand := values.get("dragon"), str):
         scenes = values.get("scenes")
         if not isinstance(scenes, dict) or not isinstance(scenes.get("dragon"), dict):
