@@ -1,6 +1,8 @@
 """Record the README's moving picture: a light moves through the soft viewer, by three methods.
 
-python tests/browser/record_light.py reports/viewer_soft.html light.webp
+PYTHONPATH=tests python tests/browser/record_light.py reports/viewer_soft.html light.webp
+
+Two minutes for each of its places in a software renderer.
 """
 
 import argparse
@@ -9,6 +11,7 @@ import math
 from pathlib import Path
 from urllib.parse import parse_qs, urlencode
 
+import numpy as np
 from chromium import ARGUMENTS, CHROMIUM
 from matplotlib import font_manager
 from PIL import Image, ImageDraw, ImageFont
@@ -22,6 +25,7 @@ METHODS = {
 }
 PLACES, RADIUS = 14, 0.031  # of the light, m
 SIDE, GAP, HEADER, FONT_SIZE = 320, 8, 26, 14  # pixels
+STILL = 0.5  # of 255, mean change in 1.5 s
 HIDDEN = "#viewer button, .over, .nudge, .rate, .legend, .reason {visibility: hidden !important}"
 
 
@@ -58,13 +62,14 @@ def side_by_side(page: Page, view: dict[str, str]) -> Image.Image:
 
 
 def shot_at_rest(page: Page) -> Image.Image:
-    """The canvas, once two shots in succession are alike: rays accumulate till then."""
+    """The canvas, once it hardly changes: rays accumulate for minutes."""
     box = page.locator("canvas").first.bounding_box()
-    before, shot = None, b""
-    while shot != before:
+    shots = [np.zeros(1)]
+    while len(shots) < 2 or np.abs(shots[-1] - shots[-2]).mean() > STILL:
         page.wait_for_timeout(1500)
-        before, shot = shot, page.screenshot(clip=box)
-    return Image.open(io.BytesIO(shot)).convert("RGB")
+        image = Image.open(io.BytesIO(page.screenshot(clip=box))).convert("RGB")
+        shots.append(np.asarray(image, np.float32))
+    return image
 
 
 def main() -> None:
