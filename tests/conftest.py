@@ -19,10 +19,15 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log) -> LoadScopeScheduli
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The smoke run first, beside the units, and what changes copies of it when it has ended."""
+    """The smoke run first, beside the units, then what changes copies of it.
+
+    The last units are short, so that no process waits for the other at the end.
+    """
 
     def turn(item: pytest.Item) -> int:
         path = item.nodeid.partition("::")[0]
-        return 0 if path.endswith("workflow/test_smoke.py") else 1 + ("/workflow/" in path)
+        if "/workflow/" in path:
+            return 0 if path.endswith("test_smoke.py") else 2
+        return 1 if path < "tests/unit/s" else 3
 
     items.sort(key=turn)
