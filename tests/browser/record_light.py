@@ -29,7 +29,7 @@ STILL = 0.5  # of 255, mean change in 1.5 s
 HIDDEN = "#viewer button, .over, .nudge, .rate, .legend, .reason {visibility: hidden !important}"
 
 
-def record(page: Page, places: int = PLACES) -> list[Image.Image]:
+def record(page: Page) -> list[Image.Image]:
     """Pictures of a light on an ellipse around where it stands, the methods side by side."""
     page.add_style_tag(content=HIDDEN)
     page.select_option("select.detail", "512")
@@ -37,8 +37,8 @@ def record(page: Page, places: int = PLACES) -> list[Image.Image]:
     view = {key: values[0] for key, values in state.items()}
     x, y, z = map(float, view["light"].split(","))
     pictures = []
-    for place in trange(places, unit="place"):
-        angle = 2 * math.pi * place / places
+    for place in trange(PLACES, unit="place"):
+        angle = 2 * math.pi * place / PLACES
         light = x + 0.55 * math.sin(angle), y, z + 0.1 - 0.45 * math.cos(angle)
         view |= {"light": ",".join(f"{each:.3f}" for each in light), "radius": str(RADIUS)}
         pictures.append(side_by_side(page, view))

@@ -20,7 +20,6 @@ from neural_shadows.settings.base import not_among
 # Values of `dragon` other than a file.
 MESHES_BY_NAME = {"wyrm": {"generate": "wyrm"}, "stanford": {"download": "stanford_dragon"}}
 
-
 # The key of all entries of a section that neither its file nor a later one names.
 OTHERS = "*"
 
