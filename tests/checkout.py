@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+from numba.core.caching import UserProvidedCacheLocator
 
 ROOT = Path(__file__).parents[1]
 SMOKE = Path("config/smoke.yaml")
@@ -51,9 +52,19 @@ class Checkout:
         return cls(folder)
 
     def copy(self, folder: Path) -> "Checkout":
-        """A copy with results, Snakemake's records of them and times of modification."""
+        """A copy with results, Snakemake's records of them, compiled kernels and times of modification."""
         shutil.copytree(self.folder, folder, symlinks=True, dirs_exist_ok=True)
+        self._hand_over_kernels(folder)
         return replace(self, folder=folder)
+
+    def _hand_over_kernels(self, folder: Path) -> None:
+        """Rename the compiled kernels of a copy as Numba looks them up there: by their module's folder."""
+        name = UserProvidedCacheLocator.get_suitable_cache_subpath
+        names = {}
+        for module in self.folder.glob("workflow/neural_shadows/**/*.py"):
+            names[name(module)] = name(folder / module.relative_to(self.folder))
+        for kernels in folder.glob(".snakemake/numba/*/*/"):
+            kernels.rename(kernels.with_name(names[kernels.name]))
 
     @property
     def results(self) -> Path:
